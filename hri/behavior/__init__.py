@@ -1,0 +1,1 @@
+"""Behaviors wired into networks that tick at a fixed rate."""

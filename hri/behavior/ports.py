@@ -1,0 +1,165 @@
+"""What a behavior declares: inputs, outputs and parameters, with types that are checked early."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, Generic, TypeVar, overload
+
+from hri.core import signals
+from hri.core.errors import did_you_mean
+from hri.core.expression import evaluate
+
+T = TypeVar("T")
+
+GENERIC = "Evolution.Generic"
+
+DATATYPES: dict[str, type] = {
+    "double": float,
+    "string": str,
+    "doublearray": tuple,
+    "boolean": bool,
+    "image": signals.Frame,
+    "samples": object,
+    "utterance": signals.Utterance,
+    "speech": signals.Speech,
+    "prosody": signals.Prosody,
+    "stimulus": signals.Stimulus,
+    "emotion": signals.EmotionState,
+    "expression": signals.Expression,
+    "weights": signals.FaceWeights,
+    "gaze": signals.Gaze,
+    "headpose": signals.HeadPose,
+    "gesture": signals.HeadGesture,
+    "twist": signals.Twist,
+    "pose": signals.Pose2D,
+    "range": signals.RangeReading,
+}
+"""The names that files use for the types of ports."""
+
+
+class InputPort(Generic[T]):
+    """What arrives at an input in this tick."""
+
+    __slots__ = ("sources",)
+
+    def __init__(self) -> None:
+        self.sources: list[OutputPort[T]] = []
+
+    @property
+    def value(self) -> T | None:
+        """The value of the first link; None when nothing is linked or nothing was sent."""
+        return self.sources[0].value if self.sources else None
+
+    @property
+    def values(self) -> list[T]:
+        """What all links carry; those that sent nothing are left out."""
+        return [source.value for source in self.sources if source.value is not None]
+
+
+class OutputPort(Generic[T]):
+    """What a behavior sends in this tick; empty again at the next."""
+
+    __slots__ = ("value",)
+
+    def __init__(self) -> None:
+        self.value: T | None = None
+
+    def send(self, value: T) -> None:
+        self.value = value
+
+
+class Input(Generic[T]):
+    """Declares an input: `range_sensor = Input("double", doc="...")`. Any number of links."""
+
+    name = ""
+
+    def __init__(self, datatype: str, doc: str, semantic: str = GENERIC) -> None:
+        self.datatype = _checked(datatype)
+        self.doc = doc
+        self.semantic = semantic
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> Input[T]: ...
+    @overload
+    def __get__(self, instance: object, owner: type) -> InputPort[T]: ...
+    def __get__(self, instance: object | None, owner: type) -> Any:
+        if instance is None:
+            return self
+        raise AttributeError(f"call super().__init__() before you use the input {self.name}")
+
+
+class Output(Generic[T]):
+    """Declares an output: `linear_velocity = Output("double", doc="...")`."""
+
+    name = ""
+
+    def __init__(self, datatype: str, doc: str, semantic: str = GENERIC) -> None:
+        self.datatype = _checked(datatype)
+        self.doc = doc
+        self.semantic = semantic
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> Output[T]: ...
+    @overload
+    def __get__(self, instance: object, owner: type) -> OutputPort[T]: ...
+    def __get__(self, instance: object | None, owner: type) -> Any:
+        if instance is None:
+            return self
+        raise AttributeError(f"call super().__init__() before you use the output {self.name}")
+
+
+class Param(Generic[T]):
+    """Declares a parameter: a text, a number within a range, or true/false, by its default."""
+
+    name = ""
+
+    def __init__(
+        self,
+        default: T,
+        doc: str,
+        *,
+        minimum: float = -math.inf,
+        maximum: float = math.inf,
+        among: Sequence[str] = (),
+    ) -> None:
+        self.default = default
+        self.doc = doc
+        self.minimum = minimum
+        self.maximum = maximum
+        self.among = among
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> Param[T]: ...
+    @overload
+    def __get__(self, instance: object, owner: type) -> T: ...
+    def __get__(self, instance: object | None, owner: type) -> Any:
+        return self if instance is None else instance.__dict__.get(self.name, self.default)
+
+    def parse(self, text: str) -> T:
+        """The value of a text from a file. Raises ValueError with what is wrong and what to do."""
+        value: Any = text
+        if isinstance(self.default, bool):
+            if text.strip().lower() not in ("true", "false"):
+                raise ValueError(f'"{text}" is not true or false - write true or false')
+            value = text.strip().lower() == "true"
+        elif isinstance(self.default, (int, float)):
+            try:
+                value = evaluate(text)
+            except ValueError as error:
+                raise ValueError(f"{error} - write a number, such as 0.5 or pi/4") from error
+            if not self.minimum <= value <= self.maximum:
+                raise ValueError(
+                    f"{text} is out of range - write a number"
+                    f" from {self.minimum:g} to {self.maximum:g}"
+                )
+            value = int(value) if isinstance(self.default, int) else value
+        elif self.among and text not in self.among:
+            raise ValueError(f'"{text}" is not known - {did_you_mean(text, self.among)}')
+        return value  # type: ignore[no-any-return]
+
+
+def _checked(datatype: str) -> str:
+    if datatype not in DATATYPES:
+        raise TypeError(f'unknown datatype "{datatype}" - {did_you_mean(datatype, DATATYPES)}')
+    return datatype

@@ -1,0 +1,1 @@
+"""What everything else stands on: time, values, events, files with places, names."""

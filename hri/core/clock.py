@@ -1,0 +1,264 @@
+"""Where `now` comes from.
+
+Nothing else reads the wall clock. All waiting goes through one heap of timers, so that real and
+fake time run the same code: the real clock sleeps until the next timer is due, the fake clock
+jumps there. On the fake clock everything that wakes does so one at a time, in the order it was
+asked, and only when all that woke before has settled; that is what makes two runs equal.
+"""
+
+from __future__ import annotations
+
+import heapq
+import itertools
+import math
+import time
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Generic, TypeVar
+
+import trio
+import trio.testing
+
+T = TypeVar("T")
+
+
+@dataclass(order=True, slots=True)
+class Timer:
+    """A call that is due at a time; equal times run in the order they were asked for."""
+
+    time: float
+    order: int
+    callback: Callable[[], object] = field(compare=False)
+    is_cancelled: bool = field(default=False, compare=False)
+
+    def cancel(self) -> None:
+        self.is_cancelled = True
+
+
+class Worker(ABC, Generic[T]):
+    """Runs one job at a time off the robot loop, so that `compute` never blocks."""
+
+    def __init__(self) -> None:
+        self.is_busy = False
+
+    @abstractmethod
+    def submit(self, job: Callable[[], T]) -> None:
+        """Start a job. Raises RuntimeError while another one runs (see `is_busy`)."""
+
+    @abstractmethod
+    def poll(self) -> list[T]:
+        """The result of the job if it has finished since the last call, else nothing.
+
+        An exception of the job is raised here.
+        """
+
+    @abstractmethod
+    def close(self) -> None:
+        """Wait for the running job and end the worker; a second call does nothing."""
+
+    def _claim(self) -> None:
+        if self.is_busy:
+            raise RuntimeError("this worker is busy - poll() it before you submit() again")
+        self.is_busy = True
+
+
+class Clock(ABC):
+    """Seconds as a float, ways to wait for them, and workers whose results take time."""
+
+    is_fake = False
+
+    def __init__(self) -> None:
+        self._timers: list[Timer] = []
+        self._order = itertools.count()
+        self._changed = trio.Event()
+
+    @abstractmethod
+    def now(self) -> float:
+        """Seconds since the clock was made; never goes back."""
+
+    @abstractmethod
+    async def drive(self) -> None:
+        """Run the timers, for ever; started once, in the nursery of the robot loop."""
+
+    @abstractmethod
+    def worker(self, latency: float) -> Worker[T]:
+        """A worker. On the fake clock a result shows up `latency` seconds after its job began."""
+
+    def call_at(self, when: float, callback: Callable[[], object]) -> Timer:
+        """Call back at a time, from the robot loop; a time that has passed means now."""
+        if not math.isfinite(when):
+            raise ValueError(f"a timer needs a finite time, not {when}")
+        timer = Timer(max(when, self.now()), next(self._order), callback)
+        heapq.heappush(self._timers, timer)
+        self._changed.set()
+        return timer
+
+    def soon(self, callback: Callable[[], object]) -> Timer:
+        """Call back at once, but after whatever runs now has settled."""
+        return self.call_at(self.now(), callback)
+
+    async def sleep_until(self, when: float) -> None:
+        """Wait for a time; one that has passed is over after a breath."""
+        due = trio.Event()
+        timer = self.call_at(when, due.set)
+        try:
+            await due.wait()
+        finally:
+            timer.cancel()
+
+    async def sleep(self, seconds: float) -> None:
+        """Wait."""
+        await self.sleep_until(self.now() + seconds)
+
+    @contextmanager
+    def move_on_after(self, seconds: float) -> Iterator[trio.CancelScope]:
+        """Cancel the body when it takes longer; `scope.cancelled_caught` tells. inf waits on."""
+        with trio.CancelScope() as scope:
+            timer = None
+            if seconds != math.inf:
+                timer = self.call_at(self.now() + seconds, scope.cancel)
+            try:
+                yield scope
+            finally:
+                if timer is not None:
+                    timer.cancel()
+
+    def _pop_timer(self) -> Timer | None:
+        """Take the earliest timer that still counts off the heap."""
+        while self._timers:
+            timer = heapq.heappop(self._timers)
+            if not timer.is_cancelled:
+                return timer
+        return None
+
+
+class RealClock(Clock):
+    """Monotonic seconds of this machine, from 0 when the clock is made."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._origin = time.perf_counter()
+
+    def now(self) -> float:
+        return time.perf_counter() - self._origin
+
+    def worker(self, latency: float) -> Worker[T]:
+        return _ThreadWorker()
+
+    async def drive(self) -> None:
+        while True:
+            self._changed = trio.Event()
+            timer = self._pop_timer()
+            if timer is None:
+                await self._changed.wait()
+                continue
+            wait = timer.time - self.now()
+            if wait <= 0:
+                timer.callback()
+                await trio.lowlevel.checkpoint()
+                continue
+            heapq.heappush(self._timers, timer)
+            with trio.move_on_after(wait):
+                await self._changed.wait()
+
+
+class FakeClock(Clock):
+    """Time that jumps to the next timer as soon as all tasks wait; starts at 0.
+
+    An hour passes in seconds. Jobs of workers run at once, while time stands still, and their
+    results show up after their modeled latency: no measured time can enter what happens.
+    """
+
+    is_fake = True
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._now = 0.0
+        self._holds = 0
+
+    def now(self) -> float:
+        return self._now
+
+    def worker(self, latency: float) -> Worker[T]:
+        return _InlineWorker(self, latency)
+
+    def advance(self, seconds: float) -> None:
+        """Run all timers of the next seconds; for code outside a robot loop, such as tests."""
+        end = self._now + seconds
+        while (timer := self._pop_timer()) is not None:
+            if timer.time > end:
+                heapq.heappush(self._timers, timer)
+                break
+            self._now = timer.time
+            timer.callback()
+        self._now = end
+
+    def hold(self) -> None:
+        """Let time stand still until `release`; calls count."""
+        self._holds += 1
+
+    def release(self) -> None:
+        self._holds -= 1
+        self._changed.set()
+
+    async def drive(self) -> None:
+        while True:
+            await trio.testing.wait_all_tasks_blocked()
+            self._changed = trio.Event()
+            timer = None if self._holds > 0 else self._pop_timer()
+            if timer is None:
+                await self._changed.wait()
+                continue
+            self._now = timer.time
+            timer.callback()
+
+
+class _ThreadWorker(Worker[T]):
+    def __init__(self) -> None:
+        super().__init__()
+        self._pool = ThreadPoolExecutor(1)
+        self._future: Future[T] | None = None
+
+    def submit(self, job: Callable[[], T]) -> None:
+        self._claim()
+        self._future = self._pool.submit(job)
+
+    def poll(self) -> list[T]:
+        if self._future is None or not self._future.done():
+            return []
+        future, self._future = self._future, None
+        self.is_busy = False
+        return [future.result()]
+
+    def close(self) -> None:
+        self._pool.shutdown(wait=True, cancel_futures=True)
+
+
+class _InlineWorker(Worker[T]):
+    def __init__(self, clock: FakeClock, latency: float) -> None:
+        super().__init__()
+        self._clock = clock
+        self._latency = latency
+        self._future: Future[T] = Future()
+        self._ready_at = math.inf
+
+    def submit(self, job: Callable[[], T]) -> None:
+        self._claim()
+        self._future = Future()
+        try:
+            self._future.set_result(job())
+        except Exception as error:
+            self._future.set_exception(error)
+        self._ready_at = self._clock.now() + self._latency
+
+    def poll(self) -> list[T]:
+        if not self.is_busy or self._clock.now() < self._ready_at:
+            return []
+        self.is_busy = False
+        return [self._future.result()]
+
+    def close(self) -> None:
+        self.is_busy = False

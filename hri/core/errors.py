@@ -1,0 +1,72 @@
+"""Errors that say what is wrong, where, and what to do."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+
+class HriError(Exception):
+    """Something the user can mend; its text is one line: what is wrong - what to do."""
+
+
+class NotAvailable(HriError):
+    """A device, library or model is not there; the feature it carries is lost, the rest goes on."""
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A spot in an authored file; line and column count from 1."""
+
+    path: Path
+    line: int = 1
+    column: int = 1
+
+    def __str__(self) -> str:
+        return f"{self.path}:{self.line}:{self.column}"
+
+
+class AuthoringError(HriError):
+    """An authored file is wrong; reads ``file:line:column: what - what to do``."""
+
+    def __init__(self, place: Place, what: str, remedy: str) -> None:
+        super().__init__(f"{place}: {what} - {remedy}")
+        self.place = place
+        self.what = what
+        self.remedy = remedy
+
+
+def did_you_mean(word: str, known: Iterable[str], otherwise: str = "") -> str:
+    """The remedy for a misspelt name: the nearest known one, else the list of what is known.
+
+    `otherwise` replaces the list where that would be too long to help.
+    """
+    names = sorted(set(known))
+    folded = {name.casefold(): name for name in names}
+    near = difflib.get_close_matches(word.casefold(), folded, n=1, cutoff=0.6)
+    if near:
+        return f'did you mean "{folded[near[0]]}"?'
+    if otherwise:
+        return otherwise
+    return f"known are: {', '.join(names)}" if names else "none is known here"
+
+
+def read_text(path: Path, what: str) -> str:
+    """The text of an authored file in UTF-8.
+
+    Raises HriError when it cannot be opened, AuthoringError when it is not UTF-8 text.
+    """
+    try:
+        raw = path.read_bytes()
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise HriError(f"{path}: cannot read this {what}: {reason} - check the path") from error
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = raw.count(b"\n", 0, error.start) + 1
+        column = error.start - raw.rfind(b"\n", 0, error.start)
+        place = Place(path, line, column)
+        raise AuthoringError(place, "not UTF-8 text", "save the file as UTF-8") from error

@@ -1,0 +1,56 @@
+"""Numbers written as expressions, `-5*pi/6`, worked out without `eval`."""
+
+from __future__ import annotations
+
+import ast
+import math
+import operator
+from collections.abc import Callable
+
+NAMES = {"pi": math.pi, "e": math.e}
+
+_BINARY: dict[type[ast.operator], Callable[[float, float], float]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+}
+_LONGEST = 200
+
+
+def evaluate(text: str) -> float:
+    """The value of sums, products, quotients and signs over numbers, `pi` and `e`.
+
+    Raises ValueError with one sentence when it is anything else, or not finite.
+    """
+    if len(text) > _LONGEST:
+        raise ValueError(f"an expression of {len(text)} characters is too long")
+    try:
+        tree = ast.parse(text.strip(), mode="eval")
+        value = _value(tree.body)
+    except (SyntaxError, RecursionError, MemoryError) as error:
+        raise ValueError(f'"{text}" is no number') from error
+    except ZeroDivisionError as error:
+        raise ValueError(f'"{text}" divides by zero') from error
+    except OverflowError as error:
+        raise ValueError(f'"{text}" is too large') from error
+    if not math.isfinite(value):
+        raise ValueError(f'"{text}" is not finite')
+    return value
+
+
+def _value(node: ast.expr) -> float:
+    match node:
+        case ast.Constant(value=bool()):
+            raise ValueError("true and false are no numbers")
+        case ast.Constant(value=int() | float() as number):
+            return float(number)
+        case ast.Name(id=name) if name in NAMES:
+            return NAMES[name]
+        case ast.UnaryOp(op=ast.USub(), operand=operand):
+            return -_value(operand)
+        case ast.UnaryOp(op=ast.UAdd(), operand=operand):
+            return _value(operand)
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in _BINARY:
+            return _BINARY[type(op)](_value(left), _value(right))
+    raise ValueError(f'"{ast.unparse(node)}" is no number')

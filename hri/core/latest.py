@@ -1,0 +1,45 @@
+"""The newest value of something, shared between parts that run at their own pace."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any, Generic, TypeVar
+
+T = TypeVar("T")
+
+
+class Latest(Generic[T]):
+    """One slot: a writer never waits, a reader gets the newest value and its time."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._value: T | None = None
+        self._time = 0.0
+
+    def set(self, value: T, time: float) -> None:
+        with self._lock:
+            self._value, self._time = value, time
+
+    def get(self) -> tuple[T | None, float]:
+        """The value and its time in seconds; (None, 0.0) before the first."""
+        with self._lock:
+            return self._value, self._time
+
+    def clear(self) -> None:
+        with self._lock:
+            self._value = None
+
+    @property
+    def value(self) -> T | None:
+        return self._value
+
+
+class Board:
+    """Named slots: where networks of different rates, and tasks, meet."""
+
+    def __init__(self) -> None:
+        self._slots: dict[str, Latest[Any]] = {}
+
+    def slot(self, name: str) -> Latest[Any]:
+        """The slot of that name, made on first use."""
+        return self._slots.setdefault(name, Latest())

@@ -1,0 +1,69 @@
+"""Where authored files are found: the user's folders first, then the house's own."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+from hri.core.errors import HriError, did_you_mean
+
+VARIABLES = ("HRI_PATH", "EVOLUTION_CONFIG_PATH")
+
+
+def house() -> Path:
+    """The folder with `faces/`, `grammars/`, ...: the checkout, or `hri/data` of a wheel."""
+    package = Path(__file__).resolve().parents[1]
+    checkout = package.parent
+    if (checkout / "pyproject.toml").is_file() and (checkout / "faces").is_dir():
+        return checkout
+    return package / "data"
+
+
+def search_folders() -> Iterator[Path]:
+    """The folders of HRI_PATH, then of EVOLUTION_CONFIG_PATH, then the house."""
+    for variable in VARIABLES:
+        for folder in os.environ.get(variable, "").split(":"):
+            if folder:
+                yield Path(folder).expanduser()
+    yield house()
+
+
+def find(kind: str, name: str) -> Path:
+    """The file or folder of an authored thing: `find("faces", "robot")`.
+
+    A name that is a path to something that exists is taken as it is. Else the first search folder
+    that has `kind/name` (or `name` itself, for folders laid out like `config/`) wins.
+    Raises HriError when there is none.
+    """
+    direct = Path(name).expanduser()
+    if direct.exists() and (direct.is_absolute() or len(direct.parts) > 1 or direct.suffix):
+        return direct
+    for folder in search_folders():
+        for candidate in (folder / kind / name, folder / name):
+            if candidate.exists() and candidate != folder:
+                return candidate
+    known = [Path(found).stem if kind != "apps" else found for found in names(kind)]
+    raise HriError(f'no "{name}" in {kind} - {did_you_mean(Path(name).stem, known)}')
+
+
+def names(kind: str) -> list[str]:
+    """All names of a kind over the search folders, sorted."""
+    found: set[str] = set()
+    for folder in search_folders():
+        below = folder / kind
+        if below.is_dir():
+            found.update(entry.name for entry in below.iterdir() if not entry.name.startswith("."))
+    return sorted(found)
+
+
+def state_folder() -> Path:
+    """Where the user's own state and logs are kept (XDG base directory specification)."""
+    base = os.environ.get("XDG_STATE_HOME") or "~/.local/state"
+    return Path(base).expanduser() / "hri"
+
+
+def settings_folder() -> Path:
+    """Where the user's choices are kept (XDG base directory specification)."""
+    base = os.environ.get("XDG_CONFIG_HOME") or "~/.config"
+    return Path(base).expanduser() / "hri"

@@ -1,0 +1,63 @@
+"""Classes by their public name, found through entry points and imported on first use.
+
+A plug-in is a package that declares, say, ``[project.entry-points."hri.behaviors"]`` with
+``"My.Wave" = "my_package.wave:Wave"``. Names are `Namespace.Name`; every `Evolution.Name` of 2003
+is an alias of `Hri.Name`, or of what `ALIASES` says.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib.metadata import EntryPoint, entry_points
+from typing import Any
+
+from hri.core.errors import HriError, NotAvailable, did_you_mean
+
+GROUPS = {"hri.resources": "device type", "hri.behaviors": "behavior type", "hri.tasks": "task"}
+
+ALIASES = {
+    # 2003 device types that have another name today.
+    "Evolution.DirectXCamera": "Hri.Webcam",
+    "Evolution.LinuxCamera": "Hri.Webcam",
+    "Evolution.WinVoiceRecognizer": "Hri.Recognizer",
+    "Evolution.ViaVoiceRecognizer": "Hri.Recognizer",
+    "Evolution.WinTTS": "Hri.EspeakVoice",
+    "Evolution.EloquenceTTS": "Hri.EspeakVoice",
+    "Evolution.WmmeAudioPlayback": "Hri.Speaker",
+    "Evolution.WmmeAudioRecord": "Hri.Microphone",
+    "Evolution.MorphedFace": "Hri.Screen",
+    "Evolution.USBIrSensor": "Hri.SimulatedRangeSensor",
+    "Evolution.RCMBattery": "Hri.SimulatedBattery",
+    "Evolution.Diff2Drive": "Hri.SimulatedDrive",
+    "Evolution.Diff2Odometry": "Hri.SimulatedOdometry",
+}
+
+
+@cache
+def _entries(group: str) -> dict[str, EntryPoint]:
+    return {entry.name: entry for entry in entry_points(group=group)}
+
+
+def known(group: str) -> list[str]:
+    """All names of a group, sorted."""
+    return sorted(_entries(group))
+
+
+def canonical(name: str) -> str:
+    """Today's name: aliases resolved, `Evolution.` read as `Hri.`."""
+    name = ALIASES.get(name, name)
+    return "Hri." + name.removeprefix("Evolution.") if name.startswith("Evolution.") else name
+
+
+def find(group: str, name: str) -> Any:
+    """The class of that name.
+
+    Raises HriError when nobody declares it, NotAvailable when its package is not installed.
+    """
+    entry = _entries(group).get(canonical(name))
+    if entry is None:
+        raise HriError(f'unknown {GROUPS[group]} "{name}" - {did_you_mean(canonical(name), known(group))}')
+    try:
+        return entry.load()
+    except ImportError as error:
+        raise NotAvailable(f"{name} cannot be loaded: {error} - install what it needs") from error

@@ -1,0 +1,214 @@
+"""The values that travel between parts: immutable, typed, in SI units and radians."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Samples = NDArray[np.int16]
+"""Mono audio, shape [n], full scale +-32767."""
+
+Image = NDArray[np.uint8]
+"""Picture, shape [height, width, 3], RGB, 0 to 255."""
+
+
+@dataclass(frozen=True, slots=True)
+class Utterance:
+    """Something the grammar allows was heard."""
+
+    text: str
+    """The grammar's words, lower case, one space between: "go forward ten meters"."""
+    rule: str
+    """The public rule that matched."""
+    tags: Mapping[str, Any] = field(default_factory=dict)
+    """What the words mean: {"distance": 10.0}."""
+    confidence: float = 1.0
+    """0 to 1; 0.5 is the calibrated point of acceptance."""
+    start: float = 0.0
+    """Seconds, when the voice began."""
+    end: float = 0.0
+    """Seconds, when the voice ended."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rejection:
+    """A voice was there, but nothing was taken for a command."""
+
+    reason: str
+    """One of: "no speech", "not in grammar", "low confidence", "robot speaking"."""
+    text: str = ""
+    confidence: float = 0.0
+    start: float = 0.0
+    end: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Phoneme:
+    """A sound of the voice in its mnemonic (espeak-ng's Kirshenbaum style, stress marks stripped)."""
+
+    name: str
+    start: float
+    """Seconds from the start of the speech."""
+    duration: float
+    """Seconds."""
+    stressed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Speech:
+    """Synthesised speech: what the speaker plays and the lips follow."""
+
+    text: str
+    samples: Samples
+    rate: int
+    """Samples a second."""
+    phonemes: tuple[Phoneme, ...] = ()
+    """In order; empty when the voice gives no times."""
+
+    @property
+    def duration(self) -> float:
+        """Seconds."""
+        return len(self.samples) / self.rate
+
+
+@dataclass(frozen=True, slots=True)
+class Prosody:
+    """How something is said; every field is a factor, 1 is the plain voice."""
+
+    rate: float = 1.0
+    pitch: float = 1.0
+    volume: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Stimulus:
+    """Something that moves the emotions: a name from `emotions/stimuli` and how strong."""
+
+    name: str
+    intensity: float = 1.0
+    """0 to 1."""
+
+
+@dataclass(frozen=True, slots=True)
+class EmotionState:
+    """What the robot feels now."""
+
+    label: str
+    """The strongest emotion ("joy") or the name of the mood when none stands out ("relaxed")."""
+    intensity: float
+    """0 to 1."""
+    valence: float
+    """Pleasure of the mood, -1 to 1."""
+    arousal: float
+    """-1 to 1."""
+    dominance: float
+    """-1 to 1."""
+    emotions: Mapping[str, float] = field(default_factory=dict)
+    """Intensity 0 to 1 of each emotion."""
+
+
+@dataclass(frozen=True, slots=True)
+class Expression:
+    """What the face is asked to show: a label of the face's vocabulary and how much, 0 to 1."""
+
+    label: str = "neutral"
+    intensity: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class FaceWeights:
+    """Weights of morph targets by name, 0 to 1 (corners may go a little beyond)."""
+
+    values: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Gaze:
+    """Where the eyes look, -1 to 1 of their range: x to the viewer's right, y up."""
+
+    x: float = 0.0
+    y: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class FaceBox:
+    """A face found in a frame, in pixels."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+
+
+@dataclass(frozen=True, slots=True)
+class HeadPose:
+    """How a head is turned. Pitch positive down, yaw positive to the person's left, radians."""
+
+    time: float
+    """Seconds, when the picture was taken."""
+    pitch: float
+    yaw: float
+    roll: float = 0.0
+    box: FaceBox | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class HeadGesture:
+    """A nod or a shake."""
+
+    kind: str
+    """"nod" or "shake"."""
+    time: float
+    """Seconds, when it was recognised."""
+    confidence: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """A picture from a camera."""
+
+    image: Image
+    time: float
+    """Seconds, when it was taken."""
+    sequence: int
+    """Counts up by one per picture taken; gaps are pictures lost."""
+
+
+@dataclass(frozen=True, slots=True)
+class Twist:
+    """A velocity of the base: metres a second forward, radians a second to the left."""
+
+    linear: float = 0.0
+    angular: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Pose2D:
+    """Where the base is: metres and radians in the frame it started in, x ahead, y left."""
+
+    x: float = 0.0
+    y: float = 0.0
+    heading: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class RangeReading:
+    """Distance to what a range sensor sees."""
+
+    sensor: str
+    distance: float
+    """Metres; infinity when nothing is in range."""
+    time: float
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Something that happened; names read `subject.past`: "speech.heard"."""
+
+    name: str
+    time: float = 0.0
+    properties: Mapping[str, Any] = field(default_factory=dict)

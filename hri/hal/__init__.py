@@ -1,0 +1,1 @@
+"""Resources: pieces of hardware, or their stand-ins, behind one small interface each."""

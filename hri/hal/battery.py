@@ -1,0 +1,13 @@
+"""The battery interface."""
+
+from abc import abstractmethod
+
+from hri.hal.resource import Resource
+
+
+class Battery(Resource):
+    """How much is left."""
+
+    @abstractmethod
+    def level(self, now: float) -> float:
+        """0 (empty) to 1 (full)."""

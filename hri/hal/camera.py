@@ -1,0 +1,24 @@
+"""The camera interface."""
+
+from abc import abstractmethod
+
+from hri.core.signals import Frame
+from hri.hal.resource import Resource
+
+
+class Camera(Resource):
+    """Pictures with the time they were taken."""
+
+    width: int = 320
+    height: int = 240
+    field_of_view: float = 1.05
+    """Horizontal, radians."""
+
+    @abstractmethod
+    def read(self, now: float) -> Frame | None:
+        """The newest picture taken since the last call; None when there is none yet."""
+
+    @property
+    def has_ended(self) -> bool:
+        """True when no further picture will come (a file is spent)."""
+        return False
