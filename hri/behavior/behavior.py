@@ -1,15 +1,15 @@
 """The behavior: reads inputs, writes outputs, once a tick, without ever blocking.
 
-    class Doubler(Behavior):
-        \"\"\"Twice what comes in.\"\"\"
+class Doubler(Behavior):
+    \"\"\"Twice what comes in.\"\"\"
 
-        number = Input[float]("double", "any number")
-        gain = Param(2.0, "what it is multiplied with", minimum=0)
-        product = Output[float]("double", "number times gain")
+    number = Input[float]("double", "any number")
+    gain = Param(2.0, "what it is multiplied with", minimum=0)
+    product = Output[float]("double", "number times gain")
 
-        def compute(self, now: float, dt: float) -> None:
-            if (number := self.number.value) is not None:
-                self.product.send(number * self.gain)
+    def compute(self, now: float, dt: float) -> None:
+        if (number := self.number.value) is not None:
+            self.product.send(number * self.gain)
 """
 
 from __future__ import annotations
@@ -54,16 +54,22 @@ class Behavior:
         super().__init_subclass__(**keywords)
         if not cls.__doc__:
             raise TypeError(f"{cls.__name__} needs a docstring - say in a line what it does")
-        cls.inputs, cls.outputs, cls.parameters = dict(cls.inputs), dict(cls.outputs), dict(cls.parameters)
+        cls.inputs, cls.outputs, cls.parameters = (
+            dict(cls.inputs),
+            dict(cls.outputs),
+            dict(cls.parameters),
+        )
+        tables: dict[type, dict[str, Any]] = {
+            Input: cls.inputs,
+            Output: cls.outputs,
+            Param: cls.parameters,
+        }
         for name, declared in vars(cls).items():
             if isinstance(declared, (Input, Output, Param)):
                 if hasattr(Behavior, name):
                     raise TypeError(f"{cls.__name__}.{name} hides what Behavior uses - rename it")
                 declared.name = name
-                kind = cls.inputs if isinstance(declared, Input) else (
-                    cls.outputs if isinstance(declared, Output) else cls.parameters
-                )
-                kind[name] = declared
+                tables[type(declared)][name] = declared
 
     def __init__(self, id: str = "", **parameters: Any) -> None:
         self.id = id or type(self).__name__
@@ -76,6 +82,9 @@ class Behavior:
                 remedy = did_you_mean(name, self.parameters)
                 raise HriError(f'{type(self).__name__} has no parameter "{name}" - {remedy}')
             self.__dict__[name] = value
+
+    def check(self) -> None:
+        """Read the authored files it needs, before anything is opened. Raises HriError."""
 
     def start(self, context: Context) -> None:
         """Take what is needed from the robot: resources, workers, listeners."""

@@ -17,12 +17,16 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from datetime import datetime, timedelta
 from typing import Generic, TypeVar
 
 import trio
 import trio.testing
 
 T = TypeVar("T")
+
+FAKE_MORNING = datetime(2003, 6, 18, 10, 0)
+"""What a fake clock shows when it starts."""
 
 
 @dataclass(order=True, slots=True)
@@ -78,6 +82,10 @@ class Clock(ABC):
     @abstractmethod
     def now(self) -> float:
         """Seconds since the clock was made; never goes back."""
+
+    @abstractmethod
+    def wall(self) -> datetime:
+        """Date and time of day, as people tell it; for words only, never for arithmetic."""
 
     @abstractmethod
     async def drive(self) -> None:
@@ -145,6 +153,9 @@ class RealClock(Clock):
     def now(self) -> float:
         return time.perf_counter() - self._origin
 
+    def wall(self) -> datetime:
+        return datetime.now()  # noqa: TID251 - this is the clock
+
     def worker(self, latency: float) -> Worker[T]:
         return _ThreadWorker()
 
@@ -181,6 +192,9 @@ class FakeClock(Clock):
 
     def now(self) -> float:
         return self._now
+
+    def wall(self) -> datetime:
+        return FAKE_MORNING + timedelta(seconds=self._now)
 
     def worker(self, latency: float) -> Worker[T]:
         return _InlineWorker(self, latency)

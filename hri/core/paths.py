@@ -10,6 +10,9 @@ from hri.core.errors import HriError, did_you_mean
 
 VARIABLES = ("HRI_PATH", "EVOLUTION_CONFIG_PATH")
 
+SUFFIXES = {"grammars": ".jsgf", "config": ".xml"}
+"""What a name without a suffix gets, by kind; else ".toml"."""
+
 
 def house() -> Path:
     """The folder with `faces/`, `grammars/`, ...: the checkout, or `hri/data` of a wheel."""
@@ -32,18 +35,20 @@ def search_folders() -> Iterator[Path]:
 def find(kind: str, name: str) -> Path:
     """The file or folder of an authored thing: `find("faces", "robot")`.
 
-    A name that is a path to something that exists is taken as it is. Else the first search folder
-    that has `kind/name` (or `name` itself, for folders laid out like `config/`) wins.
+    The suffix of the kind may be left out. A path to something that exists is taken as it is. Else
+    the first search folder that has `kind/name` (or `name` itself, for folders laid out like
+    `config/`) wins.
     Raises HriError when there is none.
     """
     direct = Path(name).expanduser()
     if direct.exists() and (direct.is_absolute() or len(direct.parts) > 1 or direct.suffix):
         return direct
+    spellings = (name, name + SUFFIXES.get(kind, ".toml"))
     for folder in search_folders():
-        for candidate in (folder / kind / name, folder / name):
+        for candidate in (below / name for below in (folder / kind, folder) for name in spellings):
             if candidate.exists() and candidate != folder:
                 return candidate
-    known = [Path(found).stem if kind != "apps" else found for found in names(kind)]
+    known = [Path(found).stem for found in names(kind)]
     raise HriError(f'no "{name}" in {kind} - {did_you_mean(Path(name).stem, known)}')
 
 

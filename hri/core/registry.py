@@ -56,7 +56,9 @@ def find(group: str, name: str) -> Any:
     """
     entry = _entries(group).get(canonical(name))
     if entry is None:
-        raise HriError(f'unknown {GROUPS[group]} "{name}" - {did_you_mean(canonical(name), known(group))}')
+        raise HriError(
+            f'unknown {GROUPS[group]} "{name}" - {did_you_mean(canonical(name), known(group))}'
+        )
     try:
         return entry.load()
     except ImportError as error:

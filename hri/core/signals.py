@@ -48,7 +48,7 @@ class Rejection:
 
 @dataclass(frozen=True, slots=True)
 class Phoneme:
-    """A sound of the voice in its mnemonic (espeak-ng's Kirshenbaum style, stress marks stripped)."""
+    """A sound of the voice by its espeak-ng mnemonic, stress marks stripped."""
 
     name: str
     start: float

@@ -40,7 +40,9 @@ def load_toml(path: Path, what: str = "TOML file") -> Table:
 class Table:
     """One table of a TOML file; knows where each of its keys stands."""
 
-    def __init__(self, data: dict[str, Any], path: Path, key: Key, places: dict[Key, Place]) -> None:
+    def __init__(
+        self, data: dict[str, Any], path: Path, key: Key, places: dict[Key, Place]
+    ) -> None:
         self.data = data
         self.path = path
         self.key = key
@@ -65,7 +67,9 @@ class Table:
         """The error to raise about a key of this table."""
         return AuthoringError(self.place(name), what, remedy)
 
-    def string(self, name: str, default: Default = REQUIRED, *, among: Sequence[str] = ()) -> str | Default:
+    def string(
+        self, name: str, default: Default = REQUIRED, *, among: Sequence[str] = ()
+    ) -> str | Default:
         """A text; one of `among` when given."""
         value = self._get(name, default, str, "a text in quotes")
         if among and isinstance(value, str) and name in self.data and value not in among:
@@ -99,14 +103,20 @@ class Table:
         """A list of texts."""
         value = self._get(name, default, list, "a list of texts")
         if any(not isinstance(item, str) for item in value):
-            raise self.error(name, f"{name} holds something that is no text", "put quotes around it")
+            raise self.error(
+                name, f"{name} holds something that is no text", "put quotes around it"
+            )
         return list(value)
 
-    def numbers(self, name: str, default: Sequence[float] = REQUIRED, *, count: int = 0) -> list[float]:
+    def numbers(
+        self, name: str, default: Sequence[float] = REQUIRED, *, count: int = 0
+    ) -> list[float]:
         """A list of numbers, `count` of them when given."""
         value = self._get(name, default, list, "a list of numbers")
         if any(isinstance(item, bool) or not isinstance(item, (int, float)) for item in value):
-            raise self.error(name, f"{name} holds something that is no number", "write numbers only")
+            raise self.error(
+                name, f"{name} holds something that is no number", "write numbers only"
+            )
         if count and len(value) != count:
             raise self.error(name, f"{name} has {len(value)} numbers", f"write {count}")
         return [float(item) for item in value]
@@ -119,7 +129,7 @@ class Table:
     def tables(self, name: str) -> Iterator[tuple[str, Table]]:
         """The tables below `name` with their names; none when absent."""
         below = self.table(name, optional=True)
-        for key in below.keys():
+        for key in below.data:
             yield key, below.table(key)
 
     def array(self, name: str) -> list[Table]:
@@ -132,7 +142,7 @@ class Table:
 
     def weights(self, minimum: float = 0.0, maximum: float = 1.0) -> dict[str, float]:
         """The whole table as names with numbers within the range."""
-        found = {name: self.number(name, minimum=minimum, maximum=maximum) for name in self.keys()}
+        found = {name: self.number(name, minimum=minimum, maximum=maximum) for name in self.data}
         return {name: float(value) for name, value in found.items()}
 
     def finish(self) -> None:
@@ -163,7 +173,9 @@ def _kind_of(value: object) -> str:
 
 
 _HEADER = re.compile(r"^\s*(\[\[?)\s*(.+?)\s*\]\]?\s*(?:#.*)?$")
-_ENTRY = re.compile(r"""^(\s*)((?:"[^"]*"|'[^']*'|[A-Za-z0-9_-]+)(?:\s*\.\s*(?:"[^"]*"|'[^']*'|[A-Za-z0-9_-]+))*)\s*=""")
+_ENTRY = re.compile(
+    r"""^(\s*)((?:"[^"]*"|'[^']*'|[A-Za-z0-9_-]+)(?:\s*\.\s*(?:"[^"]*"|'[^']*'|[A-Za-z0-9_-]+))*)\s*="""
+)
 _PART = re.compile(r""""([^"]*)"|'([^']*)'|([A-Za-z0-9_-]+)""")
 _INLINE = re.compile(r"""("[^"]*"|'[^']*'|[A-Za-z0-9_-]+)\s*=(?!=)""")
 

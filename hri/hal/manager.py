@@ -51,7 +51,9 @@ class ResourceManager:
                 self._open[id] = self._opened(id)
             resource = self._open[id]
         if not isinstance(resource, interface):
-            raise HriError(f'"{id}" is a {type(resource).__name__}, no {interface.__name__} - check the id')
+            raise HriError(
+                f'"{id}" is a {type(resource).__name__}, no {interface.__name__} - check the id'
+            )
         return resource
 
     def find(self, interface: type[R]) -> R | None:
@@ -70,7 +72,7 @@ class ResourceManager:
         return self._stand_ins.get(id)
 
     def substitute(self, id: str, resource: Resource) -> None:
-        """Use this resource under that id; for tests, recordings and files from the command line."""
+        """Use this resource under that id: for tests, recordings, files of the command line."""
         with self._lock:
             self._open[id] = resource
             self._stand_ins.pop(id, None)

@@ -29,7 +29,7 @@ class Description:
     """Id of the bus the device sits on."""
     members: tuple[str, ...] = ()
     """Ids of a group's members."""
-    place: Place = Place(Path("-"))
+    place: Place = field(default_factory=lambda: Place(Path("-")))
     places: Mapping[str, Place] = field(default_factory=dict)
     """Where each parameter stands."""
 

@@ -16,7 +16,7 @@ class Screen(Resource):
     def show(self, image: Image, time: float) -> None:
         """Show a picture of shape [height, width, 3]."""
 
-    def keys(self) -> list[str]:
+    def pressed_keys(self) -> list[str]:
         """Names of the keys pressed since the last call: "space", "m", "escape", ..."""
         return []
 

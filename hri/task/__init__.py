@@ -1,0 +1,1 @@
+"""Tasks: cancellable coroutines on trio that wait for time and events."""

@@ -1,0 +1,1 @@
+"""The companion: what it does between its networks and its authored replies."""

@@ -1,0 +1,316 @@
+"""What the companion does: it converses, wonders, notices, and obeys the keys.
+
+converse    replies to what is heard, as `replies.toml` says
+wonder      asks a yes/no question now and then
+notice      turns what happens into feelings: a bump, a person, a low battery, being ignored
+watch_keys  space stops it, m mutes the microphone, c switches captions, escape ends
+"""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from hri.face.behaviors import FaceRenderer
+from hri.face.model import load_face
+from hri.speech.behaviors import Listener, Voice
+
+from hri.core.signals import Event, HeadPose
+from hri.drive.behaviors import CommandGate
+from hri.emotion.behaviors import EmotionModel
+from hri.emotion.stimulus import load_stimuli
+from hri.hal.battery import Battery
+from hri.hal.camera import Camera
+from hri.hal.screen import Screen
+from hri.robot import verbs
+from hri.speech.grammar import Grammar
+from hri.task.context import TaskContext
+from hri.task.lane import Lane
+
+from .replies import Reply, Vocabulary, load_replies
+
+ALWAYS = ("stop", "wake")
+"""Rules that count even while it sleeps."""
+SHOW_SECONDS = 4.0
+QUIET_SECONDS = 60.0
+FIRST_QUESTION = 8.0
+"""Seconds of calm after a conversation before it asks a question of its own."""
+BETWEEN_QUESTIONS = 30.0
+COMPANY_SECONDS = 45.0
+"""How long after the last words somebody counts as being there."""
+IGNORED_SECONDS = 25.0
+"""Calm while somebody is there, after which it feels ignored; again after each such time."""
+CLOSE_HEAD = 0.42
+"""Height of a head in the picture, of the picture's height, at which it is near enough."""
+
+
+class Companion:
+    """What the tasks share: its replies, what it is doing, and whether it sleeps."""
+
+    def __init__(self, context: TaskContext) -> None:
+        self.context = context
+        self.listener = context.behavior(Listener)
+        self.voice = context.behavior(Voice)
+        self.gate = context.behavior(CommandGate)
+        self.emotion = context.behavior(EmotionModel)
+        self.camera = context.resources.obtain("camera", Camera)
+        self.replies = load_replies(Path(__file__).with_name("replies.toml"), self._vocabulary())
+        self.talk = Lane(context)
+        self.motion = Lane(context)
+        self.face = Lane(context)
+        self.is_asleep = False
+        self.silent_until = -math.inf
+        self.last_contact = -math.inf
+        self._turns: dict[str, int] = {}
+
+    @classmethod
+    def of(cls, context: TaskContext) -> Companion:
+        """The one companion of this robot, made on first use."""
+        slot = context.board.slot("companion")
+        if slot.value is None:
+            slot.set(cls(context), context.clock.now())
+        companion: Companion = slot.value
+        return companion
+
+    def _vocabulary(self) -> Vocabulary:
+        grammar: Grammar = self.listener.loaded_grammar
+        return Vocabulary(
+            rules=grammar.public_rules,
+            tags=grammar.tag_names(),
+            stimuli=load_stimuli(),
+            expressions=load_face(self.context.behavior(FaceRenderer).face).expressions,
+        )
+
+    # --- replying ---
+
+    def reply(self, rule: str, text: str, tags: dict[str, Any]) -> None:
+        """Do what the file says of this rule."""
+        self.last_contact = self.context.clock.now()
+        reply = self.replies.replies.get(rule)
+        if reply is None or (self.is_asleep and rule not in ALWAYS):
+            return
+        if reply.feel:
+            self.emotion.feel(reply.feel, reply.intensity)
+        if reply.action:
+            getattr(self, f"_{reply.action}")(tags)
+        words = self._words(rule, reply, text, tags)
+        if reply.show:
+            label = str(tags.get("emotion", "neutral")) if reply.show[0] == "{" else reply.show
+            self.face.start(verbs.show, self.context, label, SHOW_SECONDS)
+        if words:
+            self.say(words)
+
+    def say(self, words: str) -> None:
+        """Say it, in place of what is being said; nothing while it was told to be quiet."""
+        if self.context.clock.now() >= self.silent_until:
+            self.talk.start(verbs.say, self.context, words)
+
+    def _words(self, rule: str, reply: Reply, text: str, tags: dict[str, Any]) -> str:
+        if not reply.say:
+            return ""
+        turn = self._turns[rule] = self._turns.get(rule, -1) + 1
+        template = reply.say[turn % len(reply.say)]
+        facts = {
+            "text": text,
+            "name": self.replies.name,
+            "time": f"{self.context.clock.wall():%H:%M}",
+            "battery": round(100 * self._battery()),
+            "why": self.emotion.why_words(),
+            "feeling": self.emotion.feeling_words(),
+            "commands": self._commands(),
+        }
+        values = {key: f"{v:g}" if isinstance(v, float) else v for key, v in tags.items()}
+        return template.format(**values, **facts)
+
+    def _battery(self) -> float:
+        battery = self.context.resources.find(Battery)
+        return battery.level(self.context.clock.now()) if battery else 1.0
+
+    def _commands(self) -> str:
+        """One example for each of some rules."""
+        grammar: Grammar = self.listener.loaded_grammar
+        examples = [
+            next(iter(grammar.sentences_of(rule, 1)), "")
+            for rule in ("greet", "move", "turn", "show", "stop")
+            if rule in grammar.public_rules
+        ]
+        return ", ".join(example for example in examples if example)
+
+    # --- actions, named as in replies.toml ---
+
+    def _move(self, tags: dict[str, Any]) -> None:
+        self.motion.start(self._move_on, float(tags.get("distance", 0.5)))
+
+    async def _move_on(self, distance: float) -> None:
+        travelled = await verbs.move(self.context, distance)
+        if abs(travelled) < 0.9 * abs(distance):
+            self.say(self.replies.unasked["blocked"])
+
+    def _turn(self, tags: dict[str, Any]) -> None:
+        angle = math.radians(float(tags.get("angle", 90.0)))
+        self.motion.start(verbs.turn, self.context, angle)
+
+    def _come(self, tags: dict[str, Any]) -> None:
+        self.motion.start(self._approach, False)
+
+    def _follow(self, tags: dict[str, Any]) -> None:
+        self.motion.start(self._approach, True)
+
+    async def _approach(self, keep_on: bool) -> None:
+        """Turn to the head that is seen and drive up to it; with `keep_on`, again and again."""
+        lost = 0
+        while lost < 5:
+            head = self.head()
+            if head is None or head.box is None:
+                lost += 1
+                await self.context.clock.sleep(1.0)
+                continue
+            lost = 0
+            bearing, nearness = self.bearing(head), self.nearness(head)
+            if abs(bearing) > math.radians(6):
+                await verbs.turn(self.context, bearing)
+            elif nearness < CLOSE_HEAD:
+                await verbs.move(self.context, min(0.5, 0.5 * (CLOSE_HEAD / nearness - 1)))
+            elif not keep_on:
+                return
+            await self.context.clock.sleep(0.5)
+        self.say(self.replies.unasked["nobody"])
+
+    def _stop(self, tags: dict[str, Any]) -> None:
+        self.motion.stop()
+        self.gate.halt()
+        self.talk.stop()
+        self.voice.hush()
+
+    def _quiet(self, tags: dict[str, Any]) -> None:
+        self.talk.stop()
+        self.voice.hush()
+        self.silent_until = self.context.clock.now() + QUIET_SECONDS
+
+    def _sleep(self, tags: dict[str, Any]) -> None:
+        self.is_asleep = True
+        self.motion.stop()
+        self.face.start(verbs.show, self.context, "asleep", 3600.0)
+
+    def _wake(self, tags: dict[str, Any]) -> None:
+        self.is_asleep = False
+        self.silent_until = -math.inf
+        self.face.stop()
+
+    # --- what is seen ---
+
+    def head(self) -> HeadPose | None:
+        """The head that is seen now."""
+        pose: HeadPose | None
+        pose, when = self.context.board.slot("head").get()
+        return pose if pose is not None and self.context.clock.now() - when < 1.0 else None
+
+    def bearing(self, head: HeadPose) -> float:
+        """Angle from straight ahead to a head, left positive, from its place in the picture."""
+        assert head.box is not None
+        offset = (head.box.x + head.box.width / 2) / self.camera.width - 0.5
+        return -math.atan(2 * offset * math.tan(self.camera.field_of_view / 2))
+
+    def nearness(self, head: HeadPose) -> float:
+        """Height of the head in the picture, 0 to 1."""
+        assert head.box is not None
+        return head.box.height / self.camera.height
+
+    @property
+    def is_calm(self) -> bool:
+        """Nobody talks and nothing moves."""
+        return not (self.talk.is_busy or self.motion.is_busy or self.listener.is_hearing.value)
+
+
+async def converse(context: TaskContext) -> None:
+    """Reply to everything that is heard."""
+    companion = Companion.of(context)
+    with context.queue("speech.heard") as queue:
+        while True:
+            heard = (await queue.get()).properties
+            companion.reply(heard["rule"], heard["text"], dict(heard["tags"]))
+
+
+async def wonder(context: TaskContext) -> None:
+    """Ask a question now and then, when somebody is there and it is calm."""
+    companion = Companion.of(context)
+    clock = context.clock
+    questions, count, last = companion.replies.questions, 0, -math.inf
+    while questions:
+        await clock.sleep(0.5)
+        now = clock.now()
+        since = now - companion.last_contact
+        is_company = FIRST_QUESTION < since < COMPANY_SECONDS
+        if not is_company or now - last < BETWEEN_QUESTIONS or now < companion.silent_until:
+            continue
+        if companion.is_asleep or not companion.is_calm:
+            continue
+        question = questions[count % len(questions)]
+        companion.talk.start(_ask, companion, question)
+        count, last = count + 1, now
+
+
+async def _ask(companion: Companion, question: Any) -> None:
+    answer = await verbs.ask(companion.context, question.ask)
+    if answer is None:
+        return
+    companion.last_contact = companion.context.clock.now()
+    companion.emotion.feel("answered")
+    if words := (question.yes if answer else question.no):
+        await verbs.say(companion.context, words)
+
+
+async def notice(context: TaskContext) -> None:
+    """Feel what happens, and that nothing happens."""
+    companion = Companion.of(context)
+    calm_since = context.clock.now()
+    deeds = {
+        "bumper.pressed": partial(_noticed, companion, "bump", "bump"),
+        "battery.lowered": partial(_noticed, companion, "battery_low", "battery_low"),
+        "person.seen": partial(_noticed, companion, "person_seen", ""),
+    }
+    with context.queue(*deeds, "speech.heard", "question.answered") as queue:
+        while True:
+            event: Event | None = None
+            with context.clock.move_on_after(1.0):
+                event = await queue.get()
+            now = context.clock.now()
+            if event is not None:
+                calm_since = now
+                if event.name in deeds:
+                    deeds[event.name]()
+            elif not companion.is_calm or companion.is_asleep:
+                calm_since = now
+            elif now - calm_since > IGNORED_SECONDS and companion.head() is not None:
+                calm_since = now
+                companion.emotion.feel("ignored")
+
+
+def _noticed(companion: Companion, stimulus: str, words: str) -> None:
+    companion.emotion.feel(stimulus)
+    if words and not companion.is_asleep:
+        companion.say(companion.replies.unasked[words])
+
+
+async def watch_keys(context: TaskContext) -> None:
+    """Obey the keys of the window; closing it ends the program."""
+    companion = Companion.of(context)
+    screen = context.resources.obtain("screen", Screen)
+    renderer = context.behavior(FaceRenderer)
+    while True:
+        await context.clock.sleep(0.05)
+        for key in screen.pressed_keys():
+            if key == "space":
+                companion.reply("stop", "stop", {})
+            elif key == "m":
+                companion.listener.is_muted = not companion.listener.is_muted
+                context.events.raise_event("microphone.muted", muted=companion.listener.is_muted)
+            elif key == "c":
+                renderer.captions_on = not renderer.captions_on
+            elif key == "escape":
+                context.events.raise_event("window.closed")
+        if screen.is_closed:
+            context.events.raise_event("window.closed")
+            return

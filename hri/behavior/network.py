@@ -1,0 +1,192 @@
+"""Networks: behaviors and the links between them, read from XML and checked as a whole.
+
+<BehaviorNetwork invocation_interval="0.1">
+  <Behavior id="three" type="Hri.Constant"><Parameter name="parsed_value" value="3"/></Behavior>
+  <Behavior id="show" type="Hri.InputCollector"/>
+  <Link from="three.value" to="show.input"/>
+</BehaviorNetwork>
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from hri.behavior.behavior import Behavior
+from hri.behavior.ports import GENERIC, Input, Output
+from hri.core import paths, registry
+from hri.core.errors import AuthoringError, HriError, NotAvailable, Place, did_you_mean
+from hri.core.expression import evaluate
+from hri.core.xml import Element, load_xml
+
+DEFAULT_INTERVAL = 0.10
+SHORTEST_INTERVAL = 0.001
+
+
+@dataclass(frozen=True)
+class Link:
+    """A wire from an output to an input."""
+
+    source: Behavior
+    output: str
+    target: Behavior
+    input: str
+    place: Place
+
+    def __str__(self) -> str:
+        return f"{self.source.id}.{self.output} -> {self.target.id}.{self.input}"
+
+
+@dataclass
+class Network:
+    """Behaviors in the order in which they run, and what is told about the whole."""
+
+    name: str
+    interval: float = DEFAULT_INTERVAL
+    """Seconds between ticks."""
+    behaviors: list[Behavior] = field(default_factory=list)
+    links: list[Link] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+    path: Path = Path("-")
+
+    def __getitem__(self, id: str) -> Behavior:
+        for behavior in self.behaviors:
+            if behavior.id == id:
+                return behavior
+        remedy = did_you_mean(id, [behavior.id for behavior in self.behaviors])
+        raise HriError(f'network {self.name} has no behavior "{id}" - {remedy}')
+
+    def add(self, behavior: Behavior) -> Behavior:
+        """Add a behavior; its id must be new."""
+        if any(known.id == behavior.id for known in self.behaviors):
+            raise HriError(f'network {self.name} has two behaviors "{behavior.id}" - rename one')
+        self.behaviors.append(behavior)
+        return behavior
+
+    def connect(self, source: str, target: str, place: Place | None = None) -> None:
+        """Wire `behavior.output` to `behavior.input`. Raises AuthoringError on a misfit."""
+        place = place or Place(self.path)
+        sender, output = self._port(source, "outputs", place)
+        receiver, input = self._port(target, "inputs", place)
+        sends: Output[Any] = sender.outputs[output]
+        takes: Input[Any] = receiver.inputs[input]
+        if sends.datatype != takes.datatype:
+            what = f"{source} is {sends.datatype}, but {target} takes {takes.datatype}"
+            raise AuthoringError(place, what, "link ports of the same datatype")
+        if sends.semantic != takes.semantic and GENERIC not in (sends.semantic, takes.semantic):
+            self.warnings.append(
+                f"{place}: {source} means {sends.semantic}, {target} wants {takes.semantic}"
+            )
+        self.links.append(Link(sender, output, receiver, input, place))
+        getattr(receiver, input).sources.append(getattr(sender, output))
+
+    def sort(self) -> None:
+        """Put the behaviors in dependency order: the file's order wherever the links allow.
+
+        Raises AuthoringError that names a cycle link by link.
+        """
+        waits = {behavior.id: 0 for behavior in self.behaviors}
+        for link in self.links:
+            waits[link.target.id] += 1
+        ready = deque(behavior for behavior in self.behaviors if not waits[behavior.id])
+        order: list[Behavior] = []
+        while ready:
+            behavior = ready.popleft()
+            order.append(behavior)
+            for link in self.links:
+                if link.source is behavior:
+                    waits[link.target.id] -= 1
+                    if not waits[link.target.id]:
+                        ready.append(link.target)
+        if len(order) < len(self.behaviors):
+            cycle = self._cycle({id for id, count in waits.items() if count})
+            what = f"these links run in a circle: {', '.join(map(str, cycle))}"
+            raise AuthoringError(cycle[0].place, what, "take one of them out")
+        self.behaviors = order
+
+    def _cycle(self, stuck: set[str]) -> list[Link]:
+        """One circle among the behaviors that wait for each other."""
+        links = {link.target.id: link for link in self.links if link.source.id in stuck}
+        id = next(behavior.id for behavior in self.behaviors if behavior.id in stuck)
+        walked: list[str] = []
+        while id not in walked:
+            walked.append(id)
+            id = links[id].source.id
+        circle = walked[walked.index(id) :]
+        return [links[id] for id in reversed(circle)]
+
+    def _port(self, text: str, kind: str, place: Place) -> tuple[Behavior, str]:
+        id, _, port = text.partition(".")
+        behavior = next((known for known in self.behaviors if known.id == id), None)
+        if behavior is None:
+            remedy = did_you_mean(id, [known.id for known in self.behaviors])
+            raise AuthoringError(place, f'no behavior "{id}" for the link "{text}"', remedy)
+        ports = getattr(behavior, kind)
+        if port not in ports:
+            what = f'{type(behavior).__name__} "{id}" has no {kind[:-1]} "{port}"'
+            raise AuthoringError(place, what, did_you_mean(port, ports))
+        return behavior, port
+
+
+def load_network(name: str | Path) -> Network:
+    """Read a network by path or by name over the search folders, checked and in order.
+
+    Raises AuthoringError with the place of the first mistake.
+    """
+    path = name if isinstance(name, Path) else paths.find("config", name)
+    root = load_xml(path, "behavior network")
+    if root.tag != "BehaviorNetwork":
+        raise root.error(f"the root is <{root.tag}>", "write <BehaviorNetwork> around it all")
+    root.check(("Behavior", "Link"), ("invocation_interval", "name"))
+    network = Network(root.get("name", path.stem), _interval(root), path=path)
+    for element in root:
+        if element.tag == "Behavior":
+            _add(network, element)
+    for element in root:
+        if element.tag == "Link":
+            element.check((), ("from", "to"))
+            network.connect(element.get("from"), element.get("to"), element.place)
+    network.sort()
+    return network
+
+
+def _interval(root: Element) -> float:
+    text = root.get("invocation_interval", str(DEFAULT_INTERVAL))
+    try:
+        interval = evaluate(text)
+    except ValueError as error:
+        raise root.error(str(error), "write seconds, such as 0.1", "invocation_interval") from error
+    if not SHORTEST_INTERVAL <= interval <= 3600:
+        remedy = f"write seconds from {SHORTEST_INTERVAL} to 3600"
+        raise root.error(f"an interval of {text} s", remedy, "invocation_interval")
+    return interval
+
+
+def _add(network: Network, element: Element) -> None:
+    element.check(("Parameter",), ("id", "type"))
+    try:
+        cls: type[Behavior] = registry.find("hri.behaviors", element.get("type"))
+    except NotAvailable:
+        raise
+    except HriError as error:
+        what, _, remedy = str(error).partition(" - ")
+        raise element.error(what, remedy, "type") from error
+    parameters = {}
+    for child in element:
+        child.check((), ("name", "value"))
+        name = child.get("name")
+        if name not in cls.parameters:
+            what = f'{element.get("type")} has no parameter "{name}"'
+            raise child.error(what, did_you_mean(name, cls.parameters))
+        try:
+            parameters[name] = cls.parameters[name].parse(child.get("value"))
+        except ValueError as error:
+            what, _, remedy = str(error).partition(" - ")
+            raise child.error(f"{name}: {what}", remedy, "value") from error
+    if any(known.id == element.get("id") for known in network.behaviors):
+        raise element.error(
+            f'the id "{element.get("id")}" is used twice', "rename one of them", "id"
+        )
+    network.add(cls(element.get("id"), **parameters))

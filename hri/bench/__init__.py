@@ -1,0 +1,1 @@
+"""Figures as JSON: each module measures one part and returns a dictionary."""

@@ -1,0 +1,137 @@
+"""`behave NETWORK.xml`: run a behavior network at its rate."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import signal
+import sys
+from collections.abc import Sequence
+from functools import partial
+
+import trio
+
+from hri.behavior.behavior import Context
+from hri.behavior.network import load_network
+from hri.behavior.runner import Runner
+from hri.core import paths
+from hri.core.clock import Clock, FakeClock, RealClock
+from hri.core.errors import HriError
+from hri.core.events import EventBus
+from hri.hal.configuration import load_configuration
+from hri.hal.manager import ResourceManager
+from hri.hal.resource import Resource
+
+log = logging.getLogger("hri.behave")
+SHORTEST = 0.01
+"""Seconds; the least that durations and intervals may be."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a network. Exit status 0, or 2 when a file or an option is wrong."""
+    options = _parser().parse_args(sys.argv[1:] if arguments is None else arguments)
+    _set_up_logging(options.debug)
+    try:
+        return _behave(options)
+    except HriError as error:
+        print(error, file=sys.stderr)
+        return 2
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="behave", description="Run a behavior network.")
+    add = parser.add_argument
+    add("network", metavar="NETWORK.xml", help="path, or name over the search folders")
+    add("--debug", nargs="?", const="", metavar="CATEGORY", help="tell more, of a part or of all")
+    add("--duration", type=_at_least(SHORTEST), metavar="S", help="end after so many seconds")
+    add("--invocation-count", type=_count, metavar="N", help="end after so many ticks")
+    add("--invocation-interval", type=_at_least(SHORTEST), metavar="S", help="seconds a tick")
+    add("--without-resources", action="store_true", help="configure no devices at all")
+    add("--load-all-resources", action="store_true", help="open every device at the start")
+    add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
+    add("--fast", action="store_true", help="fake time, as fast as the machine can")
+    return parser
+
+
+class _at_least:
+    """Type of an option: a number of seconds not below a limit."""
+
+    def __init__(self, limit: float) -> None:
+        self.limit = limit
+
+    def __call__(self, text: str) -> float:
+        try:
+            value = float(text)
+        except ValueError as error:
+            raise argparse.ArgumentTypeError(f'"{text}" is no number') from error
+        if not self.limit <= value < float("inf"):
+            raise argparse.ArgumentTypeError(f"{text} - write seconds, {self.limit} or more")
+        return value
+
+
+def _count(text: str) -> int:
+    if not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text} - write a count, 1 or more")
+    return int(text)
+
+
+def _set_up_logging(debug: str | None) -> None:
+    form = "%(levelname)s - %(message)s [%(filename)s:%(lineno)d]"
+    logging.basicConfig(level=logging.INFO, format=form, stream=sys.stdout)
+    if debug is not None:
+        logging.getLogger(f"hri.{debug}" if debug else "hri").setLevel(logging.DEBUG)
+
+
+def _behave(options: argparse.Namespace) -> int:
+    print("Initializing...", end="", flush=True)
+    clock: Clock = FakeClock() if options.fast else RealClock()
+    resources = _resources(options, clock)
+    print("ok", flush=True)
+    log.info("Loading network file.")
+    network = load_network(options.network)
+    for warning in network.warnings:
+        log.warning(warning)
+    for behavior in network.behaviors:
+        behavior.check()
+    if options.invocation_interval is not None:
+        network.interval = options.invocation_interval
+    runner = Runner(network, Context(clock, EventBus(clock), resources))
+    try:
+        if options.load_all_resources:
+            for id in resources.ids(Resource):
+                resources.obtain(id, Resource)
+        runner.start()
+        log.info(f"Running network with an interval of {network.interval:.2f} sec.")
+        trio.run(partial(_run, runner, clock, options))
+    finally:
+        runner.stop()
+        resources.close()
+    return 0
+
+
+def _resources(options: argparse.Namespace, clock: Clock) -> ResourceManager:
+    if options.without_resources:
+        return ResourceManager((), clock)
+    configuration = load_configuration(paths.find("config", options.config))
+    resources = ResourceManager(configuration.devices, clock)
+    resources.check()
+    return resources
+
+
+async def _run(runner: Runner, clock: Clock, options: argparse.Namespace) -> None:
+    async with trio.open_nursery() as nursery:
+        nursery.start_soon(clock.drive)
+        if not clock.is_fake:
+            nursery.start_soon(_end_on_signal, nursery)
+        await runner.run(options.invocation_count, options.duration)
+        nursery.cancel_scope.cancel()
+
+
+async def _end_on_signal(nursery: trio.Nursery) -> None:
+    with trio.open_signal_receiver(signal.SIGINT, signal.SIGTERM) as signals:
+        async for _ in signals:
+            nursery.cancel_scope.cancel()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,215 @@
+"""`hri doctor`: try every device, say what is wrong and how to mend it, choose others."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from hri.core import paths
+from hri.core.clock import RealClock
+from hri.core.errors import HriError, NotAvailable
+from hri.core.signals import Twist
+from hri.hal.camera import Camera
+from hri.hal.choices import apply_choices, load_choices, save_choices
+from hri.hal.configuration import load_configuration
+from hri.hal.drive import DriveSystem, Odometry
+from hri.hal.manager import ResourceManager
+from hri.hal.microphone import Microphone
+from hri.hal.recognizer import Recognizer
+from hri.hal.screen import Screen
+from hri.hal.speaker import Speaker
+from hri.hal.synthesizer import Synthesizer
+
+METER_WIDTH = 30
+QUIET_DBFS = -60.0
+"""Louder than this a live microphone is even in a silent room."""
+CLIPPED_DBFS = -1.0
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What became of one check."""
+
+    is_well: bool
+    says: str
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
+    add("--seconds", type=float, default=3.0, metavar="S", help="how long the meter runs")
+    add("--choose", action="store_true", help="choose microphone, speaker and camera")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Exit status 0 when all is well, 1 when something is missing."""
+    if options.choose:
+        return _choose()
+    doctor = Doctor(options)
+    try:
+        return doctor.examine()
+    finally:
+        doctor.resources.close()
+
+
+class Doctor:
+    """Tries the devices one after the other, without their stand-ins."""
+
+    def __init__(self, options: argparse.Namespace) -> None:
+        self.seconds = options.seconds
+        devices = load_configuration(paths.find("config", options.config)).devices
+        devices = apply_choices(devices, load_choices())
+        self.clock = RealClock()
+        self.resources = ResourceManager(
+            [
+                replace(device, parameters=_without_stand_in(device.parameters))
+                for device in devices
+            ],
+            self.clock,
+        )
+
+    def examine(self) -> int:
+        """Run all checks; each prints a line."""
+        checks: dict[str, Callable[[], Finding]] = {
+            "microphone": self._microphone,
+            "speaker": self._speaker,
+            "camera": self._camera,
+            "screen": self._screen,
+            "base": self._base,
+            "voice": self._voice,
+            "recognizer": self._recognizer,
+        }
+        failures = 0
+        for name, check in checks.items():
+            try:
+                finding = check()
+            except NotAvailable as error:
+                finding = Finding(False, str(error))
+            mark = "ok     " if finding.is_well else "MISSING"
+            print(f"{name:<11} {mark}  {finding.says}", flush=True)
+            failures += not finding.is_well
+        if failures:
+            print(f"\n{failures} missing: the companion runs all the same, with stand-ins.")
+        return 1 if failures else 0
+
+    def _microphone(self) -> Finding:
+        microphone = self.resources.obtain("microphone", Microphone)
+        loudest = -120.0
+        end = self.clock.now() + self.seconds
+        while self.clock.now() < end:
+            time.sleep(0.1)  # noqa: TID251 - a person watches the meter
+            samples = microphone.read(self.clock.now())
+            level = _dbfs(samples)
+            loudest = max(loudest, level)
+            if sys.stdout.isatty():
+                print(f"\r{_meter(level)}", end="", flush=True)
+        if sys.stdout.isatty():
+            print("\r" + " " * (METER_WIDTH + 20) + "\r", end="")
+        if loudest < QUIET_DBFS:
+            return Finding(False, f"silent ({loudest:.0f} dBFS) - unmute it, or run with --choose")
+        if loudest > CLIPPED_DBFS:
+            return Finding(False, "too loud, it clips - lower its level in the sound settings")
+        return Finding(True, f"{microphone.describe()}, loudest {loudest:.0f} dBFS")
+
+    def _speaker(self) -> Finding:
+        speaker = self.resources.obtain("speaker", Speaker)
+        times = np.arange(11025) / 22050
+        tone = (8000 * np.sin(2 * np.pi * 660 * times) * np.hanning(len(times))).astype(np.int16)
+        speaker.play(tone, 22050, self.clock.now())
+        deadline = self.clock.now() + 2.0
+        while speaker.position(self.clock.now()) is not None and self.clock.now() < deadline:
+            time.sleep(0.05)  # noqa: TID251 - the tone is heard meanwhile
+        return Finding(True, f"{speaker.describe()}, played a tone")
+
+    def _camera(self) -> Finding:
+        camera = self.resources.obtain("camera", Camera)
+        deadline = self.clock.now() + 3.0
+        frame = None
+        while frame is None and self.clock.now() < deadline:
+            time.sleep(0.05)  # noqa: TID251 - a camera needs a moment
+            frame = camera.read(self.clock.now())
+        if frame is None:
+            return Finding(False, "it gives no picture - unplug it and plug it in again")
+        height, width = frame.image.shape[:2]
+        if frame.image.max() < 16:
+            return Finding(False, f"{width} x {height}, but black - take off the lens cover")
+        return Finding(True, f"{camera.describe()}, {width} x {height}")
+
+    def _screen(self) -> Finding:
+        screen = self.resources.obtain("screen", Screen)
+        return Finding(True, f"{screen.describe()}, {screen.width} x {screen.height}")
+
+    def _base(self) -> Finding:
+        drive = self.resources.obtain("drive", DriveSystem)
+        odometry = self.resources.obtain("odometry", Odometry)
+        drive.set_velocity(Twist(), self.clock.now())
+        pose = odometry.pose(self.clock.now())
+        return Finding(True, f"{drive.describe()}, at x {pose.x:.2f} m, y {pose.y:.2f} m")
+
+    def _voice(self) -> Finding:
+        voice = self.resources.obtain("voice", Synthesizer)
+        speech = voice.synthesize("Hello.")
+        return Finding(True, f"{voice.describe()}, {speech.duration:.1f} s of speech")
+
+    def _recognizer(self) -> Finding:
+        from hri.speech.grammar import load_grammar
+
+        recognizer = self.resources.obtain("recognizer", Recognizer)
+        recognizer.start(load_grammar(paths.find("grammars", "companion.jsgf")))
+        return Finding(True, f"{recognizer.describe()}, its model loads")
+
+
+def _without_stand_in(parameters: Any) -> dict[str, str]:
+    return {name: value for name, value in parameters.items() if name != "stand_in"}
+
+
+def _dbfs(samples: Any) -> float:
+    """Level of the loudest sample against full scale."""
+    peak = float(np.abs(samples.astype(np.int32)).max()) if len(samples) else 0.0
+    return 20 * np.log10(max(peak, 1e-3) / 32768)
+
+
+def _meter(level: float) -> str:
+    filled = round(METER_WIDTH * min(1.0, max(0.0, (level + 60) / 60)))
+    return f"[{'#' * filled}{'.' * (METER_WIDTH - filled)}] {level:6.1f} dBFS"
+
+
+def _choose() -> int:
+    """Ask for microphone, speaker and camera, and keep the answers."""
+    if not sys.stdin.isatty():
+        raise HriError("choosing needs a terminal - run `hri doctor --choose` in one")
+    chosen = load_choices()
+    for id, names in (("microphone", _sounds("input")), ("speaker", _sounds("output"))):
+        _ask(chosen, id, names)
+    _ask(chosen, "camera", {str(index): f"camera {index}" for index in range(4)})
+    print(f"kept in {save_choices(chosen)}; run `hri doctor` to try them")
+    return 0
+
+
+def _sounds(direction: str) -> dict[str, str]:
+    """Sound devices of one direction by their number."""
+    from hri.hal.drivers.sound_card import load_sounddevice
+
+    devices = load_sounddevice().query_devices()
+    channels = f"max_{direction}_channels"
+    return {str(i): device["name"] for i, device in enumerate(devices) if device[channels]}
+
+
+def _ask(chosen: dict[str, str], id: str, names: dict[str, str]) -> None:
+    print(f"\n{id} (now: {chosen.get(id, 'the default')})")
+    for number, name in names.items():
+        print(f"  {number}  {name}")
+    while True:
+        answer = input("number, or Enter to leave it: ").strip()
+        if not answer:
+            return
+        if answer in names:
+            chosen[id] = answer
+            return
+        print("that number is not in the list")

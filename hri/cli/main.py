@@ -1,0 +1,80 @@
+"""The command `hri`: finds the subcommand, prints errors as one line, sets the exit status.
+
+Exit status: 0 when all went well, 1 when a check found fault or a device failed, 2 when the
+command line or a file is wrong.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import sys
+from collections.abc import Sequence
+
+from hri.core.errors import HriError, did_you_mean
+
+COMMANDS = {
+    "companion": ("hri.cli.companion", "start the companion (same as `run companion`)"),
+    "run": ("hri.cli.run", "start an app by name or path"),
+    "doctor": ("hri.cli.doctor", "test microphone, speaker, camera, screen, base and models"),
+    "grammar": ("hri.cli.grammar", "check, parse with, and expand grammars"),
+    "say": ("hri.cli.say", "say a text, or write it to a WAV file"),
+    "face": ("hri.cli.face", "check, render and show faces"),
+    "emotion": ("hri.cli.emotion", "check and try out emotions"),
+    "bench": ("hri.cli.bench", "measure, and print JSON"),
+}
+"""Each command is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command. Returns its exit status."""
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    if not words or words[0] in ("-h", "--help", "help"):
+        print(_overview())
+        return 0
+    if words[0] == "--version":
+        from importlib.metadata import version
+
+        print(f"hri {version('hri')}")
+        return 0
+    if words[0] not in COMMANDS:
+        remedy = did_you_mean(words[0], COMMANDS)
+        print(f'hri: unknown command "{words[0]}" - {remedy}', file=sys.stderr)
+        return 2
+    return run_command(words[0], words[1:])
+
+
+def run_command(name: str, words: Sequence[str]) -> int:
+    """Run a command of the table with its arguments; errors of ours become one line."""
+    module = importlib.import_module(COMMANDS[name][0])
+    parser = argparse.ArgumentParser(prog=f"hri {name}", description=COMMANDS[name][1])
+    module.add_arguments(parser)
+    try:
+        return int(module.run(parser.parse_args(words)))
+    except HriError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:
+        # The reader of our output has gone, as in `hri grammar expand ... | head`.
+        sys.stderr.close()
+        return 0
+
+
+def _overview() -> str:
+    width = max(map(len, COMMANDS))
+    lines = [f"  {name:<{width}}  {about}" for name, (_, about) in COMMANDS.items()]
+    return "\n".join(
+        [
+            "usage: hri COMMAND [options]     (hri COMMAND --help tells the options)",
+            "",
+            *lines,
+            "",
+            "  behave NETWORK.xml runs a single behavior network.",
+        ]
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())

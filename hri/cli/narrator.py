@@ -1,0 +1,98 @@
+"""Tells in the terminal what happens: a line for each thing heard, said, seen, and felt."""
+
+from __future__ import annotations
+
+import sys
+from collections import Counter
+from pathlib import Path
+from typing import TextIO
+
+from hri.core.signals import Event
+from hri.face.behaviors import FaceRenderer
+from hri.robot import Robot
+from hri.task.context import TaskContext
+
+LINES = {
+    "speech.heard": "heard     {text}",
+    "speech.rejected": "ignored   {text} ({reason})",
+    "speech.said": "said      {text}",
+    "emotion.changed": "feels     {label}",
+    "head.nodded": "saw       a nod",
+    "head.shaken": "saw       a shake of the head",
+    "person.seen": "saw       a person",
+    "person.lost": "lost      the person",
+    "drive.stopped": "stopped   ({reason})",
+    "bumper.pressed": "bumped",
+    "battery.lowered": "battery   low",
+    "microphone.muted": "muted     {muted}",
+}
+
+
+class Narrator:
+    """Listens to a robot's events and prints them."""
+
+    def __init__(self, robot: Robot, out: TextIO = sys.stdout) -> None:
+        self.robot = robot
+        self.out = out
+        self._counts: Counter[str] = Counter()
+        self._label = ""
+        self._pose = (0.0, 0.0)
+        self._first_frame: float | None = None
+        robot.events.subscribe("*", self._hear)
+
+    def tell(self, text: str) -> None:
+        print(text, file=self.out, flush=True)
+
+    async def greet(self, context: TaskContext) -> None:
+        """Once the face is seen, say how to talk to it and how to end it."""
+        renderer = context.behavior(FaceRenderer)
+        while not renderer.frames:
+            await context.clock.sleep(0.02)
+        self._first_frame = context.clock.now()
+        self.tell("ready: say hello, or ask what you can say - Ctrl-C ends it")
+
+    def _hear(self, event: Event) -> None:
+        self._counts[event.name] += 1
+        if event.name == "odometry":
+            self._pose = (event.properties["x_cm"] / 100, event.properties["y_cm"] / 100)
+            return
+        if event.name == "emotion.changed":
+            if event.properties["label"] == self._label:
+                return
+            self._label = event.properties["label"]
+        template = LINES.get(event.name)
+        if template is None:
+            return
+        text = template.format_map(_Known(event.properties))
+        x, y = self._pose
+        where = f"x {x:5.2f} m  y {y:5.2f} m"
+        self.tell(f"{event.time:7.1f} s  {text[:58]:<58}  {self._label:<12} {where}")
+
+    def summary(self) -> None:
+        """What the visit came to, and where its recording is."""
+        counts = self._counts
+        seen = counts["head.nodded"] + counts["head.shaken"]
+        self.tell(
+            f"\n{self.robot.clock.now():.0f} s: heard {counts['speech.heard']},"
+            f" said {counts['speech.said']}, gestures {seen},"
+            f" ignored {counts['speech.rejected']}"
+        )
+        if self._first_frame is not None:
+            lived = self.robot.clock.now() - self._first_frame
+            frames = self.robot.context.behavior(FaceRenderer).frames
+            self.tell(f"{frames / max(lived, 0.1):.1f} frames a second")
+        missed = {
+            runner.network.name: runner.statistics.missed
+            for runner in self.robot.runners
+            if runner.statistics.missed
+        }
+        if missed:
+            self.tell("missed ticks: " + ", ".join(f"{name} {n}" for name, n in missed.items()))
+        if self.robot.recording is not None:
+            folder: Path = self.robot.recording.folder
+            self.tell(f"recorded in {folder}/: events.jsonl, face.mp4, robot.wav, timeline.png")
+
+
+class _Known(dict[str, object]):
+    def __missing__(self, key: str) -> str:
+        return ""

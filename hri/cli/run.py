@@ -1,0 +1,240 @@
+"""`hri run APP`: open the devices, run the app, tell what happens, leave a recording."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import math
+import signal
+from functools import partial
+from pathlib import Path
+
+import trio
+
+from hri.cli.narrator import Narrator
+from hri.core.clock import FakeClock, RealClock
+from hri.core.errors import HriError
+from hri.drive.behaviors import CommandGate
+from hri.emotion.personality import load_personality
+from hri.face.model import load_face
+from hri.hal.camera import Camera
+from hri.hal.drivers.video_file import check_video
+from hri.hal.drivers.wav_file import read_wav
+from hri.hal.microphone import Microphone
+from hri.hal.resource import Description, Resource
+from hri.robot import Job, Robot
+from hri.robot.app import load_app
+from hri.robot.verbs import is_quiet
+from hri.simulation.script import Visit, load_visit
+from hri.simulation.world import SimulatedWorld
+from hri.speech.behaviors import Voice
+from hri.task.context import TaskContext
+
+SENSES = ("microphone", "camera", "screen", "speaker")
+CALM_SECONDS = 2.0
+"""How long all must be calm before a run from files ends."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("app", help="name of an app in apps/, or a path")
+    add_options(parser)
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """The options of every app."""
+    add = parser.add_argument
+    add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
+    add("--audio", type=Path, metavar="FILE.wav", help="hear this file instead of a microphone")
+    add("--camera", metavar="FILE|none", help="see this video or image, or nothing")
+    add("--record", type=Path, metavar="DIR", help="write events, video, sound and a plot there")
+    add("--headless", action="store_true", help="draw the face, but show it to nobody")
+    add("--duration", type=_seconds, metavar="S", help="end after so many seconds")
+    add("--seed", type=int, default=None, metavar="N", help="seed of all that is random")
+    add("--fast", action="store_true", help="fake time, as fast as the machine can")
+    add("--personality", default="neutral", metavar="NAME", help="from emotions/personalities")
+    add("--face", default="robot", metavar="NAME", help="from faces/")
+    add("--captions", action="store_true", help="write what is said below the face")
+    add("--demo", action="store_true", help="a simulated person visits for two minutes")
+
+
+def _seconds(text: str) -> float:
+    value = float(text)
+    if not 0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"{text} - write seconds above 0")
+    return value
+
+
+def run(options: argparse.Namespace) -> int:
+    """Check all files, then live until the end."""
+    logging.basicConfig(level=logging.WARNING, format="%(levelname)s - %(message)s")
+    check_files(options)
+    robot = Robot(
+        options.app,
+        options.config,
+        clock=FakeClock() if options.fast else RealClock(),
+        seed=options.seed or 0,
+        devices=replaced_devices(options),
+        parameters={
+            "emotion": {"personality": options.personality},
+            "display": {"personality": options.personality},
+            "face": {"face": options.face},
+            "renderer": {"face": options.face, "captions": options.captions},
+        },
+        record=options.record,
+    )
+    tasks = robot.app.load_tasks()
+    narrator = Narrator(robot)
+    try:
+        stand_ins = open_senses(robot)
+        if (
+            robot.record is None
+            and {"microphone", "camera", "screen"} <= stand_ins
+            and not options.headless
+        ):
+            robot.record = recordings_folder(robot)
+        session = Session(robot, options, narrator)
+        live_until_over(robot, [*tasks, *session.jobs()])
+    finally:
+        robot.close()
+    if robot.recording is not None:
+        robot.recording.plot()
+    narrator.summary()
+    return 0
+
+
+def open_senses(robot: Robot) -> set[str]:
+    """Open what the user would miss most; the ids of those that are stand-ins."""
+    for id in SENSES:
+        robot.resources.obtain(id, Resource)
+    return {id for id in SENSES if robot.resources.stand_in_of(id) is not None}
+
+
+def recordings_folder(robot: Robot) -> Path:
+    """A new folder below the current one, named by date and time."""
+    return Path("recordings") / f"{robot.clock.wall():%Y-%m-%d-%H-%M-%S}"
+
+
+def live_until_over(robot: Robot, jobs: list[Job]) -> None:
+    """Run the loop; an error of ours comes out alone, not wrapped in a group."""
+    try:
+        trio.run(partial(robot.live, *jobs))
+    except BaseExceptionGroup as group:
+        ours = group.subgroup(HriError)
+        if ours is None:
+            raise
+        raise first_of(ours) from group
+
+
+def first_of(group: BaseExceptionGroup[HriError]) -> HriError:
+    """The first error inside nested groups."""
+    inner = group.exceptions[0]
+    return first_of(inner) if isinstance(inner, BaseExceptionGroup) else inner
+
+
+def check_files(options: argparse.Namespace) -> None:
+    """Refuse bad files before anything starts. Raises HriError."""
+    load_app(options.app)
+    if options.audio is not None:
+        read_wav(options.audio)
+    if options.camera not in (None, "none"):
+        check_video(Path(options.camera))
+    load_face(options.face)
+    load_personality(options.personality)
+
+
+def replaced_devices(options: argparse.Namespace) -> list[Description]:
+    """The devices that the command line puts in place of the configured ones."""
+    devices = []
+    if options.audio is not None:
+        file = {"file": str(options.audio)}
+        devices.append(Description("microphone", "Hri.WavMicrophone", file))
+    if options.demo:
+        devices.append(_on_world("microphone", "Hri.SimulatedMicrophone"))
+        devices.append(_on_world("camera", "Hri.SimulatedCamera"))
+    if options.camera == "none":
+        devices.append(Description("camera", "Hri.BlankCamera"))
+    elif options.camera is not None:
+        file = {"file": options.camera}
+        devices.append(Description("camera", "Hri.VideoFileCamera", file))
+    if options.headless:
+        devices.append(Description("screen", "Hri.OffscreenScreen"))
+    return devices
+
+
+def _on_world(id: str, type: str) -> Description:
+    return Description(id, type, bus="world")
+
+
+class Session:
+    """One run of an app: who visits, what is told, when it ends."""
+
+    def __init__(self, robot: Robot, options: argparse.Namespace, narrator: Narrator) -> None:
+        self.robot = robot
+        self.options = options
+        self.narrator = narrator
+        self.visit: Visit | None = None
+
+    def jobs(self) -> list[Job]:
+        """What runs beside the app's own tasks."""
+        jobs: list[Job] = [self.prepare, self.end_when_over, self.watch_window]
+        if not self.robot.clock.is_fake:
+            jobs += [self.watch_signals, self.narrator.greet]
+        return jobs
+
+    async def prepare(self, context: TaskContext) -> None:
+        """Let the visitor in, or keep the simulated room empty for the real people."""
+        if self.options.audio is not None:
+            return
+        resources = self.robot.resources
+        is_deaf = resources.stand_in_of("microphone") is not None
+        if self.options.demo or is_deaf:
+            if is_deaf and not self.options.fast:
+                self.narrator.tell("no microphone: a simulated person visits for two minutes")
+            world = resources.obtain("world", SimulatedWorld)
+            self.visit = load_visit(self.robot.app.folder / "demo.toml")
+            self.visit.start(world, context.clock, context.events)
+        elif resources.stand_in_of("camera") is not None:
+            resources.obtain("world", SimulatedWorld).person.leave(context.clock.now())
+
+    async def end_when_over(self, context: TaskContext) -> None:
+        """End after the duration, after the visit, or when files are spent and all is calm."""
+        clock = context.clock
+        end = self._end_time()
+        calm_since = clock.now()
+        while clock.now() < end:
+            await clock.sleep(min(0.1, end - clock.now()) or 0.1)
+            if not self._are_files_spent() or not self._is_calm(context):
+                calm_since = clock.now()
+            elif clock.now() - calm_since >= CALM_SECONDS:
+                break
+        self.robot.finish()
+
+    def _end_time(self) -> float:
+        if self.options.duration is not None:
+            return float(self.options.duration)
+        return self.visit.duration if self.visit is not None else math.inf
+
+    def _are_files_spent(self) -> bool:
+        """Whether there are files and no further sound or picture will come."""
+        spent = []
+        if self.options.audio is not None:
+            spent.append(self.robot.resources.obtain("microphone", Microphone).has_ended)
+        if self.options.camera not in (None, "none"):
+            spent.append(self.robot.resources.obtain("camera", Camera).has_ended)
+        return bool(spent) and all(spent)
+
+    @staticmethod
+    def _is_calm(context: TaskContext) -> bool:
+        voice, gate = context.behavior(Voice), context.behavior(CommandGate)
+        return is_quiet(context.behaviors) and voice.is_idle and not gate.is_moving
+
+    async def watch_window(self, context: TaskContext) -> None:
+        """End when the window is closed."""
+        await context.wait_for("window.closed")
+        self.robot.finish()
+
+    async def watch_signals(self, context: TaskContext) -> None:
+        """End cleanly on Ctrl-C or when the system asks."""
+        with trio.open_signal_receiver(signal.SIGINT, signal.SIGTERM) as signals:
+            async for _ in signals:
+                self.robot.finish()

@@ -1,0 +1,62 @@
+"""The user's choice of devices, made with `hri doctor --choose` and kept between runs.
+
+[microphone]
+device = "USB Audio"
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from hri.core import paths
+from hri.core.errors import HriError
+from hri.core.toml import load_toml
+from hri.hal.resource import Description
+
+CHOOSABLE = ("microphone", "speaker", "camera")
+
+
+def choices_file() -> Path:
+    """Where the choice is kept."""
+    return paths.settings_folder() / "devices.toml"
+
+
+def load_choices() -> dict[str, str]:
+    """Device by id; empty when nothing was chosen. Raises AuthoringError."""
+    path = choices_file()
+    if not path.is_file():
+        return {}
+    table = load_toml(path, "choice of devices")
+    chosen = {}
+    for id in CHOOSABLE:
+        if id in table:
+            entry = table.table(id)
+            chosen[id] = entry.string("device")
+            entry.finish()
+    table.finish()
+    return chosen
+
+
+def save_choices(chosen: dict[str, str]) -> Path:
+    """Write the choice; the file that was written. Raises HriError."""
+    path = choices_file()
+    lines = [f"[{id}]\ndevice = '{device}'\n" for id, device in chosen.items()]
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("# Written by `hri doctor --choose`.\n" + "\n".join(lines), "utf-8")
+    except OSError as error:
+        raise HriError(f"{path}: cannot write: {error.strerror} - check the folder") from error
+    return path
+
+
+def apply_choices(
+    devices: tuple[Description, ...], chosen: dict[str, str]
+) -> tuple[Description, ...]:
+    """The devices with the chosen `device` parameter where one was chosen."""
+    return tuple(
+        replace(device, parameters={**device.parameters, "device": chosen[device.id]})
+        if device.id in chosen
+        else device
+        for device in devices
+    )

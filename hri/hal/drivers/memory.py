@@ -1,0 +1,70 @@
+"""Devices that live in memory: a microphone fed by code, a silent speaker, an unseen screen."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hri.core.signals import Image, Samples
+from hri.hal.microphone import Microphone
+from hri.hal.screen import Screen
+from hri.hal.speaker import Speaker
+
+
+class MemoryMicrophone(Microphone):
+    """Hears the samples it was given, at the pace of the clock."""
+
+    parameters = ("rate",)
+
+    def _open(self) -> None:
+        self.rate = int(self.description.number("rate", 16000))
+        self._sound = np.zeros(0, np.int16)
+        self._start = self.manager.clock.now()
+        self._given = 0
+
+    def hear(self, samples: Samples) -> None:
+        """Append a sound: it is heard after all that was given before, or from now on."""
+        elapsed = round((self.manager.clock.now() - self._start) * self.rate)
+        silence = np.zeros(max(0, elapsed - len(self._sound)), np.int16)
+        self._sound = np.concatenate([self._sound, silence, samples])
+
+    def read(self, now: float) -> Samples:
+        until = max(self._given, round((now - self._start) * self.rate))
+        heard = self._sound[self._given : until]
+        missing = until - self._given - len(heard)
+        self._given = until
+        return np.concatenate([heard, np.zeros(missing, np.int16)])
+
+
+class SilentSpeaker(Speaker):
+    """Plays in real time without a sound."""
+
+    def _open(self) -> None:
+        self._begun: float | None = None
+        self._duration = 0.0
+
+    def play(self, samples: Samples, rate: int, now: float) -> None:
+        self._begun, self._duration = now, len(samples) / rate
+
+    def position(self, now: float) -> float | None:
+        if self._begun is None or now - self._begun >= self._duration:
+            return None
+        return now - self._begun
+
+    def stop(self, now: float) -> None:
+        self._begun = None
+
+
+class OffscreenScreen(Screen):
+    """Keeps the last picture, `image`, shown to nobody."""
+
+    parameters = ("width", "height")
+
+    def _open(self) -> None:
+        self.width = int(self.description.number("width", 640))
+        self.height = int(self.description.number("height", 480))
+        self.image: Image = np.zeros((self.height, self.width, 3), np.uint8)
+        self.count = 0
+
+    def show(self, image: Image, time: float) -> None:
+        self.image = image
+        self.count += 1

@@ -1,0 +1,155 @@
+"""Microphone and speaker of this machine, through PortAudio."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from typing import Any
+
+import numpy as np
+
+from hri.core.errors import NotAvailable
+from hri.core.signals import Samples
+from hri.hal.microphone import Microphone
+from hri.hal.resource import Resource
+from hri.hal.speaker import Speaker
+
+LONGEST_BACKLOG = 10.0
+"""Seconds of sound kept while nobody reads; older sound is dropped."""
+REOPEN_AFTER = 2.0
+"""Seconds between attempts to find a device that went away."""
+INSTALL = "apt install libportaudio2"
+
+
+def load_sounddevice() -> Any:
+    """The sounddevice module. Raises NotAvailable with the command that installs PortAudio."""
+    try:
+        import sounddevice
+    except OSError as error:
+        raise NotAvailable(f"sound card: PortAudio is missing - {INSTALL}") from error
+    return sounddevice
+
+
+class _SoundCard(Resource):
+    """What both ends share: a stream that is opened, watched, and opened again."""
+
+    is_hardware = True
+
+    def _open(self) -> None:
+        self._sounddevice = load_sounddevice()
+        self._tried = self.manager.clock.now()
+        try:
+            self._stream = self._new_stream()
+            self._stream.start()
+        except (self._sounddevice.PortAudioError, ValueError) as error:
+            why = str(error).split(" [")[0]
+            raise self.not_available(why, "plug one in, or see `hri doctor`") from error
+
+    def _device(self) -> str | int | None:
+        """The chosen device by number or part of its name; None for the system's default."""
+        name = self.description.text("device")
+        return (int(name) if name.isdigit() else name) or None
+
+    def _new_stream(self) -> Any:
+        raise TypeError("a sound card driver makes its stream")
+
+    def _watch(self, now: float) -> None:
+        """Open the stream again when the device went away and some time has passed."""
+        if self._stream is not None and self._stream.active:
+            return
+        if now - self._tried < REOPEN_AFTER:
+            return
+        self._tried = now
+        try:
+            if self._stream is not None:
+                self._stream.close()
+            self._stream = self._new_stream()
+            self._stream.start()
+        except (self._sounddevice.PortAudioError, ValueError):
+            self._stream = None
+
+    def _close(self) -> None:
+        if self._stream is not None:
+            self._stream.close()
+
+
+class SoundCardMicrophone(_SoundCard, Microphone):
+    """Hears through the sound card; when it is unplugged there is silence until it is back."""
+
+    parameters = ("device", "rate")
+
+    def _open(self) -> None:
+        self.rate = int(self.description.number("rate", 16000))
+        self._blocks: deque[Samples] = deque(maxlen=int(LONGEST_BACKLOG * self.rate / 320))
+        super()._open()
+
+    def _new_stream(self) -> Any:
+        return self._sounddevice.InputStream(
+            samplerate=self.rate,
+            blocksize=320,
+            channels=1,
+            dtype="int16",
+            device=self._device(),
+            callback=self._heard,
+        )
+
+    def _heard(self, data: Any, frames: int, time: object, status: object) -> None:
+        self._blocks.append(data[:, 0].copy())
+
+    def read(self, now: float) -> Samples:
+        self._watch(now)
+        blocks = [self._blocks.popleft() for _ in range(len(self._blocks))]
+        return np.concatenate(blocks) if blocks else np.zeros(0, np.int16)
+
+
+class SoundCardSpeaker(_SoundCard, Speaker):
+    """Plays through the sound card in small blocks, so that a stop is heard within one."""
+
+    parameters = ("device", "rate")
+
+    def _open(self) -> None:
+        self.rate = int(self.description.number("rate", 22050))
+        self._sound_lock = threading.Lock()
+        self._sound: Samples = np.zeros(0, np.int16)
+        self._played = 0
+        super()._open()
+
+    def _new_stream(self) -> Any:
+        return self._sounddevice.OutputStream(
+            samplerate=self.rate,
+            blocksize=512,
+            channels=1,
+            dtype="int16",
+            device=self._device(),
+            callback=self._wanted,
+        )
+
+    def _wanted(self, out: Any, frames: int, time: object, status: object) -> None:
+        with self._sound_lock:
+            block = self._sound[self._played : self._played + frames]
+            self._played += len(block)
+        out[: len(block), 0] = block
+        out[len(block) :, 0] = 0
+
+    def play(self, samples: Samples, rate: int, now: float) -> None:
+        from hri.hal.drivers.wav_file import resample
+
+        self._watch(now)
+        sound = resample(samples, rate, self.rate)
+        with self._sound_lock:
+            self._sound, self._played = sound, 0
+
+    def position(self, now: float) -> float | None:
+        self._watch(now)
+        if self._stream is None:
+            return None
+        latency = round(self._stream.latency * self.rate)
+        with self._sound_lock:
+            if self._played >= len(self._sound):
+                # The last blocks are still in the card; they are short enough to count as heard.
+                return None
+            return float(max(0, self._played - latency)) / self.rate
+
+    def stop(self, now: float) -> None:
+        with self._sound_lock:
+            self._sound, self._played = self._sound[:0], 0

@@ -1,0 +1,81 @@
+"""The screen as a window, or full screen, through pygame."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import Any
+
+from hri.core.signals import Image
+from hri.hal.screen import Screen
+
+UNSEEN = ("dummy", "offscreen")
+"""SDL's drivers that show nothing."""
+
+
+def has_display() -> bool:
+    """Whether this machine seems to have something to draw on."""
+    if os.environ.get("SDL_VIDEODRIVER"):
+        return os.environ["SDL_VIDEODRIVER"] not in UNSEEN
+    if sys.platform in ("win32", "darwin"):
+        return True
+    if os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"):
+        return True
+    # A Raspberry Pi without a desktop draws straight to its display.
+    return any(Path("/dev/dri").glob("card*")) and os.access("/dev/dri/card0", os.W_OK)
+
+
+class Window(Screen):
+    """A window; closing it, or Escape, ends the program that watches `is_closed`."""
+
+    parameters = ("width", "height", "fullscreen", "title")
+    is_hardware = True
+
+    def _open(self) -> None:
+        if not has_display():
+            raise self.not_available("no display", "connect one, or set DISPLAY")
+        import pygame
+
+        self._pygame = pygame
+        self.width = int(self.description.number("width", 640))
+        self.height = int(self.description.number("height", 480))
+        flags = pygame.SCALED
+        if self.description.text("fullscreen") == "true":
+            flags |= pygame.FULLSCREEN
+        try:
+            pygame.display.init()
+            self._surface: Any = pygame.display.set_mode((self.width, self.height), flags)
+        except pygame.error as error:
+            raise self.not_available(str(error), "connect a display, or set DISPLAY") from error
+        if pygame.display.get_driver() in UNSEEN:
+            pygame.display.quit()
+            raise self.not_available("no display", "connect one, or set DISPLAY")
+        pygame.display.set_caption(self.description.text("title", "hri"))
+        self._keys: list[str] = []
+        self._is_closed = False
+
+    def show(self, image: Image, time: float) -> None:
+        height, width = image.shape[:2]
+        picture = self._pygame.image.frombuffer(image.tobytes(), (width, height), "RGB")
+        self._surface.blit(picture, (0, 0))
+        self._pygame.display.flip()
+        self._take_events()
+
+    def _take_events(self) -> None:
+        for event in self._pygame.event.get():
+            if event.type == self._pygame.QUIT:
+                self._is_closed = True
+            elif event.type == self._pygame.KEYDOWN:
+                self._keys.append(self._pygame.key.name(event.key))
+
+    def pressed_keys(self) -> list[str]:
+        keys, self._keys = self._keys, []
+        return keys
+
+    @property
+    def is_closed(self) -> bool:
+        return self._is_closed
+
+    def _close(self) -> None:
+        self._pygame.display.quit()

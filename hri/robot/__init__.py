@@ -1,0 +1,242 @@
+"""The robot: opens resources, builds networks, runs them with tasks, and closes it all again.
+
+with Robot() as robot:
+    robot.say("Hello.")
+    if robot.ask("Shall I come closer?"):
+        robot.move(0.5)
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Awaitable, Callable, Sequence
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any, Self
+
+import trio
+
+from hri.behavior.behavior import Behavior, Context
+from hri.behavior.network import Network
+from hri.behavior.runner import Runner
+from hri.core import paths
+from hri.core.clock import Clock, FakeClock, RealClock
+from hri.core.events import EventBus
+from hri.core.latest import Board
+from hri.core.signals import Utterance
+from hri.hal.choices import apply_choices, load_choices
+from hri.hal.configuration import Configuration, load_configuration
+from hri.hal.manager import ResourceManager
+from hri.hal.resource import Description
+from hri.robot import verbs
+from hri.robot.app import App, load_app
+from hri.robot.recording import Recording
+from hri.task.context import TaskContext
+
+Job = Callable[..., Awaitable[Any]]
+
+__all__ = ["App", "Robot", "load_app"]
+
+
+class Robot:
+    """Resources, networks, tasks and the loop that runs them.
+
+    As a context manager it lives in a thread of its own, and its verbs wait until they are done.
+    On a fake clock time passes only inside the verbs.
+    """
+
+    def __init__(
+        self,
+        app: str = "companion",
+        config: str = "resource-config",
+        *,
+        clock: Clock | None = None,
+        seed: int = 0,
+        devices: Sequence[Description] = (),
+        parameters: dict[str, dict[str, Any]] | None = None,
+        notice: Callable[[str], object] = print,
+        record: Path | None = None,
+    ) -> None:
+        """Read and check all files; nothing is opened yet.
+
+        `devices` replace those of the configuration with the same id. `parameters` overrides
+        parameters of behaviors by their id. `notice` gets a line for each stand-in. `record` is a
+        folder for a recording. Raises HriError or AuthoringError.
+        """
+        self.app = load_app(app)
+        self.clock = clock or RealClock()
+        self.configuration = _with_devices(_find_configuration(config), devices)
+        self.resources = ResourceManager(self.configuration.devices, self.clock, notice)
+        self.resources.check()
+        self.networks = self.app.load_networks()
+        _override(self.networks, parameters or {})
+        for network in self.networks:
+            for behavior in network.behaviors:
+                behavior.check()
+        self.events = EventBus(self.clock)
+        self.board = Board()
+        self._context = Context(self.clock, self.events, self.resources, self.board, seed)
+        self.runners = [Runner(network, self._context) for network in self.networks]
+        self.context = TaskContext.of(self._context, self._behaviors())
+        self.record = record
+        """Folder for a recording; may be set until the robot lives."""
+        self.recording: Recording | None = None
+        self._finished = trio.Event()
+        self._started = threading.Event()
+        self._thread: threading.Thread | None = None
+        self._token: trio.lowlevel.TrioToken | None = None
+        self._failure: BaseException | None = None
+
+    def _behaviors(self) -> dict[str, Behavior]:
+        return {
+            f"{network.name}.{behavior.id}": behavior
+            for network in self.networks
+            for behavior in network.behaviors
+        }
+
+    # --- the loop ---
+
+    async def live(self, *jobs: Job) -> None:
+        """Run networks and jobs (coroutine functions that take a TaskContext) until `finish()`.
+
+        The order of starting: resources for a recording, behaviors, networks, jobs; each one
+        settles before the next begins. All is closed again in reverse order, come what may.
+        """
+        try:
+            if self.record is not None:
+                self.recording = Recording(self.record, self.events, self.resources)
+            self._start_behaviors()
+            async with trio.open_nursery() as nursery:
+                self.context.nursery = nursery
+                nursery.start_soon(self.clock.drive)
+                runs: list[Job] = [runner.run for runner in self.runners]
+                runs.extend(partial(job, self.context) for job in jobs)
+                for run in runs:
+                    self.clock.soon(partial(nursery.start_soon, run))
+                self._token = trio.lowlevel.current_trio_token()
+                self._started.set()
+                await self._finished.wait()
+                if self.recording is not None:
+                    self.recording.stop()
+                nursery.cancel_scope.cancel()
+        finally:
+            self.close()
+
+    def _start_behaviors(self) -> None:
+        for runner in self.runners:
+            runner.start()
+
+    def finish(self) -> None:
+        """End `live`; a second call does nothing."""
+        self._finished.set()
+
+    def close(self) -> None:
+        """Stop behaviors and close resources; a second call does nothing."""
+        for runner in reversed(self.runners):
+            runner.stop()
+        if self.recording is not None:
+            self.recording.stop()
+        self.resources.close()
+
+    # --- blocking use ---
+
+    def __enter__(self) -> Self:
+        if isinstance(self.clock, FakeClock):
+            self.clock.hold()
+        self._thread = threading.Thread(target=self._run_in_thread, name="robot", daemon=True)
+        self._thread.start()
+        self._started.wait()
+        if self._failure is not None:
+            raise self._failure
+        return self
+
+    def _run_in_thread(self) -> None:
+        try:
+            trio.run(self.live)
+        except BaseException as error:
+            self._failure = error
+        finally:
+            self._started.set()
+
+    def __exit__(self, *_: object) -> None:
+        if self._token is not None and self._thread is not None and self._thread.is_alive():
+            trio.from_thread.run_sync(self.finish, trio_token=self._token)
+        if self._thread is not None:
+            self._thread.join()
+        if self.recording is not None:
+            self.recording.plot()
+
+    def run(self, job: Callable[..., Awaitable[Any]], *arguments: Any) -> Any:
+        """Run a coroutine function with the robot's TaskContext and wait for what it returns."""
+        if self._token is None:
+            raise RuntimeError("the robot is not running - use it as `with Robot() as robot:`")
+        return trio.from_thread.run(self._held, job, arguments, trio_token=self._token)
+
+    async def _held(self, job: Callable[..., Awaitable[Any]], arguments: tuple[Any, ...]) -> Any:
+        if not isinstance(self.clock, FakeClock):
+            return await job(self.context, *arguments)
+        self.clock.release()
+        try:
+            return await job(self.context, *arguments)
+        finally:
+            self.clock.hold()
+
+    def say(self, text: str) -> None:
+        """Say something and wait until it is said."""
+        self.run(verbs.say, text)
+
+    def ask(self, question: str, timeout: float = 6.0) -> bool | None:
+        """Ask a yes/no question; yes, no, a nod and a shake count. None without an answer."""
+        answer: bool | None = self.run(verbs.ask, question, timeout)
+        return answer
+
+    def listen(self, timeout: float = float("inf")) -> Utterance | None:
+        """The next thing heard."""
+        heard: Utterance | None = self.run(verbs.listen, timeout)
+        return heard
+
+    def show(self, expression: str, seconds: float = 4.0) -> None:
+        """Show an expression for some seconds."""
+        self.run(verbs.show, expression, seconds)
+
+    def feel(self, stimulus: str, intensity: float = 1.0) -> None:
+        """Let a stimulus such as "praise" move the emotions."""
+        self.run(verbs.feel, stimulus, intensity)
+
+    def move(self, distance: float) -> float:
+        """Drive straight on by metres, back when negative; the metres really travelled."""
+        moved: float = self.run(verbs.move, distance)
+        return moved
+
+    def turn(self, angle: float) -> float:
+        """Turn by radians, left when positive; the radians really turned."""
+        turned: float = self.run(verbs.turn, angle)
+        return turned
+
+    def wait(self, seconds: float) -> None:
+        """Live on for some seconds."""
+
+        async def wait(context: TaskContext) -> None:
+            await context.clock.sleep(seconds)
+
+        self.run(wait)
+
+
+def _find_configuration(name: str) -> Configuration:
+    return load_configuration(paths.find("config", name))
+
+
+def _with_devices(configuration: Configuration, devices: Sequence[Description]) -> Configuration:
+    chosen = {device.id: device for device in devices}
+    present = apply_choices(configuration.devices, load_choices())
+    kept = [chosen.pop(device.id, device) for device in present]
+    return replace(configuration, devices=(*kept, *chosen.values()))
+
+
+def _override(networks: list[Network], parameters: dict[str, dict[str, Any]]) -> None:
+    """Set parameters of behaviors by id, in whatever network they are."""
+    for network in networks:
+        for behavior in network.behaviors:
+            for name, value in parameters.get(behavior.id, {}).items():
+                behavior.__dict__[name] = value

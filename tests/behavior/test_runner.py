@@ -1,0 +1,126 @@
+import time
+from functools import partial
+
+import pytest
+import trio
+
+from hri.behavior.behavior import Behavior, Context
+from hri.behavior.network import Network
+from hri.behavior.ports import Output
+from hri.behavior.runner import Runner
+from hri.core.clock import FakeClock, RealClock
+from hri.core.events import EventBus
+from hri.hal.manager import ResourceManager
+
+
+class Metronome(Behavior):
+    """Notes when it ticks."""
+
+    beat = Output[float]("double", "the time")
+
+    def start(self, context):
+        self.times, self.steps, self.is_stopped = [], [], False
+
+    def compute(self, now, dt):
+        self.times.append(now)
+        self.steps.append(dt)
+        self.beat.send(now)
+
+    def stop(self):
+        self.is_stopped = True
+
+
+class Sluggish(Behavior):
+    """Takes longer than it may, once."""
+
+    def compute(self, now, dt):
+        if now > 0.02 and not self.was_slow:
+            self.was_slow = True
+            until = time.perf_counter() + 0.055
+            while time.perf_counter() < until:
+                pass
+
+    was_slow = False
+
+
+class Broken(Behavior):
+    """Cannot start."""
+
+    def start(self, context):
+        raise ValueError("no")
+
+
+def runner_of(clock, interval, *behaviors):
+    network = Network("test", interval)
+    for behavior in behaviors:
+        network.add(behavior)
+    runner = Runner(network, Context(clock, EventBus(clock), ResourceManager((), clock)))
+    runner.start()
+    return runner
+
+
+def run(clock, *jobs):
+    async def main():
+        async with trio.open_nursery() as outer:
+            outer.start_soon(clock.drive)
+            async with trio.open_nursery() as inner:
+                for job in jobs:
+                    clock.soon(partial(inner.start_soon, job))
+                await clock.sleep(0)
+            outer.cancel_scope.cancel()
+
+    trio.run(main)
+
+
+def test_two_networks_tick_at_their_own_rates():
+    clock = FakeClock()
+    fast, slow = Metronome("fast"), Metronome("slow")
+    runners = [runner_of(clock, 0.1, fast), runner_of(clock, 0.25, slow)]
+    run(clock, *(partial(runner.run, duration=1.0) for runner in runners))
+    assert fast.times == pytest.approx([k * 0.1 for k in range(10)])
+    assert slow.times == pytest.approx([0, 0.25, 0.5, 0.75])
+    assert fast.steps == pytest.approx([0] + [0.1] * 9)
+
+
+def test_a_count_ends_the_run_and_stop_reaches_every_behavior():
+    clock = FakeClock()
+    beat = Metronome("beat")
+    runner = runner_of(clock, 0.1, beat)
+    run(clock, partial(runner.run, count=7))
+    runner.stop()
+    runner.stop()
+    assert len(beat.times) == 7
+    assert beat.is_stopped
+
+
+def test_a_missed_interval_is_counted_named_and_not_made_up_for(caplog):
+    clock = RealClock()
+    beat, sluggish = Metronome("beat"), Sluggish("slow one")
+    runner = runner_of(clock, 0.02, beat, sluggish)
+    run(clock, partial(runner.run, duration=0.3))
+    assert runner.statistics.missed >= 2
+    assert "Missed desired interval" in caplog.text
+    assert "slow one" in caplog.text
+    gaps = [after - before for before, after in zip(beat.times, beat.times[1:], strict=False)]
+    # The tick after the slow one waits for the next deadline of the grid.
+    assert len(beat.times) <= 14
+    assert max(gaps) > 0.04
+
+
+def test_when_one_behavior_cannot_start_the_others_are_stopped():
+    clock = FakeClock()
+    beat = Metronome("beat")
+    with pytest.raises(ValueError, match="no"):
+        runner_of(clock, 0.1, beat, Broken("broken"))
+    assert beat.is_stopped
+
+
+def test_outputs_are_empty_again_at_the_next_tick():
+    clock = FakeClock()
+    beat = Metronome("beat")
+    runner = runner_of(clock, 0.1, beat)
+    runner.tick(0.0)
+    assert beat.beat.value == 0.0
+    beat.compute = lambda now, dt: None
+    runner.tick(0.1)
+    assert beat.beat.value is None

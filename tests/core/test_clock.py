@@ -1,0 +1,164 @@
+from functools import partial
+
+import pytest
+import trio
+
+from hri.core.clock import FakeClock, RealClock
+
+
+def live(clock, *jobs, hold=False):
+    """Run jobs beside the clock until the last one ends."""
+
+    async def main():
+        async with trio.open_nursery() as outer:
+            outer.start_soon(clock.drive)
+            async with trio.open_nursery() as inner:
+                for job in jobs:
+                    clock.soon(partial(inner.start_soon, job))
+                await clock.sleep(0)
+            outer.cancel_scope.cancel()
+
+    trio.run(main)
+
+
+def test_an_hour_passes_at_once_on_the_fake_clock():
+    clock = FakeClock()
+
+    async def sleeper():
+        await clock.sleep(3600)
+
+    live(clock, sleeper)
+    assert clock.now() == 3600
+
+
+def test_sleepers_of_equal_time_wake_in_the_order_they_asked_every_time():
+    def run():
+        clock, order = FakeClock(), []
+
+        async def sleeper(name):
+            for _ in range(20):
+                await clock.sleep(0.1)
+                order.append(name)
+
+        live(clock, *(partial(sleeper, name) for name in "abcde"))
+        return "".join(order)
+
+    first = run()
+    assert first == "abcde" * 20
+    assert all(run() == first for _ in range(5))
+
+
+def test_a_timeout_cancels_and_tells():
+    clock = FakeClock()
+    caught = []
+
+    async def slow():
+        with clock.move_on_after(2.0) as scope:
+            await clock.sleep(10)
+        caught.append((scope.cancelled_caught, clock.now()))
+
+    live(clock, slow)
+    assert caught == [(True, 2.0)]
+
+
+def test_a_timeout_that_is_not_reached_leaves_no_timer_behind():
+    clock = FakeClock()
+
+    async def quick():
+        with clock.move_on_after(1000.0):
+            await clock.sleep(1)
+
+    live(clock, quick)
+    assert clock.now() == 1
+
+
+def test_the_result_of_a_worker_shows_up_after_its_modeled_latency():
+    clock = FakeClock()
+    worker = clock.worker(latency=0.25)
+    worker.submit(lambda: 42)
+    assert worker.poll() == []
+    clock.advance(0.2)
+    assert worker.poll() == []
+    clock.advance(0.05)
+    assert worker.poll() == [42]
+    assert worker.poll() == []
+
+
+def test_a_busy_worker_refuses_a_second_job():
+    worker = FakeClock().worker(latency=1.0)
+    worker.submit(lambda: 1)
+    with pytest.raises(RuntimeError, match="busy"):
+        worker.submit(lambda: 2)
+
+
+def test_an_exception_of_a_job_is_raised_by_poll():
+    clock = FakeClock()
+    worker = clock.worker(latency=0.0)
+    worker.submit(lambda: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        worker.poll()
+    assert not worker.is_busy
+
+
+def test_a_held_clock_stands_still_until_it_is_released():
+    clock = FakeClock()
+    clock.hold()
+    seen = []
+
+    async def sleeper():
+        await clock.sleep(5)
+
+    async def holder():
+        for _ in range(3):
+            await trio.lowlevel.checkpoint()
+        seen.append(clock.now())
+        clock.release()
+
+    async def main():
+        async with trio.open_nursery() as outer:
+            outer.start_soon(clock.drive)
+            async with trio.open_nursery() as inner:
+                inner.start_soon(sleeper)
+                inner.start_soon(holder)
+            outer.cancel_scope.cancel()
+
+    trio.run(main)
+    assert seen == [0.0]
+    assert clock.now() == 5
+
+
+def test_the_real_clock_wakes_sleepers_no_earlier_than_asked():
+    clock = RealClock()
+    woke = []
+
+    async def sleeper(seconds):
+        due = clock.now() + seconds
+        await clock.sleep(seconds)
+        woke.append((seconds, clock.now() >= due))
+
+    live(clock, *(partial(sleeper, s) for s in (0.03, 0.01, 0.02)))
+    assert woke == [(0.01, True), (0.02, True), (0.03, True)]
+
+
+def test_a_real_worker_runs_off_the_loop():
+    clock = RealClock()
+    worker = clock.worker(latency=0)
+    results = []
+
+    async def job():
+        worker.submit(lambda: "done")
+        while not results:
+            results.extend(worker.poll())
+            await clock.sleep(0.001)
+
+    live(clock, job)
+    worker.close()
+    assert results == ["done"]
+
+
+def test_a_timer_in_the_past_runs_now_and_infinity_is_refused():
+    clock = FakeClock()
+    clock.advance(10)
+    assert clock.call_at(3, lambda: None).time == 10
+    with pytest.raises(ValueError, match="finite"):
+        clock.call_at(float("inf"), lambda: None)

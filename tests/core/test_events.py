@@ -1,0 +1,60 @@
+import json
+
+from hri.core.clock import FakeClock
+from hri.core.events import EventBus, matches
+from hri.core.latest import Board, Latest
+from hri.core.recording import EventLog, read_events
+
+
+def test_listeners_hear_what_fits_in_the_order_they_came():
+    clock = FakeClock()
+    bus, heard = EventBus(clock), []
+    bus.subscribe("head.*", lambda event: heard.append(("first", event.name)))
+    second = bus.subscribe("*", lambda event: heard.append(("second", event.name)))
+    bus.raise_event("head.nodded")
+    bus.raise_event("speech.heard", text="hello")
+    second.cancel()
+    second.cancel()
+    bus.raise_event("speech.heard")
+    assert heard == [
+        ("first", "head.nodded"),
+        ("second", "head.nodded"),
+        ("second", "speech.heard"),
+    ]
+
+
+def test_patterns():
+    assert matches("*", "a.b")
+    assert matches("a.*", "a.b")
+    assert not matches("a.*", "b.a")
+    assert matches("speech.heard", "speech.heard")
+
+
+def test_the_log_has_an_object_a_line_and_knows_no_infinity(tmp_path):
+    clock = FakeClock()
+    bus = EventBus(clock)
+    log = EventLog(tmp_path / "events.jsonl", bus)
+    clock.advance(1.25)
+    bus.raise_event("range.read", distance=float("inf"), tags={"n": 10.0}, who=("a", "b"))
+    log.close()
+    bus.raise_event("too.late")
+    line = (tmp_path / "events.jsonl").read_text()
+    assert json.loads(line) == {
+        "t": 1.25,
+        "event": "range.read",
+        "distance": None,
+        "tags": {"n": 10.0},
+        "who": ["a", "b"],
+    }
+    assert len(read_events(tmp_path / "events.jsonl")) == 1
+
+
+def test_the_newest_value_wins_and_slots_are_shared_by_name():
+    latest: Latest[int] = Latest()
+    assert latest.get() == (None, 0.0)
+    latest.set(1, 0.5)
+    latest.set(2, 0.7)
+    assert latest.get() == (2, 0.7)
+    board = Board()
+    board.slot("gaze").set("left", 1.0)
+    assert board.slot("gaze").value == "left"

@@ -1,0 +1,56 @@
+import contextlib
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hri.core.expression import evaluate
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("-pi/4", -math.pi / 4),
+        ("5*pi/6", 5 * math.pi / 6),
+        ("-5*pi/6", -5 * math.pi / 6),
+        ("150E-6", 150e-6),
+        ("-1711", -1711),
+        (" 1/30 ", 1 / 30),
+        ("(1+2)*3", 9),
+    ],
+)
+def test_expressions_of_configurations(text, value):
+    assert evaluate(text) == pytest.approx(value)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "abc",
+        "1/0",
+        "__import__('os')",
+        "2**9999",
+        "1e400",
+        "True",
+        "[1]",
+        "9" * 300,
+        "pi()",
+        "1j",
+    ],
+)
+def test_everything_else_is_refused_with_a_sentence(text):
+    with pytest.raises(ValueError, match=r"\w"):
+        evaluate(text)
+
+
+@given(st.text(max_size=80))
+def test_no_text_does_anything_but_give_a_number_or_a_value_error(text):
+    with contextlib.suppress(ValueError):
+        assert math.isfinite(evaluate(text))
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False))
+def test_every_number_reads_back(number):
+    assert evaluate(repr(number)) == number

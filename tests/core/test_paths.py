@@ -1,0 +1,47 @@
+import pytest
+
+from hri.core import paths, registry
+from hri.core.errors import HriError, did_you_mean
+
+
+def test_the_users_folders_come_first(tmp_path, monkeypatch):
+    mine = tmp_path / "mine" / "grammars"
+    mine.mkdir(parents=True)
+    (mine / "companion.jsgf").write_text("#JSGF V1.0; grammar mine;")
+    assert paths.find("grammars", "companion.jsgf").parent != mine
+    monkeypatch.setenv("HRI_PATH", f"/nowhere:{tmp_path / 'mine'}")
+    assert paths.find("grammars", "companion.jsgf").parent == mine
+    monkeypatch.delenv("HRI_PATH")
+    monkeypatch.setenv("EVOLUTION_CONFIG_PATH", str(tmp_path / "mine"))
+    assert paths.find("grammars", "companion.jsgf").parent == mine
+
+
+def test_a_missing_thing_says_what_is_near():
+    with pytest.raises(
+        HriError, match=r'no "companoin.jsgf" in grammars - did you mean "companion"'
+    ):
+        paths.find("grammars", "companoin.jsgf")
+
+
+def test_names_of_2003_are_aliases():
+    assert registry.canonical("Evolution.LinuxCamera") == "Hri.Webcam"
+    assert registry.canonical("Evolution.Constant") == "Hri.Constant"
+    assert registry.find("hri.behaviors", "Evolution.Constant").__name__ == "Constant"
+
+
+def test_every_declared_class_loads():
+    for group in registry.GROUPS:
+        for name in registry.known(group):
+            assert registry.find(group, name), name
+
+
+def test_an_unknown_type_is_named_with_what_was_meant():
+    with pytest.raises(
+        HriError, match=r'unknown behavior type "Hri.Constnt" - did you mean "Hri.Con'
+    ):
+        registry.find("hri.behaviors", "Hri.Constnt")
+
+
+def test_did_you_mean_lists_when_nothing_is_near():
+    assert did_you_mean("zzz", ["a", "b"]) == "known are: a, b"
+    assert did_you_mean("x", []) == "none is known here"
