@@ -1,0 +1,156 @@
+"""The command gate in a network: all motion of the base passes here."""
+
+from __future__ import annotations
+
+import math
+
+from hri.behavior.behavior import Behavior, Context
+from hri.behavior.ports import Input, Output, Param
+from hri.core.events import EventBus
+from hri.core.signals import RangeReading, Twist
+from hri.drive.gate import REST, Limits, VelocityGate, max_forward
+
+COMMAND = "drive.command"
+"""The board slot in which tasks leave the Twist they want, with its time."""
+MOTION = "drive.motion"
+"""The board slot that holds the motion that may write commands; empty when there is none."""
+
+_PRUDENCE = 0.7
+"""Share of the deceleration that is counted on before an obstacle; the rest covers delays."""
+
+
+class CommandGate(Behavior):
+    """Limits what the base is asked for, stops it at obstacles and when nobody asks any more."""
+
+    category = "drive"
+
+    max_linear = Param(0.4, "metres a second", minimum=0.01, maximum=2)
+    max_angular = Param(1.2, "radians a second", minimum=0.01, maximum=6)
+    acceleration = Param(0.4, "metres a second squared", minimum=0.05, maximum=5)
+    deceleration = Param(0.5, "metres a second squared", minimum=0.05, maximum=10)
+    timeout_s = Param(0.5, "seconds without a command until it stops", minimum=0.05, maximum=0.5)
+    clearance = Param(0.25, "metres kept free ahead", minimum=0, maximum=2)
+    slot = Param(COMMAND, "board slot with the commands of tasks")
+
+    twist = Input[Twist]("twist", "a command of the network; goes before those of tasks")
+    speed = Input[float]("double", "factor on every command")
+    range = Input[RangeReading]("range", "sensors that look ahead; any number")
+    bump = Input[bool]("boolean", "switches that stop driving forward; any number")
+    velocity = Output[Twist]("twist", "for the base, at every tick")
+
+    def start(self, context: Context) -> None:
+        self._slot = context.board.slot(self.slot)
+        self._motion = context.board.slot(MOTION)
+        self._gate = VelocityGate(self._limits())
+        self._reporter = MotionReporter(context.events)
+        self._slot_time = -math.inf
+        self._was_bumped = False
+        self._must_let_go = False
+
+    def compute(self, now: float, dt: float) -> None:
+        """Take the command, look ahead, limit, send, report: in this order."""
+        self._take_command(now)
+        free = self._max_forward(now)
+        speed = self.speed.value
+        velocity = self._gate.velocity(now, speed=1.0 if speed is None else speed, max_forward=free)
+        self.velocity.send(velocity)
+        self._reporter.report(self._gate, now)
+
+    def stop(self) -> None:
+        self.halt()
+
+    def halt(self) -> None:
+        """Stop at once, end the motion of any task and forget all commands.
+
+        A network that keeps asking for motion is heard again only after it has let go once.
+        """
+        self._drop("halt")
+
+    @property
+    def is_moving(self) -> bool:
+        return self._gate.is_moving
+
+    def _limits(self) -> Limits:
+        return Limits(
+            self.max_linear, self.max_angular, self.acceleration, self.deceleration, self.timeout_s
+        )
+
+    def _drop(self, reason: str) -> None:
+        self._slot.clear()
+        self._motion.clear()
+        self._gate.halt(reason)
+        self._must_let_go = True
+
+    def _take_command(self, now: float) -> None:
+        twist = self.twist.value
+        if twist is None or twist == REST:
+            self._must_let_go = False
+        if twist is not None:
+            if not self._must_let_go:
+                self._gate.command(twist, now)
+            return
+        command, time = self._slot.get()
+        if command is not None and time != self._slot_time:
+            self._slot_time = time
+            self._gate.command(command, time)
+
+    def _max_forward(self, now: float) -> float:
+        """How fast it may go forward, in m/s; a touch ends a forward motion for good."""
+        is_bumped = any(self.bump.values)
+        if is_bumped and not self._was_bumped and self._gate.is_going_forward:
+            self._drop("bump")
+        self._was_bumped = is_bumped
+        if is_bumped:
+            return 0.0
+        deceleration = self.deceleration * _PRUDENCE
+        is_moving = self._gate.current.linear > 0
+        return min(
+            (
+                max_forward(self._distance(reading, now), self.clearance, deceleration, is_moving)
+                for reading in self.range.values
+            ),
+            default=math.inf,
+        )
+
+    def _distance(self, reading: RangeReading, now: float) -> float:
+        """Metres; a sensor that has stopped reporting might look at anything."""
+        return reading.distance if now - reading.time <= self.timeout_s else 0.0
+
+
+class MotionReporter:
+    """Raises `drive.commanded` and `drive.stopped`, the former at most twice a second."""
+
+    _INTERVAL_S = 0.5
+    _NOTABLE_LINEAR = 0.1
+    _NOTABLE_ANGULAR = 0.3
+
+    def __init__(self, events: EventBus) -> None:
+        self._events = events
+        self._reported = REST
+        self._time = -math.inf
+
+    def report(self, gate: VelocityGate, now: float) -> None:
+        if gate.target != REST:
+            if self._is_news(gate.target, now):
+                self._reported, self._time = gate.target, now
+                self._events.raise_event(
+                    "drive.commanded",
+                    linear=_rounded(gate.target.linear),
+                    angular=_rounded(gate.target.angular),
+                )
+        elif not gate.is_moving and self._reported != REST:
+            self._reported = REST
+            self._events.raise_event("drive.stopped", reason=gate.reason)
+
+    def _is_news(self, target: Twist, now: float) -> bool:
+        if self._reported == REST:
+            return True
+        linear = abs(target.linear - self._reported.linear)
+        angular = abs(target.angular - self._reported.angular)
+        has_changed = linear >= self._NOTABLE_LINEAR or angular >= self._NOTABLE_ANGULAR
+        return has_changed and now - self._time >= self._INTERVAL_S
+
+
+def _rounded(value: float) -> float:
+    """To four places, never minus zero."""
+    return round(value, 4) + 0.0

@@ -1,0 +1,141 @@
+"""The last arithmetic before the wheels: nothing passes that is too fast, too sudden or stale."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from hri.core.signals import Twist
+
+REST = Twist()
+
+_ANGULAR_FACTOR = 4.0
+"""Turning may change this many times as fast, in radians, as driving does in metres: on a base with
+wheels half a metre apart both ask the same of the wheels."""
+_START_GAP = 0.05
+"""Metres beyond the clearance that must be free before a resting base sets off again, so that a
+noisy sensor does not make it creep."""
+_LEAST_LINEAR = 0.005
+_LEAST_ANGULAR = 0.02
+"""Slower than this, wheels only hum: it counts as rest."""
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What the base may be asked for."""
+
+    max_linear: float = 0.4
+    """Metres a second, forward and backward."""
+    max_angular: float = 1.2
+    """Radians a second."""
+    acceleration: float = 0.4
+    """Metres a second squared."""
+    deceleration: float = 0.5
+    """Metres a second squared."""
+    timeout_s: float = 0.5
+    """A command that is older counts no more."""
+
+
+class VelocityGate:
+    """Follows commands within limits; comes to rest by itself when they stop coming."""
+
+    def __init__(self, limits: Limits | None = None) -> None:
+        self.limits = limits or Limits()
+        self.refused = 0
+        """How many commands were not finite; each was taken for a stop."""
+        self.current = REST
+        """What was sent to the base last."""
+        self.target = REST
+        """Where that is heading."""
+        self.reason = "done"
+        """Why it last headed for rest: "done", "timeout", "obstacle", or what `halt` was told."""
+        self._command = REST
+        self._command_time = -math.inf
+        self._time = -math.inf
+
+    @property
+    def is_moving(self) -> bool:
+        return self.current != REST
+
+    @property
+    def is_going_forward(self) -> bool:
+        return self.current.linear > 0 or self.target.linear > 0
+
+    def command(self, twist: Twist, now: float) -> None:
+        """Ask for a velocity, valid until the timeout."""
+        if not (math.isfinite(twist.linear) and math.isfinite(twist.angular)):
+            self.refused += 1
+            twist = REST
+        self._command, self._command_time = twist, now
+
+    def halt(self, reason: str = "halt") -> None:
+        """Stand still at once and forget the command."""
+        self._command, self._command_time = REST, -math.inf
+        self.current = self.target = REST
+        self.reason = reason
+
+    def velocity(self, now: float, *, speed: float = 1.0, max_forward: float = math.inf) -> Twist:
+        """What to send to the base.
+
+        `speed` is a factor on the command; `max_forward` limits driving forward alone (m/s), so
+        that a base that stands before a wall can still turn away and back off.
+        """
+        dt = self._step_to(now)
+        is_stale = now - self._command_time > self.limits.timeout_s
+        wanted = REST if is_stale else self._limited(self._command, speed)
+        target = _at_least(min(wanted.linear, max(0.0, max_forward)), wanted.angular)
+        if target == REST != self.target:
+            self.reason = "timeout" if is_stale else "done" if wanted == REST else "obstacle"
+        self.target = target
+        self.current = self._approached(dt)
+        return self.current
+
+    def _step_to(self, now: float) -> float:
+        """Seconds since the last call; after a long gap the base has stopped by itself."""
+        dt = max(0.0, now - self._time)
+        self._time = now
+        if dt > self.limits.timeout_s:
+            self.current = REST
+            return 0.0
+        return dt
+
+    def _limited(self, twist: Twist, speed: float) -> Twist:
+        """The command within the speed limits; both parts shrink alike, so that arcs keep shape."""
+        linear, angular = twist.linear * speed, twist.angular * speed
+        linear_excess = abs(linear) / self.limits.max_linear
+        angular_excess = abs(angular) / self.limits.max_angular
+        excess = max(1.0, linear_excess, angular_excess)
+        return _at_least(linear / excess, angular / excess)
+
+    def _approached(self, dt: float) -> Twist:
+        up, down = self.limits.acceleration * dt, self.limits.deceleration * dt
+        linear = approach(self.current.linear, self.target.linear, up, down)
+        up, down = up * _ANGULAR_FACTOR, down * _ANGULAR_FACTOR
+        return Twist(linear, approach(self.current.angular, self.target.angular, up, down))
+
+
+def approach(value: float, target: float, up: float, down: float) -> float:
+    """One step from a velocity toward another: by `up` away from zero, by `down` toward it.
+
+    On the way to the other sign it stops at zero first.
+    """
+    if value * target < 0:
+        target = 0.0
+    step = up if abs(target) > abs(value) else down
+    return min(max(target, value - step), value + step)
+
+
+def max_forward(distance: float, clearance: float, deceleration: float, is_moving: bool) -> float:
+    """The speed from which a base can still stop `clearance` metres before an obstacle, in m/s.
+
+    sqrt(2 a d); a distance that is no number counts as an obstacle that touches.
+    """
+    room = distance - clearance - (0.0 if is_moving else _START_GAP)
+    return math.sqrt(2 * deceleration * room) if room > 0 else 0.0
+
+
+def _at_least(linear: float, angular: float) -> Twist:
+    """The velocity, or rest where the wheels would only hum."""
+    if abs(linear) >= _LEAST_LINEAR:
+        return Twist(linear, angular)
+    return Twist(0.0, angular) if abs(angular) >= _LEAST_ANGULAR else REST

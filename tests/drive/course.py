@@ -1,0 +1,104 @@
+"""A base on a straight course, driven through the real gate: what the tests measure."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+import trio
+
+from hri.behavior.behavior import Context
+from hri.behavior.ports import OutputPort
+from hri.core.clock import FakeClock
+from hri.core.events import EventBus
+from hri.core.signals import Event, Pose2D, RangeReading, Twist
+from hri.drive.behaviors import CommandGate
+from hri.hal.drive import Odometry
+from hri.hal.manager import ResourceManager
+from hri.hal.resource import Description
+from hri.simulation.base import Base
+from hri.task.context import TaskContext
+
+TICK = 0.02
+RADIUS = 0.2
+
+
+class BaseOdometry(Odometry):
+    """Reads the wheels of a simulated base."""
+
+    def __init__(self, base: Base, manager: ResourceManager) -> None:
+        super().__init__(Description("odometry", "Test.Odometry"), manager)
+        self.base = base
+
+    def pose(self, now: float) -> Pose2D:
+        self.base.advance(now)
+        return self.base.odometry
+
+    def velocity(self, now: float) -> Twist:
+        self.base.advance(now)
+        return self.base.velocity
+
+
+class Course:
+    """A clock, a gate, a base, and a wall across the way at `wall` metres."""
+
+    def __init__(self, wall: float = math.inf, slip: float = 0.0, **parameters: Any) -> None:
+        self.clock = FakeClock()
+        self.wall = wall
+        self.base = Base(lambda x, y, time: self.wall - x, slip=slip)
+        self.resources = ResourceManager([], self.clock)
+        self.resources.substitute("odometry", BaseOdometry(self.base, self.resources))
+        self.context = Context(self.clock, EventBus(self.clock), self.resources)
+        self.events: list[Event] = []
+        self.context.events.subscribe("drive.*", self.events.append)
+        self.gate = CommandGate(**parameters)
+        self.sees, self.feels = OutputPort[RangeReading](), OutputPort[bool]()
+        self.asks, self.hurries = OutputPort[Twist](), OutputPort[float]()
+        self.gate.range.sources.append(self.sees)
+        self.gate.bump.sources.append(self.feels)
+        self.gate.twist.sources.append(self.asks)
+        self.gate.speed.sources.append(self.hurries)
+        self.gate.start(self.context)
+        self.task = TaskContext.of(self.context, {"moving.gate": self.gate})
+        self.fastest = 0.0
+
+    def tick(self) -> None:
+        now = self.clock.now()
+        self.base.advance(now)
+        ahead = self.wall - self.base.pose.x - RADIUS
+        self.sees.value = RangeReading("front", ahead if ahead <= 0.8 else math.inf, now)
+        self.feels.value = self.base.is_touching
+        self.gate.compute(now, TICK)
+        velocity = self.gate.velocity.value
+        assert velocity is not None
+        self.base.command(velocity, now)
+        self.fastest = max(self.fastest, abs(self.base.velocity.linear))
+
+    def tick_for(self, seconds: float) -> None:
+        """Tick outside a robot loop."""
+        for _ in range(round(seconds / TICK)):
+            self.tick()
+            self.clock.advance(TICK)
+
+    def run(self, task: Callable[[TaskContext], Awaitable[Any]]) -> Any:
+        """Run one task to its end while the gate ticks."""
+        results = []
+
+        async def main() -> None:
+            async with trio.open_nursery() as nursery:
+                nursery.start_soon(self.clock.drive)
+                nursery.start_soon(self._tick_on)
+                results.append(await task(self.task))
+                nursery.cancel_scope.cancel()
+
+        trio.run(main)
+        return results[0]
+
+    async def _tick_on(self) -> None:
+        while True:
+            self.tick()
+            await self.clock.sleep(TICK)
+
+    def reasons(self) -> list[str]:
+        return [e.properties["reason"] for e in self.events if e.name == "drive.stopped"]
