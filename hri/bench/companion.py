@@ -66,7 +66,7 @@ def _watch(process: subprocess.Popen[str]) -> tuple[list[tuple[float, float, flo
     root = psutil.Process(process.pid)
     begun = time.perf_counter()
     before, spent = begun, _cpu_time(root)
-    samples = []
+    samples: list[tuple[float, float, float]] = []
     while True:
         try:
             output, _ = process.communicate(timeout=0.25)

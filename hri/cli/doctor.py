@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 import time
 from collections.abc import Callable
@@ -172,7 +173,7 @@ def _without_stand_in(parameters: Any) -> dict[str, str]:
 def _dbfs(samples: Any) -> float:
     """Level of the loudest sample against full scale."""
     peak = float(np.abs(samples.astype(np.int32)).max()) if len(samples) else 0.0
-    return 20 * np.log10(max(peak, 1e-3) / 32768)
+    return 20 * math.log10(max(peak, 1e-3) / 32768)
 
 
 def _meter(level: float) -> str:

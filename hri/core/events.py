@@ -33,7 +33,7 @@ class EventBus:
         self.clock = clock
         self.subscriptions: list[Subscription] = []
 
-    def raise_event(self, name: str, **properties: Any) -> Event:
+    def raise_event(self, name: str, /, **properties: Any) -> Event:
         """Tell all listeners whose pattern fits, now."""
         event = Event(name, self.clock.now(), properties)
         for subscription in tuple(self.subscriptions):

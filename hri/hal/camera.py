@@ -18,6 +18,10 @@ class Camera(Resource):
     def read(self, now: float) -> Frame | None:
         """The newest picture taken since the last call; None when there is none yet."""
 
+    def pan(self, now: float) -> float:
+        """Where it points, from the robot's straight ahead to the left, radians."""
+        return 0.0
+
     @property
     def has_ended(self) -> bool:
         """True when no further picture will come (a file is spent)."""

@@ -14,7 +14,8 @@ from hri.hal.resource import Resource
 class Grammar(Protocol):
     """What an engine needs to know of a grammar (`hri.speech.grammar.Grammar` is one)."""
 
-    name: str
+    @property
+    def name(self) -> str: ...
 
     def words(self) -> frozenset[str]:
         """All words that can be said."""

@@ -164,6 +164,7 @@ class Robot:
             trio.from_thread.run_sync(self.finish, trio_token=self._token)
         if self._thread is not None:
             self._thread.join()
+        self._token = None
         if self.recording is not None:
             self.recording.plot()
 

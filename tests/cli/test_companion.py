@@ -1,0 +1,181 @@
+"""The companion as users start it: a process, its files, its exit status."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from hri.core.recording import read_events
+
+SHARED = Path(__file__).resolve().parents[2].parent / "shared"
+GOFORWARD = SHARED / "speech" / "real" / "robot" / "goforward.wav"
+
+
+def hri(*arguments, folder=None):
+    command = [sys.executable, "-m", "hri.cli.main", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, cwd=folder, timeout=500)
+
+
+def start(*arguments):
+    command = [sys.executable, "-m", "hri.cli.main", *map(str, arguments)]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
+@pytest.fixture(scope="module")
+def demos(tmp_path_factory):
+    """Two runs of the same demo, side by side on two cores."""
+    folders = [tmp_path_factory.mktemp("demo") / name for name in ("one", "two")]
+    runs = [
+        start("companion", "--demo", "--fast", "--seed", 7, "--headless", "--record", folder)
+        for folder in folders
+    ]
+    outputs = [run.communicate(timeout=800)[0] for run in runs]
+    assert [run.returncode for run in runs] == [0, 0], outputs
+    return folders
+
+
+@pytest.fixture(scope="module")
+def events(demos):
+    return read_events(demos[0] / "events.jsonl")
+
+
+EVENTS = {
+    "speech.heard": {"text", "rule", "tags", "confidence"},
+    "speech.rejected": {"reason"},
+    "speech.said": {"text"},
+    "emotion.changed": {"label", "valence", "arousal", "dominance"},
+    "head.nodded": set(),
+    "head.shaken": set(),
+    "drive.commanded": set(),
+    "drive.stopped": set(),
+    "odometry": {"x_cm", "y_cm", "heading_rad"},
+}
+
+
+def test_two_demos_are_equal_byte_for_byte(demos):
+    for name in ("events.jsonl", "face.mp4", "robot.wav"):
+        assert (demos[0] / name).read_bytes() == (demos[1] / name).read_bytes(), name
+
+
+@pytest.mark.parametrize("name", EVENTS)
+def test_the_demo_has_every_kind_of_event(events, name):
+    found = [event for event in events if event["event"] == name]
+    assert found
+    assert EVENTS[name] <= set(found[0])
+
+
+def test_events_are_in_order_of_time_and_odometry_comes_twice_a_second(events):
+    times = [event["t"] for event in events]
+    assert times == sorted(times)
+    odometry = [event["t"] for event in events if event["event"] == "odometry"]
+    assert len(odometry) == pytest.approx(2 * times[-1], rel=0.02)
+
+
+def test_praise_lifts_and_scolding_lowers_the_mood(events):
+    def valence_after(rule):
+        at = next(e["t"] for e in events if e["event"] == "speech.heard" and e["rule"] == rule)
+        changes = [e for e in events if e["event"] == "emotion.changed"]
+        before = [e["valence"] for e in changes if e["t"] <= at]
+        after = [e["valence"] for e in changes if at < e["t"] < at + 6]
+        return before[-1], after[-1]
+
+    before, after = valence_after("praise")
+    assert after > before
+    before, after = valence_after("scold")
+    assert after < before
+
+
+def test_stop_stops_a_long_way(events):
+    stop = next(e["t"] for e in events if e["event"] == "speech.heard" and e["rule"] == "stop")
+    stopped = [e for e in events if e["event"] == "drive.stopped" and stop <= e["t"] < stop + 1.5]
+    assert stopped
+    later = [e for e in events if e["event"] == "odometry" and e["t"] > stop + 1.5][:4]
+    assert max(e["x_cm"] for e in later) - min(e["x_cm"] for e in later) < 1.0
+
+
+@pytest.mark.skipif(not GOFORWARD.exists(), reason="needs the recordings beside the project")
+def test_a_person_who_says_go_forward_ten_meters_is_obeyed(tmp_path):
+    out = tmp_path / "out"
+    run = hri(
+        "companion", "--audio", GOFORWARD, "--camera", "none", "--fast", "--headless",
+        "--record", out,
+    )  # fmt: skip
+    assert run.returncode == 0, run.stderr
+    events = read_events(out / "events.jsonl")
+    heard = [e for e in events if e["event"] == "speech.heard"]
+    assert [e["text"] for e in heard] == ["go forward ten meters"]
+    assert heard[0]["tags"]["distance"] == 10
+    assert any("go forward ten meters" in e["text"] for e in events if e["event"] == "speech.said")
+    odometry = [e for e in events if e["event"] == "odometry"]
+    assert odometry[-1]["x_cm"] == pytest.approx(1000, rel=0.02)
+    assert abs(odometry[-1]["y_cm"]) < 20
+
+
+BAD = {
+    "misspelt device": (
+        "config",
+        '<Resources><Devices><Device id="a" type="Hri.Sceen"/></Devices></Resources>',
+    ),
+    "unclosed tag": ("config", "<Resources><Devices></Resources>"),
+    "doctype": ("config", "<!DOCTYPE x []><Resources/>"),
+    "no wav": ("audio", "this is not a sound"),
+    "empty wav": ("audio", ""),
+    "no video": ("camera", "this is not a video"),
+    "missing face": ("face", None),
+    "missing personality": ("personality", None),
+    "missing camera file": ("camera", None),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_files_are_refused_before_anything_starts(case, tmp_path):
+    option, content = BAD[case]
+    path = tmp_path / f"bad.{ {'config': 'xml', 'audio': 'wav'}.get(option, 'mp4') }"
+    if content is not None:
+        path.write_text(content)
+    out = tmp_path / "out"
+    run = hri("companion", f"--{option}", path, "--fast", "--headless", "--record", out)
+    assert run.returncode == 2
+    assert "Traceback" not in run.stderr
+    lines = run.stderr.strip().splitlines()
+    assert 1 <= len(lines) <= 4
+    assert " - " in run.stderr
+    assert path.name in run.stderr
+    assert run.stdout == ""
+    assert not out.exists()
+
+
+def test_unknown_commands_and_help():
+    run = hri("compannion")
+    assert run.returncode == 2
+    assert 'did you mean "companion"' in run.stderr
+    assert "doctor" in hri("--help").stdout
+    assert hri("--version").stdout.startswith("hri 0.")
+
+
+def test_a_grammar_with_an_undefined_rule_exits_with_2(tmp_path):
+    path = tmp_path / "bad.jsgf"
+    path.write_text("#JSGF V1.0;\ngrammar bad;\npublic <go> = go <wheer>;\n<where> = home;\n")
+    run = hri("grammar", "check", path)
+    assert run.returncode == 2
+    assert "bad.jsgf:3:" in run.stdout + run.stderr
+    assert "where" in run.stdout + run.stderr
+    assert hri("grammar", "check", "companion").returncode == 0
+
+
+def test_doctor_reports_and_goes_on():
+    run = hri("doctor", "--seconds", "0.2")
+    assert run.returncode in (0, 1)
+    assert "Traceback" not in run.stderr
+    for part in ("microphone", "speaker", "camera", "screen", "base", "voice", "recognizer"):
+        assert part in run.stdout
+
+
+def test_the_tags_of_a_sentence_as_json():
+    run = hri("grammar", "parse", "companion", "go forward ten meters", "--json")
+    answer = json.loads(run.stdout)
+    assert answer["accepted"] is True
+    assert answer["rule"] == "move"
+    assert answer["tags"]["distance"] == 10

@@ -1,0 +1,102 @@
+import math
+
+import pytest
+
+from hri import Robot
+from hri.core.clock import FakeClock
+from hri.core.errors import AuthoringError, HriError
+from hri.core.recording import read_events
+from hri.hal.drive import Odometry
+from hri.simulation.world import SimulatedWorld
+
+
+@pytest.fixture
+def robot():
+    with Robot(config="simulated", clock=FakeClock(), seed=1) as robot:
+        yield robot
+
+
+def test_a_script_speaks_and_time_passes_only_inside_its_verbs(robot):
+    said = []
+    robot.events.subscribe("speech.*", lambda event: said.append(event.name))
+    before = robot.clock.now()
+    assert robot.clock.now() == before
+    robot.say("Hello, I am a robot.")
+    assert said == ["speech.said", "speech.finished"]
+    spoken = robot.clock.now() - before
+    assert 1.0 < spoken < 4.0
+    assert robot.clock.now() == before + spoken
+
+
+def test_it_drives_as_far_as_it_is_told(robot):
+    odometry = robot.resources.obtain("odometry", Odometry)
+    assert robot.move(1.0) == pytest.approx(1.0, abs=0.02)
+    assert odometry.pose(robot.clock.now()).x == pytest.approx(1.0, abs=0.02)
+    assert robot.turn(math.pi / 2) == pytest.approx(math.pi / 2, abs=0.03)
+    assert odometry.pose(robot.clock.now()).heading == pytest.approx(math.pi / 2, abs=0.03)
+
+
+@pytest.mark.parametrize(("gesture", "answer"), [("nod", True), ("shake", False)])
+def test_a_nod_is_yes_and_a_shake_is_no(robot, gesture, answer):
+    world = robot.resources.obtain("world", SimulatedWorld)
+    robot.wait(2.0)
+
+    def respond(event):
+        getattr(world.person, gesture)(event.time + 1.0)
+
+    robot.events.subscribe("question.asked", respond)
+    assert robot.ask("Do you like me?") is answer
+
+
+def test_a_spoken_yes_is_an_answer_too_and_silence_is_none(robot):
+    world = robot.resources.obtain("world", SimulatedWorld)
+    subscription = robot.events.subscribe(
+        "question.asked", lambda event: world.say("yes", event.time + 0.8)
+    )
+    assert robot.ask("Do you like me?") is True
+    subscription.cancel()
+    assert robot.ask("Are you there?", timeout=3.0) is None
+
+
+def test_it_hears_the_person(robot):
+    world = robot.resources.obtain("world", SimulatedWorld)
+    world.say("hello robot", robot.clock.now() + 0.5)
+    heard = robot.listen(timeout=5.0)
+    assert heard.rule == "greet"
+    assert robot.listen(timeout=1.0) is None
+
+
+def test_a_recording_has_all_its_parts(tmp_path):
+    with Robot(config="simulated", clock=FakeClock(), record=tmp_path / "out") as robot:
+        robot.say("One two three.")
+    for name in ("events.jsonl", "face.mp4", "robot.wav", "timeline.png"):
+        assert (tmp_path / "out" / name).stat().st_size > 500, name
+    events = read_events(tmp_path / "out" / "events.jsonl")
+    assert [event["text"] for event in events if event["event"] == "speech.said"] == [
+        "One two three."
+    ]
+
+
+def test_mistakes_come_before_anything_is_opened(tmp_path):
+    with pytest.raises(HriError, match='no "companoin" in apps - did you mean "companion"'):
+        Robot(app="companoin")
+    config = tmp_path / "bad.xml"
+    config.write_text(
+        '<Resources><Devices><Device id="a" type="Hri.Speeker"/></Devices></Resources>'
+    )
+    with pytest.raises(AuthoringError, match=r'did you mean "Hri.Speaker"\?'):
+        Robot(config=str(config))
+
+
+def test_leaving_early_by_an_error_closes_everything():
+    robot = Robot(config="simulated", clock=FakeClock())
+
+    def fail_inside():
+        with robot:
+            robot.resources.obtain("odometry", Odometry)
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        fail_inside()
+    with pytest.raises(RuntimeError, match="not running"):
+        robot.say("too late")

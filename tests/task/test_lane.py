@@ -1,0 +1,76 @@
+from functools import partial
+
+import pytest
+import trio
+
+from hri.core.clock import FakeClock
+from hri.core.events import EventBus
+from hri.core.latest import Board
+from hri.hal.manager import ResourceManager
+from hri.task.context import TaskContext
+from hri.task.lane import Lane
+
+
+def run(job):
+    clock = FakeClock()
+    context = TaskContext(clock, EventBus(clock), ResourceManager((), clock), Board(), {})
+
+    async def main():
+        async with trio.open_nursery() as nursery:
+            context.nursery = nursery
+            nursery.start_soon(clock.drive)
+            await job(context)
+            nursery.cancel_scope.cancel()
+
+    trio.run(main)
+
+
+def test_what_comes_next_takes_the_place_of_what_runs():
+    log = []
+
+    async def job(context, name, seconds):
+        try:
+            await context.clock.sleep(seconds)
+            log.append(f"{name} done")
+        except trio.Cancelled:
+            log.append(f"{name} cut at {context.clock.now():g}")
+            raise
+
+    async def main(context):
+        lane = Lane(context)
+        lane.start(job, context, "first", 10)
+        await context.clock.sleep(1)
+        lane.start(job, context, "second", 2)
+        await context.clock.sleep(3)
+        assert not lane.is_busy
+        lane.start(job, context, "third", 2)
+        await context.clock.sleep(1)
+        lane.stop()
+        lane.stop()
+        await context.clock.sleep(1)
+
+    run(main)
+    assert log == ["first cut at 1", "second done", "third cut at 5"]
+
+
+def test_a_lane_needs_a_robot_that_lives():
+    clock = FakeClock()
+    context = TaskContext(clock, EventBus(clock), ResourceManager((), clock), Board(), {})
+    with pytest.raises(RuntimeError, match="lives"):
+        Lane(context).start(lambda: None)
+
+
+def test_waiting_for_events_in_order_with_a_timeout():
+    async def main(context):
+        clock = context.clock
+        clock.call_at(1.0, partial(context.events.raise_event, "head.nodded"))
+        event = await context.wait_for("head.*", timeout=5)
+        assert (event.name, event.time) == ("head.nodded", 1.0)
+        assert await context.wait_for("head.*", timeout=2) is None
+        assert clock.now() == 3.0
+        with context.queue("a", "b") as queue:
+            for name in ("a", "x", "b"):
+                context.events.raise_event(name)
+            assert [(await queue.get()).name for _ in range(2)] == ["a", "b"]
+
+    run(main)
