@@ -4,6 +4,9 @@ The order of a tick, once and in words: all outputs are emptied; the behaviors r
 order, so sensors come before what uses them; the time each one took is kept. A tick that ends
 after its deadline is a missed interval: it is counted, reported with the slowest behavior's name,
 and the deadlines that have passed are skipped, never run in a burst.
+
+A behavior that raises an exception rests for a second, sending nothing, and is tried again; the
+others go on. What depends on it sees empty inputs, which for a drive means: stand still.
 """
 
 from __future__ import annotations
@@ -18,6 +21,9 @@ from hri.behavior.network import Network
 
 log = logging.getLogger("hri.behavior")
 
+REST = 1.0
+"""Seconds that a behavior rests after an exception."""
+
 
 @dataclass
 class Statistics:
@@ -27,6 +33,8 @@ class Statistics:
     missed: int = 0
     slowest: str = ""
     """The behavior that took longest in the last missed interval."""
+    failures: int = 0
+    """Exceptions that behaviors have raised."""
     recent: deque[float] = field(default_factory=lambda: deque(maxlen=1000))
     """How long the last ticks took."""
 
@@ -41,6 +49,8 @@ class Runner:
         self._outputs = [
             getattr(behavior, name) for behavior in network.behaviors for name in behavior.outputs
         ]
+        self._order = list(network.behaviors)
+        self._resting: dict[Behavior, float] = {}
         self._last: float | None = None
         self._started: list[Behavior] = []
 
@@ -65,10 +75,15 @@ class Runner:
         self._last = now
         for output in self._outputs:
             output.value = None
+        if self._resting:
+            self._wake(now)
         begun = before = time.perf_counter()
         longest = 0.0
-        for behavior in self.network.behaviors:
-            behavior.compute(now, dt)
+        for behavior in self._order:
+            try:
+                behavior.compute(now, dt)
+            except Exception as error:
+                self._rest(behavior, now, error)
             after = time.perf_counter()
             if after - before > longest:
                 longest, self._slowest = after - before, behavior.id
@@ -91,6 +106,24 @@ class Runner:
                 skipped = int(late / interval) + 1
                 deadline += skipped * interval
                 self._report_missed(skipped)
+
+    def _rest(self, behavior: Behavior, now: float, error: Exception) -> None:
+        """Leave a behavior that failed out for a while."""
+        self.statistics.failures += 1
+        self._resting[behavior] = now + REST
+        # A new list, since the tick still walks over the old one.
+        self._order = [kept for kept in self._order if kept is not behavior]
+        log.error("%s.%s failed: %s", self.network.name, behavior.id, error, exc_info=error)
+        name = f"{self.network.name}.{behavior.id}"
+        self.context.events.raise_event("behavior.failed", behavior=name, error=str(error))
+
+    def _wake(self, now: float) -> None:
+        """Take those back that have rested, at their place in the order."""
+        rested = [behavior for behavior, until in self._resting.items() if until <= now]
+        for behavior in rested:
+            del self._resting[behavior]
+        if rested:
+            self._order = [b for b in self.network.behaviors if b not in self._resting]
 
     def _report_missed(self, skipped: int) -> None:
         self.statistics.missed += skipped

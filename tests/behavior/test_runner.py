@@ -115,6 +115,34 @@ def test_when_one_behavior_cannot_start_the_others_are_stopped():
     assert beat.is_stopped
 
 
+class Faulty(Behavior):
+    """Fails once, at the third tick."""
+
+    beat = Output[float]("double", "the time")
+
+    def compute(self, now, dt):
+        self.count += 1
+        if self.count == 3:
+            raise ZeroDivisionError("no device")
+        self.beat.send(now)
+
+    count = 0
+
+
+def test_a_behavior_that_fails_rests_and_comes_back_while_others_go_on(caplog):
+    clock = FakeClock()
+    beat, faulty = Metronome("beat"), Faulty("faulty")
+    runner = runner_of(clock, 0.1, faulty, beat)
+    failures = []
+    runner.context.events.subscribe("behavior.failed", failures.append)
+    run(clock, partial(runner.run, duration=3.0))
+    assert len(beat.times) == 30
+    assert faulty.count == 20 + 1
+    assert [event.properties["behavior"] for event in failures] == ["test.faulty"]
+    assert runner.statistics.failures == 1
+    assert "no device" in caplog.text
+
+
 def test_outputs_are_empty_again_at_the_next_tick():
     clock = FakeClock()
     beat = Metronome("beat")
