@@ -13,37 +13,57 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from hri.face.behaviors import FaceRenderer
-from hri.face.model import load_face
-from hri.speech.behaviors import Listener, Voice
-
 from hri.core.signals import Event, HeadPose
 from hri.drive.behaviors import CommandGate
 from hri.emotion.behaviors import EmotionModel
 from hri.emotion.stimulus import load_stimuli
+from hri.face.behaviors import FaceRenderer
+from hri.face.model import load_face
 from hri.hal.battery import Battery
 from hri.hal.camera import Camera
 from hri.hal.screen import Screen
 from hri.robot import verbs
-from hri.speech.grammar import Grammar
+from hri.speech.behaviors import Listener, Voice
+from hri.speech.grammar import Grammar, load_grammar
+from hri.speech.listener import find_grammar
 from hri.task.context import TaskContext
 from hri.task.lane import Lane
 
-from .replies import Reply, Vocabulary, load_replies
+from .replies import Replies, Reply, Vocabulary, load_replies
 
 ALWAYS = ("stop", "wake")
 """Rules that count even while it sleeps."""
 SHOW_SECONDS = 4.0
 QUIET_SECONDS = 60.0
-FIRST_QUESTION = 8.0
+FIRST_QUESTION = 7.0
 """Seconds of calm after a conversation before it asks a question of its own."""
 BETWEEN_QUESTIONS = 30.0
 COMPANY_SECONDS = 45.0
-"""How long after the last words somebody counts as being there."""
+"""How long after the last words somebody who is seen counts as company."""
+UNSEEN_SECONDS = 20.0
+"""The same for somebody who is not seen."""
 IGNORED_SECONDS = 25.0
 """Calm while somebody is there, after which it feels ignored; again after each such time."""
 CLOSE_HEAD = 0.42
 """Height of a head in the picture, of the picture's height, at which it is near enough."""
+
+
+def check(context: TaskContext) -> None:
+    """Read what the tasks will need, before anything is opened. Raises AuthoringError."""
+    authored_replies(context)
+
+
+def authored_replies(context: TaskContext) -> Replies:
+    """The replies, checked against the grammar, the stimuli and the face that are in use."""
+    grammar = load_grammar(find_grammar(context.behavior(Listener).grammar))
+    face = load_face(context.behavior(FaceRenderer).face)
+    vocabulary = Vocabulary(
+        rules=grammar.public_rules,
+        tags=grammar.tag_names(),
+        stimuli=load_stimuli(),
+        expressions=face.expressions,
+    )
+    return load_replies(Path(__file__).with_name("replies.toml"), vocabulary)
 
 
 class Companion:
@@ -56,7 +76,7 @@ class Companion:
         self.gate = context.behavior(CommandGate)
         self.emotion = context.behavior(EmotionModel)
         self.camera = context.resources.obtain("camera", Camera)
-        self.replies = load_replies(Path(__file__).with_name("replies.toml"), self._vocabulary())
+        self.replies = authored_replies(context)
         self.talk = Lane(context)
         self.motion = Lane(context)
         self.face = Lane(context)
@@ -73,15 +93,6 @@ class Companion:
             slot.set(cls(context), context.clock.now())
         companion: Companion = slot.value
         return companion
-
-    def _vocabulary(self) -> Vocabulary:
-        grammar: Grammar = self.listener.loaded_grammar
-        return Vocabulary(
-            rules=grammar.public_rules,
-            tags=grammar.tag_names(),
-            stimuli=load_stimuli(),
-            expressions=load_face(self.context.behavior(FaceRenderer).face).expressions,
-        )
 
     # --- replying ---
 
@@ -211,7 +222,8 @@ class Companion:
         """Angle from straight ahead to a head, left positive, from its place in the picture."""
         assert head.box is not None
         offset = (head.box.x + head.box.width / 2) / self.camera.width - 0.5
-        return -math.atan(2 * offset * math.tan(self.camera.field_of_view / 2))
+        across = math.atan(2 * offset * math.tan(self.camera.field_of_view / 2))
+        return self.camera.pan(self.context.clock.now()) - across
 
     def nearness(self, head: HeadPose) -> float:
         """Height of the head in the picture, 0 to 1."""
@@ -242,7 +254,8 @@ async def wonder(context: TaskContext) -> None:
         await clock.sleep(0.5)
         now = clock.now()
         since = now - companion.last_contact
-        is_company = FIRST_QUESTION < since < COMPANY_SECONDS
+        patience = COMPANY_SECONDS if companion.head() is not None else UNSEEN_SECONDS
+        is_company = FIRST_QUESTION < since < patience
         if not is_company or now - last < BETWEEN_QUESTIONS or now < companion.silent_until:
             continue
         if companion.is_asleep or not companion.is_calm:

@@ -79,6 +79,7 @@ class Robot:
         self._context = Context(self.clock, self.events, self.resources, self.board, seed)
         self.runners = [Runner(network, self._context) for network in self.networks]
         self.context = TaskContext.of(self._context, self._behaviors())
+        self.app.check(self.context)
         self.record = record
         """Folder for a recording; may be set until the robot lives."""
         self.recording: Recording | None = None

@@ -15,6 +15,7 @@ from hri.behavior.network import Network, load_network
 from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
 from hri.core.toml import load_toml
+from hri.task.context import TaskContext
 
 Task = Callable[..., Awaitable[Any]]
 
@@ -46,6 +47,11 @@ class App:
                 raise HriError(f'{where}: no task "{name}" - {did_you_mean(name, known)}')
             found.append(getattr(module, name))
         return found
+
+    def check(self, context: TaskContext) -> None:
+        """Let the app read its own files, with `check(context)` of its tasks if it has one."""
+        if self.tasks and hasattr(self.module, "check"):
+            self.module.check(context)
 
     @cached_property
     def module(self) -> ModuleType:

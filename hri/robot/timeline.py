@@ -47,8 +47,8 @@ def _plot_talk(axes: Axes, events: list[Line]) -> None:
         row, color, key = _ROWS[event["event"]]
         axes.plot(event["t"], row, "o", color=color, markersize=5)
         label = str(event.get(key, "")) if key else event["event"].split(".")[1]
-        # Neighbors take turns on three heights, so that sentences do not cover each other.
-        lift = 6 + 11 * (count % 3)
+        # Neighbors take turns on four heights, so that sentences do not cover each other.
+        lift = 5 + 10 * (count % 4)
         axes.annotate(
             label[:38], (event["t"], row), (2, lift), textcoords="offset points",
             fontsize=7, color=color, rotation=0,
@@ -61,19 +61,23 @@ def _plot_talk(axes: Axes, events: list[Line]) -> None:
 
 def _plot_mood(axes: Axes, events: list[Line]) -> None:
     changes = [event for event in events if event["event"] == "emotion.changed"]
+    if not changes:
+        return
+    end = max(event["t"] for event in events)
     times = [event["t"] for event in changes]
     for name, color in _MOOD.items():
-        axes.step(times, [event[name] for event in changes], where="post", color=color, label=name)
+        values = [event[name] for event in changes]
+        # The last value holds to the end of the visit.
+        axes.step([*times, end], [*values, values[-1]], where="post", color=color, label=name)
     label = ""
     for event in changes:
         if event["label"] != label:
             label = event["label"]
             axes.axvline(event["t"], color="#dddddd", zorder=0)
-            axes.text(event["t"], 1.02, label, fontsize=8, rotation=35, ha="left", va="bottom")
+            axes.text(event["t"], 0.98, label, fontsize=8, rotation=35, ha="left", va="bottom")
     axes.set_ylim(-1, 1.35)
     axes.set_ylabel("mood")
-    if changes:
-        axes.legend(loc="lower right", fontsize=8, ncols=3)
+    axes.legend(loc="lower right", fontsize=8, ncols=3)
 
 
 def _plot_motion(axes: Axes, events: list[Line]) -> None:
