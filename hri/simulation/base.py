@@ -1,0 +1,175 @@
+"""A base with two wheels: follows velocities within its limits, slips, and stops when it hits.
+
+All motion happens in steps of 10 ms that lie on an absolute grid, so where the base is at a time
+does not depend on how often anybody asked.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from hri.core.signals import Pose2D, Twist
+
+STEP = 0.01
+"""Seconds."""
+WATCHDOG = 0.5
+"""Seconds without a command after which the base brakes (the default of ros2_controllers)."""
+BUMPER_TRAVEL = 0.01
+"""Metres that the ring of the bumper stands out from the body."""
+
+Clearance = Callable[[float, float, float], float]
+"""Metres from the point (x, y) to the nearest surface, at a time."""
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What the base can do: metres, radians, seconds."""
+
+    linear: float = 0.5
+    angular: float = 1.5
+    acceleration: float = 0.5
+    angular_acceleration: float = 2.0
+    braking: float = 1.5
+    """How fast it stands still in an emergency; turning ends four times as fast in radians."""
+    wheel: float = 0.6
+    """Fastest a wheel's rim goes; a curve that needs more is driven more slowly."""
+    track: float = 0.3
+    """Between the wheels."""
+    radius: float = 0.2
+    """Of the round body."""
+
+
+ORIGIN = Pose2D()
+ORDINARY = Limits()
+
+
+class Base:
+    """The base's motion; `pose` is the truth in the room, `odometry` what its wheels believe."""
+
+    def __init__(
+        self,
+        clearance: Clearance,
+        start: Pose2D = ORIGIN,
+        limits: Limits = ORDINARY,
+        slip: float = 0.0,
+        seed: int = 0,
+    ) -> None:
+        """`slip`: standard deviation of a wheel's slip after one metre, as a part of the way.
+
+        Its variance grows with the way driven, the usual model of what odometry cannot know
+        (Chong and Kleeman, "Accurate odometry and error modelling for a mobile robot", 1997).
+        """
+        self.limits = limits
+        self.pose = start
+        self.odometry = Pose2D()
+        self.velocity = Twist()
+        self.way = 0.0
+        """Metres the wheels have turned, for the battery."""
+        self._clearance = clearance
+        self._slip = slip
+        self._random = random.Random(seed)
+        self._step = 0
+        self._goal = Twist()
+        self._is_braking = False
+        self._brake_at = 0
+
+    @property
+    def is_touching(self) -> bool:
+        """Whether something presses the bumper."""
+        return self._room_left(self.pose) < BUMPER_TRAVEL
+
+    def command(self, twist: Twist, now: float) -> None:
+        """Go for this velocity; brakes unless another command comes in time.
+
+        What is not finite is taken as a command to stand still.
+        """
+        self.advance(now)
+        self._goal = reachable(twist, self.limits)
+        self._is_braking = False
+        self._brake_at = self._step + round(WATCHDOG / STEP)
+
+    def brake(self, now: float) -> None:
+        """Stand still as fast as the base can."""
+        self.advance(now)
+        self._goal, self._is_braking = Twist(), True
+
+    def advance(self, now: float) -> None:
+        """Let time pass until `now`; a time that has passed does nothing."""
+        last = math.floor(now / STEP + 1e-6)
+        while self._step < last:
+            if self.velocity == Twist() == self._goal:
+                self._step = last
+                return
+            self._move()
+
+    def _move(self) -> None:
+        """One step: watchdog, velocity, wheels, then the room has its say."""
+        self._step += 1
+        if self._step > self._brake_at:
+            self._goal, self._is_braking = Twist(), True
+        before, after = self.velocity, self._next_velocity()
+        linear = (before.linear + after.linear) / 2 * STEP
+        angular = (before.angular + after.angular) / 2 * STEP
+        moved = along_arc(self.pose, *self._slipped(linear, angular))
+        if self._is_free(moved):
+            self.pose = moved
+        else:
+            linear, after = 0.0, Twist(0.0, after.angular)
+            self.pose = Pose2D(self.pose.x, self.pose.y, moved.heading)
+        self.odometry = along_arc(self.odometry, linear, angular)
+        self.way += abs(linear) + abs(angular) * self.limits.track / 2
+        self.velocity = after
+
+    def _next_velocity(self) -> Twist:
+        limits, now, goal = self.limits, self.velocity, self._goal
+        change = limits.braking if self._is_braking else limits.acceleration
+        turn = 4 * limits.braking if self._is_braking else limits.angular_acceleration
+        return Twist(
+            _toward(now.linear, goal.linear, change * STEP),
+            _toward(now.angular, goal.angular, turn * STEP),
+        )
+
+    def _slipped(self, linear: float, angular: float) -> tuple[float, float]:
+        """What the ground makes of a step of the wheels."""
+        half = angular * self.limits.track / 2
+        left, right = (
+            way + self._random.gauss(0.0, 1.0) * self._slip * math.sqrt(abs(way))
+            for way in (linear - half, linear + half)
+        )
+        return (left + right) / 2, (right - left) / self.limits.track
+
+    def _is_free(self, pose: Pose2D) -> bool:
+        """Whether the body fits there, or at least gets away from what it touches."""
+        left = self._room_left(pose)
+        return left > 0 or left >= self._room_left(self.pose)
+
+    def _room_left(self, pose: Pose2D) -> float:
+        return self._clearance(pose.x, pose.y, self._step * STEP) - self.limits.radius
+
+
+def reachable(twist: Twist, limits: Limits) -> Twist:
+    """The velocity within all limits that keeps the curve; none for what is not finite."""
+    if not (math.isfinite(twist.linear) and math.isfinite(twist.angular)):
+        return Twist()
+    linear = max(-limits.linear, min(limits.linear, twist.linear))
+    angular = max(-limits.angular, min(limits.angular, twist.angular))
+    fastest = abs(linear) + abs(angular) * limits.track / 2
+    factor = min(1.0, limits.wheel / fastest) if fastest else 1.0
+    return Twist(linear * factor, angular * factor)
+
+
+def along_arc(pose: Pose2D, linear: float, angular: float) -> Pose2D:
+    """Where a short arc of `linear` metres that turns by `angular` radians leads."""
+    middle = pose.heading + angular / 2
+    return Pose2D(
+        pose.x + linear * math.cos(middle),
+        pose.y + linear * math.sin(middle),
+        pose.heading + angular,
+    )
+
+
+def _toward(value: float, goal: float, change: float) -> float:
+    return min(goal, value + change) if value < goal else max(goal, value - change)

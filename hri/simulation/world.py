@@ -1,0 +1,167 @@
+"""The simulated world: a room, a base in it, a person, what sounds, and a battery.
+
+It is a bus of the configuration; the simulated devices sit on it. Its parameters are `file` (a
+world of `config/worlds`), `seed`, `battery` (0 to 1 at the start) and `voice`, the id of the
+synthesiser that speaks for the person (without it the world brings one of its own).
+"""
+
+from __future__ import annotations
+
+import math
+import zlib
+from typing import ClassVar
+
+from hri.core import registry
+from hri.core.errors import HriError, NotAvailable
+from hri.core.signals import Twist
+from hri.hal.resource import Description, Resource
+from hri.hal.synthesizer import Synthesizer
+from hri.simulation.base import Base, Limits
+from hri.simulation.battery import Charge
+from hri.simulation.beams import Beams
+from hri.simulation.layout import Layout, PersonStart, find_layout, load_layout
+from hri.simulation.person import RADIUS, Person, Spoken
+from hri.simulation.room import Circle, Room
+from hri.simulation.sound import Sound
+
+BUMP_TIME = 0.3
+"""Seconds that somebody who pushes against the base presses the bumper."""
+_NEAREST = 1.0
+"""Metres; somebody who is nearer speaks more softly, so the voice gets no louder."""
+
+
+class SimulatedWorld(Resource):
+    """All that the simulated devices measure and move."""
+
+    parameters: ClassVar[tuple[str, ...]] = ("file", "seed", "battery", "voice")
+
+    room: Room
+    base: Base
+    person: Person
+    sound: Sound
+    beams: Beams
+
+    @classmethod
+    def check(cls, description: Description) -> None:
+        super().check(description)
+        _layout(description)
+        _start_level(description)
+        description.number("seed", 0)
+
+    def describe(self) -> str:
+        return f"simulated world {self.description.text('file', 'home')}"
+
+    def seed_for(self, name: str) -> int:
+        """A seed of its own for each user of randomness."""
+        seed = round(self.description.number("seed", 0))
+        return zlib.crc32(f"{seed}/{name}".encode())
+
+    def advance(self, now: float) -> None:
+        """Let the world go on until `now`; a time that has passed does nothing."""
+        with self._lock:
+            self.base.advance(now)
+
+    def command(self, twist: Twist, now: float) -> None:
+        """What the drive asks of the base."""
+        with self._lock:
+            self.base.command(twist, now)
+
+    def brake(self, now: float) -> None:
+        """Stop the base as fast as it can."""
+        with self._lock:
+            self.base.brake(now)
+
+    def say(self, text: str, at: float) -> Spoken | None:
+        """Let the person speak; the sound gets quieter with the distance to the robot."""
+        spoken = self.person.say(text, at)
+        if spoken is not None:
+            gain = 1.0 / max(_NEAREST, self.distance_to_person())
+            self.sound.add(spoken.speech.samples, spoken.speech.rate, spoken.start, gain)
+        return spoken
+
+    def bump(self, at: float) -> None:
+        """Let somebody push against the base."""
+        self._bumps.append(at)
+
+    def is_bumped(self, now: float) -> bool:
+        """Whether something, or somebody, presses the bumper."""
+        self.advance(now)
+        is_pushed = any(at <= now < at + BUMP_TIME for at in self._bumps)
+        return is_pushed or self.base.is_touching
+
+    def battery_level(self, now: float) -> float:
+        """0 (empty) to 1 (full)."""
+        self.advance(now)
+        return self._charge.level_at(now, self.base.way)
+
+    def set_battery(self, level: float, now: float) -> None:
+        """Replace the battery by one that holds this much."""
+        self.advance(now)
+        self._charge = Charge(level, now, self.base.way)
+
+    def distance_to_person(self) -> float:
+        """Metres from the middle of the robot."""
+        return math.hypot(self.person.x - self.base.pose.x, self.person.y - self.base.pose.y)
+
+    def beam_length(self, number: int, now: float) -> float:
+        """How far a beam of `beams` gets; infinity for never."""
+        self.advance(now)
+        return self.beams.length(number, self._room_at(now), self.base.pose)
+
+    def _open(self) -> None:
+        layout = _layout(self.description)
+        robot, person = layout.robot, layout.person
+        self._voice = self._person_voice(person)
+        self.person = Person(person.x, person.y, self._voice, self.seed_for("person"))
+        self.room = layout.room
+        self._furnished = layout.room.with_one_more(Circle(person.x, person.y, RADIUS))
+        limits = Limits(radius=robot.radius)
+        self.base = Base(self._clearance, robot.pose, limits, robot.slip, self.seed_for("slip"))
+        self.beams = Beams()
+        self.sound = Sound(self.seed_for("noise"), layout.noise_db)
+        self._charge = Charge(_start_level(self.description))
+        self._bumps: list[float] = []
+
+    def _clearance(self, x: float, y: float, time: float) -> float:
+        return self._room_at(time).clearance(x, y)
+
+    def _room_at(self, time: float) -> Room:
+        return self._furnished if self.person.is_present(time) else self.room
+
+    def _close(self) -> None:
+        if self._voice is not None and not self.description.text("voice"):
+            self._voice.deactivate()
+
+    def _person_voice(self, start: PersonStart) -> Synthesizer | None:
+        """The person's voice; None, a person who cannot speak, where there is no library."""
+        if chosen := self.description.text("voice"):
+            return self.manager.obtain(chosen, Synthesizer)
+        own = Description(
+            f"{self.id}_voice",
+            "Hri.EspeakVoice",
+            {"voice": start.voice, "rate_wpm": str(start.words_per_minute)},
+            places={"voice": start.voice_place},
+        )
+        try:
+            voice: Synthesizer = registry.find("hri.resources", own.type)(own, self.manager)
+            voice.activate()
+        except NotAvailable:
+            return None
+        return voice
+
+
+def _layout(description: Description) -> Layout:
+    """The layout the parameters ask for. Raises AuthoringError, also for a name nobody knows."""
+    try:
+        path = find_layout(description.text("file", "home"))
+    except HriError as error:
+        what, _, remedy = str(error).partition(" - ")
+        raise description.error("file", what, remedy) from error
+    return load_layout(path)
+
+
+def _start_level(description: Description) -> float:
+    level = description.number("battery", 1.0)
+    if not 0.0 <= level <= 1.0:
+        raise description.error("battery", f"battery is {level:g}", "write a number from 0 to 1")
+    return level

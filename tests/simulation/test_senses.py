@@ -1,0 +1,74 @@
+"""What the real recognisers make of the simulated person."""
+
+from collections.abc import Iterator
+
+import pytest
+
+from hri.core.clock import FakeClock
+from hri.core.paths import house
+from hri.core.signals import HeadGesture
+from hri.hal.camera import Camera
+from hri.hal.manager import ResourceManager
+from hri.hal.microphone import Microphone
+from hri.hal.recognizer import Recognizer
+from hri.hal.resource import Description
+from hri.simulation.world import SimulatedWorld
+from hri.speech.grammar import load_grammar
+from hri.vision.gesture import GestureRecognizer
+from hri.vision.tracking import HeadFinder
+
+from .conftest import Build
+
+
+@pytest.fixture
+def manager() -> Iterator[ResourceManager]:
+    descriptions = [
+        Description("world", "Hri.SimulatedWorld"),
+        Description("microphone", "Hri.SimulatedMicrophone", bus="world"),
+        Description("recognizer", "Hri.PocketSphinx"),
+    ]
+    manager = ResourceManager(descriptions, FakeClock())
+    yield manager
+    manager.close()
+
+
+def test_what_the_person_says_is_heard_and_small_talk_is_not(manager: ResourceManager) -> None:
+    world = manager.obtain("world", SimulatedWorld)
+    microphone = manager.obtain("microphone", Microphone)
+    recognizer = manager.obtain("recognizer", Recognizer)
+    recognizer.start(load_grammar(house() / "grammars" / "companion.jsgf"))
+    world.say("go forward ten meters", 0.5)
+    world.say("my sister went to Lisbon for the summer", 4.0)
+    segments = []
+    for tick in range(1, 9 * 30):
+        segments += recognizer.listen(microphone.read(tick / 30), tick / 30)
+    hypotheses = [recognizer.decode(segment) for segment in segments]
+    assert len(segments) == 2
+    assert segments[0].start == pytest.approx(0.5, abs=0.3)
+    assert hypotheses[0].text == "go forward ten meters"
+    assert hypotheses[0].confidence > 0.5 > hypotheses[1].confidence
+
+
+def gestures(build: Build, movement: str) -> list[HeadGesture]:
+    manager = build(None, camera={"rate": "15"})
+    camera = manager.obtain("camera", Camera)
+    getattr(manager.obtain("world", SimulatedWorld).person, movement)(1.5)
+    finder, recognizer = HeadFinder(), GestureRecognizer()
+    found = []
+    for tick in range(4 * 15):
+        frame = camera.read(tick / 15)
+        pose = finder.see(frame) if frame is not None else None
+        if pose is not None and (gesture := recognizer.update(pose)) is not None:
+            found.append(gesture)
+    return found
+
+
+@pytest.mark.parametrize("kind", ["nod", "shake"])
+def test_a_nod_and_a_shake_are_seen(build: Build, kind: str) -> None:
+    first = gestures(build, kind)[0]
+    assert first.kind == kind
+    assert 1.5 < first.time < 3.3
+
+
+def test_a_glance_is_no_gesture(build: Build) -> None:
+    assert gestures(build, "look_aside") == []
