@@ -1,0 +1,1 @@
+"""Speech: grammars, what is heard by them, and the voice."""

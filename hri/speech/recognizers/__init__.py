@@ -1,0 +1,1 @@
+"""Engines that find words in sound."""

@@ -1,0 +1,77 @@
+"""A process of its own for PocketSphinx, which holds Python's interpreter lock while it decodes.
+
+Run as a script; it imports nothing of `hri`. It reads requests on its standard input, each one a
+line of JSON, and answers each with a line of JSON on its standard output:
+
+    {"lookup": ["go", "zorg"]}                              {"missing": ["zorg"]}
+    {"jsgf": "...", "pronunciations": {"zorg": "Z AO R G"}} {"error": ""}
+    {"bytes": 32000}, then so many bytes of 16-bit samples  {"words": [["go", 12]], "score": 0.7}
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+from typing import Any, BinaryIO
+
+
+def serve(requests: BinaryIO, answers: BinaryIO) -> None:
+    """Answer until the requests end."""
+    decoder = _decoder()
+    for line in requests:
+        request = json.loads(line)
+        if "lookup" in request:
+            missing = [word for word in request["lookup"] if decoder.lookup_word(word) is None]
+            answer = {"missing": missing}
+        elif "jsgf" in request:
+            answer = _take_grammar(decoder, request)
+        else:
+            decoder.reinit_feat()  # forgets what it has learnt of earlier sound
+            answer = _decode(decoder, requests.read(request["bytes"]))
+        answers.write(json.dumps(answer).encode() + b"\n")
+        answers.flush()
+
+
+def _decoder() -> Any:
+    from pocketsphinx import Decoder, get_model_path
+
+    return Decoder(
+        hmm=get_model_path("en-us/en-us"),
+        dict=get_model_path("en-us/cmudict-en-us.dict"),
+        lm=None,
+        loglevel="FATAL",
+        logfn=os.devnull,
+    )
+
+
+def _take_grammar(decoder: Any, request: dict[str, Any]) -> dict[str, Any]:
+    for word, phones in request["pronunciations"].items():
+        decoder.add_word(word, phones, True)
+    try:
+        decoder.add_jsgf_string("grammar", request["jsgf"])
+        decoder.activate_search("grammar")
+    except (ValueError, RuntimeError) as error:
+        return {"error": str(error)}
+    return {"error": ""}
+
+
+def _decode(decoder: Any, samples: bytes) -> dict[str, Any]:
+    """The words with their frames, and the score of the whole path."""
+    decoder.start_utt()
+    # The whole piece at once: its own mean is taken off, nothing of earlier speech plays a part.
+    decoder.process_raw(samples, full_utt=True)
+    decoder.end_utt()
+    best = decoder.hyp()
+    if best is None or not best.hypstr:
+        return {"words": [], "score": 0.0}
+    words = [(s.word, s.end_frame - s.start_frame + 1) for s in decoder.seg()]
+    spoken = [(word.split("(")[0], frames) for word, frames in words if word[0] not in "<[("]
+    return {"words": spoken, "score": best.score}
+
+
+if __name__ == "__main__":
+    # Ctrl-C is for the parent, which ends this process by closing its input.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    serve(sys.stdin.buffer, sys.stdout.buffer)

@@ -1,0 +1,97 @@
+"""Vosk, with a model directory of the user's: any of its languages, any size."""
+
+from __future__ import annotations
+
+import json
+import os
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from hri.core.signals import Samples
+from hri.hal.recognizer import Grammar, Hypothesis, Recognizer, Segment
+from hri.speech.endpoint import Endpointer
+from hri.speech.recognizers.voice_activity import VoiceActivityEndpointer
+
+VARIABLE = "HRI_VOSK_MODEL"
+DEFAULT_FOLDER = Path("~/.local/share/hri/vosk")
+MOST_SENTENCES = 5000
+"""Sentences the engine is told of; it learns word pairs from them, so more bring little."""
+
+
+def find_model(folder: str = "") -> Path | None:
+    """The model directory: as given, else of the environment, else the user's; None without."""
+    for candidate in (folder, os.environ.get(VARIABLE, ""), str(DEFAULT_FOLDER)):
+        path = Path(candidate).expanduser()
+        if candidate and (path / "conf").is_dir():
+            return path
+    return None
+
+
+class VoskRecognizer(Recognizer):
+    """Decodes finished pieces of speech; Vosk lets go of the interpreter while it works."""
+
+    parameters = ("model",)
+
+    def _open(self) -> None:
+        folder = self.description.text("model")
+        path = find_model(folder)
+        if path is None or (folder and path != Path(folder).expanduser()):
+            what = f"no Vosk model in {folder or DEFAULT_FOLDER}"
+            raise self.not_available(what, f"unpack one there, or set {VARIABLE}")
+        self._path = path
+        self._endpointer: Endpointer = VoiceActivityEndpointer(self.rate)
+        self._one = threading.Lock()
+        self._model: Any = None
+        self._engine: Any = None
+
+    def start(self, grammar: Grammar) -> None:
+        import vosk
+
+        with self._one:
+            if self._model is None:
+                vosk.SetLogLevel(-1)
+                try:
+                    self._model = vosk.Model(model_path=str(self._path))
+                except Exception as error:  # That is the class it raises.
+                    remedy = "unpack the model again"
+                    raise self.not_available(f"{self._path}: {error}", remedy) from error
+            phrases = json.dumps(known_sentences(grammar, self._knows))
+            self._engine = vosk.KaldiRecognizer(self._model, self.rate, phrases)
+            self._engine.SetWords(True)
+
+    def _knows(self, word: str) -> bool:
+        return bool(self._model.vosk_model_find_word(word) >= 0)
+
+    def listen(self, samples: Samples, end: float) -> list[Segment]:
+        return self._endpointer.listen(samples, end)
+
+    def flush(self) -> list[Segment]:
+        return self._endpointer.flush()
+
+    @property
+    def is_hearing(self) -> bool:
+        return self._endpointer.is_hearing
+
+    def decode(self, segment: Segment) -> Hypothesis:
+        if segment.samples is None:
+            return Hypothesis(segment.text, 1.0)
+        with self._one:
+            self._engine.Reset()
+            self._engine.AcceptWaveform(segment.samples.tobytes())
+            return hypothesis(json.loads(self._engine.FinalResult()))
+
+
+def known_sentences(grammar: Grammar, knows: Callable[[str], bool]) -> list[str]:
+    """The sentences whose words the model all knows: Vosk would silently drop the others' words."""
+    known = {word for word in grammar.words() if knows(word)}
+    sentences = grammar.sentences(MOST_SENTENCES)
+    return [sentence for sentence in sentences if known.issuperset(sentence.split())]
+
+
+def hypothesis(result: dict[str, Any]) -> Hypothesis:
+    """Vosk's answer, as certain as its least certain word."""
+    words = result.get("result", [])
+    least = min((float(word["conf"]) for word in words), default=0.0)
+    return Hypothesis(str(result.get("text", "")), min(max(least, 0.0), 1.0))

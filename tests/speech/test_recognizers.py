@@ -1,0 +1,223 @@
+from __future__ import annotations
+
+import itertools
+import os
+import wave
+
+import numpy as np
+import pytest
+
+from hri.core.clock import FakeClock
+from hri.core.errors import HriError, NotAvailable
+from hri.core.signals import Rejection, Utterance
+from hri.hal.drivers.wav_file import resample
+from hri.hal.manager import ResourceManager
+from hri.hal.recognizer import Hypothesis, Segment
+from hri.hal.resource import Description
+from hri.speech.grammar import load_grammar
+from hri.speech.judgement import judge
+from hri.speech.recognizers.automatic import AutomaticRecognizer
+from hri.speech.recognizers.pocketsphinx import PocketSphinxRecognizer
+from hri.speech.recognizers.typed import TypedRecognizer
+from hri.speech.recognizers.vosk import VoskRecognizer, hypothesis, known_sentences
+from hri.speech.synthesizers.espeak import EspeakVoice
+
+from .conftest import RECORDINGS
+
+SECOND = np.zeros(16000, np.int16)
+TICK = 533
+"""Samples that a loop of 30 Hz brings."""
+
+needs_recordings = pytest.mark.skipif(
+    not RECORDINGS.is_dir(), reason="the recordings of people are not on this machine"
+)
+
+
+@pytest.fixture(scope="module")
+def sphinx(companion):
+    manager = ResourceManager((), FakeClock())
+    recognizer = PocketSphinxRecognizer(Description("ears", "Hri.PocketSphinx"), manager)
+    recognizer.activate()
+    recognizer.start(companion)
+    yield recognizer
+    recognizer.deactivate()
+    recognizer.deactivate()
+
+
+def recording(name):
+    with wave.open(str(RECORDINGS / name)) as file:
+        return np.frombuffer(file.readframes(file.getnframes()), np.int16)
+
+
+def segments_of(recognizer, samples):
+    found = []
+    for start in range(0, len(samples), TICK):
+        block = samples[start : start + TICK]
+        found += recognizer.listen(block, (start + len(block)) / 16000)
+    return found + recognizer.flush()
+
+
+def heard(recognizer, grammar, samples):
+    """What counts of a sound, at the usual strictness."""
+    judged = [
+        judge(grammar, segment, recognizer.decode(segment), 0.5)
+        for segment in segments_of(recognizer, samples)
+    ]
+    return [result for result in judged if isinstance(result, Utterance)]
+
+
+@needs_recordings
+def test_a_person_s_command_is_heard_exactly(sphinx, companion):
+    (utterance,) = heard(sphinx, companion, recording("robot/goforward.wav"))
+
+    assert utterance.text == "go forward ten meters"
+    assert (utterance.rule, utterance.tags) == ("move", {"distance": 10.0})
+    assert utterance.confidence > 0.6
+    assert 0.0 <= utterance.start < utterance.end <= 3.0
+
+
+@needs_recordings
+def test_read_lines_of_a_book_are_no_commands(sphinx, companion):
+    lines = sorted(path.name for path in RECORDINGS.glob("robot/sense_*.wav"))
+    sounds = [recording(f"robot/{name}") for name in lines]
+
+    assert len(sounds) == 5
+    for sound in [*sounds, np.concatenate(sounds), np.concatenate([*sounds, SECOND] * 2)]:
+        assert heard(sphinx, companion, np.concatenate([sound, SECOND])) == []
+
+
+@needs_recordings
+def test_orders_of_coffee_are_no_commands(sphinx, companion):
+    orders = sorted(path.name for path in RECORDINGS.glob("orders/*.wav"))[::5]
+
+    accepted = [name for name in orders if heard(sphinx, companion, recording(f"orders/{name}"))]
+
+    assert accepted == []
+
+
+@needs_recordings
+def test_what_is_heard_does_not_depend_on_what_was_heard_before(sphinx):
+    names = ["goforward", "something", "numbers", "cards003"]
+    pieces = {name: segments_of(sphinx, recording(f"robot/{name}.wav")) for name in names}
+
+    first = {name: [sphinx.decode(piece) for piece in pieces[name]] for name in names}
+    again = {name: [sphinx.decode(piece) for piece in pieces[name]] for name in reversed(names)}
+
+    assert first == again
+
+
+@pytest.fixture
+def spoken(resources):
+    """Synthetic speech at 16 kHz with silence around it."""
+    voice = EspeakVoice(Description("voice", "Hri.EspeakVoice"), resources)
+    voice.activate()
+
+    def spoken(text):
+        speech = voice.synthesize(text)
+        sound = resample(speech.samples, speech.rate, 16000)
+        return np.concatenate([SECOND, (0.4 * sound).astype(np.int16), SECOND])
+
+    return spoken
+
+
+def test_synthetic_commands_are_heard(sphinx, companion, spoken):
+    texts = ["go forward ten meters", "turn right", "show me a happy face", "what is your name"]
+
+    sound = np.concatenate([spoken(text) for text in texts])
+
+    assert [utterance.text for utterance in heard(sphinx, companion, sound)] == texts
+
+
+def test_silence_and_noise_are_no_speech(sphinx, companion):
+    noise = np.random.default_rng(1).normal(0, 300, 48000).astype(np.int16)
+
+    assert heard(sphinx, companion, np.zeros(48000, np.int16)) == []
+    assert heard(sphinx, companion, noise) == []
+
+
+def test_an_endless_voice_is_cut(sphinx, spoken):
+    babble = np.tile(spoken("blah blah blah blah blah blah blah blah")[17600:-17600], 20)
+
+    pieces = segments_of(sphinx, babble)
+
+    assert max(len(piece.samples) / 16000 for piece in pieces) < 16.0
+    assert all(first.end <= second.start + 0.5 for first, second in itertools.pairwise(pieces))
+
+
+def test_a_word_of_no_dictionary_gets_its_sound(write, resources, spoken):
+    grammar = load_grammar(write("public <a> = hello zorblax | good night everyone;"))
+    recognizer = PocketSphinxRecognizer(Description("ears", "Hri.PocketSphinx"), resources)
+    recognizer.activate()
+    try:
+        recognizer.start(grammar)
+        (utterance,) = heard(recognizer, grammar, spoken("hello zorblax"))
+    finally:
+        recognizer.deactivate()
+
+    assert utterance.text == "hello zorblax"
+
+
+def test_the_decoder_comes_back_after_its_death(sphinx, companion, spoken):
+    sphinx._process.kill()
+    sphinx._process.wait()
+
+    assert [u.text for u in heard(sphinx, companion, spoken("turn left"))] == ["turn left"]
+
+
+def test_judgement_gives_its_reasons(companion):
+    def reason(hypothesis, only=None):
+        result = judge(companion, Segment(0.0, 1.0), hypothesis, 0.5, only)
+        return result.reason if isinstance(result, Rejection) else result.rule
+
+    assert reason(Hypothesis("stop", 0.5)) == "stop"
+    assert reason(Hypothesis("stop", 0.5), {"stop"}) == "stop"
+    assert reason(Hypothesis("go forward", 0.9), {"stop"}) == "robot speaking"
+    assert reason(Hypothesis("stop", 0.4), {"stop"}) == "low confidence"
+
+
+def test_typed_lines_are_heard(resources, companion):
+    typed = TypedRecognizer(Description("keys", "Hri.Typed"), resources)
+    typed.activate()
+    typed.type_line("Go forward ten meters.", 2.0)
+    typed.type_line("", 2.1)
+
+    (segment,) = typed.listen(SECOND, 3.0)
+
+    assert (segment.start, segment.end) == (2.0, 2.0)
+    result = judge(companion, segment, typed.decode(segment), 0.5)
+    assert result.tags == {"distance": 10.0}
+    assert typed.listen(SECOND, 4.0) == []
+
+
+def test_a_wrong_source_is_refused(resources):
+    description = Description("keys", "Hri.Typed", {"source": "stdinn"})
+    with pytest.raises(HriError, match='no source "stdinn"'):
+        TypedRecognizer(description, resources).activate()
+
+
+def test_vosk_without_a_model_says_where_to_put_one(resources, tmp_path):
+    description = Description("ears", "Hri.Vosk", {"model": str(tmp_path)})
+    with pytest.raises(NotAvailable, match="no Vosk model in"):
+        VoskRecognizer(description, resources).activate()
+
+
+def test_vosk_is_told_only_sentences_whose_words_it_knows(write):
+    grammar = load_grammar(write("public <a> = go (home | zorblax) | stop;"))
+
+    assert known_sentences(grammar, lambda word: word != "zorblax") == ["go home", "stop"]
+
+
+def test_vosk_is_as_certain_as_its_least_certain_word():
+    result = {"text": "go home", "result": [{"word": "go", "conf": 1.0}, {"conf": 0.4}]}
+
+    assert hypothesis(result) == Hypothesis("go home", 0.4)
+    assert hypothesis({"text": ""}) == Hypothesis("", 0.0)
+
+
+@pytest.mark.skipif("HRI_VOSK_MODEL" in os.environ, reason="a Vosk model is there")
+def test_pocketsphinx_serves_where_no_vosk_model_is(resources):
+    ears = AutomaticRecognizer(Description("ears", "Hri.Recognizer"), resources)
+    ears.activate()
+
+    assert isinstance(ears.engine, PocketSphinxRecognizer | VoskRecognizer)
+    ears.deactivate()

@@ -1,0 +1,37 @@
+from __future__ import annotations
+
+import pytest
+
+from hri.speech.tags import evaluate, read_entries
+
+
+@pytest.mark.parametrize(
+    ("text", "tags"),
+    [
+        ("distance=10", {"distance": 10.0}),
+        ("a=1; b=-2.5  c=x", {"a": 1.0, "b": -2.5, "c": "x"}),
+        ("polite", {"polite": True}),
+        ("loud=false", {"loud": False}),
+        ('place="the kitchen"', {"place": "the kitchen"}),
+        ("n+=20 n+=5", {"n": 25.0}),
+        ("n=2 n*=100 n+=6", {"n": 206.0}),
+        ("n*=100", {}),
+        ("d=$n", {}),
+        ("n=3 d=$n", {"d": 3.0}),
+        ("n=3 a=$n b=$n", {"a": 3.0, "b": 3.0}),
+        ("n=5 x=red x+=1", {"n": 5.0, "x": "red"}),
+    ],
+)
+def test_entries_mean_plain_data(text, tags):
+    # One group for each entry, as if each stood behind a word of its own.
+    groups = [(entry,) for entry in read_entries(text)]
+    if text == "n=3 a=$n b=$n":
+        groups = [read_entries("n=3"), read_entries("a=$n b=$n")]
+
+    assert evaluate(groups) == tags
+
+
+@pytest.mark.parametrize("text", ["", " ; ", "=3", "a==3", 'a="b c', "1x=3", "a+=red", "a=1e999"])
+def test_what_is_no_tag_is_refused(text):
+    with pytest.raises(ValueError, match=r"\w"):
+        read_entries(text)
