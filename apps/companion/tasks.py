@@ -304,6 +304,8 @@ async def notice(context: TaskContext) -> None:
 def _noticed(companion: Companion, stimulus: str, words: str) -> None:
     companion.emotion.feel(stimulus)
     if words and not companion.is_asleep:
+        # What hurts or worries it is talked about first, before any question.
+        companion.last_contact = max(companion.last_contact, companion.context.clock.now())
         companion.say(companion.replies.unasked[words])
 
 

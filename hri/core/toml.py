@@ -18,6 +18,8 @@ from hri.core.errors import AuthoringError, Place, did_you_mean, read_text
 Key = tuple[str | int, ...]
 Default = TypeVar("Default")
 REQUIRED: Any = object()
+LARGEST = 1e300
+"""Numbers beyond it, infinity and NaN among them, mean nothing in an authored file."""
 
 _POSITION = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 
@@ -58,8 +60,9 @@ class Table:
     def place(self, name: str | None = None) -> Place:
         """Where a key stands; without a name, where the table stands."""
         key = self.key if name is None else (*self.key, name)
-        while key and key not in self._places:
+        while key and key not in self._places and (*key, 0) not in self._places:
             key = key[:-1]
+        key = key if key in self._places else (*key, 0)
         found = self._places.get(key, Place(self.path))
         return Place(self.path, found.line, found.column)
 
@@ -90,7 +93,7 @@ class Table:
             return value  # type: ignore[no-any-return]
         if isinstance(value, bool):
             raise self.error(name, f"{name} is true or false", "write a number")
-        if not math.isfinite(value) or not minimum <= value <= maximum:
+        if not minimum <= value <= maximum or abs(value) > LARGEST:
             remedy = f"write a number from {minimum:g} to {maximum:g}"
             raise self.error(name, f"{name} is {value}", remedy)
         return float(value)
@@ -113,7 +116,7 @@ class Table:
     ) -> list[float]:
         """A list of numbers, `count` of them when given."""
         value = self._get(name, default, list, "a list of numbers")
-        if any(isinstance(item, bool) or not isinstance(item, (int, float)) for item in value):
+        if not all(_is_number(item) for item in value):
             raise self.error(
                 name, f"{name} holds something that is no number", "write numbers only"
             )
@@ -165,6 +168,11 @@ class Table:
         if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
             raise self.error(name, f"{name} is {_kind_of(value)}", f"write {wanted}")
         return value
+
+
+def _is_number(value: object) -> bool:
+    is_numeric = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return is_numeric and -LARGEST <= value <= LARGEST
 
 
 def _kind_of(value: object) -> str:

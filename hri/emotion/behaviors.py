@@ -26,6 +26,9 @@ class EmotionModel(Behavior):
     stimulus = Input[Stimulus]("stimulus", "felt at every tick in which it is sent")
     state = Output[EmotionState]("emotion", "what is felt now")
 
+    def check(self) -> None:
+        load_emotions(self.personality)
+
     def start(self, context: Context) -> None:
         """Load the emotions and listen to `stimulus.felt`, with `stimulus` and `intensity` (1)."""
         self._clock = context.clock
@@ -113,6 +116,10 @@ class EmotionDisplay(Behavior):
     prosody = Output[Prosody]("prosody", "for the voice")
     speed = Output[float]("double", "factor on the driving speed, 0.6 to 1.2")
     arousal = Output[float]("double", "-1 (sleepy) to 1 (excited), for idle motion")
+
+    def check(self) -> None:
+        load_display()
+        load_personality(self.personality)
 
     def start(self, context: Context) -> None:
         self._display = load_display()

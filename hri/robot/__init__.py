@@ -24,6 +24,7 @@ from hri.core import paths
 from hri.core.clock import Clock, FakeClock, RealClock
 from hri.core.events import EventBus
 from hri.core.latest import Board
+from hri.core.registry import canonical
 from hri.core.signals import Utterance
 from hri.hal.choices import apply_choices, load_choices
 from hri.hal.configuration import Configuration, load_configuration
@@ -66,7 +67,8 @@ class Robot:
         """
         self.app = load_app(app)
         self.clock = clock or RealClock()
-        self.configuration = _with_devices(_find_configuration(config), devices)
+        configuration = _with_devices(_find_configuration(config), devices)
+        self.configuration = _with_seed(configuration, seed)
         self.resources = ResourceManager(self.configuration.devices, self.clock, notice)
         self.resources.check()
         self.networks = self.app.load_networks()
@@ -234,6 +236,17 @@ def _with_devices(configuration: Configuration, devices: Sequence[Description]) 
     present = apply_choices(configuration.devices, load_choices())
     kept = [chosen.pop(device.id, device) for device in present]
     return replace(configuration, devices=(*kept, *chosen.values()))
+
+
+def _with_seed(configuration: Configuration, seed: int) -> Configuration:
+    """Give simulated worlds the seed, unless the file says one."""
+    devices = tuple(
+        replace(device, parameters={"seed": str(seed), **device.parameters})
+        if canonical(device.type) == "Hri.SimulatedWorld"
+        else device
+        for device in configuration.devices
+    )
+    return replace(configuration, devices=devices)
 
 
 def _override(networks: list[Network], parameters: dict[str, dict[str, Any]]) -> None:

@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from hri.behavior.network import Network, load_network
-from hri.core import paths
+from hri.core import paths, registry
 from hri.core.errors import HriError, did_you_mean
 from hri.core.toml import load_toml
 from hri.task.context import TaskContext
@@ -28,7 +28,8 @@ class App:
     about: str
     networks: tuple[Path, ...]
     tasks: tuple[str, ...]
-    """Names of coroutine functions in the app's `tasks.py`; all run beside each other."""
+    """Coroutine functions in the app's `tasks.py`, or names of the group `hri.tasks`; all run
+    beside each other."""
 
     def load_networks(self) -> list[Network]:
         """The networks, checked and in dependency order."""
@@ -36,17 +37,18 @@ class App:
 
     def load_tasks(self) -> list[Task]:
         """The coroutine functions. Raises HriError for a name that `tasks.py` does not have."""
-        if not self.tasks:
-            return []
-        module = self.module
-        found = []
-        for name in self.tasks:
-            if not hasattr(module, name):
-                known = [known for known in vars(module) if not known.startswith("_")]
-                where = self.folder / "tasks.py"
-                raise HriError(f'{where}: no task "{name}" - {did_you_mean(name, known)}')
-            found.append(getattr(module, name))
-        return found
+        return [self._task(name) for name in self.tasks]
+
+    def _task(self, name: str) -> Task:
+        if "." in name:
+            declared: Task = registry.find("hri.tasks", name)
+            return declared
+        if not hasattr(self.module, name):
+            known = [known for known in vars(self.module) if not known.startswith("_")]
+            where = self.folder / "tasks.py"
+            raise HriError(f'{where}: no task "{name}" - {did_you_mean(name, known)}')
+        own: Task = getattr(self.module, name)
+        return own
 
     def check(self, context: TaskContext) -> None:
         """Let the app read its own files, with `check(context)` of its tasks if it has one."""

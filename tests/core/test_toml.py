@@ -64,6 +64,19 @@ def test_wrong_kind_range_and_missing(table):
     assert 'did you mean "pleasure"?' in message(error)
 
 
+def test_numbers_beyond_reason_and_strange_arrays_have_a_place(tmp_path):
+    path = tmp_path / "file.toml"
+    path.write_text(f"big = {'9' * 400}\nlist = [1, inf]\n\n[[stepp]]\nat = 1\n")
+    table = load_toml(path)
+    with pytest.raises(AuthoringError, match=r":1:1: big is 999"):
+        table.number("big")
+    with pytest.raises(AuthoringError, match=r":2:1: list holds something that is no number"):
+        table.numbers("list")
+    table.array("step")
+    with pytest.raises(AuthoringError, match=r':4:1: unknown key "stepp" - did you mean "step"\?'):
+        table.finish()
+
+
 def test_syntax_errors_have_a_place(tmp_path):
     path = tmp_path / "file.toml"
     path.write_text("good = 1\nbad = .05\n")

@@ -70,7 +70,7 @@ def test_a_recording_has_all_its_parts(tmp_path):
     with Robot(config="simulated", clock=FakeClock(), record=tmp_path / "out") as robot:
         robot.say("One two three.")
     for name in ("events.jsonl", "face.mp4", "robot.wav", "timeline.png"):
-        assert (tmp_path / "out" / name).stat().st_size > 500, name
+        assert (tmp_path / "out" / name).stat().st_size > 100, name
     events = read_events(tmp_path / "out" / "events.jsonl")
     assert [event["text"] for event in events if event["event"] == "speech.said"] == [
         "One two three."

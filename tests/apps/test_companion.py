@@ -1,0 +1,216 @@
+"""What the companion does in the simulated world: a person speaks, it is seen what comes of it."""
+
+import math
+import shutil
+
+import pytest
+
+from hri.core import paths
+from hri.core.clock import FakeClock
+from hri.core.errors import AuthoringError
+from hri.hal.drive import Odometry
+from hri.hal.drivers.memory import OffscreenScreen
+from hri.hal.resource import Description
+from hri.robot import Robot
+from hri.robot.app import load_app
+from hri.simulation.world import SimulatedWorld
+from hri.testing import live_for
+
+SMALL_SCREEN = Description("screen", "Hri.OffscreenScreen", {"width": "160", "height": "120"})
+
+
+class KeyedScreen(OffscreenScreen):
+    """A screen at which somebody presses keys at given times."""
+
+    presses: list[tuple[float, str]] = []
+
+    def pressed_keys(self):
+        now = self.manager.clock.now()
+        due = [key for time, key in self.presses if time <= now]
+        self.presses = [(time, key) for time, key in self.presses if time > now]
+        return due
+
+
+class Visit:
+    """A person says lines at times, and perhaps presses keys; what was told is kept."""
+
+    def __init__(self, seconds, lines, keys=(), seed=3):
+        clock = FakeClock()
+        self.robot = Robot(config="simulated", clock=clock, seed=seed, devices=[SMALL_SCREEN])
+        world = self.robot.resources.obtain("world", SimulatedWorld)
+        self._place_screen(keys)
+        self.odometry = self.robot.resources.obtain("odometry", Odometry)
+        for time, line in lines.items():
+            clock.call_at(time, lambda line=line: world.say(line, clock.now()))
+        self.poses = []
+        self.world = world
+        self.events = live_for(self.robot, seconds, *self.robot.app.load_tasks(), self._watch)
+
+    def _place_screen(self, keys):
+        screen = KeyedScreen(SMALL_SCREEN, self.robot.resources)
+        screen.presses = list(keys)
+        screen.activate()
+        self.robot.resources.substitute("screen", screen)
+
+    async def _watch(self, context):
+        while True:
+            self.poses.append((context.clock.now(), self.odometry.pose(context.clock.now())))
+            await context.clock.sleep(0.1)
+
+    def named(self, name):
+        return [event for event in self.events if event.name == name]
+
+    def heard(self):
+        return [event.properties["rule"] for event in self.named("speech.heard")]
+
+    def said(self):
+        return [event.properties["text"] for event in self.named("speech.said")]
+
+    def pose_at(self, time):
+        return next(pose for when, pose in self.poses if when >= time)
+
+
+def test_stop_is_obeyed_while_it_speaks():
+    visit = Visit(9, {1.0: "what can i say", 4.2: "stop"})
+    assert visit.heard() == ["help", "stop"]
+    finished = visit.named("speech.finished")[0]
+    stop = visit.named("speech.heard")[1]
+    assert finished.properties["cut"] is True
+    assert finished.time == pytest.approx(stop.time, abs=0.1)
+    assert visit.said()[1] == "I stopped."
+
+
+def test_while_it_speaks_nothing_but_stop_counts():
+    visit = Visit(8, {1.0: "what can i say", 4.2: "go forward one meter"})
+    assert visit.heard() == ["help"]
+    reasons = [event.properties["reason"] for event in visit.named("speech.rejected")]
+    assert reasons == ["robot speaking"]
+    assert visit.pose_at(7.9).x == pytest.approx(0, abs=0.01)
+
+
+def test_stop_is_obeyed_while_it_drives():
+    visit = Visit(11, {1.0: "go forward ten meters", 6.5: "stop"})
+    assert visit.heard() == ["move", "stop"]
+    stopped = visit.named("drive.stopped")[0]
+    assert stopped.properties["reason"] == "halt"
+    stop = visit.named("speech.heard")[1].time
+    assert 0.3 < visit.pose_at(stop).x < 3
+    assert visit.pose_at(stop + 1.5).x == pytest.approx(visit.pose_at(10.5).x, abs=0.005)
+    assert visit.pose_at(stop + 1.5).x - visit.pose_at(stop).x < 0.25
+
+
+def test_the_stop_key_stops_and_the_other_key_makes_it_deaf():
+    visit = Visit(
+        12,
+        {1.0: "go forward ten meters", 8.0: "hello robot"},
+        keys=[(5.0, "space"), (7.0, "m")],
+    )
+    assert visit.heard() == ["move"]
+    assert visit.named("drive.stopped")[0].time == pytest.approx(5.05, abs=0.1)
+    assert visit.pose_at(6.5).x == pytest.approx(visit.pose_at(11.5).x, abs=0.005)
+    assert visit.named("microphone.muted")[0].properties["muted"] is True
+
+
+def test_it_sleeps_until_it_is_woken():
+    visit = Visit(18, {1.0: "go to sleep", 6.0: "go forward one meter", 11.0: "wake up robot"})
+    assert visit.heard() == ["sleep", "move", "wake"]
+    assert visit.said() == ["Good night.", "I am awake again."]
+    assert visit.pose_at(17).x == pytest.approx(0, abs=0.01)
+
+
+def test_quiet_means_that_it_does_but_does_not_speak():
+    visit = Visit(14, {1.0: "please be quiet", 5.0: "go forward one meter"})
+    assert visit.heard() == ["quiet", "move"]
+    assert visit.said() == []
+    assert visit.pose_at(13.5).x == pytest.approx(1.0, abs=0.03)
+
+
+def test_what_the_grammar_does_not_know_does_nothing():
+    visit = Visit(8, {1.0: "my sister went to Lisbon for the summer"})
+    assert visit.heard() == []
+    assert visit.said() == []
+    assert len(visit.named("speech.rejected")) >= 1
+
+
+def test_a_new_way_takes_the_place_of_the_old_one():
+    visit = Visit(16, {1.0: "go forward ten meters", 7.5: "turn left ninety degrees"})
+    assert visit.heard() == ["move", "turn"]
+    last = visit.pose_at(15.5)
+    assert last.heading == pytest.approx(math.pi / 2, abs=0.05)
+    assert last.x < 4
+
+
+def test_come_here_brings_it_to_the_person():
+    visit = Visit(20, {1.5: "come to me"})
+    assert visit.heard()[0] == "come"
+    before = visit.pose_at(0)
+    after = visit.pose_at(19.5)
+    person = visit.world.person
+
+    def distance(pose):
+        return math.hypot(person.x - pose.x, person.y - pose.y)
+
+    assert distance(after) < distance(before) - 0.3
+    assert distance(after) > 0.4
+
+
+@pytest.fixture
+def own_app(tmp_path):
+    """A copy of the companion to spoil."""
+    shutil.copytree(paths.find("apps", "companion"), tmp_path / "mine")
+    return tmp_path / "mine"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (
+            "[reply.greet]",
+            "[reply.great]",
+            'the grammar has no rule "great" - did you mean "greet"?',
+        ),
+        ('feel = "praise"', 'feel = "prais"', 'no stimulus "prais" - did you mean "praise"?'),
+        (
+            'show = "happy"',
+            'show = "hapy"',
+            'the face has no expression "hapy" - did you mean "happy"?',
+        ),
+        ('action = "move"', 'action = "moove"', 'action is "moove" - did you mean "move"?'),
+        ("I am {feeling}", "I am {feelin}", 'nothing fills in {feelin} - did you mean "feeling"?'),
+        ("I am {feeling}", "I am {feeling", "close every {brace}"),
+        ("intensity = 0.6", "intensity = 6", "intensity is 6 - write a number from 0 to 1"),
+    ],
+)
+def test_a_mistake_in_the_replies_has_a_place_and_a_remedy(own_app, old, new, message):
+    replies = own_app / "replies.toml"
+    replies.write_text(replies.read_text().replace(old, new, 1))
+    with pytest.raises(AuthoringError) as error:
+        Robot(app=str(own_app), config="simulated", clock=FakeClock())
+    assert f"replies.toml:{error.value.place.line}:" in str(error.value)
+    assert message in str(error.value)
+
+
+def test_a_new_command_needs_a_grammar_line_and_a_reply_and_no_python(
+    own_app, tmp_path, monkeypatch
+):
+    grammars = tmp_path / "grammars"
+    grammars.mkdir()
+    for name in ("companion.jsgf", "numbers.jsgf"):
+        shutil.copy(paths.find("grammars", name), grammars / name)
+    with (grammars / "companion.jsgf").open("a") as file:
+        file.write("\npublic <weather> = how is the weather [today];\n")
+    with (own_app / "replies.toml").open("a") as file:
+        file.write('\n[reply.weather]\nsay = "I do not know, I am inside."\n')
+    monkeypatch.setenv("HRI_PATH", str(tmp_path))
+    robot = Robot(app=str(own_app), config="simulated", clock=FakeClock(), devices=[SMALL_SCREEN])
+    world = robot.resources.obtain("world", SimulatedWorld)
+    robot.clock.call_at(1.0, lambda: world.say("how is the weather today", 1.0))
+    events = live_for(robot, 6, *robot.app.load_tasks())
+    assert "I do not know, I am inside." in [event.properties.get("text") for event in events]
+
+
+def test_every_app_loads_with_its_networks_and_tasks():
+    for name in paths.names("apps"):
+        app = load_app(name)
+        assert app.load_networks()
+        assert app.load_tasks()
