@@ -13,6 +13,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from hri.core import paths
+from hri.core.latest import Latest
 from hri.core.signals import Event, HeadPose
 from hri.drive.behaviors import CommandGate
 from hri.emotion.behaviors import EmotionModel
@@ -25,7 +27,6 @@ from hri.hal.screen import Screen
 from hri.robot import verbs
 from hri.speech.behaviors import Listener, Voice
 from hri.speech.grammar import Grammar, load_grammar
-from hri.speech.listener import find_grammar
 from hri.task.context import TaskContext
 from hri.task.lane import Lane
 
@@ -55,7 +56,7 @@ def check(context: TaskContext) -> None:
 
 def authored_replies(context: TaskContext) -> Replies:
     """The replies, checked against the grammar, the stimuli and the face that are in use."""
-    grammar = load_grammar(find_grammar(context.behavior(Listener).grammar))
+    grammar = load_grammar(paths.find("grammars", context.behavior(Listener).grammar))
     face = load_face(context.behavior(FaceRenderer).face)
     vocabulary = Vocabulary(
         rules=grammar.public_rules,
@@ -88,10 +89,9 @@ class Companion:
     @classmethod
     def of(cls, context: TaskContext) -> Companion:
         """The one companion of this robot, made on first use."""
-        slot = context.board.slot("companion")
-        if slot.value is None:
-            slot.set(cls(context), context.clock.now())
-        companion: Companion = slot.value
+        slot: Latest[Companion] = context.board.slot("companion")
+        companion = slot.value or cls(context)
+        slot.set(companion, context.clock.now())
         return companion
 
     # --- replying ---

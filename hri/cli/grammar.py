@@ -7,10 +7,10 @@ import json
 import sys
 from pathlib import Path
 
+from hri.core import paths
 from hri.core.errors import HriError
 from hri.speech.check import Finding, check
 from hri.speech.grammar import load_grammar, read_grammar
-from hri.speech.listener import find_grammar
 from hri.speech.matching import parse
 from hri.speech.recognizers.pocketsphinx import dictionary
 
@@ -51,7 +51,7 @@ def _count(text: str) -> int:
 
 
 def _check(options: argparse.Namespace) -> int:
-    path = find_grammar(options.file)
+    path = paths.find("grammars", options.file)
     grammar, mistakes = read_grammar(path)
     findings = [Finding("error", error.place, error.what, error.remedy) for error in mistakes]
     findings = findings or check(grammar, dictionary())
@@ -74,7 +74,7 @@ def _show(path: Path, errors: list[Finding]) -> None:
 
 
 def _parse(options: argparse.Namespace) -> int:
-    found = parse(load_grammar(find_grammar(options.file)), options.text)
+    found = parse(load_grammar(paths.find("grammars", options.file)), options.text)
     if options.json:
         answer: dict[str, object] = {"accepted": found is not None}
         if found is not None:
@@ -89,6 +89,6 @@ def _parse(options: argparse.Namespace) -> int:
 
 
 def _expand(options: argparse.Namespace) -> int:
-    for sentence in load_grammar(find_grammar(options.file)).sentences(options.n):
+    for sentence in load_grammar(paths.find("grammars", options.file)).sentences(options.n):
         print(sentence)
     return 0

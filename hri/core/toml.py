@@ -171,8 +171,9 @@ class Table:
 
 
 def _is_number(value: object) -> bool:
-    is_numeric = isinstance(value, (int, float)) and not isinstance(value, bool)
-    return is_numeric and -LARGEST <= value <= LARGEST
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return False
+    return -LARGEST <= value <= LARGEST
 
 
 def _kind_of(value: object) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import deque
-from pathlib import Path
 
 import numpy as np
 
@@ -11,7 +10,6 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
 from hri.core import paths
 from hri.core.clock import Worker
-from hri.core.errors import HriError
 from hri.core.signals import Rejection, Utterance
 from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Hypothesis, Recognizer, Segment
@@ -50,10 +48,10 @@ class Listener(Behavior):
     """Set it to be deaf for a while."""
 
     def check(self) -> None:
-        load_grammar(find_grammar(self.grammar))
+        load_grammar(paths.find("grammars", self.grammar))
 
     def start(self, context: Context) -> None:
-        self.loaded_grammar = load_grammar(find_grammar(self.grammar))
+        self.loaded_grammar = load_grammar(paths.find("grammars", self.grammar))
         self._events = context.events
         self._microphone = context.resources.obtain(self.microphone_id, Microphone)
         self._recognizer = context.resources.obtain(self.recognizer_id, Recognizer)
@@ -119,16 +117,3 @@ class Listener(Behavior):
 
     def stop(self) -> None:
         self._worker.close()
-
-
-def find_grammar(name: str) -> Path:
-    """The file of a grammar by its name, with or without .jsgf, or by its path.
-
-    Raises HriError when there is none.
-    """
-    try:
-        return paths.find("grammars", name if name.endswith(".jsgf") else f"{name}.jsgf")
-    except HriError:
-        if Path(name).is_file():
-            return Path(name)
-        raise

@@ -1,9 +1,9 @@
 """For your own tests: fake time, devices in memory, a silent voice, and ways to run on them.
 
-    def test_it_greets():
-        robot = Robot(clock=FakeClock(), config="simulated")
-        events = live_for(robot, 10.0, *robot.app.load_tasks())
-        assert [event.name for event in events if event.name == "speech.said"]
+def test_it_greets():
+    robot = Robot(clock=FakeClock(), config="simulated")
+    events = live_for(robot, 10.0, *robot.app.load_tasks())
+    assert [event.name for event in events if event.name == "speech.said"]
 """
 
 from __future__ import annotations
