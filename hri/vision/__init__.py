@@ -1,0 +1,1 @@
+"""Seeing people: faces found and followed, nods and shakes recognized."""

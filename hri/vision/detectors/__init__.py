@@ -1,0 +1,1 @@
+"""Seeing with OpenCV: pictures made ready, faces found, motion followed."""

@@ -1,0 +1,151 @@
+import math
+from collections.abc import Callable, Iterable
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hri.core.signals import HeadGesture, HeadPose
+from hri.vision.gesture import GestureRecognizer
+
+RATE = 30.0
+Angle = Callable[[float], float]
+
+
+def nothing(time: float) -> float:
+    return 0.0
+
+
+def swing(degrees: float, hertz: float, cycles: float, start: float = 1.0) -> Angle:
+    """A sine that begins at a time and ends after so many cycles."""
+
+    def angle(time: float) -> float:
+        phase = (time - start) * hertz
+        return degrees * math.sin(2 * math.pi * phase) if 0 <= phase <= cycles else 0.0
+
+    return angle
+
+
+def series(
+    pitch: Angle = nothing, yaw: Angle = nothing, seconds: float = 4.0, noise: float = 0.2
+) -> list[HeadPose]:
+    """Poses at RATE; angles in degrees."""
+    dice = np.random.default_rng(0)
+    times = np.arange(0, seconds, 1 / RATE)
+    return [
+        HeadPose(t, *np.radians(dice.normal((pitch(t), yaw(t)), noise)).tolist())
+        for t in times.tolist()
+    ]
+
+
+def recognize(poses: Iterable[HeadPose], prompted: bool = False) -> list[HeadGesture]:
+    recognizer = GestureRecognizer()
+    found = [recognizer.update(pose, prompted) for pose in poses]
+    return [gesture for gesture in found if gesture is not None]
+
+
+def kinds(poses: Iterable[HeadPose], prompted: bool = False) -> list[str]:
+    return [gesture.kind for gesture in recognize(poses, prompted)]
+
+
+@pytest.mark.parametrize("hertz", [1.2, 1.8, 2.5])
+@pytest.mark.parametrize("degrees", [5, 10])
+def test_nods_and_shakes_are_told_apart(degrees: float, hertz: float) -> None:
+    assert kinds(series(pitch=swing(degrees, hertz, 2))) == ["nod"]
+    assert kinds(series(yaw=swing(degrees * 1.5, hertz, 2))) == ["shake"]
+
+
+def test_a_long_nod_is_reported_once_and_the_next_one_again() -> None:
+    assert kinds(series(pitch=swing(8, 2, 8), seconds=6)) == ["nod"]
+    twice = [
+        *series(pitch=swing(8, 2, 2), seconds=4),
+        *(HeadPose(p.time + 4, p.pitch, p.yaw) for p in series(yaw=swing(12, 2, 2))),
+    ]
+    assert kinds(twice) == ["nod", "shake"]
+
+
+def test_it_is_seen_while_it_lasts_and_wide_ones_are_surer() -> None:
+    small, wide = (recognize(series(pitch=swing(d, 1.5, 3)))[0] for d in (4, 12))
+    assert wide.time < 1 + 3 / 1.5
+    assert 0.5 <= small.confidence < wide.confidence <= 1
+
+
+def test_a_single_nod_counts_only_as_an_answer() -> None:
+    single = series(pitch=swing(9, 1.5, 0.5))
+    assert kinds(single) == []
+    assert kinds(single, prompted=True) == ["nod"]
+
+
+def test_a_small_nod_counts_only_as_an_answer() -> None:
+    small = series(pitch=swing(1.6, 1.8, 3), noise=0.05)
+    assert kinds(small) == []
+    assert kinds(small, prompted=True) == ["nod"]
+
+
+def test_what_was_done_before_the_question_is_no_answer() -> None:
+    recognizer = GestureRecognizer()
+    poses = series(pitch=swing(9, 1.5, 0.5), seconds=3)
+    found = [recognizer.update(pose, prompted=pose.time > 2.2) for pose in poses]
+    assert not any(found)
+
+
+@pytest.mark.parametrize("prompted", [False, True])
+def test_a_glance_and_a_look_down_are_no_gestures(prompted: bool) -> None:
+    def aside(time: float) -> float:
+        return 25 * min(1.0, max(0.0, min(time - 1, 3 - time) / 0.4))
+
+    assert kinds(series(yaw=aside), prompted) == []
+    assert kinds(series(pitch=aside), prompted) == []
+
+
+def test_a_nod_does_not_hide_in_a_shake() -> None:
+    both = series(pitch=swing(5, 2, 3), yaw=swing(15, 2, 3))
+    assert kinds(both, prompted=True) == ["shake"]
+
+
+def test_thresholds_follow_the_noise() -> None:
+    assert kinds(series(seconds=60, noise=0.6), prompted=True) == []
+    assert len(kinds(series(seconds=60, noise=1.5))) <= 2
+
+
+def test_poses_that_are_no_poses_are_passed_over() -> None:
+    good = series(pitch=swing(8, 2, 2))
+    broken = [
+        odd
+        for p in good
+        for odd in (p, HeadPose(p.time + 0.001, math.nan, math.inf), HeadPose(math.nan, 0.0, 0.0))
+    ]
+    assert recognize(broken) == recognize(good)
+
+
+def test_a_gap_makes_no_gesture_of_what_lies_around_it() -> None:
+    before, after = series(seconds=1), series(pitch=lambda t: 20 * (t > 1.4), seconds=3)
+    assert kinds([*before, *(p for p in after if p.time > 1.5)], prompted=True) == []
+
+
+def test_it_goes_on_after_time_went_back() -> None:
+    nods = series(pitch=swing(8, 2, 2))
+    later = [HeadPose(p.time + 1000, p.pitch, p.yaw) for p in nods]
+    assert kinds([*later, *nods]) == ["nod", "nod"]
+
+
+numbers = st.floats(-1e3, 1e3) | st.sampled_from([math.nan, math.inf, -math.inf, 1e300])
+
+
+@given(st.lists(st.tuples(numbers, numbers, numbers, st.booleans()), max_size=60))
+@settings(max_examples=50, deadline=None)
+def test_nothing_breaks_it(rows: list[tuple[float, float, float, bool]]) -> None:
+    recognizer = GestureRecognizer()
+    for time, pitch, yaw, prompted in rows:
+        gesture = recognizer.update(HeadPose(time, pitch, yaw), prompted)
+        assert gesture is None or 0 <= gesture.confidence <= 1
+
+
+@given(st.lists(st.floats(-1.2, 1.2), min_size=60, max_size=60), st.booleans())
+@settings(max_examples=50, deadline=None)
+def test_what_stays_below_the_least_swing_is_never_a_gesture(
+    degrees: list[float], prompted: bool
+) -> None:
+    poses = [HeadPose(i / RATE, math.radians(d), -math.radians(d)) for i, d in enumerate(degrees)]
+    assert kinds(poses, prompted) == []
