@@ -15,6 +15,8 @@ import numpy as np
 
 from hri.core.signals import HeadPose, Speech
 from hri.hal.synthesizer import Synthesizer
+from hri.simulation import motion
+from hri.simulation.motion import Angles
 
 RADIUS = 0.22
 """Metres, of the place a standing person takes."""
@@ -25,20 +27,10 @@ WALK_WAY = 1.0
 PAUSE = 0.3
 """Seconds between two sentences that were asked for at the same time."""
 
-_SWING_HZ = 1.7
-_NOD_TIME = 1.5
-_SHAKE_TIME = 1.6
-_GLANCE_TIME = 2.0
-_GLANCE_TURN = 0.5
 _BLINK_EVERY = 4.0
 _BLINK_TIME = 0.2
 _OPEN_MOUTH = 6000.0
 """Level of the voice, of 32767, that opens the mouth all the way."""
-_SWAY = ((math.radians(0.7), 5.3), (math.radians(1.1), 7.7), (math.radians(0.8), 9.1))
-"""Amplitude and period of the sway of a head at rest: pitch, yaw, roll; too slow for a gesture."""
-
-Angles = tuple[float, float, float]
-"""Pitch, yaw, roll as in HeadPose, radians."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,8 +89,6 @@ class Person:
         self._walks: list[tuple[float, bool]] = []
         self._movements: list[Movement] = []
         self._known: dict[str, Speech] = {}
-        dice = random.Random(seed)
-        self._phases = [dice.uniform(0.0, 2 * math.pi) for _ in _SWAY]
 
     def rehearse(self, texts: Iterable[str]) -> None:
         """Make the sound of sentences ahead, so that saying them takes no time."""
@@ -116,14 +106,14 @@ class Person:
         return self.spoken[-1]
 
     def nod(self, at: float) -> None:
-        self._movements.append(Movement(at, _NOD_TIME, _nod))
+        self._movements.append(Movement(at, motion.NOD_TIME, motion.nod_angles))
 
     def shake(self, at: float) -> None:
-        self._movements.append(Movement(at, _SHAKE_TIME, _shake))
+        self._movements.append(Movement(at, motion.SHAKE_TIME, motion.shake_angles))
 
     def look_aside(self, at: float) -> None:
         """Glance to the side and back."""
-        self._movements.append(Movement(at, _GLANCE_TIME, _look_aside))
+        self._movements.append(Movement(at, motion.GLANCE_TIME, motion.glance_angles))
 
     def enter(self, at: float) -> None:
         """Walk into view; nothing for someone who is there."""
@@ -141,17 +131,14 @@ class Person:
     def aside(self, time: float) -> float:
         """Metres from the person's place, to the right as seen by the robot, while walking."""
         begin, comes = self._last_walk(time)
-        part = _eased((time - begin) / WALK_TIME)
+        part = motion.eased((time - begin) / WALK_TIME)
         return WALK_WAY * (1 - part if comes else part)
 
     def head(self, time: float) -> HeadPose:
         """How the head is held; all angles 0 look at the robot."""
-        sway = (
-            amplitude * math.sin(2 * math.pi * time / period + phase)
-            for (amplitude, period), phase in zip(_SWAY, self._phases, strict=True)
-        )
         moved = (movement.at(time) for movement in self._movements)
-        pitch, yaw, roll = (sum(parts) for parts in zip(tuple(sway), *moved, strict=True))
+        sway = motion.idle_angles(time, self._seed)
+        pitch, yaw, roll = (sum(parts) for parts in zip(sway, *moved, strict=True))
         return HeadPose(time, pitch, yaw, roll)
 
     def mouth(self, time: float) -> float:
@@ -172,28 +159,3 @@ class Person:
     def _last_walk(self, time: float) -> tuple[float, bool]:
         begun = [walk for walk in self._walks if walk[0] <= time]
         return max(begun) if begun else (-math.inf, self.starts_present)
-
-
-def _nod(elapsed: float) -> Angles:
-    return _swings(elapsed, math.radians(9), _NOD_TIME), 0.0, 0.0
-
-
-def _shake(elapsed: float) -> Angles:
-    return 0.0, _swings(elapsed, math.radians(14), _SHAKE_TIME), 0.0
-
-
-def _look_aside(elapsed: float) -> Angles:
-    turned = _eased(min(elapsed, _GLANCE_TIME - elapsed) / _GLANCE_TURN)
-    return math.radians(6) * turned, math.radians(26) * turned, 0.0
-
-
-def _swings(elapsed: float, amplitude: float, duration: float) -> float:
-    """A sine that swells and fades, so that the head starts and ends at rest."""
-    swell = math.sin(math.pi * elapsed / duration)
-    return amplitude * swell * math.sin(2 * math.pi * _SWING_HZ * elapsed)
-
-
-def _eased(part: float) -> float:
-    """0 to 1 with a soft start and end."""
-    part = min(1.0, max(0.0, part))
-    return part * part * (3 - 2 * part)

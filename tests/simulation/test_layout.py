@@ -34,7 +34,11 @@ def test_a_name_works_with_and_without_suffix_and_as_a_path(write: Write) -> Non
         ("", 1, '"robot" is missing'),
         ("bxo = []\n" + START, 1, 'did you mean "box"'),
         (START + "[[box]]\ncenter = [1, 2]\nlength = 0\nwidth = 1\n", 7, "length is 0"),
-        (START + "[[circle]]\ncenter = [1, nan]\nradius = 1\n", 6, "center holds something that is no number"),
+        (
+            START + "[[circle]]\ncenter = [1, nan]\nradius = 1\n",
+            6,
+            "center holds something that is no number",
+        ),
         (START + "[[circle]]\ncenter = [1, 2, 3]\nradius = 1\n", 6, "center has 3 numbers"),
         (START + "[[wall]]\nfrom = [1, 2]\nto = [1, 2]\n", 7, "no length"),
         (START + "[[wall]]\nfrom = [1, 2]\ntoo = [1, 3]\n", 5, 'did you mean "too"'),

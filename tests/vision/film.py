@@ -5,7 +5,8 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from hri.core.signals import Frame, HeadGesture, HeadPose, Image
-from hri.simulation.head import Angles, idle_angles, render_head
+from hri.simulation.head import render_head
+from hri.simulation.motion import Angles, idle_angles
 from hri.vision.gesture import GestureRecognizer
 from hri.vision.tracking import HeadFinder
 

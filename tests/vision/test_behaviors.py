@@ -9,7 +9,7 @@ from hri.core.clock import FakeClock
 from hri.core.events import EventBus
 from hri.core.signals import Event, FaceBox, Frame, Gaze, HeadGesture, HeadPose
 from hri.hal.manager import ResourceManager
-from hri.simulation.head import nod_angles, shake_angles
+from hri.simulation.motion import nod_angles, shake_angles
 from hri.vision.behaviors import HeadGestures, HeadTracker, gaze_at
 from tests.vision.film import Motion, film, still
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from hri.core.signals import Frame
-from hri.simulation.head import Angles, nod_angles, shake_angles
+from hri.simulation.motion import Angles, nod_angles, shake_angles
 from hri.vision.tracking import HeadFinder
 from tests.vision.film import Motion, film, gestures, poses
 
