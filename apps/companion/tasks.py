@@ -38,7 +38,7 @@ SHOW_SECONDS = 4.0
 QUIET_SECONDS = 60.0
 FIRST_QUESTION = 7.0
 """Seconds of calm after a conversation before it asks a question of its own."""
-BETWEEN_QUESTIONS = 30.0
+BETWEEN_QUESTIONS = 40.0
 COMPANY_SECONDS = 45.0
 """How long after the last words somebody who is seen counts as company."""
 UNSEEN_SECONDS = 20.0
