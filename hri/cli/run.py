@@ -195,7 +195,7 @@ class Session:
             self.visit = load_visit(self.robot.app.folder / "demo.toml")
             self.visit.start(world, context.clock, context.events)
         elif resources.stand_in_of("camera") is not None:
-            resources.obtain("world", SimulatedWorld).person.leave(context.clock.now())
+            resources.obtain("world", SimulatedWorld).person.starts_present = False
 
     async def end_when_over(self, context: TaskContext) -> None:
         """End after the duration, after the visit, or when files are spent and all is calm."""

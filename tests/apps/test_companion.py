@@ -176,8 +176,8 @@ def own_app(tmp_path):
             'the face has no expression "hapy" - did you mean "happy"?',
         ),
         ('action = "move"', 'action = "moove"', 'action is "moove" - did you mean "move"?'),
-        ("I am {feeling}", "I am {feelin}", 'nothing fills in {feelin} - did you mean "feeling"?'),
-        ("I am {feeling}", "I am {feeling", "close every {brace}"),
+        ("at {battery}", "at {batery}", 'nothing fills in {batery} - did you mean "battery"?'),
+        ("at {battery}", "at {battery", "close every {brace}"),
         ("intensity = 0.6", "intensity = 6", "intensity is 6 - write a number from 0 to 1"),
     ],
 )
