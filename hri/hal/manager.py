@@ -26,7 +26,7 @@ class ResourceManager:
         """`notice` gets one line for each stand-in that is used."""
         self.clock = clock
         self.descriptions = {description.id: description for description in descriptions}
-        self._notice = notice
+        self.notice = notice
         self._lock = threading.RLock()
         self._open: dict[str, Resource] = {}
         self._stand_ins: dict[str, str] = {}
@@ -102,7 +102,7 @@ class ResourceManager:
             replacement = self.obtain(stand_in, Resource)
             self._stand_ins[id] = stand_in
             if not self.clock.is_fake:
-                self._notice(f"{error} (using {stand_in} instead)")
+                self.notice(f"{error} (using {stand_in} instead)")
             return replacement
 
     def _driver(self, description: Description) -> type[Resource]:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from collections import deque
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 
 from hri.core.errors import NotAvailable
 from hri.core.signals import Samples
+from hri.hal.drivers.wav_file import resample
 from hri.hal.microphone import Microphone
 from hri.hal.resource import Resource
 from hri.hal.speaker import Speaker
@@ -31,19 +35,29 @@ def load_sounddevice() -> Any:
 
 
 class _SoundCard(Resource):
-    """What both ends share: a stream that is opened, watched, and opened again."""
+    """What both ends share: a stream that is opened, watched, and opened again when it is lost.
+
+    PortAudio knows the devices that were there when it was loaded, so a device that is named by
+    its number may need a restart; the system's default, which sound servers keep alive, does not.
+    """
 
     is_hardware = True
 
     def _open(self) -> None:
         self._sounddevice = load_sounddevice()
-        self._tried = self.manager.clock.now()
+        self._ending = threading.Event()
+        self._search: threading.Thread | None = None
         try:
-            self._stream = self._new_stream()
-            self._stream.start()
+            self._stream = self._started_stream()
         except (self._sounddevice.PortAudioError, ValueError) as error:
-            why = str(error).split(" [")[0]
+            # PortAudio numbers the default device -1 when there is none.
+            why = "no device" if "-1" in str(error) else str(error).split(" [")[0]
             raise self.not_available(why, "plug one in, or see `hri doctor`") from error
+
+    def _started_stream(self) -> Any:
+        stream = self._new_stream()
+        stream.start()
+        return stream
 
     def _device(self) -> str | int | None:
         """The chosen device by number or part of its name; None for the system's default."""
@@ -53,24 +67,48 @@ class _SoundCard(Resource):
     def _new_stream(self) -> Any:
         raise TypeError("a sound card driver makes its stream")
 
-    def _watch(self, now: float) -> None:
-        """Open the stream again when the device went away and some time has passed."""
-        if self._stream is not None and self._stream.active:
-            return
-        if now - self._tried < REOPEN_AFTER:
-            return
-        self._tried = now
-        try:
-            if self._stream is not None:
-                self._stream.close()
-            self._stream = self._new_stream()
-            self._stream.start()
-        except (self._sounddevice.PortAudioError, ValueError):
-            self._stream = None
+    def _watch(self) -> bool:
+        """Whether the stream lives; when it has died, a thread looks for the device."""
+        if self._search is not None:
+            return False
+        if self._stream.active:
+            return True
+        self.manager.notice(f"{self.id}: gone - waiting for it to come back")
+        self._search = threading.Thread(target=self._look_for_device, daemon=True)
+        self._search.start()
+        return False
+
+    def _look_for_device(self) -> None:
+        self._stream.close()
+        while not self._ending.wait(REOPEN_AFTER):
+            try:
+                with _silenced_libraries():
+                    self._stream = self._started_stream()
+            except (self._sounddevice.PortAudioError, ValueError):
+                continue
+            self.manager.notice(f"{self.id}: is back")
+            break
+        self._search = None
 
     def _close(self) -> None:
-        if self._stream is not None:
-            self._stream.close()
+        self._ending.set()
+        if (search := self._search) is not None:
+            search.join(timeout=REOPEN_AFTER)
+        self._stream.close()
+
+
+@contextmanager
+def _silenced_libraries() -> Iterator[None]:
+    """Keep PortAudio and ALSA from writing a dozen lines each time a device is not there yet."""
+    kept = os.dup(2)
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 2)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+        os.close(nowhere)
 
 
 class SoundCardMicrophone(_SoundCard, Microphone):
@@ -97,7 +135,7 @@ class SoundCardMicrophone(_SoundCard, Microphone):
         self._blocks.append(data[:, 0].copy())
 
     def read(self, now: float) -> Samples:
-        self._watch(now)
+        self._watch()
         blocks = [self._blocks.popleft() for _ in range(len(self._blocks))]
         return np.concatenate(blocks) if blocks else np.zeros(0, np.int16)
 
@@ -132,16 +170,12 @@ class SoundCardSpeaker(_SoundCard, Speaker):
         out[len(block) :, 0] = 0
 
     def play(self, samples: Samples, rate: int, now: float) -> None:
-        from hri.hal.drivers.wav_file import resample
-
-        self._watch(now)
         sound = resample(samples, rate, self.rate)
         with self._sound_lock:
             self._sound, self._played = sound, 0
 
     def position(self, now: float) -> float | None:
-        self._watch(now)
-        if self._stream is None:
+        if not self._watch():
             return None
         latency = round(self._stream.latency * self.rate)
         with self._sound_lock:
