@@ -1,7 +1,9 @@
+import threading
 from functools import partial
 
 import pytest
 import trio
+import trio.testing
 
 from hri.core.clock import FakeClock, RealClock
 
@@ -127,33 +129,62 @@ def test_a_held_clock_stands_still_until_it_is_released():
     assert clock.now() == 5
 
 
-def test_the_real_clock_wakes_sleepers_no_earlier_than_asked():
-    clock = RealClock()
+def live_in_real_time(main):
+    """Run `main(clock)` beside a real clock whose seconds are those of trio, which jumps ahead."""
+
+    async def run():
+        clock = RealClock(source=trio.current_time)
+        async with trio.open_nursery() as nursery:
+            nursery.start_soon(clock.drive)
+            await main(clock)
+            nursery.cancel_scope.cancel()
+
+    trio.run(run, clock=trio.testing.MockClock(autojump_threshold=0))
+
+
+def test_the_real_clock_wakes_sleepers_when_they_asked_for_it():
     woke = []
 
-    async def sleeper(seconds):
-        due = clock.now() + seconds
-        await clock.sleep(seconds)
-        woke.append((seconds, clock.now() >= due))
+    async def main(clock):
+        async def sleeper(seconds):
+            await clock.sleep(seconds)
+            woke.append((seconds, round(clock.now(), 6)))
 
-    live(clock, *(partial(sleeper, s) for s in (0.03, 0.01, 0.02)))
-    assert woke == [(0.01, True), (0.02, True), (0.03, True)]
+        async with trio.open_nursery() as nursery:
+            for seconds in (30, 10, 20):
+                nursery.start_soon(sleeper, seconds)
+            await clock.sleep(5)
+            nursery.start_soon(sleeper, 1)
+
+    live_in_real_time(main)
+    assert woke == [(1, 6), (10, 10), (20, 20), (30, 30)]
+
+
+def test_a_real_timeout_cancels():
+    caught = []
+
+    async def main(clock):
+        with clock.move_on_after(2) as scope:
+            await clock.sleep(10)
+        caught.append((scope.cancelled_caught, round(clock.now(), 6)))
+
+    live_in_real_time(main)
+    assert caught == [(True, 2)]
 
 
 def test_a_real_worker_runs_off_the_loop():
-    clock = RealClock()
-    worker = clock.worker(latency=0)
-    results = []
+    thread_names = []
 
-    async def job():
-        worker.submit(lambda: "done")
-        while not results:
-            results.extend(worker.poll())
+    async def main(clock):
+        worker = clock.worker(latency=0)
+        worker.submit(lambda: threading.current_thread().name)
+        while not thread_names:
+            thread_names.extend(worker.poll())
             await clock.sleep(0.001)
+        worker.close()
 
-    live(clock, job)
-    worker.close()
-    assert results == ["done"]
+    live_in_real_time(main)
+    assert thread_names != [threading.current_thread().name]
 
 
 def test_a_timer_in_the_past_runs_now_and_infinity_is_refused():
