@@ -11,6 +11,7 @@ from pathlib import Path
 
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.core.registry import canonical
 from hri.core.toml import load_toml
 from hri.hal.resource import Description
 
@@ -53,10 +54,15 @@ def save_choices(chosen: dict[str, str]) -> Path:
 def apply_choices(
     devices: tuple[Description, ...], chosen: dict[str, str]
 ) -> tuple[Description, ...]:
-    """The devices with the chosen `device` parameter where one was chosen."""
+    """The devices with the chosen `device` parameter where one was chosen and can be."""
     return tuple(
         replace(device, parameters={**device.parameters, "device": chosen[device.id]})
-        if device.id in chosen
+        if device.id in chosen and _is_choosable(device)
         else device
         for device in devices
     )
+
+
+def _is_choosable(device: Description) -> bool:
+    """Whether its driver knows several devices; stand-ins and files do not."""
+    return canonical(device.type) in ("Hri.Microphone", "Hri.Speaker", "Hri.Webcam")

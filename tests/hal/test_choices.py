@@ -1,0 +1,37 @@
+import pytest
+
+from hri.core.errors import AuthoringError
+from hri.hal.choices import apply_choices, choices_file, load_choices, save_choices
+from hri.hal.resource import Description
+
+
+@pytest.fixture(autouse=True)
+def own_settings(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+
+
+def test_what_was_chosen_is_there_the_next_time():
+    assert load_choices() == {}
+    save_choices({"microphone": "USB Audio", "camera": "1"})
+    assert load_choices() == {"microphone": "USB Audio", "camera": "1"}
+
+
+def test_the_choice_reaches_real_devices_only():
+    devices = (
+        Description("microphone", "Evolution.WmmeAudioRecord"),
+        Description("speaker", "Hri.SilentSpeaker"),
+        Description("camera", "Hri.Webcam", {"width": "320"}),
+    )
+    chosen = apply_choices(devices, {"microphone": "3", "speaker": "4", "camera": "1"})
+    assert [dict(device.parameters) for device in chosen] == [
+        {"device": "3"},
+        {},
+        {"width": "320", "device": "1"},
+    ]
+
+
+def test_a_spoilt_choice_is_told_with_its_place():
+    choices_file().parent.mkdir(parents=True)
+    choices_file().write_text("[microphon]\ndevice = '1'\n")
+    with pytest.raises(AuthoringError, match=r"devices.toml:1:1: unknown key .* did you mean"):
+        load_choices()
