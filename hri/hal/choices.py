@@ -31,10 +31,10 @@ def load_choices() -> dict[str, str]:
     table = load_toml(path, "choice of devices")
     chosen = {}
     for id in CHOOSABLE:
-        if id in table:
-            entry = table.table(id)
-            chosen[id] = entry.string("device")
-            entry.finish()
+        entry = table.table(id, optional=True)
+        if device := entry.string("device", ""):
+            chosen[id] = device
+        entry.finish()
     table.finish()
     return chosen
 
