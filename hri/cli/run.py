@@ -6,14 +6,12 @@ import argparse
 import logging
 import math
 import signal
-from functools import partial
 from pathlib import Path
 
 import trio
 
 from hri.cli.narrator import Narrator
 from hri.core.clock import FakeClock, RealClock
-from hri.core.errors import HriError
 from hri.drive.behaviors import CommandGate
 from hri.emotion.personality import load_personality
 from hri.face.model import load_face
@@ -94,7 +92,7 @@ def run(options: argparse.Namespace) -> int:
         ):
             robot.record = recordings_folder(robot)
         session = Session(robot, options, narrator)
-        live_until_over(robot, [*tasks, *session.jobs()])
+        robot.live_until_over(*tasks, *session.jobs())
     finally:
         robot.close()
     if robot.recording is not None:
@@ -113,23 +111,6 @@ def open_senses(robot: Robot) -> set[str]:
 def recordings_folder(robot: Robot) -> Path:
     """A new folder below the current one, named by date and time."""
     return Path("recordings") / f"{robot.clock.wall():%Y-%m-%d-%H-%M-%S}"
-
-
-def live_until_over(robot: Robot, jobs: list[Job]) -> None:
-    """Run the loop; an error of ours comes out alone, not wrapped in a group."""
-    try:
-        trio.run(partial(robot.live, *jobs))
-    except BaseExceptionGroup as group:
-        ours = group.subgroup(HriError)
-        if ours is None:
-            raise
-        raise first_of(ours) from group
-
-
-def first_of(group: BaseExceptionGroup[HriError]) -> HriError:
-    """The first error inside nested groups."""
-    inner = group.exceptions[0]
-    return first_of(inner) if isinstance(inner, BaseExceptionGroup) else inner
 
 
 def check_files(options: argparse.Namespace) -> None:

@@ -22,6 +22,7 @@ from hri.behavior.network import Network
 from hri.behavior.runner import Runner
 from hri.core import paths
 from hri.core.clock import Clock, FakeClock, RealClock
+from hri.core.errors import HriError
 from hri.core.events import EventBus
 from hri.core.latest import Board
 from hri.core.registry import canonical
@@ -126,6 +127,16 @@ class Robot:
         finally:
             self.close()
 
+    def live_until_over(self, *jobs: Job) -> None:
+        """`live` for code that is not async; an error of ours comes out alone, in no group."""
+        try:
+            trio.run(partial(self.live, *jobs))
+        except BaseExceptionGroup as group:
+            ours = group.subgroup(HriError)
+            if ours is None:
+                raise
+            raise _first_of(ours) from group
+
     def _start_behaviors(self) -> None:
         for runner in self.runners:
             runner.start()
@@ -156,7 +167,7 @@ class Robot:
 
     def _run_in_thread(self) -> None:
         try:
-            trio.run(self.live)
+            self.live_until_over()
         except BaseException as error:
             self._failure = error
         finally:
@@ -175,7 +186,10 @@ class Robot:
         """Run a coroutine function with the robot's TaskContext and wait for what it returns."""
         if self._token is None:
             raise RuntimeError("the robot is not running - use it as `with Robot() as robot:`")
-        return trio.from_thread.run(self._held, job, arguments, trio_token=self._token)
+        try:
+            return trio.from_thread.run(self._held, job, arguments, trio_token=self._token)
+        except trio.RunFinishedError:
+            raise RuntimeError(f"the robot has ended: {self._failure}") from self._failure
 
     async def _held(self, job: Callable[..., Awaitable[Any]], arguments: tuple[Any, ...]) -> Any:
         if not isinstance(self.clock, FakeClock):
@@ -225,6 +239,12 @@ class Robot:
             await context.clock.sleep(seconds)
 
         self.run(wait)
+
+
+def _first_of(group: BaseExceptionGroup[HriError]) -> HriError:
+    """The first error inside nested groups."""
+    inner = group.exceptions[0]
+    return _first_of(inner) if isinstance(inner, BaseExceptionGroup) else inner
 
 
 def _find_configuration(name: str) -> Configuration:
