@@ -12,6 +12,7 @@ others go on. What depends on it sees empty inputs, which for a drive means: sta
 from __future__ import annotations
 
 import logging
+import math
 import time
 from collections import deque
 from dataclasses import dataclass, field
@@ -21,6 +22,8 @@ from hri.behavior.network import Network
 
 log = logging.getLogger("hri.behavior")
 
+BETWEEN_REPORTS = 5.0
+"""Seconds between two reports of missed intervals."""
 REST = 1.0
 """Seconds that a behavior rests after an exception."""
 
@@ -126,10 +129,18 @@ class Runner:
             self._order = [b for b in self.network.behaviors if b not in self._resting]
 
     def _report_missed(self, skipped: int) -> None:
+        """Count what was missed; tell of it at once, but not more often than a person can read."""
         self.statistics.missed += skipped
         self.statistics.slowest = self._slowest
-        log.warning(
-            "Missed desired interval.... (%s: slowest was %s)", self.network.name, self._slowest
-        )
+        now = self.context.clock.now()
+        if now >= self._tell_after:
+            self._tell_after = now + BETWEEN_REPORTS
+            log.warning(
+                "Missed desired interval.... (%s: %d so far, slowest was %s)",
+                self.network.name,
+                self.statistics.missed,
+                self._slowest,
+            )
 
+    _tell_after = -math.inf
     _slowest = ""
