@@ -69,6 +69,10 @@ def load_replies(path: Path, vocabulary: Vocabulary) -> Replies:
             known = sorted(vocabulary.rules)
             raise entry.error(None, f'the grammar has no rule "{rule}"', did_you_mean(rule, known))
         replies[rule] = _reply(entry, vocabulary)
+    for rule in vocabulary.rules:
+        if rule not in replies:
+            what = f"no reply to the rule <{rule}> of the grammar"
+            raise table.error(None, what, f"add a table [reply.{rule}], an empty one to do nothing")
     spoken = table.table("unasked")
     unasked = {key: spoken.string(key) for key in UNASKED}
     spoken.finish()

@@ -54,6 +54,7 @@ class Runner:
         ]
         self._order = list(network.behaviors)
         self._resting: dict[Behavior, float] = {}
+        self._failed: set[Behavior] = set()
         self._last: float | None = None
         self._started: list[Behavior] = []
 
@@ -116,8 +117,11 @@ class Runner:
         self._resting[behavior] = now + REST
         # A new list, since the tick still walks over the old one.
         self._order = [kept for kept in self._order if kept is not behavior]
-        log.error("%s.%s failed: %s", self.network.name, behavior.id, error, exc_info=error)
         name = f"{self.network.name}.{behavior.id}"
+        # The first time with all that helps to mend it, then in a line.
+        is_new = behavior not in self._failed
+        self._failed.add(behavior)
+        log.error("%s failed: %s", name, error, exc_info=error if is_new else None)
         self.context.events.raise_event("behavior.failed", behavior=name, error=str(error))
 
     def _wake(self, now: float) -> None:

@@ -28,7 +28,7 @@ SHORTEST = 0.01
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a network. Exit status 0, or 2 when a file or an option is wrong."""
+    """Run a network. Exit status 0, 1 when a behavior failed, 2 when a file or option is wrong."""
     options = _parser().parse_args(sys.argv[1:] if arguments is None else arguments)
     _set_up_logging(options.debug)
     try:
@@ -106,7 +106,7 @@ def _behave(options: argparse.Namespace) -> int:
     finally:
         runner.stop()
         resources.close()
-    return 0
+    return 1 if runner.statistics.failures else 0
 
 
 def _resources(options: argparse.Namespace, clock: Clock) -> ResourceManager:
@@ -121,8 +121,7 @@ def _resources(options: argparse.Namespace, clock: Clock) -> ResourceManager:
 async def _run(runner: Runner, clock: Clock, options: argparse.Namespace) -> None:
     async with trio.open_nursery() as nursery:
         nursery.start_soon(clock.drive)
-        if not clock.is_fake:
-            nursery.start_soon(_end_on_signal, nursery)
+        nursery.start_soon(_end_on_signal, nursery)
         await runner.run(options.invocation_count, options.duration)
         nursery.cancel_scope.cancel()
 

@@ -76,7 +76,8 @@ class Doctor:
         )
 
     def examine(self) -> int:
-        """Run all checks; each prints a line."""
+        """Run all checks; each prints a line. Raises AuthoringError for a wrong configuration."""
+        self.resources.check()
         checks: dict[str, Callable[[], Finding]] = {
             "microphone": self._microphone,
             "speaker": self._speaker,

@@ -32,7 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     simulate = commands.add_parser("simulate", help="play stimuli and print what is felt")
     simulate.set_defaults(emotion_run=_simulate)
     simulate.add_argument("--personality", default="neutral", metavar="NAME")
-    events_help = "lines of: seconds, stimulus, intensity 0 to 1 (1 when left out)"
+    events_help = "lines with spaces: seconds stimulus intensity (0 to 1; 1 when left out)"
     simulate.add_argument("--events", required=True, type=Path, metavar="FILE", help=events_help)
     at_help = "print the state at these times (seconds) too"
     simulate.add_argument("--at", type=_times, default=[], metavar="T1,T2,...", help=at_help)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections import Counter
 from pathlib import Path
@@ -38,10 +39,20 @@ class Narrator:
         self._label = ""
         self._pose = (0.0, 0.0)
         self._first_frame: float | None = None
+        self._is_unread = False
         robot.events.subscribe("*", self._hear)
 
     def tell(self, text: str) -> None:
-        print(text, file=self.out, flush=True)
+        """Print a line; when nobody reads any more (`... | head`), the robot ends."""
+        if self._is_unread:
+            return
+        try:
+            print(text, file=self.out, flush=True)
+        except BrokenPipeError:
+            self._is_unread = True
+            # What Python flushes at its end must not complain, either.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), self.out.fileno())
+            self.robot.finish()
 
     async def greet(self, context: TaskContext) -> None:
         """Once the face is seen, say how to talk to it and how to end it."""
@@ -73,12 +84,12 @@ class Narrator:
         counts = self._counts
         seen = counts["head.nodded"] + counts["head.shaken"]
         self.tell(
-            f"\n{self.robot.clock.now():.0f} s: heard {counts['speech.heard']},"
+            f"\n{self.robot.lived:.0f} s: heard {counts['speech.heard']},"
             f" said {counts['speech.said']}, gestures {seen},"
             f" ignored {counts['speech.rejected']}"
         )
         if self._first_frame is not None:
-            lived = self.robot.clock.now() - self._first_frame
+            lived = self.robot.lived - self._first_frame
             frames = self.robot.context.behavior(FaceRenderer).frames
             self.tell(f"{frames / max(lived, 0.1):.1f} frames a second")
         missed = {

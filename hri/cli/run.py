@@ -12,6 +12,7 @@ import trio
 
 from hri.cli.narrator import Narrator
 from hri.core.clock import FakeClock, RealClock
+from hri.core.errors import HriError
 from hri.drive.behaviors import CommandGate
 from hri.emotion.personality import load_personality
 from hri.face.model import load_face
@@ -44,7 +45,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
     add("--audio", type=Path, metavar="FILE.wav", help="hear this file instead of a microphone")
     add("--camera", metavar="FILE|none", help="see this video or image, or nothing")
-    add("--record", type=Path, metavar="DIR", help="write events, video, sound and a plot there")
+    add("--record", type=Path, metavar="DIR", help="write events, video, sound, plot there, anew")
     add("--headless", action="store_true", help="draw the face, but show it to nobody")
     add("--duration", type=_seconds, metavar="S", help="end after so many seconds")
     add("--seed", type=int, default=None, metavar="N", help="seed of all that is random")
@@ -83,15 +84,11 @@ def run(options: argparse.Namespace) -> int:
     )
     tasks = robot.app.load_tasks()
     narrator = Narrator(robot)
+    session = Session(robot, options, narrator)
     try:
-        stand_ins = open_senses(robot)
-        if (
-            robot.record is None
-            and {"microphone", "camera", "screen"} <= stand_ins
-            and not options.headless
-        ):
+        is_unseen = {"microphone", "camera", "screen"} <= open_senses(robot)
+        if robot.record is None and is_unseen and not options.headless and not options.fast:
             robot.record = recordings_folder(robot)
-        session = Session(robot, options, narrator)
         robot.live_until_over(*tasks, *session.jobs())
     finally:
         robot.close()
@@ -154,14 +151,17 @@ class Session:
         self.robot = robot
         self.options = options
         self.narrator = narrator
+        visit = robot.app.folder / "demo.toml"
+        if options.demo and not visit.is_file():
+            raise HriError(f"{robot.app.folder}: this app has no demo.toml - run it without --demo")
+        # Read before anything starts: it is played, too, when there is no microphone.
+        self._authored = load_visit(visit) if visit.is_file() else None
         self.visit: Visit | None = None
 
     def jobs(self) -> list[Job]:
         """What runs beside the app's own tasks."""
-        jobs: list[Job] = [self.prepare, self.end_when_over, self.watch_window]
-        if not self.robot.clock.is_fake:
-            jobs += [self.watch_signals, self.narrator.greet]
-        return jobs
+        jobs: list[Job] = [self.prepare, self.end_when_over, self.watch_window, self.watch_signals]
+        return jobs if self.robot.clock.is_fake else [*jobs, self.narrator.greet]
 
     async def prepare(self, context: TaskContext) -> None:
         """Let the visitor in, or keep the simulated room empty for the real people."""
@@ -169,11 +169,11 @@ class Session:
             return
         resources = self.robot.resources
         is_deaf = resources.stand_in_of("microphone") is not None
-        if self.options.demo or is_deaf:
+        if self._authored is not None and (self.options.demo or is_deaf):
             if is_deaf and not self.options.fast:
                 self.narrator.tell("no microphone: a simulated person visits for two minutes")
             world = resources.obtain("world", SimulatedWorld)
-            self.visit = load_visit(self.robot.app.folder / "demo.toml")
+            self.visit = self._authored
             self.visit.start(world, context.clock, context.events)
         elif resources.stand_in_of("camera") is not None:
             resources.obtain("world", SimulatedWorld).person.starts_present = False
@@ -184,7 +184,7 @@ class Session:
         end = self._end_time()
         calm_since = clock.now()
         while clock.now() < end:
-            await clock.sleep(min(0.1, end - clock.now()) or 0.1)
+            await clock.sleep(min(0.1, end - clock.now()))
             if not self._are_files_spent() or not self._is_calm(context):
                 calm_since = clock.now()
             elif clock.now() - calm_since >= CALM_SECONDS:

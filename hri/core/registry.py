@@ -61,5 +61,5 @@ def find(group: str, name: str) -> Any:
         )
     try:
         return entry.load()
-    except ImportError as error:
+    except (ImportError, AttributeError) as error:
         raise NotAvailable(f"{name} cannot be loaded: {error} - install what it needs") from error

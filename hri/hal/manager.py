@@ -39,6 +39,17 @@ class ResourceManager:
             if stand_in and stand_in not in self.descriptions:
                 remedy = did_you_mean(stand_in, self.descriptions)
                 raise description.error("stand_in", f'no device "{stand_in}"', remedy)
+            self._refuse_circle(description)
+
+    def _refuse_circle(self, description: Description) -> None:
+        """A device must not stand in for itself, not even by a detour."""
+        seen, current = [description.id], description
+        while (stand_in := current.text("stand_in")) in self.descriptions:
+            if stand_in in seen:
+                what = f"stand-ins run in a circle: {' -> '.join([*seen, stand_in])}"
+                raise description.error("stand_in", what, "let the last one stand for itself")
+            seen.append(stand_in)
+            current = self.descriptions[stand_in]
 
     def obtain(self, id: str, interface: type[R]) -> R:
         """The open resource of that id, its stand-in where it is not there.

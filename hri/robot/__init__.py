@@ -58,7 +58,7 @@ class Robot:
         devices: Sequence[Description] = (),
         parameters: dict[str, dict[str, Any]] | None = None,
         notice: Callable[[str], object] = print,
-        record: Path | None = None,
+        record: Path | str | None = None,
     ) -> None:
         """Read and check all files; nothing is opened yet.
 
@@ -68,7 +68,10 @@ class Robot:
         """
         self.app = load_app(app)
         self.clock = clock or RealClock()
-        configuration = _with_devices(_find_configuration(config), devices)
+        authored = _find_configuration(config)
+        # Also what the command line replaces is checked: a mistake must not wait for its day.
+        ResourceManager(authored.devices, self.clock).check()
+        configuration = _with_devices(authored, devices)
         self.configuration = _with_seed(configuration, seed)
         self.resources = ResourceManager(self.configuration.devices, self.clock, notice)
         self.resources.check()
@@ -83,9 +86,11 @@ class Robot:
         self.runners = [Runner(network, self._context) for network in self.networks]
         self.context = TaskContext.of(self._context, self._behaviors())
         self.app.check(self.context)
-        self.record = record
+        self.record = None if record is None else Path(record)
         """Folder for a recording; may be set until the robot lives."""
         self.recording: Recording | None = None
+        self.lived = 0.0
+        """Seconds of the clock at which the robot ended."""
         self._finished = trio.Event()
         self._started = threading.Event()
         self._thread: threading.Thread | None = None
@@ -121,6 +126,7 @@ class Robot:
                 self._token = trio.lowlevel.current_trio_token()
                 self._started.set()
                 await self._finished.wait()
+                self.lived = self.clock.now()
                 if self.recording is not None:
                     self.recording.stop()
                 nursery.cancel_scope.cancel()

@@ -13,7 +13,7 @@ from typing import Any
 
 from hri.behavior.network import Network, load_network
 from hri.core import paths, registry
-from hri.core.errors import HriError, did_you_mean
+from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 from hri.core.toml import load_toml
 from hri.task.context import TaskContext
 
@@ -69,7 +69,13 @@ def _load_module(name: str, path: Path, search: list[str] | None) -> ModuleType:
         raise HriError(f"{path}: cannot be imported - the app needs this file")
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
-    spec.loader.exec_module(module)
+    try:
+        spec.loader.exec_module(module)
+    except SyntaxError as error:
+        place = Place(path, error.lineno or 1, error.offset or 1)
+        raise AuthoringError(place, error.msg, "mend the Python here") from error
+    except ImportError as error:
+        raise HriError(f"{path}: {error} - install it, or mend the import") from error
     return module
 
 

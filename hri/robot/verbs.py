@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from hri.behavior.behavior import Behavior
+from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import Expression, Utterance
 from hri.drive.tasks import move, turn
 from hri.emotion.behaviors import EmotionModel
+from hri.face.behaviors import Face
+from hri.face.model import load_face
 from hri.speech.behaviors import Listener
 from hri.speech.tasks import say
 from hri.task.context import TaskContext
@@ -22,7 +25,13 @@ QUESTION = "question.open"
 
 
 async def show(context: TaskContext, label: str, seconds: float = 4.0) -> None:
-    """Show an expression for a while, whatever is felt."""
+    """Show an expression for a while, whatever is felt.
+
+    Raises HriError for one the face does not know.
+    """
+    known = load_face(context.behavior(Face).face).expressions
+    if label not in known:
+        raise HriError(f'the face has no expression "{label}" - {did_you_mean(label, known)}')
     slot = context.board.slot(SHOWN)
     shown = Expression(label)
     slot.set(shown, context.clock.now())

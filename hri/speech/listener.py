@@ -10,6 +10,7 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
 from hri.core import paths
 from hri.core.clock import Worker
+from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import Rejection, Utterance
 from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Hypothesis, Recognizer, Segment
@@ -48,7 +49,11 @@ class Listener(Behavior):
     """Set it to be deaf for a while."""
 
     def check(self) -> None:
-        load_grammar(paths.find("grammars", self.grammar))
+        known = load_grammar(paths.find("grammars", self.grammar)).public_rules
+        for rule in self.interrupting.split():
+            if rule not in known:
+                remedy = did_you_mean(rule, known)
+                raise HriError(f'{self.id}: interrupting names no rule "{rule}" - {remedy}')
 
     def start(self, context: Context) -> None:
         self.loaded_grammar = load_grammar(paths.find("grammars", self.grammar))

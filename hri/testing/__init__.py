@@ -2,7 +2,9 @@
 
 def test_it_greets():
     robot = Robot(clock=FakeClock(), config="simulated")
-    events = live_for(robot, 10.0, *robot.app.load_tasks())
+    world = robot.resources.obtain("world", SimulatedWorld)
+    world.say("hello robot", at=1.0)
+    events = live_for(robot, 6.0, *robot.app.load_tasks())
     assert [event.name for event in events if event.name == "speech.said"]
 """
 

@@ -7,7 +7,7 @@ import pytest
 
 from hri.core import paths
 from hri.core.clock import FakeClock
-from hri.core.errors import AuthoringError
+from hri.core.errors import AuthoringError, HriError
 from hri.hal.drive import Odometry
 from hri.hal.drivers.memory import OffscreenScreen
 from hri.hal.resource import Description
@@ -207,6 +207,26 @@ def test_a_new_command_needs_a_grammar_line_and_a_reply_and_no_python(
     robot.clock.call_at(1.0, lambda: world.say("how is the weather today", 1.0))
     events = live_for(robot, 6, *robot.app.load_tasks())
     assert "I do not know, I am inside." in [event.properties.get("text") for event in events]
+
+
+def test_a_command_without_a_reply_is_found(own_app):
+    replies = own_app / "replies.toml"
+    replies.write_text(replies.read_text().replace("[reply.yes]\n", "", 1))
+    with pytest.raises(AuthoringError, match=r"no reply to the rule <yes> .* add a table"):
+        Robot(app=str(own_app), config="simulated", clock=FakeClock())
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("def converse(:\n", r"tasks.py:1:\d+: invalid syntax"),
+        ("import a_package_that_nobody_has\n", r"tasks.py: No module named"),
+    ],
+)
+def test_tasks_that_cannot_be_loaded_are_one_line(own_app, text, message):
+    (own_app / "tasks.py").write_text(text)
+    with pytest.raises(HriError, match=message):
+        Robot(app=str(own_app), config="simulated", clock=FakeClock())
 
 
 def test_every_app_loads_with_its_networks_and_tasks():

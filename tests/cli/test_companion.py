@@ -1,12 +1,15 @@
 """The companion as users start it: a process, its files, its exit status."""
 
 import json
+import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
+from hri.core import paths
 from hri.core.recording import read_events
 
 SHARED = Path(__file__).resolve().parents[2].parent / "shared"
@@ -145,6 +148,48 @@ def test_bad_files_are_refused_before_anything_starts(case, tmp_path):
     assert path.name in run.stderr
     assert run.stdout == ""
     assert not out.exists()
+
+
+def test_a_mistake_in_the_visit_leaves_nothing_behind(tmp_path):
+    app = tmp_path / "app"
+    shutil.copytree(paths.find("apps", "companion"), app)
+    (app / "demo.toml").write_text('[[step]]\nat = 1\nsya = "hello"\n')
+    out = tmp_path / "out"
+    run = hri("run", app, "--demo", "--fast", "--headless", "--record", out)
+    assert run.returncode == 2
+    assert "demo.toml:3:" in run.stderr
+    assert not out.exists()
+
+
+def test_a_small_app_needs_no_visit(tmp_path):
+    (tmp_path / "app.toml").write_text('networks = ["face.xml"]\n')
+    shutil.copy(paths.find("apps", "companion") / "face.xml", tmp_path)
+    run = hri("run", tmp_path, "--fast", "--headless", "--duration", "1")
+    assert run.returncode == 0, run.stderr
+    assert "Traceback" not in run.stderr
+
+
+def test_it_ends_when_nobody_reads():
+    command = [sys.executable, "-m", "hri.cli.main", "companion", "--demo", "--fast", "--headless"]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as run:
+        run.stdout.readline()
+        run.stdout.close()
+        assert "Traceback" not in run.stderr.read()
+    assert run.returncode == 0
+
+
+def test_it_ends_with_a_summary_when_it_is_interrupted(tmp_path):
+    out = tmp_path / "out"
+    with start("companion", "--demo", "--fast", "--headless", "--record", out) as run:
+        run.stdout.readline()
+        run.send_signal(signal.SIGINT)
+        told = run.communicate(timeout=200)[0]
+    assert run.returncode == 0
+    assert "Traceback" not in told
+    assert "recorded in" in told
+    assert (out / "timeline.png").exists()
 
 
 def test_unknown_commands_and_help():

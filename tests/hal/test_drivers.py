@@ -167,6 +167,13 @@ def test_what_is_no_video_is_refused_in_one_line(tmp_path, content, capfd):
     assert capfd.readouterr().err == ""
 
 
+def test_a_video_begins_when_it_is_opened_as_sound_and_events_do(tmp_path, clock, open_driver):
+    screen = open_driver(VideoFileScreen, file=tmp_path / "o.mp4", width=64, height=48, rate=30)
+    screen.show(np.full((48, 64, 3), 200, np.uint8), 0.5)
+    screen.deactivate()
+    assert cv2.VideoCapture(str(tmp_path / "o.mp4")).get(cv2.CAP_PROP_FRAME_COUNT) == 16
+
+
 def test_a_written_video_has_a_constant_rate(tmp_path, clock, open_driver):
     screen = open_driver(VideoFileScreen, file=tmp_path / "o.mp4", width=64, height=48, rate=30)
     for i in (0, 1, 2, 6, 7):  # three pictures are missing

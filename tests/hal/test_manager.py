@@ -47,6 +47,11 @@ def failure(tmp_path, devices):
             '<Device id="a" type="Hri.Webcam"><Parameter name="stand_in" value="b"/></Device>',
             'no device "b"',
         ),
+        (
+            '<Device id="a" type="Hri.Webcam"><Parameter name="stand_in" value="b"/></Device>\n'
+            '<Device id="b" type="Hri.Webcam"><Parameter name="stand_in" value="a"/></Device>',
+            "2:34: stand-ins run in a circle: a -> b -> a",
+        ),
         ('<Devise id="a"/>', '<Devise> has no place in <Devices> - did you mean "Device"?'),
     ],
 )

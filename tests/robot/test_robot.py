@@ -66,6 +66,11 @@ def test_it_hears_the_person(robot):
     assert robot.listen(timeout=1.0) is None
 
 
+def test_an_expression_the_face_does_not_know_is_refused(robot):
+    with pytest.raises(HriError, match=r'no expression "hapy" - did you mean "happy"\?'):
+        robot.show("hapy")
+
+
 def test_a_recording_has_all_its_parts(tmp_path):
     with Robot(config="simulated", clock=FakeClock(), record=tmp_path / "out") as robot:
         robot.say("One two three.")

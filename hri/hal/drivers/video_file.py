@@ -106,15 +106,14 @@ class VideoFileScreen(Screen):
         self._writer = cv2.VideoWriter(path, code, self.rate, (self.width, self.height))
         if not self._writer.isOpened():
             raise HriError(f"{path}: cannot write this video - check the folder")
-        self._start: float | None = None
+        # Sound and events begin now, too; the first picture is held from here on.
+        self._start = self.manager.clock.now()
         self._count = 0
         self._pictures: queue.Queue[tuple[Image, int] | None] = queue.Queue(maxsize=60)
         self._thread = threading.Thread(target=self._encode, name="video encoder", daemon=True)
         self._thread.start()
 
     def show(self, image: Image, time: float) -> None:
-        if self._start is None:
-            self._start = time
         repeats = round((time - self._start) * self.rate) + 1 - self._count
         if repeats < 1:
             return
