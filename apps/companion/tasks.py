@@ -35,6 +35,7 @@ from .replies import Replies, Reply, Vocabulary, load_replies
 ALWAYS = ("stop", "wake")
 """Rules that count even while it sleeps."""
 SHOW_SECONDS = 4.0
+FOR_GOOD = 1e9
 QUIET_SECONDS = 60.0
 FIRST_QUESTION = 7.0
 """Seconds of calm after a conversation before it asks a question of its own."""
@@ -203,7 +204,7 @@ class Companion:
     def _sleep(self, tags: dict[str, Any]) -> None:
         self.is_asleep = True
         self.motion.stop()
-        self.face.start(verbs.show, self.context, "asleep", 3600.0)
+        self.face.start(verbs.show, self.context, "asleep", FOR_GOOD)
 
     def _wake(self, tags: dict[str, Any]) -> None:
         self.is_asleep = False
@@ -242,7 +243,11 @@ async def converse(context: TaskContext) -> None:
     with context.queue("speech.heard") as queue:
         while True:
             heard = (await queue.get()).properties
-            companion.reply(heard["rule"], heard["text"], dict(heard["tags"]))
+            try:
+                companion.reply(heard["rule"], heard["text"], dict(heard["tags"]))
+            except (LookupError, ValueError, TypeError) as error:
+                # A reply that cannot be filled in costs this reply, not the companion.
+                context.events.raise_event("task.failed", task="converse", error=str(error))
 
 
 async def wonder(context: TaskContext) -> None:
@@ -303,6 +308,8 @@ async def notice(context: TaskContext) -> None:
 
 def _noticed(companion: Companion, stimulus: str, words: str) -> None:
     companion.emotion.feel(stimulus)
+    if stimulus == "bump":
+        companion.motion.stop()  # no second try: whoever was bumped decides what comes next
     if words and not companion.is_asleep:
         # What hurts or worries it is talked about first, before any question.
         companion.last_contact = max(companion.last_contact, companion.context.clock.now())

@@ -40,6 +40,8 @@ class Narrator:
         self._pose = (0.0, 0.0)
         self._first_frame: float | None = None
         self._is_unread = False
+        behaviors = robot.context.behaviors.values()
+        self._renderer = next((b for b in behaviors if isinstance(b, FaceRenderer)), None)
         robot.events.subscribe("*", self._hear)
 
     def tell(self, text: str) -> None:
@@ -56,8 +58,7 @@ class Narrator:
 
     async def greet(self, context: TaskContext) -> None:
         """Once the face is seen, say how to talk to it and how to end it."""
-        renderer = context.behavior(FaceRenderer)
-        while not renderer.frames:
+        while self._renderer is not None and not self._renderer.frames:
             await context.clock.sleep(0.02)
         self._first_frame = context.clock.now()
         self.tell("ready: say hello, or ask what you can say - Ctrl-C ends it")
@@ -90,7 +91,7 @@ class Narrator:
         )
         if self._first_frame is not None:
             lived = self.robot.lived - self._first_frame
-            frames = self.robot.context.behavior(FaceRenderer).frames
+            frames = self._renderer.frames if self._renderer is not None else 0
             self.tell(f"{frames / max(lived, 0.1):.1f} frames a second")
         missed = {
             runner.network.name: runner.statistics.missed

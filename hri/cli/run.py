@@ -100,9 +100,10 @@ def run(options: argparse.Namespace) -> int:
 
 def open_senses(robot: Robot) -> set[str]:
     """Open what the user would miss most; the ids of those that are stand-ins."""
-    for id in SENSES:
+    present = [id for id in SENSES if id in robot.resources.descriptions]
+    for id in present:
         robot.resources.obtain(id, Resource)
-    return {id for id in SENSES if robot.resources.stand_in_of(id) is not None}
+    return {id for id in present if robot.resources.stand_in_of(id) is not None}
 
 
 def recordings_folder(robot: Robot) -> Path:

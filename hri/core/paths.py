@@ -40,8 +40,12 @@ def find(kind: str, name: str) -> Path:
     `config/`) wins.
     Raises HriError when there is none.
     """
-    direct = Path(name).expanduser()
-    if direct.exists() and (direct.is_absolute() or len(direct.parts) > 1 or direct.suffix):
+    try:
+        direct = Path(name).expanduser()
+        is_there = direct.exists()
+    except (OSError, RuntimeError, ValueError) as error:
+        raise HriError(f'"{name[:60]}" is no name of a file - shorten or mend it') from error
+    if is_there and (os.sep in name or direct.suffix):
         return direct
     spellings = (name, name + SUFFIXES.get(kind, ".toml"))
     for folder in search_folders():
@@ -60,12 +64,6 @@ def names(kind: str) -> list[str]:
         if below.is_dir():
             found.update(entry.name for entry in below.iterdir() if not entry.name.startswith("."))
     return sorted(found)
-
-
-def state_folder() -> Path:
-    """Where the user's own state and logs are kept (XDG base directory specification)."""
-    base = os.environ.get("XDG_STATE_HOME") or "~/.local/state"
-    return Path(base).expanduser() / "hri"
 
 
 def settings_folder() -> Path:

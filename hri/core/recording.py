@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
+import logging
 import math
 from pathlib import Path
 from typing import Any
@@ -10,6 +12,8 @@ from typing import Any
 from hri.core.errors import HriError
 from hri.core.events import EventBus
 from hri.core.signals import Event
+
+log = logging.getLogger("hri.recording")
 
 
 class EventLog:
@@ -24,13 +28,18 @@ class EventLog:
 
     def write(self, event: Event) -> None:
         line = {"t": round(event.time, 4), "event": event.name, **event.properties}
-        self._file.write(json.dumps(_plain(line), ensure_ascii=False, allow_nan=False) + "\n")
-        self._file.flush()
+        try:
+            self._file.write(json.dumps(_plain(line), ensure_ascii=False, allow_nan=False) + "\n")
+            self._file.flush()
+        except OSError as error:
+            self._subscription.cancel()
+            log.error("the log of events ends here: %s", error.strerror)
 
     def close(self) -> None:
         """Stop listening; a second call does nothing."""
         self._subscription.cancel()
-        self._file.close()
+        with contextlib.suppress(OSError):  # a full disk was told about when it filled up
+            self._file.close()
 
 
 def read_events(path: Path) -> list[dict[str, Any]]:

@@ -36,6 +36,10 @@ def load_toml(path: Path, what: str = "TOML file") -> Table:
         problem = _POSITION.sub("", str(error))
         remedy = "mend the TOML syntax here"
         raise AuthoringError(place, problem[:1].lower() + problem[1:], remedy) from error
+    except (RecursionError, ValueError) as error:
+        raise AuthoringError(
+            Place(path), "brackets or numbers without end", "shorten it"
+        ) from error
     return Table(data, path, (), locate_keys(text))
 
 
@@ -181,7 +185,7 @@ def _kind_of(value: object) -> str:
     return names.get(type(value), "a list" if isinstance(value, list) else "a table")
 
 
-_HEADER = re.compile(r"^\s*(\[\[?)\s*(.+?)\s*\]\]?\s*(?:#.*)?$")
+_HEADER = re.compile(r"^\s*(\[\[?)([^\]]+)\]\]?\s*(?:#.*)?$")
 _ENTRY = re.compile(
     r"""^(\s*)((?:"[^"]*"|'[^']*'|[A-Za-z0-9_-]+)(?:\s*\.\s*(?:"[^"]*"|'[^']*'|[A-Za-z0-9_-]+))*)\s*="""
 )

@@ -43,7 +43,7 @@ class CommandGate(Behavior):
         self._motion = context.board.slot(MOTION)
         self._gate = VelocityGate(self._limits())
         self._reporter = MotionReporter(context.events)
-        self._slot_time = -math.inf
+        self._taken: tuple[Twist, float] | None = None
         self._was_bumped = False
         self._must_let_go = False
 
@@ -90,14 +90,15 @@ class CommandGate(Behavior):
                 self._gate.command(twist, now)
             return
         command, time = self._slot.get()
-        if command is not None and time != self._slot_time:
-            self._slot_time = time
+        if command is not None and (command, time) != self._taken:
+            self._taken = (command, time)
             self._gate.command(command, time)
 
     def _max_forward(self, now: float) -> float:
-        """How fast it may go forward, in m/s; a touch ends a forward motion for good."""
+        """How fast it may go forward, in m/s; a touch ends a motion for good."""
         is_bumped = any(self.bump.values)
-        if is_bumped and not self._was_bumped and self._gate.is_going_forward:
+        # The ring does not tell which side it was touched on, so any motion ends.
+        if is_bumped and not self._was_bumped and self._gate.is_moving:
             self._drop("bump")
         self._was_bumped = is_bumped
         if is_bumped:

@@ -26,7 +26,8 @@ from hri.core.errors import HriError
 from hri.core.events import EventBus
 from hri.core.latest import Board
 from hri.core.registry import canonical
-from hri.core.signals import Utterance
+from hri.core.signals import Event, Utterance
+from hri.drive.behaviors import CommandGate
 from hri.hal.choices import apply_choices, load_choices
 from hri.hal.configuration import Configuration, load_configuration
 from hri.hal.manager import ResourceManager
@@ -71,6 +72,9 @@ class Robot:
         authored = _find_configuration(config)
         # Also what the command line replaces is checked: a mistake must not wait for its day.
         ResourceManager(authored.devices, self.clock).check()
+        if not self.clock.is_fake:  # runs that repeat know nothing of this user's devices
+            present = apply_choices(authored.devices, load_choices())
+            authored = replace(authored, devices=present)
         configuration = _with_devices(authored, devices)
         self.configuration = _with_seed(configuration, seed)
         self.resources = ResourceManager(self.configuration.devices, self.clock, notice)
@@ -116,6 +120,7 @@ class Robot:
             if self.record is not None:
                 self.recording = Recording(self.record, self.events, self.resources)
             self._start_behaviors()
+            self.events.subscribe("speech.heard", self._obey_stop)
             async with trio.open_nursery() as nursery:
                 self.context.nursery = nursery
                 nursery.start_soon(self.clock.drive)
@@ -146,6 +151,13 @@ class Robot:
     def _start_behaviors(self) -> None:
         for runner in self.runners:
             runner.start()
+
+    def _obey_stop(self, event: Event) -> None:
+        """Whatever tasks run, or none: "stop" stops the base."""
+        if event.properties.get("rule") == "stop":
+            for behavior in self.context.behaviors.values():
+                if isinstance(behavior, CommandGate):
+                    behavior.halt()
 
     def finish(self) -> None:
         """End `live`; a second call does nothing."""
@@ -179,14 +191,18 @@ class Robot:
         finally:
             self._started.set()
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         if self._token is not None and self._thread is not None and self._thread.is_alive():
             trio.from_thread.run_sync(self.finish, trio_token=self._token)
         if self._thread is not None:
             self._thread.join()
         self._token = None
+        if isinstance(self.clock, FakeClock):
+            self.clock.release()
         if self.recording is not None:
             self.recording.plot()
+        if kind is None and self._failure is not None:
+            raise self._failure
 
     def run(self, job: Callable[..., Awaitable[Any]], *arguments: Any) -> Any:
         """Run a coroutine function with the robot's TaskContext and wait for what it returns."""
@@ -259,8 +275,7 @@ def _find_configuration(name: str) -> Configuration:
 
 def _with_devices(configuration: Configuration, devices: Sequence[Description]) -> Configuration:
     chosen = {device.id: device for device in devices}
-    present = apply_choices(configuration.devices, load_choices())
-    kept = [chosen.pop(device.id, device) for device in present]
+    kept = [chosen.pop(device.id, device) for device in configuration.devices]
     return replace(configuration, devices=(*kept, *chosen.values()))
 
 

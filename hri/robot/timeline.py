@@ -51,7 +51,7 @@ def _plot_talk(axes: Axes, events: list[Line]) -> None:
         lift = 5 + 10 * (count % 4)
         axes.annotate(
             label[:38], (event["t"], row), (2, lift), textcoords="offset points",
-            fontsize=7, color=color, rotation=0,
+            fontsize=7, color=color, parse_math=False,
         )  # fmt: skip
         count += 1
     axes.set_yticks(range(4), ["seen, felt", "said", "rejected", "heard"])

@@ -83,16 +83,26 @@ class Voice(Behavior):
     def compute(self, now: float, dt: float) -> None:
         if self._playing is not None and self._speaker.position(now) is None:
             self._finish(was_cut=False)
-        for saying, speech in self._worker.poll():
-            if not saying.is_done:
-                self._queue.popleft()
-                self._begin(saying, speech, now)
+        self._take_made(now)
         if self._queue and self._playing is None and not self._worker.is_busy:
             self._make(self._queue[0])
         if self._playing is not None:
             self.speech.send(self._playing[1])
             self.position.send(self._speaker.position(now) or 0.0)
         self.is_speaking.send(self._playing is not None)
+
+    def _take_made(self, now: float) -> None:
+        """Play what has been made; what cannot be made or played counts as cut."""
+        try:
+            for saying, speech in self._worker.poll():
+                if not saying.is_done:
+                    self._begin(saying, speech, now)
+                    self._queue.popleft()
+        except Exception:
+            if self._queue:
+                failed = self._queue.popleft()
+                failed.is_done = failed.was_cut = True
+            raise
 
     def _make(self, saying: Saying) -> None:
         prosody = self.prosody.value or Prosody()

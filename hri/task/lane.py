@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Awaitable, Callable
 from typing import Any
 
 import trio
 
 from hri.task.context import TaskContext
+
+log = logging.getLogger("hri.task")
 
 
 class Lane:
@@ -44,6 +47,11 @@ class Lane:
         try:
             with scope:
                 await job(*arguments)
+        except Exception as error:
+            # One job that fails must not end the robot; the drive stops as its commands run dry.
+            log.error("a job failed: %s", error, exc_info=error)
+            name = getattr(job, "__name__", "job")
+            self._context.events.raise_event("task.failed", task=name, error=str(error))
         finally:
             if self._scope is scope:
                 self._scope = None

@@ -234,3 +234,15 @@ def test_every_app_loads_with_its_networks_and_tasks():
         app = load_app(name)
         assert app.load_networks()
         assert app.load_tasks()
+
+
+def test_a_job_that_fails_costs_that_job_only(own_app):
+    replies = own_app / "replies.toml"
+    replies.write_text(replies.read_text().replace('say = "It is {time}."', 'say = "{distance}"'))
+    robot = Robot(app=str(own_app), config="simulated", clock=FakeClock(), devices=[SMALL_SCREEN])
+    world = robot.resources.obtain("world", SimulatedWorld)
+    world.say("what time is it", at=1.0)
+    world.say("what is your name", at=4.0)
+    events = live_for(robot, 8, *robot.app.load_tasks())
+    assert [event.name for event in events if event.name == "task.failed"] == ["task.failed"]
+    assert "My name is Robin." in [event.properties.get("text") for event in events]

@@ -9,6 +9,7 @@ from hri.drive.tasks import move
 from hri.hal.drive import DriveSystem, Odometry
 from hri.hal.resource import Description
 from hri.robot import Robot
+from hri.simulation.world import SimulatedWorld
 from hri.testing import live_for
 
 SMALL_SCREEN = Description("screen", "Hri.OffscreenScreen", {"width": "160", "height": "120"})
@@ -21,13 +22,13 @@ def fail(now, dt):
 class Ride:
     """Drives ahead; after three seconds something happens; poses are noted all the while."""
 
-    def __init__(self, happening):
+    def __init__(self, happening, distance=10.0):
         robot = Robot(config="simulated", clock=FakeClock(), devices=[SMALL_SCREEN])
         odometry = robot.resources.obtain("odometry", Odometry)
         self.way = {}
 
         async def drive(context):
-            await move(context, 10.0)
+            await move(context, distance)
 
         async def spoil(context):
             await context.clock.sleep(3.0)
@@ -81,3 +82,21 @@ def test_a_drive_that_gets_nonsense_stands_still():
         robot.clock.advance(0.3)
     assert odometry.pose(robot.clock.now()).x == 0.0
     robot.close()
+
+
+def test_a_bump_ends_a_way_back_too():
+    def happening(robot):
+        robot.resources.obtain("world", SimulatedWorld).bump(robot.clock.now())
+
+    ride = Ride(happening, distance=-2.0)
+    assert ride.way[3.0] < -0.5, "it drove"
+    assert ride.way[5.9] == pytest.approx(ride.way[4.0], abs=0.005)
+
+
+def test_stop_is_obeyed_where_no_task_of_an_app_listens():
+    def happening(robot):
+        robot.resources.obtain("world", SimulatedWorld).say("stop moving", robot.clock.now())
+
+    ride = Ride(happening)
+    assert ride.way[5.9] < 2.0
+    assert ride.way[5.9] == pytest.approx(ride.way[5.5], abs=0.02)

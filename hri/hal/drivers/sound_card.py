@@ -22,6 +22,8 @@ LONGEST_BACKLOG = 10.0
 """Seconds of sound kept while nobody reads; older sound is dropped."""
 REOPEN_AFTER = 2.0
 """Seconds between attempts to find a device that went away."""
+_STDERR = threading.Lock()
+"""Held while the standard error is away; microphone and speaker may search at once."""
 INSTALL = "apt install libportaudio2"
 
 
@@ -56,7 +58,11 @@ class _SoundCard(Resource):
 
     def _started_stream(self) -> Any:
         stream = self._new_stream()
-        stream.start()
+        try:
+            stream.start()
+        except BaseException:
+            stream.close()
+            raise
         return stream
 
     def _device(self) -> str | int | None:
@@ -100,15 +106,16 @@ class _SoundCard(Resource):
 @contextmanager
 def _silenced_libraries() -> Iterator[None]:
     """Keep PortAudio and ALSA from writing a dozen lines each time a device is not there yet."""
-    kept = os.dup(2)
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, 2)
-    try:
-        yield
-    finally:
-        os.dup2(kept, 2)
-        os.close(kept)
-        os.close(nowhere)
+    with _STDERR:
+        kept = os.dup(2)
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, 2)
+        try:
+            yield
+        finally:
+            os.dup2(kept, 2)
+            os.close(kept)
+            os.close(nowhere)
 
 
 class SoundCardMicrophone(_SoundCard, Microphone):
@@ -176,6 +183,7 @@ class SoundCardSpeaker(_SoundCard, Speaker):
 
     def position(self, now: float) -> float | None:
         if not self._watch():
+            self.stop(now)  # what was not heard must not sound when the device is back
             return None
         latency = round(self._stream.latency * self.rate)
         with self._sound_lock:
