@@ -6,6 +6,7 @@ device = "USB Audio"
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -42,7 +43,8 @@ def load_choices() -> dict[str, str]:
 def save_choices(chosen: dict[str, str]) -> Path:
     """Write the choice; the file that was written. Raises HriError."""
     path = choices_file()
-    lines = [f"[{id}]\ndevice = '{device}'\n" for id, device in chosen.items()]
+    # A JSON string is a TOML string as well, whatever the device is called.
+    lines = [f"[{id}]\ndevice = {json.dumps(device)}\n" for id, device in chosen.items()]
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text("# Written by `hri doctor --choose`.\n" + "\n".join(lines), "utf-8")

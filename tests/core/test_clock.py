@@ -65,13 +65,17 @@ def test_a_timeout_cancels_and_tells():
 
 def test_a_timeout_that_is_not_reached_leaves_no_timer_behind():
     clock = FakeClock()
+    scopes = []
 
     async def quick():
-        with clock.move_on_after(1000.0):
+        with clock.move_on_after(1000.0) as scope:
             await clock.sleep(1)
+        scopes.append(scope)
+        await clock.sleep(2000)
 
     live(clock, quick)
-    assert clock.now() == 1
+    assert clock.now() == 2001
+    assert not scopes[0].cancel_called
 
 
 def test_the_result_of_a_worker_shows_up_after_its_modeled_latency():

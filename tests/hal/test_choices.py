@@ -12,8 +12,9 @@ def own_settings(tmp_path, monkeypatch):
 
 def test_what_was_chosen_is_there_the_next_time():
     assert load_choices() == {}
-    save_choices({"microphone": "USB Audio", "camera": "1"})
-    assert load_choices() == {"microphone": "USB Audio", "camera": "1"}
+    chosen = {"microphone": 'Ann\'s "USB" Audio', "camera": "1"}
+    save_choices(chosen)
+    assert load_choices() == chosen
 
 
 def test_the_choice_reaches_real_devices_only():
