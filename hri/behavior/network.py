@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from hri.behavior.behavior import Behavior
-from hri.behavior.ports import GENERIC, Input, Output
+from hri.behavior.ports import ANY, GENERIC, Input, Output
 from hri.core import paths, registry
 from hri.core.errors import AuthoringError, HriError, NotAvailable, Place, did_you_mean
 from hri.core.expression import evaluate
@@ -72,7 +72,7 @@ class Network:
         receiver, input = self._port(target, "inputs", place)
         sends: Output[Any] = sender.outputs[output]
         takes: Input[Any] = receiver.inputs[input]
-        if sends.datatype != takes.datatype:
+        if sends.datatype != takes.datatype and ANY not in (sends.datatype, takes.datatype):
             what = f"{source} is {sends.datatype}, but {target} takes {takes.datatype}"
             raise AuthoringError(place, what, "link ports of the same datatype")
         if sends.semantic != takes.semantic and GENERIC not in (sends.semantic, takes.semantic):

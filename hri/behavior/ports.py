@@ -14,7 +14,11 @@ T = TypeVar("T")
 
 GENERIC = "Evolution.Generic"
 
+ANY = "any"
+"""The datatype that fits every other."""
+
 DATATYPES: dict[str, type] = {
+    ANY: object,
     "double": float,
     "string": str,
     "doublearray": tuple,

@@ -6,7 +6,7 @@ import argparse
 import importlib
 import json
 
-BENCHES = ("companion",)
+BENCHES = ("behavior", "companion", "net")
 """Each is a module of `hri.bench` with `measure() -> dict`."""
 
 

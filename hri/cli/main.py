@@ -17,11 +17,16 @@ COMMANDS = {
     "companion": ("hri.cli.companion", "start the companion (same as `run companion`)"),
     "run": ("hri.cli.run", "start an app by name or path"),
     "doctor": ("hri.cli.doctor", "test microphone, speaker, camera, screen, base and models"),
+    "devices": ("hri.cli.devices", "list the devices of a configuration and what is present"),
+    "new": ("hri.cli.new", "start a driver, behavior, task, app or face of your own"),
+    "network": ("hri.cli.network", "check, show and draw behavior networks"),
+    "schema": ("hri.cli.schema", "export the schemas of behaviors as XML"),
     "grammar": ("hri.cli.grammar", "check, parse with, and expand grammars"),
     "say": ("hri.cli.say", "say a text, or write it to a WAV file"),
     "face": ("hri.cli.face", "check, render and show faces"),
     "emotion": ("hri.cli.emotion", "check and try out emotions"),
     "bench": ("hri.cli.bench", "measure, and print JSON"),
+    "soak": ("hri.cli.soak", "run a large network for simulated hours and watch it"),
 }
 """Each command is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
 

@@ -25,6 +25,8 @@ import trio.testing
 
 T = TypeVar("T")
 
+NAP = 0.005
+"""Seconds; how often a program without a robot loop looks whether what it waits for is there."""
 FAKE_MORNING = datetime(2003, 6, 18, 10, 0)
 """What a fake clock shows when it starts."""
 
@@ -78,6 +80,8 @@ class Clock(ABC):
         self._timers: list[Timer] = []
         self._order = itertools.count()
         self._changed = trio.Event()
+        self.is_driven = False
+        """True while a robot loop runs the timers."""
 
     @abstractmethod
     def now(self) -> float:
@@ -87,9 +91,29 @@ class Clock(ABC):
     def wall(self) -> datetime:
         """Date and time of day, as people tell it; for words only, never for arithmetic."""
 
-    @abstractmethod
     async def drive(self) -> None:
         """Run the timers, for ever; started once, in the nursery of the robot loop."""
+        self.is_driven = True
+        try:
+            await self._drive()
+        finally:
+            self.is_driven = False
+
+    @abstractmethod
+    async def _drive(self) -> None:
+        """Run the timers, for ever."""
+
+    @abstractmethod
+    def advance_until(self, is_over: Callable[[], bool], timeout: float = math.inf) -> bool:
+        """Let time pass, running the timers, until something holds or `timeout` seconds are over.
+
+        For programs without a robot loop. Returns whether it holds. Raises RuntimeError where a
+        robot loop runs real time, or nothing is left that could happen in fake time.
+        """
+
+    def advance(self, seconds: float) -> None:
+        """Let some seconds pass, running the timers; for programs without a robot loop."""
+        self.advance_until(lambda: False, seconds)
 
     @abstractmethod
     def worker(self, latency: float) -> Worker[T]:
@@ -161,7 +185,25 @@ class RealClock(Clock):
     def worker(self, latency: float) -> Worker[T]:
         return _ThreadWorker()
 
-    async def drive(self) -> None:
+    def advance_until(self, is_over: Callable[[], bool], timeout: float = math.inf) -> bool:
+        if self.is_driven:
+            raise RuntimeError("a robot loop runs this clock - await, in place of waiting")
+        end = self.now() + timeout
+        while not is_over():
+            timer = self._pop_timer()
+            # Short naps, since what is waited for may happen in a thread of a device.
+            wait = min(end, self.now() + NAP, math.inf if timer is None else timer.time)
+            if timer is not None and timer.time <= self.now():
+                timer.callback()
+                continue
+            if timer is not None:
+                heapq.heappush(self._timers, timer)
+            if self.now() >= end:
+                return False
+            time.sleep(max(0.0, wait - self.now()))  # noqa: TID251 - this is the clock
+        return True
+
+    async def _drive(self) -> None:
         while True:
             self._changed = trio.Event()
             timer = self._pop_timer()
@@ -201,16 +243,21 @@ class FakeClock(Clock):
     def worker(self, latency: float) -> Worker[T]:
         return _InlineWorker(self, latency)
 
-    def advance(self, seconds: float) -> None:
-        """Run all timers of the next seconds; for code outside a robot loop, such as tests."""
-        end = self._now + seconds
-        while (timer := self._pop_timer()) is not None:
-            if timer.time > end:
-                heapq.heappush(self._timers, timer)
-                break
+    def advance_until(self, is_over: Callable[[], bool], timeout: float = math.inf) -> bool:
+        # Not refused inside a robot loop: so a test lets a tick take its time.
+        end = self._now + timeout
+        while not is_over():
+            timer = self._pop_timer()
+            if timer is None and end == math.inf:
+                raise RuntimeError("nothing is left that could happen - give a timeout")
+            if timer is None or timer.time > end:
+                if timer is not None:
+                    heapq.heappush(self._timers, timer)
+                self._now = end
+                return False
             self._now = timer.time
             timer.callback()
-        self._now = end
+        return True
 
     def hold(self) -> None:
         """Let time stand still until `release`; calls count."""
@@ -220,7 +267,7 @@ class FakeClock(Clock):
         self._holds -= 1
         self._changed.set()
 
-    async def drive(self) -> None:
+    async def _drive(self) -> None:
         while True:
             await trio.testing.wait_all_tasks_blocked()
             self._changed = trio.Event()

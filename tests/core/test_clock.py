@@ -197,3 +197,31 @@ def test_a_timer_in_the_past_runs_now_and_infinity_is_refused():
     assert clock.call_at(3, lambda: None).time == 10
     with pytest.raises(ValueError, match="finite"):
         clock.call_at(float("inf"), lambda: None)
+
+
+@pytest.mark.parametrize("clock", [FakeClock(), RealClock()])
+def test_a_program_without_a_loop_lets_time_pass(clock):
+    begun, rang = clock.now(), []
+    clock.call_at(begun + 0.01, lambda: rang.append(clock.now()))
+    assert clock.advance_until(lambda: bool(rang), 5.0)
+    assert begun + 0.01 <= rang[0] < begun + 5.0
+    assert not clock.advance_until(lambda: False, 0.01)
+
+
+def test_waiting_for_what_cannot_happen_is_told():
+    with pytest.raises(RuntimeError, match="nothing is left"):
+        FakeClock().advance_until(lambda: False)
+
+
+def test_a_clock_has_one_driver():
+    async def main(clock):
+        async with trio.open_nursery() as nursery:
+            nursery.start_soon(clock.drive)
+            await trio.testing.wait_all_tasks_blocked()
+            with pytest.raises(RuntimeError, match="robot loop"):
+                clock.advance(1.0)
+            nursery.cancel_scope.cancel()
+
+    clock = RealClock()
+    trio.run(main, clock)
+    assert not clock.is_driven

@@ -1,0 +1,1 @@
+"""Over the network: the Malleable bridge, its client, the event server."""
