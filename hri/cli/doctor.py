@@ -7,17 +7,18 @@ import math
 import sys
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from hri.cli.diagnostic import without_stand_ins
 from hri.core import paths
 from hri.core.clock import RealClock
 from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Twist
 from hri.hal.camera import Camera
-from hri.hal.choices import apply_choices, load_choices, save_choices
+from hri.hal.choices import load_choices, save_choices
 from hri.hal.configuration import load_configuration
 from hri.hal.drive import DriveSystem, Odometry
 from hri.hal.manager import ResourceManager
@@ -64,16 +65,9 @@ class Doctor:
 
     def __init__(self, options: argparse.Namespace) -> None:
         self.seconds = options.seconds
-        devices = load_configuration(paths.find("config", options.config)).devices
-        devices = apply_choices(devices, load_choices())
+        configuration = load_configuration(paths.find("config", options.config))
         self.clock = RealClock()
-        self.resources = ResourceManager(
-            [
-                replace(device, parameters=_without_stand_in(device.parameters))
-                for device in devices
-            ],
-            self.clock,
-        )
+        self.resources = ResourceManager(without_stand_ins(configuration).devices, self.clock)
 
     def examine(self) -> int:
         """Run all checks; each prints a line. Raises AuthoringError for a wrong configuration."""
@@ -102,11 +96,12 @@ class Doctor:
 
     def _microphone(self) -> Finding:
         microphone = self.resources.obtain("microphone", Microphone)
+        ear = microphone.listen()
         loudest = -120.0
         end = self.clock.now() + self.seconds
         while self.clock.now() < end:
             time.sleep(0.1)  # noqa: TID251 - a person watches the meter
-            samples = microphone.read(self.clock.now())
+            samples = ear.read(self.clock.now())
             level = _dbfs(samples)
             loudest = max(loudest, level)
             if sys.stdout.isatty():
@@ -165,10 +160,6 @@ class Doctor:
         recognizer = self.resources.obtain("recognizer", Recognizer)
         recognizer.start(load_grammar(paths.find("grammars", "companion.jsgf")))
         return Finding(True, f"{recognizer.describe()}, its model loads")
-
-
-def _without_stand_in(parameters: Any) -> dict[str, str]:
-    return {name: value for name, value in parameters.items() if name != "stand_in"}
 
 
 def _dbfs(samples: Any) -> float:

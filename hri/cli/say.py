@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-import wave
 from pathlib import Path
 
 import trio
@@ -12,6 +11,7 @@ import trio
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.core.signals import Speech
+from hri.hal.drivers.wav_file import write_wav
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
 from hri.speech.synthesizers.espeak import EspeakVoice
@@ -31,7 +31,7 @@ def run(options: argparse.Namespace) -> int:
     try:
         speech = _synthesize(resources, options)
         if options.wav is not None:
-            _write(speech, options.wav)
+            write_wav(options.wav, speech.samples, speech.rate)
         else:
             trio.run(_play, resources, speech)
     except HriError as error:
@@ -48,18 +48,6 @@ def _synthesize(resources: ResourceManager, options: argparse.Namespace) -> Spee
     resources.substitute("voice", voice)
     voice.activate()
     return voice.synthesize(options.text)
-
-
-def _write(speech: Speech, path: Path) -> None:
-    try:
-        with path.open("wb") as raw, wave.open(raw, "wb") as file:
-            file.setnchannels(1)
-            file.setsampwidth(2)
-            file.setframerate(speech.rate)
-            file.writeframes(speech.samples.tobytes())
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise HriError(f"{path}: cannot be written: {reason} - check the path") from error
 
 
 async def _play(resources: ResourceManager, speech: Speech) -> None:

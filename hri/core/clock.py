@@ -11,6 +11,7 @@ from __future__ import annotations
 import heapq
 import itertools
 import math
+import threading
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
@@ -21,12 +22,13 @@ from datetime import datetime, timedelta
 from typing import Generic, TypeVar
 
 import trio
-import trio.testing
 
 T = TypeVar("T")
 
 NAP = 0.005
 """Seconds; how often a program without a robot loop looks whether what it waits for is there."""
+POLL = 0.001
+"""Seconds; the step in which the system counts the time that a program waits for anything."""
 FAKE_MORNING = datetime(2003, 6, 18, 10, 0)
 """What a fake clock shows when it starts."""
 
@@ -78,10 +80,13 @@ class Clock(ABC):
 
     def __init__(self) -> None:
         self._timers: list[Timer] = []
+        self._lock = threading.Lock()
         self._order = itertools.count()
         self._changed = trio.Event()
         self.is_driven = False
         """True while a robot loop runs the timers."""
+        self._driver = 0
+        self._token: trio.lowlevel.TrioToken | None = None
 
     @abstractmethod
     def now(self) -> float:
@@ -93,11 +98,13 @@ class Clock(ABC):
 
     async def drive(self) -> None:
         """Run the timers, for ever; started once, in the nursery of the robot loop."""
+        self._driver, self._token = threading.get_ident(), trio.lowlevel.current_trio_token()
         self.is_driven = True
         try:
             await self._drive()
         finally:
             self.is_driven = False
+            self._token = None
 
     @abstractmethod
     async def _drive(self) -> None:
@@ -120,12 +127,15 @@ class Clock(ABC):
         """A worker. On the fake clock a result shows up `latency` seconds after its job began."""
 
     def call_at(self, when: float, callback: Callable[[], object]) -> Timer:
-        """Call back at a time, from the robot loop; a time that has passed means now."""
+        """Call back at a time, from the robot loop; a time that has passed means now.
+
+        May be used from any thread.
+        """
         if not math.isfinite(when):
             raise ValueError(f"a timer needs a finite time, not {when}")
         timer = Timer(max(when, self.now()), next(self._order), callback)
-        heapq.heappush(self._timers, timer)
-        self._changed.set()
+        self._push(timer)
+        self._wake()
         return timer
 
     def soon(self, callback: Callable[[], object]) -> Timer:
@@ -158,13 +168,29 @@ class Clock(ABC):
                 if timer is not None:
                     timer.cancel()
 
+    def _push(self, timer: Timer) -> None:
+        with self._lock:
+            heapq.heappush(self._timers, timer)
+
     def _pop_timer(self) -> Timer | None:
         """Take the earliest timer that still counts off the heap."""
-        while self._timers:
-            timer = heapq.heappop(self._timers)
-            if not timer.is_cancelled:
-                return timer
+        with self._lock:
+            while self._timers:
+                timer = heapq.heappop(self._timers)
+                if not timer.is_cancelled:
+                    return timer
         return None
+
+    def _wake(self) -> None:
+        """Let the robot loop look at its timers anew."""
+        token = self._token
+        if token is None or threading.get_ident() == self._driver:
+            self._changed.set()
+            return
+        try:
+            token.run_sync_soon(lambda: self._changed.set())
+        except trio.RunFinishedError:
+            return  # the loop has ended meanwhile
 
 
 class RealClock(Clock):
@@ -175,6 +201,8 @@ class RealClock(Clock):
         super().__init__()
         self._source = source
         self._origin = source()
+        self.is_exact = False
+        """Wake to the microsecond; otherwise it is the millisecond that the system polls with."""
 
     def now(self) -> float:
         return self._source() - self._origin
@@ -197,7 +225,7 @@ class RealClock(Clock):
                 timer.callback()
                 continue
             if timer is not None:
-                heapq.heappush(self._timers, timer)
+                self._push(timer)
             if self.now() >= end:
                 return False
             time.sleep(max(0.0, wait - self.now()))  # noqa: TID251 - this is the clock
@@ -215,9 +243,18 @@ class RealClock(Clock):
                 timer.callback()
                 await trio.lowlevel.checkpoint()
                 continue
-            heapq.heappush(self._timers, timer)
-            with trio.move_on_after(wait):
-                await self._changed.wait()
+            self._push(timer)
+            if not self.is_exact:
+                with trio.move_on_after(wait):
+                    await self._changed.wait()
+            elif wait > POLL:
+                # epoll counts in milliseconds, rounded up: it may come back that much later.
+                with trio.move_on_after(wait - POLL):
+                    await self._changed.wait()
+            else:
+                await trio.lowlevel.checkpoint()
+                # Holds the loop for less than a millisecond, but ends on time.
+                time.sleep(max(0.0, timer.time - self.now()))  # noqa: ASYNC251, TID251
 
 
 class FakeClock(Clock):
@@ -252,12 +289,17 @@ class FakeClock(Clock):
                 raise RuntimeError("nothing is left that could happen - give a timeout")
             if timer is None or timer.time > end:
                 if timer is not None:
-                    heapq.heappush(self._timers, timer)
+                    self._push(timer)
                 self._now = end
                 return False
             self._now = timer.time
             timer.callback()
         return True
+
+    @property
+    def is_held(self) -> bool:
+        """Whether time stands still."""
+        return self._holds > 0
 
     def hold(self) -> None:
         """Let time stand still until `release`; calls count."""
@@ -265,11 +307,14 @@ class FakeClock(Clock):
 
     def release(self) -> None:
         self._holds -= 1
-        self._changed.set()
+        self._wake()
 
     async def _drive(self) -> None:
+        # Imported here, since it is slow to import and real time never needs it.
+        from trio.testing import wait_all_tasks_blocked
+
         while True:
-            await trio.testing.wait_all_tasks_blocked()
+            await wait_all_tasks_blocked()
             self._changed = trio.Event()
             timer = None if self._holds > 0 else self._pop_timer()
             if timer is None:

@@ -53,16 +53,35 @@ def did_you_mean(word: str, known: Iterable[str], otherwise: str = "") -> str:
     return f"known are: {', '.join(names)}" if names else "none is known here"
 
 
+LARGEST_FILE = 4_000_000
+"""Bytes; no authored file is larger."""
+
+
+def read_bytes(path: Path, what: str) -> bytes:
+    """What an authored file holds.
+
+    Raises HriError when it cannot be read, is no regular file, or is larger than LARGEST_FILE.
+    """
+    try:
+        # Looked at before it is opened: a pipe without a writer would keep us for ever.
+        if path.exists() and not path.is_file():
+            raise HriError(f"{path}: this {what} is no regular file - name a file")
+        with path.open("rb") as file:
+            raw = file.read(LARGEST_FILE + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise HriError(f"{path}: cannot read this {what}: {reason} - check the path") from error
+    if len(raw) > LARGEST_FILE:
+        raise HriError(f"{path}: this {what} is too large - keep it below {LARGEST_FILE} bytes")
+    return raw
+
+
 def read_text(path: Path, what: str) -> str:
     """The text of an authored file in UTF-8.
 
-    Raises HriError when it cannot be opened, AuthoringError when it is not UTF-8 text.
+    Raises HriError when it cannot be read, AuthoringError when it is not UTF-8 text.
     """
-    try:
-        raw = path.read_bytes()
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise HriError(f"{path}: cannot read this {what}: {reason} - check the path") from error
+    raw = read_bytes(path, what)
     try:
         return raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:

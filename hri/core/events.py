@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fnmatch
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -49,5 +48,20 @@ class EventBus:
 
 
 def matches(pattern: str, name: str) -> bool:
-    """Whether an event's name fits a pattern with `*`."""
-    return pattern in ("*", name) or fnmatch.fnmatchcase(name, pattern)
+    """Whether a name fits a pattern; `*` stands for any characters, all others for themselves.
+
+    Takes the leftmost place for each part, which finds a fit where there is one, in linear time.
+    """
+    first, *parts = pattern.split("*")
+    if not parts:
+        return pattern == name
+    last = parts.pop()
+    if len(name) < len(first) + len(last) or not name.startswith(first):
+        return False
+    at, end = len(first), len(name) - len(last)
+    for part in parts:
+        found = name.find(part, at, end)
+        if found < 0:
+            return False
+        at = found + len(part)
+    return name.endswith(last)

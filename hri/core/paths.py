@@ -45,7 +45,7 @@ def find(kind: str, name: str) -> Path:
         is_there = direct.exists()
     except (OSError, RuntimeError, ValueError) as error:
         raise HriError(f'"{name[:60]}" is no name of a file - shorten or mend it') from error
-    if is_there and (os.sep in name or direct.suffix):
+    if is_there and (os.sep in name or direct.suffix or name in (os.curdir, os.pardir)):
         return direct
     spellings = (name, name + SUFFIXES.get(kind, ".toml"))
     for folder in search_folders():

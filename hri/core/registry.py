@@ -17,19 +17,30 @@ GROUPS = {"hri.resources": "device type", "hri.behaviors": "behavior type", "hri
 
 ALIASES = {
     # 2003 device types that have another name today.
+    "Evolution.ASR": "Hri.Bus",
+    "Evolution.Audio": "Hri.Bus",
     "Evolution.DirectXCamera": "Hri.Webcam",
+    "Evolution.DirectXMP3FileAudioPlay": "Hri.AudioFilePlayer",
+    "Evolution.EloquenceTTS": "Hri.EspeakVoice",
+    "Evolution.FGD": "Hri.Bus",
+    "Evolution.JoystickWin32DirectInput": "Hri.Joystick",
     "Evolution.LinuxCamera": "Hri.Webcam",
-    "Evolution.WinVoiceRecognizer": "Hri.Recognizer",
+    "Evolution.MorphedFace": "Hri.Screen",
+    "Evolution.RCMBattery": "Hri.SimulatedBattery",
+    "Evolution.RCMBus": "Hri.Bus",
+    "Evolution.RCMMotor": "Hri.SimulatedMotor",
+    "Evolution.TTS": "Hri.Bus",
+    "Evolution.USB": "Hri.Bus",
+    "Evolution.USBGripper": "Hri.SimulatedGripper",
+    "Evolution.USBIrSensor": "Hri.SimulatedRangeSensor",
     "Evolution.ViaVoiceRecognizer": "Hri.Recognizer",
     "Evolution.WinTTS": "Hri.EspeakVoice",
-    "Evolution.EloquenceTTS": "Hri.EspeakVoice",
+    "Evolution.WinVoiceAudioLevel": "Hri.AudioLevel",
+    "Evolution.WinVoiceRecognizer": "Hri.Recognizer",
     "Evolution.WmmeAudioPlayback": "Hri.Speaker",
     "Evolution.WmmeAudioRecord": "Hri.Microphone",
-    "Evolution.MorphedFace": "Hri.Screen",
-    "Evolution.USBIrSensor": "Hri.SimulatedRangeSensor",
-    "Evolution.RCMBattery": "Hri.SimulatedBattery",
-    "Evolution.Diff2Drive": "Hri.SimulatedDrive",
-    "Evolution.Diff2Odometry": "Hri.SimulatedOdometry",
+    "Evolution.WmmeFileAudioPlay": "Hri.AudioFilePlayer",
+    "Evolution.WmmeFileAudioRecord": "Hri.AudioFileRecorder",
 }
 
 
@@ -41,6 +52,13 @@ def _entries(group: str) -> dict[str, EntryPoint]:
 def known(group: str) -> list[str]:
     """All names of a group, sorted."""
     return sorted(_entries(group))
+
+
+def name_of(group: str, cls: type) -> str:
+    """The name that a class is declared under, or an empty text."""
+    entries = _entries(group).items()
+    alike = [(name, entry) for name, entry in entries if entry.attr == cls.__qualname__]
+    return next((name for name, entry in alike if entry.load() is cls), "")
 
 
 def canonical(name: str) -> str:

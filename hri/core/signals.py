@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
+
+from hri.core.errors import HriError, did_you_mean
+
+T = TypeVar("T")
 
 Samples = NDArray[np.int16]
 """Mono audio, shape [n], full scale +-32767."""
@@ -177,6 +181,16 @@ class Frame:
     sequence: int
     """Counts up by one per picture taken; gaps are pictures lost."""
 
+    @property
+    def width(self) -> int:
+        """Pixels."""
+        return int(self.image.shape[1])
+
+    @property
+    def height(self) -> int:
+        """Pixels."""
+        return int(self.image.shape[0])
+
 
 @dataclass(frozen=True, slots=True)
 class Twist:
@@ -203,6 +217,8 @@ class RangeReading:
     distance: float
     """Metres; infinity when nothing is in range."""
     time: float
+    raw: int | None = None
+    """What the sensor counted, 0 when nothing is in range; None for a sensor that counts not."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -211,4 +227,21 @@ class Event:
 
     name: str
     time: float = 0.0
+    """Seconds of the clock at which it was raised; 0 before."""
     properties: Mapping[str, Any] = field(default_factory=dict)
+
+    def get_property(self, name: str, kind: type[T]) -> T:
+        """The value of a property, which must be of a type; a whole number is a float as well.
+
+        Raises HriError when it is not there, or of another type.
+        """
+        if name not in self.properties:
+            remedy = did_you_mean(name, self.properties)
+            raise HriError(f'{self.name} has no property "{name}" - {remedy}')
+        value = self.properties[name]
+        if kind is float and isinstance(value, int) and not isinstance(value, bool):
+            return float(value)  # type: ignore[return-value]
+        if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
+            what = f"is a {type(value).__name__}, no {kind.__name__}"
+            raise HriError(f'{self.name}: the property "{name}" {what} - mend who raises it')
+        return value

@@ -2,20 +2,37 @@
 
 expat reads them, since lxml tells no columns. A DOCTYPE is refused, and with it every entity a
 file could define: nothing is expanded, nothing is fetched.
+
+`format_xml` writes the canonical form, so that a file that is read and written again is the same
+byte for byte: UTF-8, two spaces for each level, one tag a line with its attributes in one order,
+comments and at most one blank line between tags where the author had them.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from xml.parsers import expat
 
-from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
+from hri.core.errors import AuthoringError, Place, did_you_mean, read_bytes
+from hri.core.expression import evaluate
 
-MAX_BYTES = 4_000_000
 MAX_DEPTH = 64
 MAX_ELEMENTS = 50_000
+DECLARATION = '<?xml version="1.0" encoding="UTF-8"?>'
+EDITOR_PREFIXES = ("xmlns:", "xsi:")
+"""Attributes that tell an editor where the XSD is; they mean nothing to us."""
+
+_ATTRIBUTE = re.compile(rb"""\s+([^\s=]+)\s*=\s*(?:"[^"]*"|'[^']*')""")
+_TAG = re.compile(rb"[^\s/>]*")
+_ESCAPES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"}
+_ESCAPED = re.compile(r'[&<>"\t\n\r]')
+
+
+NOWHERE = Place(Path("-"))
+"""Where an element stands that was made by a program."""
 
 
 @dataclass
@@ -24,11 +41,15 @@ class Element:
 
     tag: str
     attributes: dict[str, str]
-    place: Place
+    place: Place = NOWHERE
     places: dict[str, Place] = field(default_factory=dict)
     """Where each attribute stands."""
     children: list[Element] = field(default_factory=list)
     text: str = ""
+    leading: list[str] = field(default_factory=list)
+    """Comments and processing instructions before it, and "" for a blank line."""
+    trailing: list[str] = field(default_factory=list)
+    """The same behind its last child."""
 
     def __iter__(self) -> Iterator[Element]:
         return iter(self.children)
@@ -46,29 +67,61 @@ class Element:
         remedy = did_you_mean(attribute, self.attributes, f'add {attribute}="..."')
         raise self.error(f'<{self.tag}> has no "{attribute}"', remedy)
 
+    def number(self, attribute: str, default: float) -> float:
+        """An attribute as a number or an expression. Raises AuthoringError when it is none."""
+        if attribute not in self.attributes:
+            return default
+        try:
+            return evaluate(self.attributes[attribute])
+        except ValueError as error:
+            raise self.error(str(error), "write a number, such as 0.1", attribute) from error
+
     def check(self, tags: tuple[str, ...] = (), attributes: tuple[str, ...] = ()) -> None:
-        """Refuse children and attributes that have no meaning here."""
+        """Refuse children, attributes and text that have no meaning here."""
+        if self.text.strip():
+            words = " ".join(self.text.split())
+            raise self.error(f'the text "{words:.40}" has no place in <{self.tag}>', "delete it")
         for child in self.children:
             if child.tag not in tags:
                 raise child.error(
                     f"<{child.tag}> has no place in <{self.tag}>", did_you_mean(child.tag, tags)
                 )
         for name in self.attributes:
-            if name not in attributes:
+            if name not in attributes and not name.startswith(EDITOR_PREFIXES):
                 what = f'<{self.tag}> has no attribute "{name}"'
                 raise self.error(what, did_you_mean(name, attributes), name)
 
 
 def load_xml(path: Path, what: str = "XML file") -> Element:
     """The root element. Raises AuthoringError with the place, HriError if unreadable."""
-    try:
-        raw = path.read_bytes()
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise HriError(f"{path}: cannot read this {what}: {reason} - check the path") from error
-    if len(raw) > MAX_BYTES:
-        raise HriError(f"{path}: {len(raw)} bytes are too many - keep it below {MAX_BYTES}")
-    return _Reader(path, raw).read()
+    return _Reader(path, read_bytes(path, what)).read()
+
+
+def format_xml(root: Element) -> str:
+    """The canonical text of a file; attributes come in the order that the elements have."""
+    lines = [DECLARATION]
+    _format(root, "", lines)
+    return "\n".join(lines) + "\n"
+
+
+def _format(element: Element, indent: str, lines: list[str], is_first: bool = True) -> None:
+    # A blank line below an opening tag separates nothing.
+    leading = element.leading[1:] if is_first and element.leading[:1] == [""] else element.leading
+    lines.extend(indent + line if line else "" for line in leading)
+    attributes = "".join(f' {name}="{escape(v)}"' for name, v in element.attributes.items())
+    if not element.children and not element.trailing:
+        lines.append(f"{indent}<{element.tag}{attributes}/>")
+        return
+    lines.append(f"{indent}<{element.tag}{attributes}>")
+    for number, child in enumerate(element):
+        _format(child, indent + "  ", lines, is_first=number == 0)
+    lines.extend(indent + "  " + line if line else "" for line in element.trailing)
+    lines.append(f"{indent}</{element.tag}>")
+
+
+def escape(text: str) -> str:
+    """A text as the value of an attribute in double quotes."""
+    return _ESCAPED.sub(lambda found: _ESCAPES.get(found[0], f"&#{ord(found[0])};"), text)
 
 
 class _Reader:
@@ -78,10 +131,14 @@ class _Reader:
         self.stack: list[Element] = []
         self.root: Element | None = None
         self.count = 0
+        self.between: list[str] = []
         self.parser = expat.ParserCreate()
+        self.parser.buffer_text = True
         self.parser.StartElementHandler = self._start
         self.parser.EndElementHandler = self._end
         self.parser.CharacterDataHandler = self._text
+        self.parser.CommentHandler = self._comment
+        self.parser.ProcessingInstructionHandler = self._instruction
         self.parser.StartDoctypeDeclHandler = self._doctype
 
     def read(self) -> Element:
@@ -97,6 +154,7 @@ class _Reader:
         except (LookupError, ValueError) as error:
             raise AuthoringError(Place(self.path), str(error), "save it as UTF-8") from error
         assert self.root is not None, "expat refuses a document without a root"
+        self.root.trailing.extend(self.between)
         return self.root
 
     def _here(self) -> Place:
@@ -108,7 +166,9 @@ class _Reader:
         if len(self.stack) >= MAX_DEPTH or self.count > MAX_ELEMENTS:
             raise AuthoringError(place, "too deep or too many elements", "split the file")
         places = self._attribute_places(place, attributes)
-        element = Element(tag, attributes, place, places)
+        is_first = not self.stack or not self.stack[-1].children
+        leading = self._take_between(is_first)
+        element = Element(tag, attributes, place, places, leading=leading)
         if self.stack:
             self.stack[-1].children.append(element)
         else:
@@ -116,29 +176,45 @@ class _Reader:
         self.stack.append(element)
 
     def _attribute_places(self, place: Place, attributes: dict[str, str]) -> dict[str, Place]:
-        """Find `name=` behind the start of the tag; expat tells only where the tag begins."""
+        """Find each `name=` behind the start of the tag; expat tells only where the tag begins."""
         start = self.parser.CurrentByteIndex
-        end = self.raw.find(b">", start)
-        places = {}
-        for name in attributes:
-            at = start
-            while (at := self.raw.find(name.encode(), at + 1, end)) >= 0:
-                if (
-                    self.raw[at - 1 : at].isspace()
-                    and self.raw[at + len(name) :].lstrip()[:1] == b"="
-                ):
-                    line = place.line + self.raw.count(b"\n", start, at)
-                    column = at - self.raw.rfind(b"\n", 0, at)
-                    places[name] = Place(self.path, line, column)
-                    break
+        places: dict[str, Place] = {}
+        line, line_start, seen = place.line, start - place.column + 1, start
+        tag = _TAG.match(self.raw, start + 1)
+        assert tag is not None, "the pattern fits any text"
+        at = tag.end()
+        while len(places) < len(attributes) and (found := _ATTRIBUTE.match(self.raw, at)):
+            begin, at = found.start(1), found.end()
+            if newlines := self.raw.count(b"\n", seen, begin):
+                line += newlines
+                line_start = self.raw.rfind(b"\n", seen, begin) + 1
+            seen = begin
+            name = found[1].decode(errors="replace")
+            places[name] = Place(self.path, line, begin - line_start + 1)
         return places
 
     def _end(self, tag: str) -> None:
-        self.stack.pop()
+        element = self.stack.pop()
+        element.trailing = self._take_between(is_first=not element.children)
+        if element.trailing[-1:] == [""]:
+            element.trailing.pop()
 
     def _text(self, text: str) -> None:
         if self.stack:
             self.stack[-1].text += text
+        if not text.strip() and text.count("\n") > 1 and self.between[-1:] != [""]:
+            self.between.append("")
+
+    def _comment(self, text: str) -> None:
+        self.between.append(f"<!--{text}-->")
+
+    def _instruction(self, target: str, data: str) -> None:
+        self.between.append(f"<?{target} {data}?>" if data else f"<?{target}?>")
+
+    def _take_between(self, is_first: bool) -> list[str]:
+        """What stood since the last tag; a blank line below an opening tag does not count."""
+        taken, self.between = self.between, []
+        return taken[1:] if is_first and taken[:1] == [""] else taken
 
     def _doctype(self, *_: object) -> None:
         before = self.raw[: self.raw.find(b"<!DOCTYPE")]

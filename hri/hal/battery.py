@@ -11,3 +11,7 @@ class Battery(Resource):
     @abstractmethod
     def level(self, now: float) -> float:
         """0 (empty) to 1 (full)."""
+
+    @abstractmethod
+    def voltage(self, now: float) -> float:
+        """Volts between its poles."""

@@ -5,6 +5,9 @@ from abc import abstractmethod
 from hri.core.signals import Frame
 from hri.hal.resource import Resource
 
+LOOK = 0.01
+"""Seconds between looks for the next picture."""
+
 
 class Camera(Resource):
     """Pictures with the time they were taken."""
@@ -17,6 +20,20 @@ class Camera(Resource):
     @abstractmethod
     def read(self, now: float) -> Frame | None:
         """The newest picture taken since the last call; None when there is none yet."""
+
+    def take(self, timeout: float = 5.0) -> Frame:
+        """Wait for the next picture; for programs without a robot loop.
+
+        Raises NotAvailable when none comes within `timeout` seconds.
+        """
+        clock = self.manager.clock
+        end = clock.now() + timeout
+        while (frame := self.read(clock.now())) is None:
+            if clock.now() >= end:
+                why = f"no picture within {timeout:g} s"
+                raise self.not_available(why, "unplug it and plug it in again")
+            clock.advance(LOOK)
+        return frame
 
     def pan(self, now: float) -> float:
         """Where it points, from the robot's straight ahead to the left, radians."""

@@ -1,7 +1,8 @@
 """Reads `resource-config.xml`: dimensions, buses with devices, groups with members.
 
 Defaults of a device type come from its spec, `resource/<Namespace>/<Name>.xml`, found over the
-search folders; what the device says itself wins.
+search folders; what the device says itself wins. A spec also says which driver it is: the name of
+one that is installed, or, with a `library` that ends in `.py`, a class of that file beside it.
 """
 
 from __future__ import annotations
@@ -10,10 +11,33 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from hri.core import paths
-from hri.core.errors import AuthoringError, HriError, Place
+from hri.core.errors import AuthoringError, Place, did_you_mean
 from hri.core.registry import canonical
 from hri.core.xml import Element, load_xml
-from hri.hal.resource import Description
+from hri.hal.resource import POSE, Description
+
+SIZES = ("lx", "ly", "lz")
+"""Parameters of a shape beside its pose: its size in centimetres."""
+LARGEST_CM = 1000.0
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """A box on the robot: metres and radians in the robot's frame, (x, y, z) its middle."""
+
+    lx: float = 0.0
+    ly: float = 0.0
+    lz: float = 0.0
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 0.0
+    roll: float = 0.0
+    pitch: float = 0.0
+    yaw: float = 0.0
+
+
+NO_SHAPE = Shape()
+"""The robot of a configuration without dimensions: a point."""
 
 
 @dataclass(frozen=True)
@@ -21,7 +45,7 @@ class Configuration:
     """What a configuration file describes."""
 
     path: Path
-    shapes: tuple[Description, ...]
+    shapes: tuple[Shape, ...]
     devices: tuple[Description, ...]
     """Buses, devices and groups, in the order of the file."""
 
@@ -32,12 +56,12 @@ def load_configuration(path: Path) -> Configuration:
     if root.tag != "Resources":
         raise root.error(f"the root is <{root.tag}>", "write <Resources> around it all")
     root.check(("Dimensions", "Devices", "Groups"))
-    shapes: list[Description] = []
+    shapes: list[Shape] = []
     devices: list[Description] = []
     for section in root:
         if section.tag == "Dimensions":
             section.check(("Shape",))
-            shapes.extend(_description(shape) for shape in section)
+            shapes.extend(_shape(_description(shape)) for shape in section)
         elif section.tag == "Devices":
             section.check(("DeviceBus", "Device"))
             for element in section:
@@ -87,12 +111,23 @@ def _description(element: Element) -> Description:
     )
 
 
+def _shape(description: Description) -> Shape:
+    for name in description.parameters:
+        if name not in (*SIZES, *POSE):
+            what = f'a shape has no parameter "{name}"'
+            raise description.error(name, what, did_you_mean(name, (*SIZES, *POSE)))
+    if description.type != "rectangular":
+        what = f'a shape of type "{description.type}" is unknown'
+        raise description.error("type", what, 'write type="rectangular"')
+    lx, ly, lz = (description.number_within(name, 0.0, 0.0, LARGEST_CM) / 100 for name in SIZES)
+    pose = description.pose
+    return Shape(lx, ly, lz, pose.x, pose.y, pose.z, pose.roll, pose.pitch, pose.yaw)
+
+
 def _with_spec(description: Description) -> Description:
-    """Fill in the defaults of the device type's spec, where one is found."""
-    namespace, _, name = canonical(description.type).partition(".")
-    try:
-        path = paths.find("config", f"resource/{namespace}/{name}.xml")
-    except HriError:
+    """Fill in what the device type's spec says, where one is found."""
+    path = _spec_path(description.type)
+    if path is None:
         return description
     spec = load_xml(path, "resource spec")
     if spec.tag != "ResourceSpec":
@@ -103,11 +138,38 @@ def _with_spec(description: Description) -> Description:
         child.check((), ("name", "value"))
         defaults[child.get("name")] = child.get("value")
         places[child.get("name")] = child.place
+    library = spec.get("library", "")
     return replace(
         description,
         parameters={**defaults, **description.parameters},
         places={**places, **description.places},
+        driver=spec.get("driver", ""),
+        # The shared libraries of 2003 are of no use here; their drivers are installed by name.
+        library=path.parent / library if library.endswith(".py") else None,
     )
+
+
+def _spec_path(type: str) -> Path | None:
+    """The spec file under the type's own name or today's, in the first folder that has one."""
+    for name in (type, canonical(type)):
+        for candidate in _spec_candidates(name):
+            if candidate.is_file():
+                return candidate
+    return None
+
+
+def _spec_candidates(type: str) -> list[Path]:
+    namespace, _, name = type.partition(".")
+    if not (namespace.isidentifier() and name.isidentifier()):
+        return []  # no name that could lead out of the folders
+    below = Path("resource", namespace, f"{name}.xml")
+    return [folder / part / below for folder in paths.search_folders() for part in ("config", ".")]
+
+
+def spec_folders(type: str) -> str:
+    """Where the spec of a device type is looked for, for people."""
+    folders = dict.fromkeys(str(path.parent) for path in _spec_candidates(type))
+    return ", ".join(folders) or "any folder: a type reads Namespace.Name"
 
 
 def _refuse_twins(devices: list[Description]) -> None:

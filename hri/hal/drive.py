@@ -1,20 +1,40 @@
-"""The drive base interfaces: commands down, pose up."""
+"""The drive base interfaces: commands down, pose up. SI units and radians."""
 
 from abc import abstractmethod
+from enum import Enum
 
 from hri.core.signals import Pose2D, Twist
+from hri.hal.pending import Pending
 from hri.hal.resource import Resource
 
 
+class Stop(Enum):
+    """How a base comes to rest."""
+
+    SMOOTH = "smooth"
+    """Quickly, but gently enough for what stands on the robot."""
+    ABRUPT = "abrupt"
+    """As fast as the hardware can."""
+
+
 class DriveSystem(Resource):
-    """A base that follows velocities; it must stop by itself when no command comes for 0.5 s."""
+    """A base that follows velocities; it must stop by itself when no command comes for 0.5 s.
+
+    A network sends velocities, tick by tick. A program asks for whole motions: these repeat their
+    commands by themselves, need the clock to run, and replace each other; a motion that another
+    command ends fails with Interrupted. Ways and angles may be negative, velocities of `move_delta`
+    and `turn_delta` and all accelerations must be above 0; what the base cannot reach is cut to
+    what it can. HriError is raised for anything else.
+    """
 
     max_linear: float = 0.5
     """Metres a second."""
     max_angular: float = 1.5
     """Radians a second."""
     max_acceleration: float = 0.5
-    """Metres a second squared; turning is limited to four times that in radians."""
+    """Metres a second squared; motions are cut to it."""
+    max_angular_acceleration: float = 2.0
+    """Radians a second squared; motions are cut to it."""
 
     @abstractmethod
     def set_velocity(self, twist: Twist, now: float) -> None:
@@ -23,6 +43,36 @@ class DriveSystem(Resource):
     @abstractmethod
     def stop(self, now: float) -> None:
         """Stand still as fast as the hardware can."""
+
+    @abstractmethod
+    def set_idle_power(self, percent: float) -> Pending[None]:
+        """Force with which the base holds its place while it stands, 0 (rolls free) to 100."""
+
+    @abstractmethod
+    def set_move_power(self, percent: float) -> Pending[None]:
+        """Force for motions, above 0 to 100: that much of the greatest acceleration."""
+
+    @abstractmethod
+    def move_delta(self, distance: float, velocity: float, acceleration: float) -> Pending[None]:
+        """Drive straight on: metres, m/s, m/s²."""
+
+    @abstractmethod
+    def turn_delta(self, angle: float, velocity: float, acceleration: float) -> Pending[None]:
+        """Turn on the spot, left when positive: radians, rad/s, rad/s²."""
+
+    @abstractmethod
+    def move_and_turn(
+        self,
+        linear: float,
+        linear_acceleration: float,
+        angular: float,
+        angular_acceleration: float,
+    ) -> None:
+        """Go for these velocities and keep them until another command comes."""
+
+    @abstractmethod
+    def halt(self, how: Stop = Stop.SMOOTH) -> Pending[None]:
+        """Come to rest; done when the base stands."""
 
 
 class Odometry(Resource):

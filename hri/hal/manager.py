@@ -1,40 +1,74 @@
-"""Hands out resources by id: opened when first asked for, closed in reverse order."""
+"""Hands out resources by id: opened when first asked for, closed by the last who gives them back.
+
+An open resource is counted: `obtain` adds a user, `release` takes one away. Programs that need
+their devices to the end only obtain; `close` deactivates whatever is still open.
+"""
 
 from __future__ import annotations
 
+import logging
 import threading
 from collections.abc import Callable, Iterable
-from typing import TypeVar
+from pathlib import Path
+from typing import Self, TypeVar
 
-from hri.core import registry
-from hri.core.clock import Clock
+from hri.core import paths, registry
+from hri.core.clock import Clock, RealClock
 from hri.core.errors import HriError, NotAvailable, did_you_mean
-from hri.hal.resource import Description, Resource
+from hri.core.geometry import Pose3D
+from hri.core.python_file import load_class
+from hri.hal.configuration import NO_SHAPE, Shape, load_configuration, spec_folders
+from hri.hal.resource import ORIGIN, Description, Resource
+
+log = logging.getLogger("hri.resources")
 
 R = TypeVar("R", bound=Resource)
 
 
 class ResourceManager:
-    """All devices of a configuration; `close()` is safe to call twice."""
+    """All devices of a configuration; safe to use from several threads, and to close twice."""
 
     def __init__(
         self,
         descriptions: Iterable[Description],
         clock: Clock,
         notice: Callable[[str], object] = print,
+        shapes: Iterable[Shape] = (),
     ) -> None:
         """`notice` gets one line for each stand-in that is used."""
         self.clock = clock
         self.descriptions = {description.id: description for description in descriptions}
         self.notice = notice
+        self.dimensions = next(iter(shapes), NO_SHAPE)
+        """The first shape of the configuration: the box around the robot's body."""
         self._lock = threading.RLock()
-        self._open: dict[str, Resource] = {}
+        self._resources: dict[str, Resource] = {}
+        self._open: list[Resource] = []
+        """In the order they were opened, so that what others use closes after them."""
         self._stand_ins: dict[str, str] = {}
+
+    @classmethod
+    def load(cls, config: str | Path = "resource-config", clock: Clock | None = None) -> Self:
+        """All devices of a configuration, checked; real time where no clock is given.
+
+        `config` is a path or a name over the search folders. As a context manager it closes what
+        was opened: `with ResourceManager.load() as resources:`. Raises HriError or AuthoringError.
+        """
+        configuration = load_configuration(paths.find("config", str(config)))
+        resources = cls(configuration.devices, clock or RealClock(), shapes=configuration.shapes)
+        resources.check()
+        return resources
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
     def check(self) -> None:
         """Look up every type and parameter before anything starts. Raises AuthoringError."""
         for description in self.descriptions.values():
-            self._driver(description)
+            self.driver_of(description).check(description)
             stand_in = description.text("stand_in")
             if stand_in and stand_in not in self.descriptions:
                 remedy = did_you_mean(stand_in, self.descriptions)
@@ -52,31 +86,77 @@ class ResourceManager:
             current = self.descriptions[stand_in]
 
     def obtain(self, id: str, interface: type[R]) -> R:
-        """The open resource of that id, its stand-in where it is not there.
+        """The open resource of that id, its stand-in where it is not there; adds a user.
 
         Raises HriError for an unknown id or a wrong interface, NotAvailable when neither the
         device nor a stand-in can be opened.
         """
-        with self._lock:
-            if id not in self._open:
-                self._open[id] = self._opened(id)
-            resource = self._open[id]
+        resource = self._reserved(id)
         if not isinstance(resource, interface):
+            self.release(resource)
             raise HriError(
                 f'"{id}" is a {type(resource).__name__}, no {interface.__name__} - check the id'
             )
         return resource
 
+    def release(self, resource: Resource) -> None:
+        """Give back what `obtain` gave; the last user's release deactivates it."""
+        resource.release()
+        with self._lock:
+            if not resource.is_active and resource in self._open:
+                self._open.remove(resource)
+
     def find(self, interface: type[R]) -> R | None:
-        """The first resource of the configuration with that interface; None without one."""
-        for description in self.descriptions.values():
-            if issubclass(self._driver(description), interface):
-                return self.obtain(description.id, interface)
+        """The first resource with that interface that is there; None when none is named.
+
+        Raises NotAvailable when some are named, but none is there.
+        """
+        missing: NotAvailable | None = None
+        for id in self.ids(interface):
+            try:
+                return self.obtain(id, interface)
+            except NotAvailable as error:
+                missing = missing or error
+        if missing is not None:
+            raise missing
         return None
 
     def ids(self, interface: type[Resource]) -> list[str]:
-        """Ids of all devices of the configuration with that interface."""
-        return [d.id for d in self.descriptions.values() if issubclass(self._driver(d), interface)]
+        """Ids of all devices with that interface, as configured; those that stand in come last."""
+        stand_ins = {description.text("stand_in") for description in self.descriptions.values()}
+        ids = [d.id for d in self.descriptions.values() if self._offers(d, interface)]
+        return sorted(ids, key=lambda id: id in stand_ins)
+
+    def _offers(self, description: Description, interface: type[Resource]) -> bool:
+        try:
+            return issubclass(self.driver_of(description), interface)
+        except NotAvailable:
+            return False
+
+    def declare(self, description: Description) -> None:
+        """Add a device that the configuration does not name; one that it names stays."""
+        with self._lock:
+            self.descriptions.setdefault(description.id, description)
+
+    def pose_of(self, id: str) -> Pose3D:
+        """Where a device is in the robot's frame, along all its links.
+
+        Raises HriError for an unknown id, AuthoringError for a link to nothing or in a circle.
+        """
+        description = self._description(id)
+        pose, seen = description.pose, [id]
+        while description.link != ORIGIN:
+            link = description.link
+            if link not in self.descriptions:
+                remedy = did_you_mean(link, [ORIGIN, *self.descriptions])
+                raise description.error("link", f'no device "{link}" to be fixed to', remedy)
+            if link in seen:
+                what = f"links run in a circle: {' -> '.join([*seen, link])}"
+                raise description.error("link", what, f'fix one of them to "{ORIGIN}"')
+            seen.append(link)
+            description = self.descriptions[link]
+            pose = description.pose.then(pose)
+        return pose
 
     def stand_in_of(self, id: str) -> str | None:
         """Id of the device that stands in for this one; None when it is there itself."""
@@ -85,44 +165,87 @@ class ResourceManager:
     def substitute(self, id: str, resource: Resource) -> None:
         """Use this resource under that id: for tests, recordings, files of the command line."""
         with self._lock:
-            self._open[id] = resource
+            self._resources[id] = resource
             self._stand_ins.pop(id, None)
+            if resource.is_active and resource not in self._open:
+                self._open.append(resource)
 
     def close(self) -> None:
-        """Deactivate everything, newest first."""
-        with self._lock:
-            while self._open:
-                _, resource = self._open.popitem()
+        """Deactivate everything, newest first; one that fails does not keep the others open."""
+        while (resource := self._newest()) is not None:
+            try:
                 resource.deactivate()
+            except Exception:
+                log.exception(f"{resource.id}: closing failed")
 
-    def _opened(self, id: str) -> Resource:
+    def _newest(self) -> Resource | None:
+        with self._lock:
+            return self._open.pop() if self._open else None
+
+    def _reserved(self, id: str) -> Resource:
+        stand_in = self._stand_ins.get(id)
+        if stand_in is not None:
+            return self._reserved(stand_in)
+        resource = self._resource(id)
+        try:
+            if resource.is_hardware and self.clock.is_fake and not resource.is_active:
+                type = resource.description.type
+                raise NotAvailable(f"{id}: {type} needs real time - use its stand-in")
+            resource.reserve()
+        except NotAvailable as error:
+            return self._replacement(resource.description, error)
+        with self._lock:
+            if resource not in self._open:
+                self._open.append(resource)
+        return resource
+
+    def _replacement(self, description: Description, error: NotAvailable) -> Resource:
+        stand_in = description.text("stand_in")
+        if not stand_in:
+            raise error
+        replacement = self._reserved(stand_in)
+        with self._lock:
+            is_news = description.id not in self._stand_ins
+            self._stand_ins[description.id] = stand_in
+        if is_news and not self.clock.is_fake:
+            self.notice(f"{error} (using {stand_in} instead)")
+        return replacement
+
+    def _resource(self, id: str) -> Resource:
+        """The one object of that id; its driver is not opened here."""
+        with self._lock:
+            if id not in self._resources:
+                description = self._description(id)
+                driver = self.driver_of(description)
+                driver.check(description)
+                self._resources[id] = driver(description, self)
+            return self._resources[id]
+
+    def _description(self, id: str) -> Description:
         description = self.descriptions.get(id)
         if description is None:
             raise HriError(f'no device "{id}" - {did_you_mean(id, self.descriptions)}')
-        driver = self._driver(description)
-        stand_in = description.text("stand_in")
-        try:
-            if driver.is_hardware and self.clock.is_fake:
-                raise NotAvailable(f"{id}: {description.type} needs real time - use its stand-in")
-            resource = driver(description, self)
-            resource.activate()
-            return resource
-        except NotAvailable as error:
-            if not stand_in:
-                raise
-            replacement = self.obtain(stand_in, Resource)
-            self._stand_ins[id] = stand_in
-            if not self.clock.is_fake:
-                self.notice(f"{error} (using {stand_in} instead)")
-            return replacement
+        return description
 
-    def _driver(self, description: Description) -> type[Resource]:
+    def driver_of(self, description: Description) -> type[Resource]:
+        """The class that drives a device.
+
+        Raises AuthoringError when nobody declares it, NotAvailable when it cannot be loaded.
+        """
+        name = description.driver or description.type
         try:
-            driver: type[Resource] = registry.find("hri.resources", description.type)
+            if description.library is not None:
+                found = load_class(description.library, name.rpartition(".")[2])
+            else:
+                found = registry.find("hri.resources", name)
         except NotAvailable:
             raise
         except HriError as error:
             what, _, remedy = str(error).partition(" - ")
+            if description.library is None:
+                remedy += f" (no spec of it in {spec_folders(description.type)} either)"
             raise description.error("type", what, remedy) from error
-        driver.check(description)
-        return driver
+        if not (isinstance(found, type) and issubclass(found, Resource)):
+            what = f"{name} is no driver"
+            raise description.error("type", what, "derive its class from hri.hal.resource.Resource")
+        return found

@@ -6,16 +6,21 @@ import threading
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from hri.core.errors import AuthoringError, NotAvailable, Place, did_you_mean
 from hri.core.expression import evaluate
+from hri.core.geometry import Pose3D
 
 if TYPE_CHECKING:
     from hri.hal.manager import ResourceManager
 
 POSE = ("link", "x", "y", "z", "roll", "pitch", "yaw")
 """Parameters that every device may have: the frame it is fixed to and where (cm, radians)."""
+ORIGIN = "origin"
+"""The frame of the robot itself."""
+
+R = TypeVar("R", bound="Resource")
 
 
 @dataclass(frozen=True)
@@ -32,6 +37,22 @@ class Description:
     place: Place = field(default_factory=lambda: Place(Path("-")))
     places: Mapping[str, Place] = field(default_factory=dict)
     """Where each parameter stands."""
+    driver: str = ""
+    """Name of the driver its spec gives; without one, the type is the driver."""
+    library: Path | None = None
+    """The Python file its spec names for the driver; None for a driver that is installed."""
+
+    @property
+    def link(self) -> str:
+        """The frame it is fixed to: the robot's, or the id of another device."""
+        return self.text("link", ORIGIN)
+
+    @property
+    def pose(self) -> Pose3D:
+        """Where it is fixed to its link, metres and radians. Raises AuthoringError."""
+        x, y, z = (self.number(name, 0.0) / 100 for name in ("x", "y", "z"))
+        roll, pitch, yaw = (self.number(name, 0.0) for name in ("roll", "pitch", "yaw"))
+        return Pose3D(x, y, z, roll, pitch, yaw)
 
     def error(self, parameter: str, what: str, remedy: str) -> AuthoringError:
         return AuthoringError(self.places.get(parameter, self.place), what, remedy)
@@ -50,6 +71,22 @@ class Description:
             remedy = "write a number, such as 0.5 or -pi/4"
             raise self.error(name, f"{name}: {error}", remedy) from error
 
+    def count(self, name: str, default: int, lowest: int, highest: int) -> int:
+        """A whole number within limits. Raises AuthoringError with its place."""
+        value = self.number(name, default)
+        if value != int(value) or not lowest <= value <= highest:
+            remedy = f"write a whole number from {lowest} to {highest}"
+            raise self.error(name, f"{name}: {value:g}", remedy)
+        return int(value)
+
+    def number_within(self, name: str, default: float, least: float, most: float) -> float:
+        """A number that must lie in a range. Raises AuthoringError."""
+        value = self.number(name, default)
+        if not least <= value <= most:
+            what = f"{name} is {value:g}"
+            raise self.error(name, what, f"write a number from {least:g} to {most:g}")
+        return value
+
 
 class Resource:
     """Base of all drivers. A subclass fills in `_open` and `_close`, and its interface."""
@@ -65,6 +102,8 @@ class Resource:
         self.id = description.id
         self._lock = threading.RLock()
         self._is_active = False
+        self._reservations = 0
+        self._used: list[Resource] = []
 
     @classmethod
     def check(cls, description: Description) -> None:
@@ -82,16 +121,55 @@ class Resource:
     def activate(self) -> None:
         """Open; a second call does nothing. Raises NotAvailable when the thing is not there."""
         with self._lock:
-            if not self._is_active:
+            if self._is_active:
+                return
+            try:
                 self._open()
-                self._is_active = True
+            except BaseException:
+                self._let_go()
+                raise
+            self._is_active = True
 
     def deactivate(self) -> None:
-        """Close; a second call does nothing."""
+        """Close, whoever still uses it; a second call does nothing."""
         with self._lock:
-            if self._is_active:
-                self._is_active = False
+            if not self._is_active:
+                return
+            self._is_active = False
+            self._reservations = 0
+            try:
                 self._close()
+            finally:
+                self._let_go()
+
+    def reserve(self) -> None:
+        """Count one more user; the first one opens it. Raises NotAvailable as `activate` does."""
+        with self._lock:
+            self.activate()
+            self._reservations += 1
+
+    def release(self) -> None:
+        """Count one user less; the last one closes it. Without a user it does nothing."""
+        with self._lock:
+            if self._reservations > 0:
+                self._reservations -= 1
+                if self._reservations == 0:
+                    self.deactivate()
+
+    @property
+    def reservations(self) -> int:
+        """How many use it."""
+        return self._reservations
+
+    def use(self, id: str, interface: type[R]) -> R:
+        """Another resource for as long as this one is open; for `_open`. Raises as `obtain`."""
+        used = self.manager.obtain(id, interface)
+        self._used.append(used)
+        return used
+
+    def _let_go(self) -> None:
+        while self._used:
+            self.manager.release(self._used.pop())
 
     def describe(self) -> str:
         """One line for people: what it is, with what settings."""

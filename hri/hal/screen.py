@@ -5,12 +5,20 @@ from abc import abstractmethod
 from hri.core.signals import Image
 from hri.hal.resource import Resource
 
+LARGEST_SIDE = 8192
+"""Pixels; more is a slip of the pen."""
+
 
 class Screen(Resource):
     """Shows pictures of a fixed size and reports keys."""
 
     width: int = 640
     height: int = 480
+
+    def _take_size(self) -> None:
+        """Width and height as the configuration has them. Raises AuthoringError."""
+        self.width = self.description.count("width", 640, 16, LARGEST_SIDE)
+        self.height = self.description.count("height", 480, 16, LARGEST_SIDE)
 
     @abstractmethod
     def show(self, image: Image, time: float) -> None:

@@ -11,7 +11,9 @@ import random
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from hri.core.geometry import along_arc
 from hri.core.signals import Pose2D, Twist
+from hri.hal.profile import toward
 
 STEP = 0.01
 """Seconds."""
@@ -66,6 +68,8 @@ class Base:
         self.pose = start
         self.odometry = Pose2D()
         self.velocity = Twist()
+        self.travelled = 0.0
+        """Metres the wheels have rolled ahead, less those rolled back."""
         self.way = 0.0
         """Metres the wheels have turned, for the battery."""
         self._clearance = clearance
@@ -96,6 +100,14 @@ class Base:
         self.advance(now)
         self._goal, self._is_braking = Twist(), True
 
+    def push(self, way: float, now: float) -> None:
+        """Roll a base that stands and that nothing holds, metres ahead."""
+        self.advance(now)
+        moved = along_arc(self.pose, way, 0.0)
+        if self.velocity == Twist() and self._is_free(moved):
+            self.pose, self.odometry = moved, along_arc(self.odometry, way, 0.0)
+            self.travelled += way
+
     def advance(self, now: float) -> None:
         """Let time pass until `now`; a time that has passed does nothing."""
         last = math.floor(now / STEP + 1e-6)
@@ -120,6 +132,7 @@ class Base:
             linear, after = 0.0, Twist(0.0, after.angular)
             self.pose = Pose2D(self.pose.x, self.pose.y, moved.heading)
         self.odometry = along_arc(self.odometry, linear, angular)
+        self.travelled += linear
         self.way += abs(linear) + abs(angular) * self.limits.track / 2
         self.velocity = after
 
@@ -128,8 +141,8 @@ class Base:
         change = limits.braking if self._is_braking else limits.acceleration
         turn = 4 * limits.braking if self._is_braking else limits.angular_acceleration
         return Twist(
-            _toward(now.linear, goal.linear, change * STEP),
-            _toward(now.angular, goal.angular, turn * STEP),
+            toward(now.linear, goal.linear, change * STEP),
+            toward(now.angular, goal.angular, turn * STEP),
         )
 
     def _slipped(self, linear: float, angular: float) -> tuple[float, float]:
@@ -159,17 +172,3 @@ def reachable(twist: Twist, limits: Limits) -> Twist:
     fastest = abs(linear) + abs(angular) * limits.track / 2
     factor = min(1.0, limits.wheel / fastest) if fastest else 1.0
     return Twist(linear * factor, angular * factor)
-
-
-def along_arc(pose: Pose2D, linear: float, angular: float) -> Pose2D:
-    """Where a short arc of `linear` metres that turns by `angular` radians leads."""
-    middle = pose.heading + angular / 2
-    return Pose2D(
-        pose.x + linear * math.cos(middle),
-        pose.y + linear * math.sin(middle),
-        pose.heading + angular,
-    )
-
-
-def _toward(value: float, goal: float, change: float) -> float:
-    return min(goal, value + change) if value < goal else max(goal, value - change)

@@ -1,32 +1,31 @@
-"""The simulated devices: what a driver would measure, taken from the simulated world.
-
-    <DeviceBus id="world" type="Hri.SimulatedWorld">
-      <Device id="simulated_camera" type="Hri.SimulatedCamera"/>
-    </DeviceBus>
-
-A device whose bus is no simulated world uses the first one of the configuration.
-"""
+"""The simulated devices: what a driver would measure, taken from the simulated world."""
 
 from __future__ import annotations
 
 import math
 import random
+from collections.abc import Callable
+from functools import partial
 from typing import ClassVar
 
 import numpy as np
 
-from hri.core import registry
+from hri.core.clock import Worker
+from hri.core.geometry import placed
 from hri.core.signals import Frame, Image, Pose2D, RangeReading, Samples, Twist
 from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
 from hri.hal.camera import Camera
-from hri.hal.drive import DriveSystem, Odometry
+from hri.hal.cliff_sensor import CliffSensor
+from hri.hal.drive import Odometry
 from hri.hal.microphone import Microphone
+from hri.hal.motion import Way
+from hri.hal.moving_base import MovingBase
 from hri.hal.range_sensor import RangeSensor
-from hri.hal.resource import Description, Resource
+from hri.hal.resource import Description
+from hri.simulation.device import InWorld
 from hri.simulation.head import render_head
 from hri.simulation.sound import RATE
-from hri.simulation.world import SimulatedWorld
 
 HEAD_HEIGHT = 0.24
 """Metres from chin to crown, of an adult."""
@@ -48,27 +47,18 @@ MAX_RANGE = (0.8, 0.1, 30.0)
 """Default, least and most of a range sensor's reach, metres; infrared ones see 80 cm."""
 RANGE_NOISE = (0.01, 0.0, 0.5)
 """Default, least and most of its noise: standard deviation as a part of the distance."""
+COUNTS_AT_1_CM = 7000.0
+"""An infrared sensor counts the light that comes back: so much at 1 cm, falling with the distance,
+about as the one of 2003 did; up to MOST_COUNTS."""
+MOST_COUNTS = 1023
+VOLTAGES = (10.5, 12.4)
+"""Of an empty and of a full battery by default."""
 NOISES = 4099
 """How many errors a range sensor makes before they repeat."""
 GRAIN = 2.0
 """Standard deviation of the camera's noise, of 255."""
 SHEET_MARGIN = 64
 """Pixels that the sheet of noise is larger than a picture."""
-
-
-class InWorld(Resource):
-    """A device of the simulated world."""
-
-    world: SimulatedWorld
-
-    def _open(self) -> None:
-        kinds = {d.id: registry.canonical(d.type) for d in self.manager.descriptions.values()}
-        worlds = [id for id, kind in kinds.items() if kind == "Hri.SimulatedWorld"]
-        if not worlds:
-            what = f"{self.id} needs a simulated world"
-            raise self.description.error("type", what, "put it on a bus of type Hri.SimulatedWorld")
-        bus = self.description.bus
-        self.world = self.manager.obtain(bus if bus in worlds else worlds[0], SimulatedWorld)
 
 
 class SimulatedMicrophone(InWorld, Microphone):
@@ -85,20 +75,32 @@ class SimulatedMicrophone(InWorld, Microphone):
         return self.world.sound.between(first, self._next)
 
 
-class SimulatedDrive(InWorld, DriveSystem):
-    """The base's motors."""
+class SimulatedDrive(InWorld, MovingBase):
+    """The base's motors, driven together."""
 
     def _open(self) -> None:
         super()._open()
         limits = self.world.base.limits
         self.max_linear, self.max_angular = limits.linear, limits.angular
         self.max_acceleration = limits.acceleration
+        self.max_angular_acceleration = limits.angular_acceleration
 
-    def set_velocity(self, twist: Twist, now: float) -> None:
+    def _send(self, twist: Twist, now: float) -> None:
         self.world.command(twist, now)
 
-    def stop(self, now: float) -> None:
+    def _brake(self, now: float) -> None:
         self.world.brake(now)
+
+    def _set_power(self, percent: float, now: float) -> None:
+        self.world.hold(self.id, percent > 0)
+
+    def _rolled(self, now: float) -> Way:
+        self.world.advance(now)
+        return Way(self.world.base.travelled, self.world.base.odometry.heading)
+
+    def _velocity(self, now: float) -> Twist:
+        self.world.advance(now)
+        return self.world.base.velocity
 
 
 class SimulatedOdometry(InWorld, Odometry):
@@ -123,7 +125,11 @@ class SimulatedBumper(InWorld, Bumper):
 
 
 class SimulatedBattery(InWorld, Battery):
-    """The battery's gauge."""
+    """The battery's gauge.
+
+    Its parameters are those of the battery of 2003: it has `max_voltage` when full and
+    `voltage_floor` when empty; the others belong to how the hardware measured it.
+    """
 
     parameters: ClassVar[tuple[str, ...]] = (
         "address",
@@ -132,37 +138,77 @@ class SimulatedBattery(InWorld, Battery):
         "voltage_multiplier",
         "voltage_output_eps",
     )
-    """Those of the battery of 2003, which changes nothing here."""
+
+    @classmethod
+    def check(cls, description: Description) -> None:
+        super().check(description)
+        empty, full = _voltages(description)
+        if not 0 <= empty < full:
+            what = f"max_voltage is {full:g}, voltage_floor is {empty:g}"
+            raise description.error("max_voltage", what, "a full battery has the higher voltage")
+        for name in ("voltage_multiplier", "voltage_output_eps"):
+            description.number(name, 0.0)
 
     def level(self, now: float) -> float:
         return self.world.battery_level(now)
+
+    def voltage(self, now: float) -> float:
+        empty, full = _voltages(self.description)
+        return empty + (full - empty) * self.level(now)
+
+
+def _voltages(description: Description) -> tuple[float, float]:
+    """Empty and full, volts."""
+    empty = description.number("voltage_floor", VOLTAGES[0])
+    return empty, description.number("max_voltage", VOLTAGES[1])
+
+
+class SimulatedCliffSensor(InWorld, CliffSensor):
+    """Looks down from where it sits on the base; parameters x and y in cm."""
+
+    parameters: ClassVar[tuple[str, ...]] = ("address",)
+
+    @classmethod
+    def check(cls, description: Description) -> None:
+        super().check(description)
+        _ = description.pose
+
+    def _open(self) -> None:
+        super()._open()
+        self._mount = self.manager.pose_of(self.id)
+
+    def is_cliff(self, now: float) -> bool:
+        self.world.advance(now)
+        return self.world.is_drop(*placed(self.world.base.pose, self._mount.x, self._mount.y))
 
 
 class SimulatedRangeSensor(InWorld, RangeSensor):
     """One beam from where the sensor sits on the base; parameters x and y in cm, yaw in radians."""
 
-    parameters: ClassVar[tuple[str, ...]] = ("max_range", "noise", "address", "device_index")
+    parameters: ClassVar[tuple[str, ...]] = ("max_range", "noise", "address")
 
     @classmethod
     def check(cls, description: Description) -> None:
         super().check(description)
-        _within(description, "max_range", *MAX_RANGE)
-        _within(description, "noise", *RANGE_NOISE)
-        for name in ("x", "y", "yaw"):
-            description.number(name, 0.0)
+        description.number_within("max_range", *MAX_RANGE)
+        description.number_within("noise", *RANGE_NOISE)
+        _ = description.pose
 
     def _open(self) -> None:
         super()._open()
-        number = self.description.number
-        mount = Pose2D(number("x", 0) / 100, number("y", 0) / 100, number("yaw", 0))
-        self._beam = self.world.beams.mount(mount)
-        self._max_range = number("max_range", MAX_RANGE[0])
+        pose = self.manager.pose_of(self.id)
+        self._beam = self.world.beams.mount(Pose2D(pose.x, pose.y, pose.yaw))
+        self._max_range = self.description.number_within("max_range", *MAX_RANGE)
         generator = np.random.default_rng(self.world.seed_for(self.id))
-        self._errors = generator.normal(0.0, number("noise", RANGE_NOISE[0]), NOISES)
+        noise = self.description.number_within("noise", *RANGE_NOISE)
+        self._errors = generator.normal(0.0, noise, NOISES)
 
     def read(self, now: float) -> RangeReading:
         distance = self.world.beam_length(self._beam, now) * (1 + self._error(now))
-        return RangeReading(self.id, distance if distance <= self._max_range else math.inf, now)
+        if distance > self._max_range:
+            return RangeReading(self.id, math.inf, now, 0)
+        raw = min(MOST_COUNTS, round(COUNTS_AT_1_CM / max(1.0, distance * 100)))
+        return RangeReading(self.id, distance, now, raw)
 
     def _error(self, now: float) -> float:
         """The noise of a reading: another one each millisecond, the same for the same time."""
@@ -170,40 +216,50 @@ class SimulatedRangeSensor(InWorld, RangeSensor):
 
 
 class SimulatedCamera(InWorld, Camera):
-    """Looks at the person's face, from a neck that follows the place where the person stands."""
+    """Looks at the person's face, from a neck that follows the place where the person stands.
 
-    parameters: ClassVar[tuple[str, ...]] = ("width", "height", "rate", "field_of_view")
+    `hres` and `vres` are the size of the picture in the files of 2003; `width` and `height` win.
+    """
+
+    parameters: ClassVar[tuple[str, ...]] = (*CAMERA, "hres", "vres")
 
     @classmethod
     def check(cls, description: Description) -> None:
         super().check(description)
-        for name, limits in CAMERA.items():
-            _within(description, name, *limits)
+        _lens(description)
 
     def _open(self) -> None:
         super()._open()
-        values = {name: _within(self.description, name, *CAMERA[name]) for name in CAMERA}
-        self.width, self.height = round(values["width"]), round(values["height"])
-        self.field_of_view, self._rate = values["field_of_view"], values["rate"]
+        width, height, self._rate, self.field_of_view = _lens(self.description)
+        self.width, self.height = round(width), round(height)
         self._grain = Grain(self.width, self.height, self.world.seed_for(self.id))
         self._given = math.floor(self.manager.clock.now() * self._rate) - 1
+        # Drawing takes many milliseconds, which the loop does not have. In fake time a picture is
+        # there at once, as if a camera had taken it.
+        self._worker: Worker[Frame] = self.manager.clock.worker(0.0)
+
+    def _close(self) -> None:
+        self._worker.close()
+        super()._close()
 
     def read(self, now: float) -> Frame | None:
         sequence = math.floor(now * self._rate + 1e-6)
-        if sequence <= self._given:
-            return None
-        self._given = sequence
-        time = sequence / self._rate
-        self.world.advance(now)
-        return Frame(self._grain.on(self._picture(time), sequence), time, sequence)
+        if sequence > self._given and not self._worker.is_busy:
+            self._given = sequence
+            self.world.advance(now)
+            self._worker.submit(self._picture(sequence))
+        return next(iter(self._worker.poll()), None)
 
-    def _picture(self, time: float) -> Image:
+    def _picture(self, sequence: int) -> Callable[[], Frame]:
+        """What draws a picture of the person as it is now."""
+        time = sequence / self._rate
         person = self.world.person
         pose = person.head(time)
         aside = person.aside(time) if person.is_present(time) else FAR_ASIDE
         focal = self.width / 2 / math.tan(self.field_of_view / 2)
         pixels_per_metre = focal / max(NEAREST, self.world.distance_to_person())
-        return render_head(
+        draw = partial(
+            render_head,
             pose.pitch,
             pose.yaw,
             pose.roll,
@@ -213,6 +269,15 @@ class SimulatedCamera(InWorld, Camera):
             mouth=person.mouth(time),
             lids=person.lids(time),
         )
+        return lambda: Frame(self._grain.on(draw(), sequence), time, sequence)
+
+
+def _lens(description: Description) -> tuple[float, ...]:
+    """The values of CAMERA that a description asks for. Raises AuthoringError."""
+    given = description.parameters
+    spellings = {"width": "hres", "height": "vres"}
+    names = {name: name if name in given else spellings.get(name, name) for name in CAMERA}
+    return tuple(description.number_within(names[name], *CAMERA[name]) for name in CAMERA)
 
 
 class Grain:
@@ -232,14 +297,3 @@ class Grain:
         grain = self._sheet[down : down + height, right : right + width]
         grainy: Image = np.clip(image + grain, 0, 255).astype(np.uint8)
         return grainy
-
-
-def _within(
-    description: Description, name: str, default: float, least: float, most: float
-) -> float:
-    """A parameter that must lie in a range. Raises AuthoringError."""
-    value = description.number(name, default)
-    if not least <= value <= most:
-        what = f"{name} is {value:g}"
-        raise description.error(name, what, f"write a number from {least:g} to {most:g}")
-    return value

@@ -47,6 +47,15 @@ class PersonStart:
 
 
 @dataclass(frozen=True)
+class Item:
+    """A thing that can be recognized by its look; it is in nobody's way."""
+
+    name: str
+    x: float
+    y: float
+
+
+@dataclass(frozen=True)
 class Layout:
     """What a world file says."""
 
@@ -55,6 +64,9 @@ class Layout:
     person: PersonStart
     noise_db: float
     """Level of the room's noise against full scale."""
+    items: tuple[Item, ...] = ()
+    drops: tuple[Circle, ...] = ()
+    """Where the floor ends: stairs, the edge of a table."""
 
 
 def find_layout(name: str) -> Path:
@@ -72,6 +84,8 @@ def load_layout(path: Path) -> Layout:
         robot=_robot(root.table("robot")),
         person=_person(root.table("person")),
         noise_db=float(root.number("noise_db", -62.0, minimum=-120.0, maximum=-20.0)),
+        items=tuple(_item(table) for table in root.array("object")),
+        drops=tuple(_drop(table) for table in root.array("drop")),
     )
     root.finish()
     _check_start(layout, root)
@@ -89,6 +103,20 @@ def _obstacles(root: Table) -> list[Obstacle]:
             found.append(read(table))
             table.finish()
     return found
+
+
+def _item(table: Table) -> Item:
+    x, y = _point(table, "at")
+    item = Item(str(table.string("name")), x, y)
+    table.finish()
+    return item
+
+
+def _drop(table: Table) -> Circle:
+    table.string("name", "")
+    drop = _circle(table)
+    table.finish()
+    return drop
 
 
 def _wall(table: Table) -> Segment:

@@ -8,6 +8,7 @@ synthesiser that speaks for the person (without it the world brings one of its o
 from __future__ import annotations
 
 import math
+import os
 import zlib
 from typing import ClassVar
 
@@ -16,12 +17,14 @@ from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Twist
 from hri.hal.resource import Description, Resource
 from hri.hal.synthesizer import Synthesizer
+from hri.simulation.axle import Axle
 from hri.simulation.base import Base, Limits
 from hri.simulation.battery import Charge
 from hri.simulation.beams import Beams
-from hri.simulation.layout import Layout, PersonStart, find_layout, load_layout
+from hri.simulation.layout import Item, Layout, PersonStart, find_layout, load_layout
 from hri.simulation.person import RADIUS, Person, Spoken
 from hri.simulation.room import Circle, Room
+from hri.simulation.sight import Sighting, seen
 from hri.simulation.sound import Sound
 
 BUMP_TIME = 0.3
@@ -37,6 +40,7 @@ class SimulatedWorld(Resource):
 
     room: Room
     base: Base
+    axle: Axle
     person: Person
     sound: Sound
     beams: Beams
@@ -70,6 +74,48 @@ class SimulatedWorld(Resource):
         """Stop the base as fast as it can."""
         with self._lock:
             self.base.brake(now)
+
+    def roll_wheel(self, y: float, velocity: float, now: float) -> None:
+        """What a motor asks of its wheel, metres to the left, m/s."""
+        with self._lock:
+            self.axle.roll(y, velocity, now)
+
+    def brake_wheel(self, y: float, now: float) -> None:
+        """Stop one wheel as fast as the base can."""
+        with self._lock:
+            self.axle.brake(y, now)
+
+    def rolled(self, y: float, now: float) -> float:
+        """Metres that a wheel has rolled ahead."""
+        self.advance(now)
+        return self.axle.rolled(y)
+
+    def wheel_velocity(self, y: float, now: float) -> float:
+        """Velocity of a wheel's rim, m/s."""
+        self.advance(now)
+        return self.axle.velocity(y)
+
+    def hold(self, holder: str, is_on: bool) -> None:
+        """Switch the power with which a drive holds the base in its place."""
+        if is_on:
+            self._holders.add(holder)
+        else:
+            self._holders.discard(holder)
+
+    @property
+    def is_held(self) -> bool:
+        """Whether the motors keep the base from being rolled by hand."""
+        return bool(self._holders) or self.axle.is_held
+
+    def push(self, way: float, now: float) -> None:
+        """Let somebody roll the base by hand, metres ahead; one that is held stays."""
+        with self._lock:
+            if not self.is_held:
+                self.base.push(way, now)
+
+    def is_drop(self, x: float, y: float) -> bool:
+        """Whether there is no floor at a point of the room."""
+        return any(math.dist((x, y), (drop.x, drop.y)) < drop.radius for drop in self._drops)
 
     def say(self, text: str, at: float) -> Spoken | None:
         """Let the person speak; the sound gets quieter with the distance to the robot."""
@@ -108,16 +154,32 @@ class SimulatedWorld(Resource):
         self.advance(now)
         return self.beams.length(number, self._room_at(now), self.base.pose)
 
+    def place(self, name: str, x: float, y: float) -> None:
+        """Put an object somewhere in the room, in meters; one of that name moves there."""
+        self._items[name] = Item(name, x, y)
+
+    def seen_items(self, field_of_view: float, now: float) -> list[Sighting]:
+        """The objects that a camera sees that looks ahead from the middle of the base."""
+        self.advance(now)
+        return seen(self._items.values(), self._room_at(now), self.base.pose, field_of_view)
+
+    def release(self) -> None:
+        """Nothing: the world goes on with nobody looking, until the manager closes."""
+
     def _open(self) -> None:
         layout = _layout(self.description)
         robot, person = layout.robot, layout.person
         self._voice = self._person_voice(person)
         self.person = Person(person.x, person.y, self._voice, self.seed_for("person"))
         self.room = layout.room
+        self._items = {item.name: item for item in layout.items}
         self._furnished = layout.room.with_one_more(Circle(person.x, person.y, RADIUS))
         limits = Limits(radius=robot.radius)
         self.base = Base(self._clearance, robot.pose, limits, robot.slip, self.seed_for("slip"))
+        self.axle = Axle(self.base)
         self.beams = Beams()
+        self._drops = layout.drops
+        self._holders: set[str] = set()
         self.sound = Sound(self.seed_for("noise"), layout.noise_db)
         self._charge = Charge(_start_level(self.description))
         self._bumps: list[float] = []
@@ -151,9 +213,14 @@ class SimulatedWorld(Resource):
 
 
 def _layout(description: Description) -> Layout:
-    """The layout the parameters ask for. Raises AuthoringError, also for a name nobody knows."""
+    """The layout the parameters ask for: a file beside the configuration, or a name.
+
+    Raises AuthoringError, also for a name nobody knows.
+    """
+    name = description.text("file", "home")
+    beside = description.place.path.parent / name
     try:
-        path = find_layout(description.text("file", "home"))
+        path = beside if os.path.isfile(beside) else find_layout(name)
     except HriError as error:
         what, _, remedy = str(error).partition(" - ")
         raise description.error("file", what, remedy) from error

@@ -58,8 +58,9 @@ class Listener(Behavior):
     def start(self, context: Context) -> None:
         self.loaded_grammar = load_grammar(paths.find("grammars", self.grammar))
         self._events = context.events
-        self._microphone = context.resources.obtain(self.microphone_id, Microphone)
         self._recognizer = context.resources.obtain(self.recognizer_id, Recognizer)
+        microphone = context.resources.obtain(self.microphone_id, Microphone)
+        self._ear = microphone.listen(self._recognizer.rate)
         self._waiting: deque[tuple[Segment, bool]] = deque(maxlen=MOST_WAITING)
         self._has_spoken = False
         self._worker: Worker[Decoded] = context.clock.worker(self.latency_s)
@@ -85,13 +86,13 @@ class Listener(Behavior):
 
     def _listen(self, now: float) -> None:
         """Feed the endpointer; remember whether the robot spoke during each piece."""
-        samples = self._microphone.read(now)
+        samples = self._ear.read(now)
         if self.is_muted:
             samples = np.zeros_like(samples)
         is_speaking = bool(self.is_speaking.value)
         was_hearing = self._recognizer.is_hearing
         segments = self._recognizer.listen(samples, now)
-        if self._microphone.has_ended and self._recognizer.is_hearing:
+        if self._ear.has_ended and self._recognizer.is_hearing:
             segments += self._recognizer.flush()
         if was_hearing or self._recognizer.is_hearing:
             self._has_spoken |= is_speaking
@@ -121,4 +122,5 @@ class Listener(Behavior):
         )
 
     def stop(self) -> None:
+        self._ear.close()
         self._worker.close()

@@ -199,6 +199,7 @@ def test_a_timer_in_the_past_runs_now_and_infinity_is_refused():
         clock.call_at(float("inf"), lambda: None)
 
 
+@pytest.mark.proves("P12")
 @pytest.mark.parametrize("clock", [FakeClock(), RealClock()])
 def test_a_program_without_a_loop_lets_time_pass(clock):
     begun, rang = clock.now(), []
@@ -225,3 +226,25 @@ def test_a_clock_has_one_driver():
     clock = RealClock()
     trio.run(main, clock)
     assert not clock.is_driven
+
+
+def test_another_thread_may_ask_the_loop_for_a_timer():
+    clock, called = RealClock(), []
+
+    async def main():
+        async with trio.open_nursery() as nursery:
+            nursery.start_soon(clock.drive)
+            await trio.testing.wait_all_tasks_blocked()
+            rung = trio.Event()
+
+            def ring():
+                called.append(threading.get_ident())
+                rung.set()
+
+            await trio.to_thread.run_sync(clock.call_at, 0.0, ring)
+            with trio.fail_after(10):
+                await rung.wait()
+            nursery.cancel_scope.cancel()
+
+    trio.run(main)
+    assert called == [threading.get_ident()]

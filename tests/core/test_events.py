@@ -1,9 +1,16 @@
 import json
+import re
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from hri.core.clock import FakeClock
+from hri.core.errors import HriError
 from hri.core.events import EventBus, matches
 from hri.core.latest import Board, Latest
 from hri.core.recording import EventLog, read_events
+from hri.core.signals import Event
 
 
 def test_listeners_hear_what_fits_in_the_order_they_came():
@@ -58,3 +65,46 @@ def test_the_newest_value_wins_and_slots_are_shared_by_name():
     board = Board()
     board.slot("gaze").set("left", 1.0)
     assert board.slot("gaze").value == "left"
+
+
+@pytest.mark.proves("T14")
+@pytest.mark.parametrize(
+    ("pattern", "name", "fits"),
+    [
+        ("a.*.c", "a.b.c", True),
+        ("a.*.c", "a.c", False),
+        ("*.End", "Examples.PhotoEvent.End", True),
+        ("*b*b*", "abab", True),
+        ("ab*ba", "aba", False),
+        ("what?", "whatx", False),
+        ("what?", "what?", True),
+        ("[ab]", "a", False),
+        ("[ab]*", "[ab].c", True),
+        ("", "", True),
+        ("", "a", False),
+    ],
+)
+def test_only_the_asterisk_is_special(pattern, name, fits):
+    assert matches(pattern, name) is fits
+
+
+@pytest.mark.proves("T14")
+@given(st.text("ab*?[", max_size=8), st.text("ab?[", max_size=10))
+def test_patterns_mean_what_a_regular_expression_would(pattern, name):
+    expression = ".*".join(map(re.escape, pattern.split("*")))
+    assert matches(pattern, name) == bool(re.fullmatch(expression, name, re.DOTALL))
+
+
+@pytest.mark.proves("T15")
+def test_properties_are_typed():
+    event = Event("photo.taken", 1.0, {"count": 3, "name": "a_", "sharp": True})
+    assert event.get_property("count", float) == 3.0
+    assert event.get_property("count", int) == 3
+    assert event.get_property("name", str) == "a_"
+    assert event.get_property("sharp", bool) is True
+    with pytest.raises(HriError, match=r'"name" is a str, no float'):
+        event.get_property("name", float)
+    with pytest.raises(HriError, match=r'"sharp" is a bool, no float'):
+        event.get_property("sharp", float)
+    with pytest.raises(HriError, match=r'no property "cuont" - did you mean "count"'):
+        event.get_property("cuont", float)

@@ -51,6 +51,12 @@ def test_no_text_does_anything_but_give_a_number_or_a_value_error(text):
         assert math.isfinite(evaluate(text))
 
 
+@given(st.text("0123456789.eEpi+-*/() xj_", max_size=120))
+def test_nothing_that_looks_like_arithmetic_does_more(text):
+    with contextlib.suppress(ValueError):
+        assert math.isfinite(evaluate(text))
+
+
 @given(st.floats(allow_nan=False, allow_infinity=False))
 def test_every_number_reads_back(number):
     assert evaluate(repr(number)) == number

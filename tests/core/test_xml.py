@@ -1,11 +1,13 @@
 import contextlib
+import time
+from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from hri.core.errors import AuthoringError, HriError
-from hri.core.xml import load_xml
+from hri.core.xml import Element, format_xml, load_xml
 
 
 def load(tmp_path, text):
@@ -57,3 +59,56 @@ def test_any_bytes_read_or_give_one_clear_error(tmp_path_factory, data):
     path.write_bytes(data)
     with contextlib.suppress(HriError):
         assert load_xml(path).tag
+
+
+def test_attributes_on_other_lines_and_behind_brackets_are_found(tmp_path):
+    root = load(tmp_path, '<a one="x > y"\n   two=\'3\' three = "4"/>')
+    places = {name: (place.line, place.column) for name, place in root.places.items()}
+    assert places == {"one": (1, 4), "two": (2, 4), "three": (2, 12)}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "<a " + " ".join(f'name{n}="{n}"' for n in range(20_000)) + "/>",
+        "<a>" + "".join(f'<b x="{n}" y="{n}"/>' for n in range(40_000)) + "</a>",
+        "<a>" + "\n" * 2_000_000 + "</a>",
+        "<a>" + "x &amp;" * 300_000 + "</a>",
+        "<a>" + "<!-- c -->" * 200_000 + "</a>",
+    ],
+    ids=["attributes", "elements", "lines", "text", "comments"],
+)
+def test_large_files_take_time_in_proportion(tmp_path, text):
+    begun = time.process_time()
+    load(tmp_path, text)
+    assert time.process_time() - begun < 5
+
+
+def test_what_is_no_file_of_ours_is_not_read_for_ever(tmp_path):
+    for path in (Path("/dev/zero"), tmp_path):
+        with pytest.raises(HriError, match="no regular file"):
+            load_xml(path)
+    large = tmp_path / "large.xml"
+    large.write_bytes(b"<a>" + b" " * 5_000_000 + b"</a>")
+    with pytest.raises(HriError, match="too large"):
+        load_xml(large)
+    with pytest.raises(HriError, match="check the path"):
+        load_xml(Path("a\0b"))
+
+
+def test_text_where_none_belongs_is_refused(tmp_path):
+    with pytest.raises(AuthoringError, match='the text "hello" has no place'):
+        load(tmp_path, "<a>hello</a>").check()
+
+
+TEXTS = st.text(st.characters(codec="utf-8", exclude_categories=("Cs", "Cc")), max_size=30)
+
+
+@given(st.dictionaries(st.sampled_from(["a", "b", "c"]), TEXTS), TEXTS)
+def test_what_is_written_is_read_again(tmp_path_factory, attributes, text):
+    root = Element("root", {**attributes, "text": text + '\n\t"'})
+    path = tmp_path_factory.mktemp("xml") / "file.xml"
+    path.write_text(format_xml(root), encoding="utf-8")
+    again = load_xml(path)
+    assert again.attributes == root.attributes
+    assert format_xml(again) == format_xml(root)

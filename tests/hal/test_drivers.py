@@ -1,44 +1,16 @@
+import tracemalloc
 import wave
 
 import cv2
 import numpy as np
 import pytest
 
-from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.hal.drivers.memory import MemoryMicrophone, SilentSpeaker
 from hri.hal.drivers.video_file import VideoFileCamera, VideoFileScreen, check_video
 from hri.hal.drivers.wav_file import WavMicrophone, WavSpeaker, read_wav, write_wav
-from hri.hal.manager import ResourceManager
-from hri.hal.resource import Description
 
-
-@pytest.fixture
-def clock():
-    return FakeClock()
-
-
-@pytest.fixture
-def open_driver(clock):
-    manager = ResourceManager((), clock)
-    opened = []
-
-    def open_driver(cls, **parameters):
-        driver = cls(
-            Description(cls.__name__, "Test", {k: str(v) for k, v in parameters.items()}), manager
-        )
-        driver.activate()
-        opened.append(driver)
-        return driver
-
-    yield open_driver
-    for driver in opened:
-        driver.deactivate()
-        driver.deactivate()
-
-
-def tone(rate, seconds=0.5):
-    return (8000 * np.sin(2 * np.pi * 440 * np.arange(int(rate * seconds)) / rate)).astype(np.int16)
+from .sounds import tone
 
 
 @pytest.mark.parametrize(
@@ -186,3 +158,28 @@ def test_a_written_video_has_a_constant_rate(tmp_path, clock, open_driver):
     assert len(means) == 8
     assert means[3] == pytest.approx(180, abs=8)
     assert means[7] == pytest.approx(210, abs=8)
+
+
+def test_hours_of_silence_do_not_fill_the_memory(tmp_path, clock, open_driver):
+    speaker = open_driver(WavSpeaker, file=tmp_path / "out.wav", rate=8000)
+    clock.advance(3 * 3600.0)
+    tracemalloc.start()
+    speaker.play(tone(8000), 8000, clock.now())
+    clock.advance(1.0)
+    speaker.deactivate()
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 4_000_000
+    with wave.open(str(tmp_path / "out.wav")) as file:
+        assert file.getnframes() == 8000 * (3 * 3600 + 1)
+
+
+def test_reading_a_long_file_needs_little_beside_its_samples(tmp_path):
+    write_wav(tmp_path / "long.wav", np.zeros(48000 * 300, np.int16), 48000)
+    tracemalloc.start()
+    samples, rate = read_wav(tmp_path / "long.wav", 16000)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert rate == 16000
+    assert len(samples) == pytest.approx(16000 * 300, abs=2)
+    assert peak < 2.5 * samples.nbytes + 8_000_000

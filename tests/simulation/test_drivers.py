@@ -1,20 +1,30 @@
 import math
+from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError
-from hri.core.signals import Frame, Twist
+from hri.core.signals import Frame, Pose2D, Twist
 from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
 from hri.hal.camera import Camera
+from hri.hal.cliff_sensor import CliffSensor
 from hri.hal.drive import DriveSystem, Odometry
 from hri.hal.manager import ResourceManager
 from hri.hal.microphone import Microphone
+from hri.hal.pending import Interrupted
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Description
-from hri.simulation.drivers import SimulatedBumper, SimulatedCamera, SimulatedRangeSensor
+from hri.simulation.drivers import (
+    SimulatedBattery,
+    SimulatedBumper,
+    SimulatedCamera,
+    SimulatedRangeSensor,
+)
+from hri.simulation.gripper import SimulatedGripper
 from hri.simulation.world import SimulatedWorld
 
 from .conftest import Build
@@ -149,7 +159,133 @@ def test_wrong_parameters_are_refused(
         driver.check(Description("device", "Hri.Device", parameters))
 
 
-def test_a_device_needs_a_world(clock: FakeClock) -> None:
-    manager = ResourceManager([Description("bumper", "Hri.SimulatedBumper")], clock)
-    with pytest.raises(AuthoringError, match="put it on a bus"):
-        manager.obtain("bumper", SimulatedBumper)
+@pytest.mark.parametrize("taken", [False, True])
+def test_devices_without_a_world_share_one_of_their_own(clock: FakeClock, taken: bool) -> None:
+    devices = [
+        Description("bumper", "Hri.SimulatedBumper"),
+        Description("battery", "Hri.SimulatedBattery"),
+        Description("world" if taken else "speaker", "Hri.SilentSpeaker"),
+    ]
+    manager = ResourceManager(devices, clock)
+    bumper = manager.obtain("bumper", SimulatedBumper)
+    battery = manager.obtain("battery", SimulatedBattery)
+    assert bumper.world is battery.world
+    assert manager.ids(SimulatedWorld) == ["simulated_world" if taken else "world"]
+    manager.close()
+
+
+@pytest.mark.proves("H08")
+def test_an_infrared_sensor_counts_more_when_something_is_nearer(build: Build) -> None:
+    manager = build(None, range={"noise": "0", "max_range": "30", "x": "-15"})
+    sensor, world = manager.obtain("range", RangeSensor), manager.obtain("world", SimulatedWorld)
+    far = sensor.read(0.0)
+    assert far.raw == round(7000 / (far.distance * 100))
+    world.base.pose = Pose2D(12.0, 0.0)
+    near = sensor.read(0.0)
+    assert near.raw is not None
+    assert far.raw < near.raw <= 1023
+    nothing = build().obtain("range", RangeSensor).read(0.0)
+    assert (nothing.distance, nothing.raw) == (math.inf, 0)
+
+
+@pytest.mark.proves("H07")
+def test_the_battery_of_2003_tells_its_voltage(build: Build) -> None:
+    volts = {"max_voltage": "12.4", "voltage_floor": "10.5", "voltage_multiplier": "3.12766"}
+    full = build(None, battery=volts).obtain("battery", Battery)
+    half = build({"battery": "0.5"}, battery=volts).obtain("battery", Battery)
+    assert full.voltage(0.0) == pytest.approx(12.4)
+    assert half.voltage(0.0) == pytest.approx((12.4 + 10.5) / 2)
+
+
+def test_a_battery_with_its_voltages_swapped_is_refused() -> None:
+    swapped = {"max_voltage": "10", "voltage_floor": "12"}
+    with pytest.raises(AuthoringError, match="a full battery has the higher voltage"):
+        SimulatedBattery.check(Description("battery", "Hri.SimulatedBattery", swapped))
+
+
+STAIRS = """
+[robot]
+start = [0, 0]
+[person]
+at = [5, 5]
+[[wall]]
+from = [9, -9]
+to = [9, 9]
+[[drop]]
+name = "stairs"
+center = [2, 0]
+radius = 0.5
+"""
+
+
+def test_a_cliff_sensor_sees_where_the_floor_ends(
+    clock: FakeClock, write: Callable[[str], Path]
+) -> None:
+    devices = [
+        Description("world", "Hri.SimulatedWorld", {"file": str(write(STAIRS))}),
+        Description("cliff", "Hri.SimulatedCliffSensor", {"x": "20"}),
+    ]
+    manager = ResourceManager(devices, clock)
+    manager.check()
+    cliff, world = manager.obtain("cliff", CliffSensor), manager.obtain("world", SimulatedWorld)
+    seen = []
+    for x in (0.0, 1.25, 1.35, 2.5):
+        world.base.pose = Pose2D(x, 0.0)
+        seen.append(cliff.is_cliff(0.0))
+    manager.close()
+    assert seen == [False, False, True, False]
+
+
+@pytest.fixture
+def gripper(clock: FakeClock) -> SimulatedGripper:
+    manager = ResourceManager([Description("gripper", "Evolution.USBGripper")], clock)
+    return manager.obtain("gripper", SimulatedGripper)
+
+
+@pytest.mark.proves("H32")
+def test_a_gripper_closes_and_opens_in_its_time(
+    clock: FakeClock, gripper: SimulatedGripper
+) -> None:
+    assert gripper.opening(clock.now()) == 1.0
+    closing = gripper.close()
+    clock.advance(0.25)
+    assert gripper.opening(clock.now()) == pytest.approx(0.75)
+    closing.wait()
+    assert (clock.now(), gripper.opening(clock.now())) == (1.0, 0.0)
+    gripper.open().wait()
+    assert (clock.now(), gripper.opening(clock.now())) == (2.0, 1.0)
+
+
+@pytest.mark.proves("H32")
+def test_a_gripper_stops_at_what_it_holds(clock: FakeClock, gripper: SimulatedGripper) -> None:
+    gripper.is_object_there = True
+    gripper.close().wait()
+    assert gripper.has_object(clock.now())
+    assert gripper.opening(clock.now()) == pytest.approx(0.4)
+
+
+def test_a_gripper_that_is_told_otherwise_turns_at_once(
+    clock: FakeClock, gripper: SimulatedGripper
+) -> None:
+    closing = gripper.close()
+    clock.advance(0.5)
+    gripper.open().wait()
+    assert clock.now() == pytest.approx(1.0)
+    with pytest.raises(Interrupted, match="another command took its place"):
+        closing.result()
+
+
+@pytest.mark.proves("H17")
+@pytest.mark.parametrize(
+    ("parameters", "size"),
+    [
+        ({}, (320, 240)),
+        ({"hres": "640", "vres": "480"}, (640, 480)),
+        ({"hres": "640", "width": "160"}, (160, 240)),
+    ],
+)
+def test_the_camera_understands_the_sizes_of_2003(
+    build: Build, parameters: dict[str, str], size: tuple[int, int]
+) -> None:
+    frame = build(camera=parameters).obtain("camera", Camera).take()
+    assert (frame.width, frame.height) == size

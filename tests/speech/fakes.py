@@ -25,6 +25,7 @@ class ScriptedEars(Recognizer):
         self.script: dict[float, tuple[str, float]] = {}
         self.started_with: Grammar | None = None
         self.last = 0.0
+        self.count = 0
 
     def start(self, grammar: Grammar) -> None:
         self.started_with = grammar
@@ -32,6 +33,7 @@ class ScriptedEars(Recognizer):
     def listen(self, samples: Samples, end: float) -> list[Segment]:
         due = [time for time in self.script if self.last < time <= end]
         self.last = end
+        self.count += len(samples)
         return [Segment(time - 0.5, time, samples) for time in due]
 
     def flush(self) -> list[Segment]:
@@ -47,7 +49,11 @@ class ScriptedEars(Recognizer):
 
 class DeafMicrophone(Microphone):
     def read(self, now: float) -> Samples:
-        return np.zeros(800, np.int16)
+        return np.zeros(round(self.rate * TICK), np.int16)
+
+
+class HighMicrophone(DeafMicrophone):
+    rate = 44100
 
 
 class TimedSpeaker(Speaker):
@@ -81,7 +87,7 @@ class CountingVoice(Synthesizer):
 class Stage:
     """One behavior on a fake clock with devices in memory; keeps the events it raises."""
 
-    def __init__(self, behavior: Behavior) -> None:
+    def __init__(self, behavior: Behavior, microphone: type[Microphone] = DeafMicrophone) -> None:
         self.clock = FakeClock()
         self.events: list[tuple[float, str, dict[str, object]]] = []
         bus = EventBus(self.clock)
@@ -89,7 +95,7 @@ class Stage:
         self.resources = ResourceManager((), self.clock)
         self.ears = self._add("recognizer", ScriptedEars)
         self.speaker = self._add("speaker", TimedSpeaker)
-        self._add("microphone", DeafMicrophone)
+        self._add("microphone", microphone)
         self._add("voice", CountingVoice)
         self.behavior = behavior
         behavior.start(Context(self.clock, bus, self.resources))

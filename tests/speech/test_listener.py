@@ -6,7 +6,7 @@ from hri.behavior.ports import OutputPort
 from hri.core.errors import AuthoringError, HriError
 from hri.speech.behaviors import Listener
 
-from .fakes import TICK, Stage
+from .fakes import TICK, HighMicrophone, Stage
 
 
 def speaking(listener: Listener) -> OutputPort[bool]:
@@ -128,3 +128,9 @@ def test_a_wrong_grammar_is_refused_before_anything_starts(write):
         Stage(Listener(grammar=str(write("public <a> = <colr>;\n<color> = red;"))))
     with pytest.raises(HriError, match=r'no "companio" in grammars - did you mean "companion"'):
         Stage(Listener(grammar="companio"))
+
+
+def test_a_microphone_of_another_rate_is_heard_at_the_recognizers():
+    stage = Stage(Listener(), HighMicrophone)
+    stage.run(2.0)
+    assert stage.ears.count == pytest.approx(2.0 * stage.ears.rate, rel=0.02)

@@ -10,7 +10,7 @@ import pytest
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Rejection, Utterance
-from hri.hal.drivers.wav_file import resample
+from hri.hal.drivers.resampling import resample
 from hri.hal.manager import ResourceManager
 from hri.hal.recognizer import Hypothesis, Segment
 from hri.hal.resource import Description

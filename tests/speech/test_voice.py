@@ -3,8 +3,9 @@ from __future__ import annotations
 import pytest
 import trio
 
+from hri.behavior.behavior import Context
 from hri.behavior.ports import OutputPort
-from hri.core.latest import Board
+from hri.core.events import EventBus
 from hri.core.signals import Prosody
 from hri.speech.behaviors import Voice
 from hri.speech.tasks import say
@@ -95,9 +96,8 @@ def test_prosody_shapes_the_speech():
 
 def run_task(stage: Stage, seconds: float) -> None:
     """Let a task say something, cancelled after some seconds, while the behavior ticks."""
-    context = TaskContext(
-        stage.clock, None, stage.resources, Board(), {"net.voice": stage.behavior}
-    )
+    lent = Context(stage.clock, EventBus(stage.clock), stage.resources)
+    context = TaskContext.of(lent, {"net.voice": stage.behavior})
 
     async def tick() -> None:
         while True:

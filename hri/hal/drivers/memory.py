@@ -1,13 +1,18 @@
-"""Devices that live in memory: a microphone fed by code, a silent speaker, an unseen screen."""
+"""Devices that live in memory, moved by code: microphone, speaker, screen, joystick."""
 
 from __future__ import annotations
+
+from typing import TypeVar
 
 import numpy as np
 
 from hri.core.signals import Image, Samples
+from hri.hal.joystick import Joystick
 from hri.hal.microphone import Microphone
 from hri.hal.screen import Screen
 from hri.hal.speaker import Speaker
+
+T = TypeVar("T")
 
 
 class MemoryMicrophone(Microphone):
@@ -16,7 +21,7 @@ class MemoryMicrophone(Microphone):
     parameters = ("rate",)
 
     def _open(self) -> None:
-        self.rate = int(self.description.number("rate", 16000))
+        self.rate = self.description.count("rate", 16000, 1000, 400_000)
         self._sound = np.zeros(0, np.int16)
         self._start = self.manager.clock.now()
         self._given = 0
@@ -60,11 +65,35 @@ class OffscreenScreen(Screen):
     parameters = ("width", "height")
 
     def _open(self) -> None:
-        self.width = int(self.description.number("width", 640))
-        self.height = int(self.description.number("height", 480))
+        self._take_size()
         self.image: Image = np.zeros((self.height, self.width, 3), np.uint8)
         self.count = 0
 
     def show(self, image: Image, time: float) -> None:
         self.image = image
         self.count += 1
+
+
+class MemoryJoystick(Joystick):
+    """Held as code says; `axes` and `buttons` of the configuration tell how many it has."""
+
+    parameters = ("axes", "buttons")
+
+    def _open(self) -> None:
+        self._axes = (0.0,) * self.description.count("axes", 2, 0, 32)
+        self._buttons = (False,) * self.description.count("buttons", 4, 0, 64)
+
+    def hold(self, axes: tuple[float, ...], buttons: tuple[bool, ...] = ()) -> None:
+        """Move it and press; what is left out goes back to rest."""
+        self._axes = _padded(axes, len(self._axes), 0.0)
+        self._buttons = _padded(buttons, len(self._buttons), False)
+
+    def axes(self, now: float) -> tuple[float, ...]:
+        return self._axes
+
+    def buttons(self, now: float) -> tuple[bool, ...]:
+        return self._buttons
+
+
+def _padded(values: tuple[T, ...], count: int, rest: T) -> tuple[T, ...]:
+    return (*values, *[rest] * (count - len(values)))[:count]

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import os
 import threading
 from collections import deque
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 
 from hri.core.errors import NotAvailable
 from hri.core.signals import Samples
-from hri.hal.drivers.wav_file import resample
+from hri.hal.drivers.resampling import resample
+from hri.hal.drivers.silence import silenced_libraries
 from hri.hal.microphone import Microphone
 from hri.hal.resource import Resource
 from hri.hal.speaker import Speaker
@@ -22,8 +20,6 @@ LONGEST_BACKLOG = 10.0
 """Seconds of sound kept while nobody reads; older sound is dropped."""
 REOPEN_AFTER = 2.0
 """Seconds between attempts to find a device that went away."""
-_STDERR = threading.Lock()
-"""Held while the standard error is away; microphone and speaker may search at once."""
 INSTALL = "apt install libportaudio2"
 
 
@@ -88,7 +84,7 @@ class _SoundCard(Resource):
         self._stream.close()
         while not self._ending.wait(REOPEN_AFTER):
             try:
-                with _silenced_libraries():
+                with silenced_libraries():
                     self._stream = self._started_stream()
             except (self._sounddevice.PortAudioError, ValueError):
                 continue
@@ -103,28 +99,13 @@ class _SoundCard(Resource):
         self._stream.close()
 
 
-@contextmanager
-def _silenced_libraries() -> Iterator[None]:
-    """Keep PortAudio and ALSA from writing a dozen lines each time a device is not there yet."""
-    with _STDERR:
-        kept = os.dup(2)
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, 2)
-        try:
-            yield
-        finally:
-            os.dup2(kept, 2)
-            os.close(kept)
-            os.close(nowhere)
-
-
 class SoundCardMicrophone(_SoundCard, Microphone):
     """Hears through the sound card; when it is unplugged there is silence until it is back."""
 
     parameters = ("device", "rate")
 
     def _open(self) -> None:
-        self.rate = int(self.description.number("rate", 16000))
+        self.rate = self.description.count("rate", 16000, 1000, 400_000)
         self._blocks: deque[Samples] = deque(maxlen=int(LONGEST_BACKLOG * self.rate / 320))
         super()._open()
 
@@ -153,7 +134,7 @@ class SoundCardSpeaker(_SoundCard, Speaker):
     parameters = ("device", "rate")
 
     def _open(self) -> None:
-        self.rate = int(self.description.number("rate", 22050))
+        self.rate = self.description.count("rate", 22050, 1000, 400_000)
         self._sound_lock = threading.Lock()
         self._sound: Samples = np.zeros(0, np.int16)
         self._played = 0

@@ -12,17 +12,18 @@ import numpy as np
 from hri.core.errors import HriError
 from hri.core.signals import Frame, Image
 from hri.hal.camera import Camera
+from hri.hal.drivers.picture_file import LARGEST_SIDE, picture_size
 from hri.hal.screen import Screen
 
 STILL_RATE = 10.0
 """Pictures a second that a single image is shown with."""
-LARGEST_SIDE = 8192
 
 
 def check_video(path: Path) -> None:
     """Raises HriError unless the file is a video or an image that can be decoded."""
     if not path.is_file():
         raise HriError(f"{path}: no such file - check the path")
+    picture_size(path)  # raises before a giant is decoded
     capture = cv2.VideoCapture(str(path))
     try:
         readable, picture = capture.read()
@@ -98,9 +99,8 @@ class VideoFileScreen(Screen):
     parameters = ("file", "width", "height", "rate")
 
     def _open(self) -> None:
-        self.width = int(self.description.number("width", 640))
-        self.height = int(self.description.number("height", 480))
-        self.rate = self.description.number("rate", 30.0)
+        self._take_size()
+        self.rate = self.description.number_within("rate", 30.0, 1.0, 240.0)
         path = self.description.text("file")
         code = cv2.VideoWriter.fourcc(*"mp4v")
         self._writer = cv2.VideoWriter(path, code, self.rate, (self.width, self.height))

@@ -3,36 +3,40 @@
 from __future__ import annotations
 
 import wave
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-import soxr
 
 from hri.core.errors import HriError
 from hri.core.signals import Samples
+from hri.hal.drivers.resampling import resample, resample_blocks
 from hri.hal.microphone import Microphone
 from hri.hal.speaker import Speaker
 
 LONGEST = 4 * 3600.0
 """Seconds; a longer recording is refused, so that it cannot fill the memory."""
+BLOCK = 1 << 18
+"""Frames read or written at a time."""
 TAIL = 1.0
 """Seconds of silence heard after a file, so that its last word is seen to end."""
 
 
-def read_wav(path: Path) -> tuple[Samples, int]:
-    """The samples of a PCM file as mono int16 with its rate.
+def read_wav(path: Path, wanted: int | None = None) -> tuple[Samples, int]:
+    """The samples of a PCM file as mono int16, and their rate: the file's own, or `wanted`.
 
     Raises HriError when it cannot be read, is empty, no WAV, compressed, or too long.
     """
     try:
         with wave.open(str(path), "rb") as file:
-            channels, width, rate = file.getnchannels(), file.getsampwidth(), file.getframerate()
+            rate = file.getframerate()
             if not 1000 <= rate <= 400_000 or file.getnframes() > LONGEST * rate:
                 raise HriError(
                     f"{path}: {rate} Hz or its length is out of range - convert it to 16 kHz"
                 )
-            raw = file.readframes(file.getnframes())
-    except (wave.Error, EOFError) as error:
+            # Block by block: the frames of a long file would fill the memory beside its samples.
+            blocks = list(resample_blocks(_mono_blocks(file), rate, wanted or rate))
+    except (wave.Error, EOFError, RuntimeError) as error:  # wave seeks wrongly in broken files
         why = str(error) or "it ends too early"
         raise HriError(
             f"{path}: not a readable WAV file ({why}) - record it as 16-bit PCM"
@@ -40,26 +44,35 @@ def read_wav(path: Path) -> tuple[Samples, int]:
     except OSError as error:
         reason = error.strerror or str(error)
         raise HriError(f"{path}: cannot read this WAV file: {reason} - check the path") from error
-    samples = _as_int16(raw[: len(raw) // (channels * width) * channels * width], width)
-    if not len(samples):
+    if not any(map(len, blocks)):
         raise HriError(f"{path}: this WAV file holds no sound - record it again")
-    mono = samples.reshape(-1, channels).astype(np.int32).mean(axis=1)
-    return mono.astype(np.int16), rate
+    return np.concatenate(blocks), wanted or rate
 
 
 def write_wav(path: Path, samples: Samples, rate: int) -> None:
-    """Write mono 16-bit PCM."""
-    with wave.open(str(path), "wb") as file:
-        file.setparams((1, 2, rate, 0, "NONE", "not compressed"))
+    """Write mono 16-bit PCM. Raises HriError when the file cannot be written."""
+    with open_wav(path, rate) as file:
         file.writeframes(samples.tobytes())
 
 
-def resample(samples: Samples, rate: int, wanted: int) -> Samples:
-    """The same sound at another rate."""
-    if rate == wanted:
-        return samples
-    converted: Samples = soxr.resample(samples, rate, wanted)
-    return converted
+def open_wav(path: Path, rate: int) -> wave.Wave_write:
+    """A file to write mono 16-bit PCM to. Raises HriError when it cannot be written."""
+    try:
+        path.open("wb").close()  # of what wave cannot open it complains twice
+        file = wave.open(str(path), "wb")  # noqa: SIM115 - who asked for it closes it
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise HriError(f"{path}: cannot be written: {reason} - check the folder") from error
+    file.setparams((1, 2, rate, 0, "NONE", "not compressed"))
+    return file
+
+
+def _mono_blocks(file: wave.Wave_read) -> Iterator[Samples]:
+    channels, width = file.getnchannels(), file.getsampwidth()
+    while raw := file.readframes(BLOCK):
+        whole = len(raw) // (channels * width) * channels * width
+        samples = _as_int16(raw[:whole], width).reshape(-1, channels)
+        yield samples.astype(np.int32).mean(axis=1).astype(np.int16)
 
 
 def _as_int16(raw: bytes, width: int) -> Samples:
@@ -77,8 +90,7 @@ class WavMicrophone(Microphone):
     parameters = ("file",)
 
     def _open(self) -> None:
-        samples, rate = read_wav(Path(self.description.text("file")))
-        self._sound = resample(samples, rate, self.rate)
+        self._sound, _ = read_wav(Path(self.description.text("file")), self.rate)
         self._start = self.manager.clock.now()
         self._given = 0
 
@@ -100,13 +112,8 @@ class WavSpeaker(Speaker):
     parameters = ("file", "rate")
 
     def _open(self) -> None:
-        self.rate = int(self.description.number("rate", 22050))
-        path = self.description.text("file")
-        try:
-            self._file = wave.open(path, "wb")  # noqa: SIM115 - closed in _close
-        except OSError as error:
-            raise HriError(f"{path}: cannot write: {error.strerror} - check the folder") from error
-        self._file.setparams((1, 2, self.rate, 0, "NONE", "not compressed"))
+        self.rate = self.description.count("rate", 22050, 1000, 400_000)
+        self._file = open_wav(Path(self.description.text("file")), self.rate)
         self._origin = self.manager.clock.now()
         self._written = 0
         self._sound: Samples = np.zeros(0, np.int16)
@@ -129,8 +136,8 @@ class WavSpeaker(Speaker):
             self._write(heard)
 
     def _pad_to(self, time: float) -> None:
-        gap = round((time - self._origin) * self.rate) - self._written
-        self._write(np.zeros(max(0, gap), np.int16))
+        while (gap := round((time - self._origin) * self.rate) - self._written) > 0:
+            self._write(np.zeros(min(gap, BLOCK), np.int16))
 
     def _write(self, samples: Samples) -> None:
         self._file.writeframes(samples.tobytes())

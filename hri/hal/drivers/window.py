@@ -33,13 +33,12 @@ class Window(Screen):
     is_hardware = True
 
     def _open(self) -> None:
+        self._take_size()
         if not has_display():
             raise self.not_available("no display", "connect one, or set DISPLAY")
         import pygame
 
         self._pygame = pygame
-        self.width = int(self.description.number("width", 640))
-        self.height = int(self.description.number("height", 480))
         flags = pygame.SCALED
         if self.description.text("fullscreen") == "true":
             flags |= pygame.FULLSCREEN

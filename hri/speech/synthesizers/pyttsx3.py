@@ -8,12 +8,10 @@ import subprocess
 import sys
 import tempfile
 import threading
-import wave
 from pathlib import Path
 
-import numpy as np
-
-from hri.core.signals import Prosody, Samples, Speech
+from hri.core.signals import Prosody, Speech
+from hri.hal.drivers.wav_file import read_wav
 from hri.hal.synthesizer import PLAIN, Synthesizer
 
 _PROGRAM = Path(__file__).with_name("pyttsx3_process.py")
@@ -60,10 +58,3 @@ class Pyttsx3Voice(Synthesizer):
         if done.returncode != 0 or not path.is_file():
             last = (done.stderr.strip().splitlines() or ["no sound was made"])[-1]
             raise self.not_available(f"pyttsx3: {last[:200]}", "use Hri.EspeakVoice")
-
-
-def read_wav(path: Path) -> tuple[Samples, int]:
-    """First channel and rate of a 16-bit WAV file."""
-    with wave.open(str(path)) as file:
-        sound = np.frombuffer(file.readframes(file.getnframes()), np.int16)
-        return sound[:: file.getnchannels()].copy(), file.getframerate()

@@ -1,0 +1,52 @@
+"""Python files of the user, imported by their path."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
+
+
+def load_module(name: str, path: Path, search: list[str] | None = None) -> ModuleType:
+    """The file as a module of that name; `search` are the folders of a package.
+
+    Raises HriError when it cannot be read or fails, AuthoringError with the place of a mistake in
+    its Python.
+    """
+    spec = importlib.util.spec_from_file_location(name, path, submodule_search_locations=search)
+    if spec is None or spec.loader is None or not path.is_file():
+        raise HriError(f"{path}: no Python file is there - check the path")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except SyntaxError as error:
+        del sys.modules[name]
+        place = Place(Path(error.filename or path), error.lineno or 1, error.offset or 1)
+        raise AuthoringError(place, error.msg, "mend the Python here") from error
+    except ImportError as error:
+        del sys.modules[name]
+        raise HriError(f"{path}: {error} - install it, or mend the import") from error
+    except Exception as error:
+        del sys.modules[name]
+        raise HriError(f"{path}: {type(error).__name__}: {error} - mend this file") from error
+    return module
+
+
+def load_class(path: Path, name: str) -> Any:
+    """A class of a file; each file is run once: twice would make two classes of each.
+
+    Raises what `load_module` raises, HriError when it has no such class.
+    """
+    path = path.resolve()
+    module = sys.modules.get(f"hri_file_{path}") or load_module(f"hri_file_{path}", path)
+    found = vars(module).get(name)
+    if not isinstance(found, type):
+        classes = [key for key, value in vars(module).items() if isinstance(value, type)]
+        own = [key for key in classes if vars(module)[key].__module__ == module.__name__]
+        raise HriError(f'{path}: no class "{name}" - {did_you_mean(name, own or classes)}')
+    return found

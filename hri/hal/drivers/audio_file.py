@@ -1,0 +1,210 @@
+"""Sound files: played over any speaker, recorded from any microphone."""
+
+from __future__ import annotations
+
+import wave
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hri.core.clock import Timer, Worker
+from hri.core.errors import HriError, NotAvailable
+from hri.core.signals import Samples
+from hri.hal.audio_file import LONGEST_RECORDING, AudioFilePlayer, AudioFileRecorder
+from hri.hal.drivers.partner import use_partner
+from hri.hal.drivers.silence import silenced_libraries
+from hri.hal.drivers.wav_file import open_wav, read_wav
+from hri.hal.ear import Ear
+from hri.hal.microphone import Microphone
+from hri.hal.pending import Pending
+from hri.hal.speaker import Speaker
+
+LONGEST = 3600.0
+"""Seconds; a longer file is refused, so that it cannot fill the memory."""
+BLOCK = 1 << 18
+"""Frames decoded at a time."""
+LOOK = 0.02
+"""Seconds between looks whether a file is decoded, or heard to its end."""
+PUMP = 0.1
+"""Seconds between writes of a recording."""
+DECODING = 0.05
+"""Seconds that decoding takes on a fake clock."""
+
+
+def load_sound(path: Path) -> tuple[Samples, int]:
+    """The samples of a WAV, MP3, FLAC or Ogg file as mono int16, and their rate.
+
+    Raises HriError when it cannot be decoded or is longer than an hour, NotAvailable when the
+    decoder is not installed.
+    """
+    if path.suffix.lower() == ".wav":
+        return read_wav(path)
+    if not path.is_file():
+        raise HriError(f"{path}: no such file - check the path")
+    soundfile = _load_soundfile()
+    try:
+        with silenced_libraries(), soundfile.SoundFile(str(path)) as file:
+            samples, rate = np.concatenate(list(_mono_blocks(path, file))), file.samplerate
+    except (soundfile.SoundFileError, ValueError) as error:
+        raise HriError(f"{path}: not a readable sound file - try a WAV or an MP3") from error
+    return samples, rate
+
+
+def _load_soundfile() -> Any:
+    try:
+        import soundfile
+    except (ImportError, OSError) as error:
+        raise NotAvailable("MP3: soundfile is missing - pip install soundfile") from error
+    return soundfile
+
+
+def _mono_blocks(path: Path, file: Any) -> Iterator[Samples]:
+    left = LONGEST * file.samplerate
+    for block in file.blocks(BLOCK, dtype="int16", always_2d=True):
+        left -= len(block)
+        if left < 0:
+            raise HriError(f"{path}: longer than {LONGEST:g} s - cut it into parts")
+        yield block.mean(axis=1).astype(np.int16)
+
+
+Loaded = tuple[Pending[None], Samples, int]
+"""Whose sound it is, the sound, its rate."""
+
+
+class SpeakerFilePlayer(AudioFilePlayer):
+    """Decodes in a worker, then plays over the speaker that `speaker` names, or the first."""
+
+    parameters = ("speaker",)
+
+    def _open(self) -> None:
+        self._clock = self.manager.clock
+        self._speaker = use_partner(self, "speaker", Speaker)
+        self._worker: Worker[Loaded | None] = self._clock.worker(DECODING)
+        self._current: Pending[None] | None = None
+        self._unloaded: Path | None = None
+        self._is_playing = False
+
+    def play(self, path: str | Path) -> Pending[None]:
+        self.stop()
+        self._current = Pending(self._clock, self._silence)
+        self._unloaded = Path(path)
+        self._look(self._current)
+        return self._current
+
+    def position(self, now: float) -> float | None:
+        return self._speaker.position(now) if self._is_playing else None
+
+    def stop(self) -> None:
+        if self._current is not None:
+            self._current.cancel("the sound was stopped - play it again")
+
+    def _silence(self) -> None:
+        if self._is_playing:
+            self._is_playing = False
+            self._speaker.stop(self._clock.now())
+
+    def _look(self, pending: Pending[None]) -> None:
+        """Bring this file one step further, and look again until it has ended."""
+        if pending.is_done:
+            return
+        now = self._clock.now()
+        for loaded in self._worker.poll():
+            if loaded is not None and loaded[0] is pending:
+                self._is_playing = True
+                self._speaker.play(loaded[1], loaded[2], now)
+        if self._unloaded is not None and not self._worker.is_busy:
+            self._worker.submit(partial(_load, self._unloaded, pending))
+            self._unloaded = None
+        if self._is_playing and self._speaker.position(now) is None:
+            self._is_playing = False
+            pending.complete(None)
+        else:
+            self._clock.call_at(now + LOOK, partial(self._look, pending))
+
+    def _close(self) -> None:
+        self.stop()
+        self._worker.close()
+
+
+def _load(path: Path, pending: Pending[None]) -> Loaded | None:
+    try:
+        return pending, *load_sound(path)
+    except HriError as error:
+        pending.fail(error)
+        return None
+
+
+class MicrophoneFileRecorder(AudioFileRecorder):
+    """Writes WAV files with what the microphone hears that `microphone` names, or the first."""
+
+    parameters = ("microphone",)
+
+    def _open(self) -> None:
+        self._microphone = use_partner(self, "microphone", Microphone)
+        self._recording: _Recording | None = None
+
+    def record(self, path: str | Path, seconds: float = LONGEST_RECORDING) -> Pending[float]:
+        if not 0 < seconds <= LONGEST_RECORDING:
+            raise ValueError(f"{seconds:g} s - record more than 0 and at most 3600 s")
+        self.stop()
+        file = open_wav(Path(path), self._microphone.rate)
+        self._recording = _Recording(file, self._microphone.listen(), seconds)
+        return self._recording.pending
+
+    def stop(self) -> None:
+        if self._recording is not None:
+            self._recording.end()
+            self._recording = None
+
+    def _close(self) -> None:
+        self.stop()
+
+
+class _Recording:
+    """One file on its way from the ear to the disk."""
+
+    def __init__(self, file: wave.Wave_write, ear: Ear, seconds: float) -> None:
+        self._clock = ear.microphone.manager.clock
+        self._file, self._ear = file, ear
+        self._left = round(seconds * ear.rate)
+        self._written = 0
+        self._timer: Timer | None = None
+        self.pending: Pending[float] = Pending(self._clock, self._finish)
+        ear.read(self._clock.now())  # what was heard before does not belong to it
+        self._wait()
+
+    def _wait(self) -> None:
+        self._timer = self._clock.call_at(self._clock.now() + PUMP, self._pump)
+
+    def _pump(self) -> None:
+        self._write()
+        if self._left > 0 and not self.pending.is_done:
+            self._wait()
+        else:
+            self.end()
+
+    def end(self) -> None:
+        """Write what was heard up to now and close the file; a second call does nothing."""
+        if not self.pending.is_done:
+            self._write()
+        if self.pending.complete(self._written / self._ear.rate):
+            self._finish()
+
+    def _write(self) -> None:
+        samples = self._ear.read(self._clock.now())[: self._left]
+        try:
+            self._file.writeframesraw(samples.tobytes())
+        except OSError as error:
+            self.pending.fail(HriError(f"recording: {error.strerror} - make room on the disk"))
+            self._finish()
+        self._left -= len(samples)
+        self._written += len(samples)
+
+    def _finish(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+        self._ear.close()
+        self._file.close()

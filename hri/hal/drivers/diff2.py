@@ -1,0 +1,127 @@
+"""A base of two motors: the drive and the odometry of a configuration's groups.
+
+    <Group id="drive" type="Hri.Diff2Drive">
+      <Member member_id="Drive_left"/> <Member member_id="Drive_right"/>
+    </Group>
+
+The track comes from the y of the motors.
+"""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from hri.core.clock import Timer
+from hri.core.geometry import along_arc
+from hri.core.signals import Pose2D, Twist
+from hri.hal.drive import Odometry
+from hri.hal.motion import Way
+from hri.hal.motor import Motor
+from hri.hal.moving_base import MovingBase
+from hri.hal.resource import Description, Resource
+from hri.hal.wheels import WheelPair
+
+POLLING_MS = (50.0, 1.0, 10_000.0)
+"""Default, least and most of the odometry's `polling_interval`, milliseconds."""
+NARROWEST = 0.001
+"""Metres; wheels that are closer to each other cannot turn the base."""
+
+
+class TwoMotors(Resource):
+    """A group of two motors on one axle."""
+
+    motors: tuple[Motor, Motor]
+    wheels: WheelPair
+
+    @classmethod
+    def check(cls, description: Description) -> None:
+        super().check(description)
+        if len(description.members) != 2:
+            what = f"{description.type} has {len(description.members)} members"
+            raise description.error("type", what, "name two motors, one on each side")
+
+    def _open(self) -> None:
+        super()._open()
+        first, second = self.description.members
+        self.wheels = WheelPair(self.manager.pose_of(first).y, self.manager.pose_of(second).y)
+        if self.wheels.track < NARROWEST:
+            what = f"{first} and {second} have the same y"
+            raise self.description.error("type", what, "give each motor the y of its wheel, in cm")
+        self.motors = self.use(first, Motor), self.use(second, Motor)
+
+    def _rolled(self, now: float) -> Way:
+        base = self.wheels.base(*(motor.position(now) for motor in self.motors))
+        return Way(base.linear, base.angular)
+
+    def _velocity(self, now: float) -> Twist:
+        return self.wheels.base(*(motor.velocity(now) for motor in self.motors))
+
+
+class Diff2Drive(TwoMotors, MovingBase):
+    """Drives over two motors."""
+
+    def _open(self) -> None:
+        super()._open()
+        fastest = min(motor.max_velocity for motor in self.motors)
+        strongest = min(motor.max_acceleration for motor in self.motors)
+        self.max_linear, self.max_angular = fastest, fastest / (self.wheels.track / 2)
+        self.max_acceleration = strongest
+        self.max_angular_acceleration = strongest / (self.wheels.track / 2)
+
+    def _send(self, twist: Twist, now: float) -> None:
+        velocities = self.wheels.rolling(twist.linear, twist.angular)
+        for motor, velocity in zip(self.motors, velocities, strict=True):
+            motor.set_velocity(velocity, now)
+
+    def _brake(self, now: float) -> None:
+        for motor in self.motors:
+            motor.stop(now)
+
+    def _set_power(self, percent: float, now: float) -> None:
+        for motor in self.motors:
+            motor.set_power(percent, now)
+
+
+class Diff2Odometry(TwoMotors, Odometry):
+    """Adds up what two motors roll; `polling_interval` is in milliseconds.
+
+    Between two polls the way counts as one arc.
+    """
+
+    parameters: ClassVar[tuple[str, ...]] = ("polling_interval",)
+
+    @classmethod
+    def check(cls, description: Description) -> None:
+        super().check(description)
+        description.number_within("polling_interval", *POLLING_MS)
+
+    def _open(self) -> None:
+        super()._open()
+        interval_ms = self.description.number_within("polling_interval", *POLLING_MS)
+        self._interval = interval_ms / 1000
+        now = self.manager.clock.now()
+        self._pose, self._way = Pose2D(), self._rolled(now)
+        self._timer: Timer | None = None
+        self._poll()
+
+    def _close(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+
+    def pose(self, now: float) -> Pose2D:
+        with self._lock:
+            return self._pose_at(self._rolled(now))
+
+    def velocity(self, now: float) -> Twist:
+        return self._velocity(now)
+
+    def _poll(self) -> None:
+        clock = self.manager.clock
+        with self._lock:
+            way = self._rolled(clock.now())
+            self._pose, self._way = self._pose_at(way), way
+            self._timer = clock.call_at(clock.now() + self._interval, self._poll)
+
+    def _pose_at(self, way: Way) -> Pose2D:
+        linear, angular = way.linear - self._way.linear, way.angular - self._way.angular
+        return along_arc(self._pose, linear, angular)

@@ -1,0 +1,20 @@
+"""The joystick interface."""
+
+from abc import abstractmethod
+
+from hri.hal.resource import Resource
+
+
+class Joystick(Resource):
+    """Sticks and buttons under a person's hand; all is zero while it is unplugged."""
+
+    @abstractmethod
+    def axes(self, now: float) -> tuple[float, ...]:
+        """Where the axes are, -1 to 1: first to the right, then toward the person, then the rest.
+
+        The order and the signs are those of SDL, as on the devices themselves.
+        """
+
+    @abstractmethod
+    def buttons(self, now: float) -> tuple[bool, ...]:
+        """Which buttons are pressed."""

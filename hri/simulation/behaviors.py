@@ -1,0 +1,53 @@
+"""Object recognition as the simulated world serves it: no picture is looked at.
+
+A model set names the objects that can be recognized, one a line in `config/models/<name>`; which
+of them are in view, and how far away, the world knows.
+"""
+
+from __future__ import annotations
+
+from hri.behavior.behavior import Context
+from hri.behavior.drivers import DeviceBehavior
+from hri.behavior.ports import Input, Output, Param
+from hri.core import paths
+from hri.core.errors import HriError, read_text
+from hri.core.signals import Frame
+from hri.simulation.world import SimulatedWorld
+
+MODELS = "config/models"
+
+
+class ObjRecRecognizer(DeviceBehavior):
+    """Recognizes one object in each picture: several that are in view take turns."""
+
+    category = "vision"
+    modelset = Param("default.mdl", "file with the names of the objects that it knows")
+    field_of_view = Param(0.6, "radians, that of the camera", minimum=0.1, maximum=3.0)
+    image = Input[Frame]("image", "what the camera sees")
+    model_name = Output[str]("string", "name of the object; nothing when none is in view")
+    distance = Output[float]("double", "centimeters from the camera to the object")
+
+    def check(self) -> None:
+        lines = read_text(paths.find(MODELS, self.modelset), "model set").splitlines()
+        names = (line.partition("#")[0].strip() for line in lines)
+        self._known = {name for name in names if name}
+
+    def start(self, context: Context) -> None:
+        super().start(context)
+        worlds = context.resources.ids(SimulatedWorld)
+        if not worlds:
+            what = f"{self.id} needs a simulated world"
+            raise HriError(f"{what} - add a bus of type Hri.SimulatedWorld to the configuration")
+        self._world = self.obtain(worlds[0], SimulatedWorld)
+        self._turn = 0
+
+    def compute(self, now: float, dt: float) -> None:
+        if self.image.value is None:
+            return
+        sightings = self._world.seen_items(self.field_of_view, now)
+        recognized = [sighting for sighting in sightings if sighting.name in self._known]
+        if recognized:
+            chosen = recognized[self._turn % len(recognized)]
+            self._turn += 1
+            self.model_name.send(chosen.name)
+            self.distance.send(chosen.distance * 100)

@@ -1,0 +1,234 @@
+"""Files are played over a speaker and recorded from a microphone."""
+
+import numpy as np
+import pytest
+import soundfile
+import trio
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hri.core.errors import AuthoringError, HriError, NotAvailable
+from hri.hal.audio_file import AudioFilePlayer, AudioFileRecorder
+from hri.hal.drivers import audio_file
+from hri.hal.drivers.audio_file import MicrophoneFileRecorder, SpeakerFilePlayer, load_sound
+from hri.hal.drivers.wav_file import read_wav, write_wav
+from hri.hal.manager import ResourceManager
+from hri.hal.pending import Interrupted
+from hri.hal.resource import Description
+from hri.hal.speaker import Speaker
+
+from .sounds import similarity, tone
+
+pytestmark = pytest.mark.proves("H15")
+
+
+@pytest.fixture
+def files(tmp_path):
+    write_wav(tmp_path / "tone.wav", tone(22050, 1.0), 22050)
+    soundfile.write(tmp_path / "tone.mp3", tone(22050, 1.0), 22050)
+    return tmp_path
+
+
+@pytest.mark.parametrize("name", ["tone.wav", "tone.mp3"])
+def test_a_file_is_decoded(files, name):
+    samples, rate = load_sound(files / name)
+    assert rate == 22050
+    assert abs(len(samples) - 22050) < 2500
+    assert similarity(samples, tone(22050, 0.8)) > 0.99
+
+
+def test_both_channels_of_a_file_are_heard(tmp_path):
+    left = np.stack([tone(22050), np.zeros(11025, np.int16)], axis=1)
+    soundfile.write(tmp_path / "left.flac", left, 22050)
+    samples, _ = load_sound(tmp_path / "left.flac")
+    assert np.array_equal(samples, (tone(22050) / 2).astype(np.int16))
+
+
+@pytest.mark.parametrize("name", ["bad.mp3", "bad.wav", "bad"])
+@pytest.mark.parametrize("content", [None, b"", b"this is no sound", b"ID3" + b"\xff\xfb" * 500])
+def test_what_cannot_be_played_is_one_line(tmp_path, name, content):
+    path = tmp_path / name
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(HriError) as error:
+        load_sound(path)
+    assert str(error.value).startswith(f"{path}: ")
+    assert "\n" not in str(error.value)
+    assert " - " in str(error.value)
+
+
+def test_a_file_that_would_fill_the_memory_is_refused(files, monkeypatch):
+    monkeypatch.setattr(audio_file, "LONGEST", 0.5)
+    with pytest.raises(HriError, match=r"longer than 0\.5 s"):
+        load_sound(files / "tone.mp3")
+
+
+@pytest.mark.parametrize("name", ["tone.wav", "tone.mp3"])
+def test_playing_takes_as_long_as_the_file(files, name, clock, open_driver):
+    player = open_driver(SpeakerFilePlayer)
+    assert player.position(clock.now()) is None
+    pending = player.play(files / name)
+    clock.advance(0.5)
+    assert player.position(clock.now()) == pytest.approx(0.45, abs=0.03)
+    assert not pending.is_done
+    pending.wait(2.0)
+    assert clock.now() == pytest.approx(1.1, abs=0.1)
+    assert player.position(clock.now()) is None
+
+
+def test_playing_can_be_awaited_in_a_loop(files, clock, open_driver):
+    player = open_driver(SpeakerFilePlayer)
+
+    async def main():
+        async with trio.open_nursery() as nursery:
+            nursery.start_soon(clock.drive)
+            await player.play(files / "tone.wav")
+            nursery.cancel_scope.cancel()
+
+    trio.run(main)
+    assert clock.now() == pytest.approx(1.07, abs=0.05)
+
+
+def test_a_second_file_takes_the_place_of_the_first(files, clock, open_driver, manager):
+    player = open_driver(SpeakerFilePlayer)
+    first = player.play(files / "tone.wav")
+    clock.advance(0.5)
+    second = player.play(files / "tone.mp3")
+    with pytest.raises(Interrupted, match="play it again"):
+        first.result()
+    second.wait(2.0)
+    assert clock.now() == pytest.approx(1.6, abs=0.1)
+
+
+@pytest.mark.parametrize("heard", [0.0, 0.3])
+def test_stopping_is_silence_at_once(files, heard, clock, open_driver, manager):
+    player = open_driver(SpeakerFilePlayer)
+    pending = player.play(files / "tone.wav")
+    clock.advance(heard)
+    player.stop()
+    player.stop()
+    assert pending.is_done
+    assert manager.obtain("speaker", Speaker).position(clock.now()) is None
+    clock.advance(1.0)
+    assert player.position(clock.now()) is None
+    player.play(files / "tone.wav").wait(2.0)
+
+
+def test_a_file_that_cannot_be_read_fails_the_call_alone(files, open_driver):
+    player = open_driver(SpeakerFilePlayer)
+    with pytest.raises(HriError, match="no such file"):
+        player.play(files / "none.mp3").wait(1.0)
+    player.play(files / "tone.mp3").wait(2.0)
+
+
+def test_a_player_without_a_speaker_is_not_there(clock):
+    manager = ResourceManager([Description("player", "Hri.AudioFilePlayer")], clock)
+    with pytest.raises(NotAvailable, match="player: the configuration has no speaker - add one"):
+        manager.obtain("player", AudioFilePlayer)
+
+
+def test_the_types_of_2003_play_and_record(clock, files):
+    types = {
+        "speaker": "Hri.SilentSpeaker",
+        "microphone": "Hri.MemoryMicrophone",
+        "wav_file_audio_play": "Evolution.WmmeFileAudioPlay",
+        "mp3_file_audio_play": "Evolution.DirectXMP3FileAudioPlay",
+        "wav_file_audio_record": "Evolution.WmmeFileAudioRecord",
+    }
+    manager = ResourceManager([Description(id, type) for id, type in types.items()], clock)
+    manager.obtain("wav_file_audio_play", AudioFilePlayer).play(files / "tone.wav").wait(2.0)
+    manager.obtain("mp3_file_audio_play", AudioFilePlayer).play(files / "tone.mp3").wait(2.0)
+    recorder = manager.obtain("wav_file_audio_record", AudioFileRecorder)
+    assert recorder.record(files / "new.wav", 0.5).wait(2.0) == pytest.approx(0.5)
+    manager.close()
+
+
+def test_what_is_heard_is_recorded_until_it_is_stopped(tmp_path, clock, manager, open_driver):
+    microphone = manager.obtain("microphone", object)
+    clock.advance(1.0)
+    recorder = open_driver(MicrophoneFileRecorder)
+    pending = recorder.record(tmp_path / "r.wav")
+    microphone.hear(tone(16000, 1.0))
+    clock.advance(0.75)
+    recorder.stop()
+    recorder.stop()
+    assert pending.result() == pytest.approx(0.75)
+    samples, rate = read_wav(tmp_path / "r.wav")
+    assert (len(samples), rate) == (12000, 16000)
+    assert np.array_equal(samples, tone(16000, 1.0)[:12000])
+
+
+def test_a_recording_ends_by_itself(tmp_path, clock, open_driver):
+    recorder = open_driver(MicrophoneFileRecorder, microphone="high")
+    assert recorder.record(tmp_path / "r.wav", 0.25).wait(1.0) == pytest.approx(0.25)
+    samples, rate = read_wav(tmp_path / "r.wav")
+    assert (len(samples), rate) == (12000, 48000)
+
+
+def test_a_cancelled_recording_leaves_a_whole_file(tmp_path, clock, open_driver):
+    recorder = open_driver(MicrophoneFileRecorder)
+    pending = recorder.record(tmp_path / "r.wav")
+    clock.advance(0.55)
+    pending.cancel()
+    recorder.stop()
+    assert len(read_wav(tmp_path / "r.wav")[0]) == 8000
+
+
+@pytest.mark.parametrize("seconds", [0, -1, float("nan"), float("inf"), 3601])
+def test_a_recording_without_end_is_refused(tmp_path, open_driver, seconds):
+    with pytest.raises(ValueError, match="at most 3600 s"):
+        open_driver(MicrophoneFileRecorder).record(tmp_path / "r.wav", seconds)
+
+
+def test_a_recording_that_cannot_be_written_is_one_line(tmp_path, open_driver):
+    with pytest.raises(HriError, match="cannot be written: No such file"):
+        open_driver(MicrophoneFileRecorder).record(tmp_path / "no" / "r.wav")
+
+
+def test_a_wrong_rate_has_its_place(clock):
+    description = Description("m", "Hri.MemoryMicrophone", {"rate": "16000.5"})
+    manager = ResourceManager([description], clock)
+    with pytest.raises(AuthoringError, match=r"rate: 16000\.5 - write a whole number"):
+        manager.obtain("m", object)
+
+
+@pytest.fixture(scope="module")
+def encoded(tmp_path_factory):
+    """The bytes of a tone in every format."""
+    folder = tmp_path_factory.mktemp("encoded")
+    formats = ("wav", "mp3", "flac", "ogg")
+    for suffix in formats:
+        soundfile.write(folder / f"tone.{suffix}", tone(22050, 0.3), 22050)
+    return folder, {suffix: (folder / f"tone.{suffix}").read_bytes() for suffix in formats}
+
+
+@given(st.data())
+def test_a_broken_file_is_played_as_far_as_it_goes_or_refused_in_one_line(encoded, data):
+    folder, formats = encoded
+    suffix = data.draw(st.sampled_from(sorted(formats)))
+    content = bytearray(formats[suffix])
+    spots = st.integers(0, len(content) - 1)
+    for at, byte in data.draw(st.lists(st.tuples(spots, st.integers(0, 255)), max_size=30)):
+        content[at] = byte
+    path = folder / f"broken.{suffix}"
+    path.write_bytes(content[: data.draw(spots)])
+    refusal = refusal_of(path)
+    assert refusal == "" or refusal.startswith(f"{path}: ")
+    assert len(refusal.splitlines()) <= 1
+
+
+def refusal_of(path):
+    try:
+        samples, rate = load_sound(path)
+    except HriError as error:
+        return str(error)
+    assert samples.dtype == np.int16
+    assert rate > 0
+    return ""
+
+
+def test_the_decoder_keeps_quiet(tmp_path, capfd):
+    (tmp_path / "bad.mp3").write_bytes(b"\xff\xfb\x90\x00" + b"\x55" * 5000)
+    with pytest.raises(HriError):
+        load_sound(tmp_path / "bad.mp3")
+    assert capfd.readouterr().err == ""

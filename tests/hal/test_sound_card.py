@@ -1,0 +1,89 @@
+"""The sound card, with a PortAudio that the test turns by hand."""
+
+import numpy as np
+import pytest
+
+from hri.core.clock import RealClock
+from hri.core.errors import NotAvailable
+from hri.hal.drivers import sound_card
+from hri.hal.drivers.sound_card import SoundCardMicrophone, SoundCardSpeaker
+from hri.hal.manager import ResourceManager
+from hri.hal.microphone import Microphone
+from hri.hal.resource import Description
+
+from .sounds import tone
+
+
+class FakePortAudio:
+    """As much of the sounddevice module as the drivers use."""
+
+    class PortAudioError(Exception):
+        pass
+
+    class Stream:
+        latency = 0.0
+        active = True
+
+        def __init__(self, callback, **settings):
+            self.callback, self.settings = callback, settings
+
+        def start(self):
+            """Runs already."""
+
+        def close(self):
+            self.active = False
+
+    InputStream = OutputStream = Stream
+
+
+@pytest.fixture
+def port_audio(monkeypatch):
+    monkeypatch.setattr(sound_card, "load_sounddevice", lambda: FakePortAudio)
+
+
+def pull(speaker, frames):
+    out = np.full((frames, 1), 99, np.int16)
+    speaker._stream.callback(out, frames, None, None)
+    return out[:, 0]
+
+
+def test_a_sound_is_played_block_by_block_and_cut_by_a_stop(port_audio, open_driver):
+    speaker = open_driver(SoundCardSpeaker, rate=16000)
+    speaker.play(tone(16000, 0.1), 16000, 0.0)
+    assert np.array_equal(pull(speaker, 800), tone(16000, 0.1)[:800])
+    assert speaker.position(0.0) == pytest.approx(0.05)
+    speaker.stop(0.0)
+    assert not pull(speaker, 800).any()
+    assert speaker.position(0.0) is None
+
+
+def test_what_the_card_hears_is_read_once(port_audio, open_driver):
+    microphone = open_driver(SoundCardMicrophone, rate=48000, device=3)
+    assert microphone._stream.settings["samplerate"] == 48000
+    assert microphone._stream.settings["device"] == 3
+    for block in np.split(tone(48000, 0.02), 3):
+        microphone._stream.callback(block[:, None], len(block), None, None)
+    assert np.array_equal(microphone.read(0.0), tone(48000, 0.02))
+    assert len(microphone.read(0.0)) == 0
+
+
+def test_a_card_that_is_not_there_is_one_line(monkeypatch):
+    def no_library():
+        raise NotAvailable(f"sound card: PortAudio is missing - {sound_card.INSTALL}")
+
+    monkeypatch.setattr(sound_card, "load_sounddevice", no_library)
+    manager = ResourceManager([Description("m", "Evolution.WmmeAudioRecord")], RealClock())
+    with pytest.raises(NotAvailable, match="PortAudio is missing - apt install libportaudio2"):
+        manager.obtain("m", Microphone)
+
+
+def test_a_card_without_a_device_is_one_line(monkeypatch, manager):
+    class NoDevice(FakePortAudio):
+        @staticmethod
+        def InputStream(**settings):
+            raise FakePortAudio.PortAudioError("Error querying device -1")
+
+    monkeypatch.setattr(sound_card, "load_sounddevice", lambda: NoDevice)
+    microphone = SoundCardMicrophone(Description("m", "Hri.Microphone"), manager)
+    with pytest.raises(NotAvailable, match="m: no device - plug one in, or see `hri doctor`"):
+        microphone.activate()

@@ -1,0 +1,62 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hri.core.errors import HriError
+from hri.core.signals import Frame
+from hri.hal.resource import Description
+from hri.simulation.behaviors import ObjRecRecognizer
+from hri.simulation.world import SimulatedWorld
+from hri.testing import context
+from tests.behavior.library.ticking import tick
+
+FRAME = Frame(np.zeros((1, 1, 3), np.uint8), 0.0, 0)
+
+
+@pytest.fixture
+def models(tmp_path: Path) -> str:
+    path = tmp_path / "kitchen.mdl"
+    path.write_text("# what stands on the table\ncup\nkey   # the spare one\n\n")
+    return str(path)
+
+
+@pytest.fixture
+def lent():
+    made = context(Description("world", "Hri.SimulatedWorld", {"voice": "mute"}))
+    mute = Description("mute", "Hri.EspeakVoice")
+    made.resources.declare(mute)
+    yield made
+    made.resources.close()
+
+
+@pytest.fixture
+def recognizer(models, lent):
+    made = ObjRecRecognizer("see", modelset=models)
+    made.check()
+    made.start(lent)
+    return made
+
+
+@pytest.mark.proves("B19", "B23")
+def test_objects_of_the_model_set_take_turns_picture_by_picture(recognizer, lent) -> None:
+    world = lent.resources.obtain("world", SimulatedWorld)
+    for name, x in (("cup", 0.5), ("key", 0.8), ("dog", 0.6)):
+        world.place(name, x, 0.0)
+    sent = [tick(recognizer, image=FRAME) for _ in range(3)]
+    assert [(one["model_name"], round(one["distance"])) for one in sent] == [
+        ("cup", 50),
+        ("key", 80),
+        ("cup", 50),
+    ]
+
+
+def test_without_a_picture_or_an_object_it_says_nothing(recognizer, lent) -> None:
+    assert tick(recognizer, image=FRAME) == {}
+    lent.resources.obtain("world", SimulatedWorld).place("cup", 0.5, 0.0)
+    assert tick(recognizer) == {}
+
+
+def test_it_needs_a_simulated_world(models) -> None:
+    with pytest.raises(HriError, match="see needs a simulated world - add a bus"):
+        ObjRecRecognizer("see", modelset=models).start(context())
