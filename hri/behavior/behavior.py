@@ -16,7 +16,8 @@ from __future__ import annotations
 
 import zlib
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
 from hri.core.clock import Clock
@@ -24,6 +25,10 @@ from hri.core.errors import HriError, did_you_mean
 from hri.core.events import EventBus
 from hri.core.latest import Board
 from hri.hal.manager import ResourceManager
+
+if TYPE_CHECKING:
+    from hri.behavior.networks import Networks
+    from hri.behavior.schema import Schema
 
 
 @dataclass
@@ -36,6 +41,13 @@ class Context:
     board: Board = field(default_factory=Board)
     seed: int = 0
 
+    @cached_property
+    def networks(self) -> Networks:
+        """The networks that run."""
+        from hri.behavior.networks import Networks
+
+        return Networks(self)
+
     def seed_for(self, name: str) -> int:
         """A seed of its own for each user of randomness, so that adding one shifts no other."""
         return zlib.crc32(f"{self.seed}/{name}".encode())
@@ -46,9 +58,13 @@ class Behavior:
 
     category: ClassVar[str] = "util"
     """The palette tab it is shown under."""
+    is_sensor: ClassVar[bool] = False
+    """Sensors run first in each cycle."""
     inputs: ClassVar[dict[str, Input[Any]]] = {}
     outputs: ClassVar[dict[str, Output[Any]]] = {}
     parameters: ClassVar[dict[str, Param[Any]]] = {}
+    schema: ClassVar[Schema | None] = None
+    """What defined the class, when it was a schema file."""
 
     def __init_subclass__(cls, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
@@ -77,11 +93,37 @@ class Behavior:
             self.__dict__[name] = InputPort()
         for name in self.outputs:
             self.__dict__[name] = OutputPort()
+        for name, declared in self.parameters.items():
+            self.__dict__[name] = declared.default
         for name, value in parameters.items():
-            if name not in self.parameters:
-                remedy = did_you_mean(name, self.parameters)
-                raise HriError(f'{type(self).__name__} has no parameter "{name}" - {remedy}')
-            self.__dict__[name] = value
+            self.set_parameter(name, value)
+
+    def set_parameter(self, name: str, value: Any) -> None:
+        """Set a parameter. Raises HriError when it has none of that name, type or range."""
+        declared = self._declared(name, self.parameters, "parameter")
+        try:
+            self.__dict__[name] = declared.check(value)
+        except ValueError as error:
+            raise HriError(f"{self.id}.{name}: {error}") from error
+
+    @classmethod
+    def input_named(cls, name: str) -> Input[Any]:
+        """What is declared of an input. Raises HriError when there is none of that name."""
+        declared: Input[Any] = cls._declared(name, cls.inputs, "input")
+        return declared
+
+    @classmethod
+    def output_named(cls, name: str) -> Output[Any]:
+        """What is declared of an output. Raises HriError when there is none of that name."""
+        declared: Output[Any] = cls._declared(name, cls.outputs, "output")
+        return declared
+
+    @classmethod
+    def _declared(cls, name: str, table: dict[str, Any], kind: str) -> Any:
+        if name not in table:
+            remedy = did_you_mean(name, table)
+            raise HriError(f'{cls.__name__} has no {kind} "{name}" - {remedy}')
+        return table[name]
 
     def check(self) -> None:
         """Read the authored files it needs, before anything is opened. Raises HriError."""

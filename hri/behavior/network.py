@@ -9,20 +9,25 @@
 
 from __future__ import annotations
 
-from collections import deque
+import heapq
+import logging
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from hri.behavior.behavior import Behavior
+from hri.behavior.catalog import find_behavior
 from hri.behavior.ports import ANY, GENERIC, Input, Output
-from hri.core import paths, registry
+from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, NotAvailable, Place, did_you_mean
-from hri.core.expression import evaluate
 from hri.core.xml import Element, load_xml
+
+log = logging.getLogger("hri.network")
 
 DEFAULT_INTERVAL = 0.10
 SHORTEST_INTERVAL = 0.001
+LONGEST_INTERVAL = 3600
+MOST_BEHAVIORS = 2000
 
 
 @dataclass(frozen=True)
@@ -34,6 +39,11 @@ class Link:
     target: Behavior
     input: str
     place: Place
+
+    @property
+    def datatype(self) -> str:
+        """The type of what it carries."""
+        return self.source.outputs[self.output].datatype
 
     def __str__(self) -> str:
         return f"{self.source.id}.{self.output} -> {self.target.id}.{self.input}"
@@ -50,6 +60,8 @@ class Network:
     links: list[Link] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
     path: Path = Path("-")
+    document: Element | None = None
+    """What it was read from: comments, order, and numbers as they were written."""
 
     def __getitem__(self, id: str) -> Behavior:
         for behavior in self.behaviors:
@@ -59,9 +71,13 @@ class Network:
         raise HriError(f'network {self.name} has no behavior "{id}" - {remedy}')
 
     def add(self, behavior: Behavior) -> Behavior:
-        """Add a behavior; its id must be new."""
+        """Add a behavior. Raises HriError when its id is not new, or has a dot in it."""
+        if not behavior.id or "." in behavior.id:
+            raise HriError(f'the id "{behavior.id}" cannot be linked to - take a word without dots')
         if any(known.id == behavior.id for known in self.behaviors):
-            raise HriError(f'network {self.name} has two behaviors "{behavior.id}" - rename one')
+            raise HriError(f'the id "{behavior.id}" is used twice - rename one of them')
+        if len(self.behaviors) >= MOST_BEHAVIORS:
+            raise HriError(f"more than {MOST_BEHAVIORS} behaviors in a network - split it")
         self.behaviors.append(behavior)
         return behavior
 
@@ -80,26 +96,49 @@ class Network:
                 f"{place}: {source} means {sends.semantic}, {target} wants {takes.semantic}"
             )
         self.links.append(Link(sender, output, receiver, input, place))
+        log.debug("link %s (%s)", self.links[-1], sends.datatype)
         getattr(receiver, input).sources.append(getattr(sender, output))
 
-    def sort(self) -> None:
-        """Put the behaviors in dependency order: the file's order wherever the links allow.
+    def loose_ends(self) -> list[str]:
+        """A sentence for each behavior that takes something, but that no link reaches."""
+        fed = {link.target.id for link in self.links}
+        return [
+            f"nothing reaches {behavior.id} ({', '.join(behavior.inputs)})"
+            for behavior in self.behaviors
+            if behavior.inputs and behavior.id not in fed
+        ]
 
-        Raises AuthoringError that names a cycle link by link.
+    def check(self) -> None:
+        """Let each behavior read its authored files, once. Raises HriError."""
+        if not self._is_checked:
+            for behavior in self.behaviors:
+                behavior.check()
+            self._is_checked = True
+
+    _is_checked = False
+
+    def sort(self) -> None:
+        """Put the behaviors in dependency order: sensors first, then the file's order.
+
+        What a behavior depends on runs before it always, sensor or not. Raises AuthoringError that
+        names a cycle link by link.
         """
-        waits = {behavior.id: 0 for behavior in self.behaviors}
+        waits = dict.fromkeys((behavior.id for behavior in self.behaviors), 0)
+        fed: dict[str, list[str]] = {id: [] for id in waits}
         for link in self.links:
             waits[link.target.id] += 1
-        ready = deque(behavior for behavior in self.behaviors if not waits[behavior.id])
+            fed[link.source.id].append(link.target.id)
+        rank = {b.id: (not b.is_sensor, place, b) for place, b in enumerate(self.behaviors)}
+        ready = [rank[id] for id, count in waits.items() if not count]
+        heapq.heapify(ready)
         order: list[Behavior] = []
         while ready:
-            behavior = ready.popleft()
+            *_, behavior = heapq.heappop(ready)
             order.append(behavior)
-            for link in self.links:
-                if link.source is behavior:
-                    waits[link.target.id] -= 1
-                    if not waits[link.target.id]:
-                        ready.append(link.target)
+            for id in fed[behavior.id]:
+                waits[id] -= 1
+                if not waits[id]:
+                    heapq.heappush(ready, rank[id])
         if len(order) < len(self.behaviors):
             cycle = self._cycle({id for id, count in waits.items() if count})
             what = f"these links run in a circle: {', '.join(map(str, cycle))}"
@@ -140,7 +179,7 @@ def load_network(name: str | Path) -> Network:
     if root.tag != "BehaviorNetwork":
         raise root.error(f"the root is <{root.tag}>", "write <BehaviorNetwork> around it all")
     root.check(("Behavior", "Link"), ("invocation_interval", "name"))
-    network = Network(root.get("name", path.stem), _interval(root), path=path)
+    network = Network(root.get("name", path.stem), _interval(root), path=path, document=root)
     for element in root:
         if element.tag == "Behavior":
             _add(network, element)
@@ -153,26 +192,26 @@ def load_network(name: str | Path) -> Network:
 
 
 def _interval(root: Element) -> float:
-    text = root.get("invocation_interval", str(DEFAULT_INTERVAL))
-    try:
-        interval = evaluate(text)
-    except ValueError as error:
-        raise root.error(str(error), "write seconds, such as 0.1", "invocation_interval") from error
-    if not SHORTEST_INTERVAL <= interval <= 3600:
-        remedy = f"write seconds from {SHORTEST_INTERVAL} to 3600"
-        raise root.error(f"an interval of {text} s", remedy, "invocation_interval")
+    interval = root.number("invocation_interval", DEFAULT_INTERVAL)
+    if not SHORTEST_INTERVAL <= interval <= LONGEST_INTERVAL:
+        remedy = f"write seconds from {SHORTEST_INTERVAL} to {LONGEST_INTERVAL}"
+        raise root.error(f"an interval of {interval:g} s", remedy, "invocation_interval")
     return interval
 
 
-def _add(network: Network, element: Element) -> None:
-    element.check(("Parameter",), ("id", "type"))
+def _find(element: Element) -> type[Behavior]:
     try:
-        cls: type[Behavior] = registry.find("hri.behaviors", element.get("type"))
-    except NotAvailable:
+        return find_behavior(element.get("type"))
+    except (NotAvailable, AuthoringError):
         raise
     except HriError as error:
         what, _, remedy = str(error).partition(" - ")
         raise element.error(what, remedy, "type") from error
+
+
+def _add(network: Network, element: Element) -> None:
+    element.check(("Parameter",), ("id", "type"))
+    cls = _find(element)
     parameters = {}
     for child in element:
         child.check((), ("name", "value"))
@@ -185,8 +224,10 @@ def _add(network: Network, element: Element) -> None:
         except ValueError as error:
             what, _, remedy = str(error).partition(" - ")
             raise child.error(f"{name}: {what}", remedy, "value") from error
-    if any(known.id == element.get("id") for known in network.behaviors):
-        raise element.error(
-            f'the id "{element.get("id")}" is used twice', "rename one of them", "id"
-        )
-    network.add(cls(element.get("id"), **parameters))
+    behavior = cls(**parameters)
+    behavior.id = element.get("id")
+    try:
+        network.add(behavior)
+    except HriError as error:
+        what, _, remedy = str(error).partition(" - ")
+        raise element.error(what, remedy, "id") from error

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Sequence
 from typing import Any, Generic, TypeVar, overload
 
@@ -13,6 +14,12 @@ from hri.core.expression import evaluate
 T = TypeVar("T")
 
 GENERIC = "Evolution.Generic"
+LINEAR_VELOCITY = "Evolution.LinearVelocity"
+ANGULAR_VELOCITY = "Evolution.AngularVelocity"
+"""Meanings of ports; a generic one fits all others."""
+
+DBL_MAX = sys.float_info.max
+"""What ports of 2003 carry, in place of infinity, when nothing is in range."""
 
 ANY = "any"
 """The datatype that fits every other."""
@@ -52,8 +59,11 @@ class InputPort(Generic[T]):
 
     @property
     def value(self) -> T | None:
-        """The value of the first link; None when nothing is linked or nothing was sent."""
-        return self.sources[0].value if self.sources else None
+        """The value of the first link that carries one; None when nothing was sent."""
+        for source in self.sources:
+            if source.value is not None:
+                return source.value
+        return None
 
     @property
     def values(self) -> list[T]:
@@ -66,8 +76,8 @@ class OutputPort(Generic[T]):
 
     __slots__ = ("value",)
 
-    def __init__(self) -> None:
-        self.value: T | None = None
+    def __init__(self, value: T | None = None) -> None:
+        self.value = value
 
     def send(self, value: T) -> None:
         self.value = value
@@ -91,6 +101,20 @@ class Input(Generic[T]):
         if instance is None:
             return self
         raise AttributeError(f"call super().__init__() before you use the input {self.name}")
+
+    def check(self, value: Any) -> T:
+        """The value as this input takes it: whole numbers become floats, lists arrays.
+
+        Raises ValueError when it is of another type.
+        """
+        if self.datatype == "double" and isinstance(value, int) and not isinstance(value, bool):
+            value = float(value)
+        elif self.datatype == "doublearray" and isinstance(value, (list, tuple)):
+            value = tuple(map(float, value))
+        if not isinstance(value, DATATYPES[self.datatype]):
+            raise ValueError(f"{_shown(value)} - send a {self.datatype}")
+        checked: Any = value
+        return checked  # type: ignore[no-any-return]
 
 
 class Output(Generic[T]):
@@ -152,15 +176,51 @@ class Param(Generic[T]):
                 value = evaluate(text)
             except ValueError as error:
                 raise ValueError(f"{error} - write a number, such as 0.5 or pi/4") from error
-            if not self.minimum <= value <= self.maximum:
-                raise ValueError(
-                    f"{text} is out of range - write a number"
-                    f" from {self.minimum:g} to {self.maximum:g}"
-                )
-            value = int(value) if isinstance(self.default, int) else value
-        elif self.among and text not in self.among:
-            raise ValueError(f'"{text}" is not known - {did_you_mean(text, self.among)}')
+        return self.check(value)
+
+    @staticmethod
+    def text(value: Any) -> str:
+        """A value as files write it; `parse` gives it back."""
+        if isinstance(value, bool):
+            return str(value).lower()
+        return str(value).removesuffix(".0") if isinstance(value, float) else str(value)
+
+    def check(self, value: Any) -> T:
+        """The value when it has the right type and range, else ValueError with what to do."""
+        if isinstance(self.default, bool):
+            self._checked_type(value, bool, "true or false")
+            return value  # type: ignore[no-any-return]
+        if isinstance(self.default, (int, float)):
+            return self._checked_number(value)
+        if isinstance(self.default, str):
+            self._checked_type(value, str, "a text")
+            if self.among and value not in self.among:
+                raise ValueError(f'"{value}" is not known - {did_you_mean(value, self.among)}')
         return value  # type: ignore[no-any-return]
+
+    def _checked_number(self, value: Any) -> T:
+        if isinstance(value, bool):
+            raise ValueError(f"{value} is no number - write a number")
+        self._checked_type(value, (int, float), "a number")
+        if not self.minimum <= value <= self.maximum:
+            raise ValueError(
+                f"{value:g} is out of range - write a number"
+                f" from {self.minimum:g} to {self.maximum:g}"
+            )
+        if isinstance(self.default, float):
+            return float(value)  # type: ignore[return-value]
+        if value != int(value):
+            raise ValueError(f"{value:g} is no whole number - write a whole number")
+        return int(value)  # type: ignore[return-value]
+
+    @staticmethod
+    def _checked_type(value: Any, kind: type | tuple[type, ...], wanted: str) -> None:
+        if not isinstance(value, kind):
+            raise ValueError(f"{_shown(value)} - write {wanted}")
+
+
+def _shown(value: object) -> str:
+    return f"{value!r:.60} is of type {type(value).__name__}"
 
 
 def _checked(datatype: str) -> str:

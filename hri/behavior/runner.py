@@ -1,9 +1,10 @@
 """Runs a network at its rate: deadlines are absolute, so the mean rate never drifts.
 
-The order of a tick, once and in words: all outputs are emptied; the behaviors run in dependency
-order, so sensors come before what uses them; the time each one took is kept. A tick that ends
-after its deadline is a missed interval: it is counted, reported with the slowest behavior's name,
-and the deadlines that have passed are skipped, never run in a burst.
+The order of a tick, once and in words: all outputs are emptied; what was injected takes its place
+as links; the behaviors run, sensors first and then in dependency order; the time each one took is
+kept; those who watch outputs are told what was sent. A tick that ends after its deadline is a
+missed interval: it is counted, reported with the slowest behavior's name, and the deadlines that
+have passed are skipped, never run in a burst.
 
 A behavior that raises an exception rests for a second, sending nothing, and is tried again; the
 others go on. What depends on it sees empty inputs, which for a drive means: stand still.
@@ -13,12 +14,16 @@ from __future__ import annotations
 
 import logging
 import math
-import time
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from time import perf_counter
+from typing import Any
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.network import Network
+from hri.behavior.ports import InputPort, OutputPort
+from hri.core.errors import HriError
 
 log = logging.getLogger("hri.behavior")
 
@@ -28,10 +33,34 @@ REST = 1.0
 """Seconds that a behavior rests after an exception."""
 
 
+@dataclass(slots=True)
+class Timing:
+    """How long something took, over all its times; in seconds."""
+
+    count: int = 0
+    total: float = 0.0
+    longest: float = 0.0
+    last: float = 0.0
+
+    @property
+    def mean(self) -> float:
+        return self.total / self.count if self.count else 0.0
+
+    def add(self, seconds: float) -> None:
+        self.count += 1
+        self.total += seconds
+        self.last = seconds
+        self.longest = max(self.longest, seconds)
+
+
 @dataclass
 class Statistics:
     """How a network has been doing; times in seconds."""
 
+    behaviors: dict[str, Timing] = field(default_factory=dict)
+    """How long each behavior took, by its id."""
+    lateness: Timing = field(default_factory=Timing)
+    """How long after its deadline each tick began."""
     ticks: int = 0
     missed: int = 0
     slowest: str = ""
@@ -42,21 +71,39 @@ class Statistics:
     """How long the last ticks took."""
 
 
+@dataclass(eq=False, slots=True)
+class Watch:
+    """Somebody who is told what an output sends; `cancel()` ends it, a second call is harmless."""
+
+    port: OutputPort[Any]
+    callback: Callable[[Any, float], object]
+    watches: list[Watch]
+
+    def cancel(self) -> None:
+        if self in self.watches:
+            self.watches.remove(self)
+
+
 class Runner:
     """One network on one clock."""
 
     def __init__(self, network: Network, context: Context) -> None:
         self.network = network
         self.context = context
-        self.statistics = Statistics()
+        timings = {behavior.id: Timing() for behavior in network.behaviors}
+        self.statistics = Statistics(timings)
         self._outputs = [
             getattr(behavior, name) for behavior in network.behaviors for name in behavior.outputs
         ]
-        self._order = list(network.behaviors)
+        self._order = self._timed(network.behaviors)
+        self._injected: deque[tuple[InputPort[Any], OutputPort[Any]]] = deque()
+        self._watches: list[Watch] = []
         self._resting: dict[Behavior, float] = {}
         self._failed: set[Behavior] = set()
         self._last: float | None = None
         self._started: list[Behavior] = []
+        self._is_ticking = False
+        self._ends_after_tick = False
 
     def start(self) -> None:
         """Start all behaviors; when one cannot, those before it are stopped again."""
@@ -69,55 +116,136 @@ class Runner:
             raise
 
     def stop(self) -> None:
-        """Stop the behaviors, last first; a second call does nothing."""
+        """Stop the behaviors, last first; a second call does nothing.
+
+        One that raises an exception keeps none of the others from being stopped. Called from inside
+        a tick, the tick ends first.
+        """
+        if self._is_ticking:
+            self._ends_after_tick = True
+            return
         while self._started:
-            self._started.pop().stop()
+            behavior = self._started.pop()
+            try:
+                behavior.stop()
+            except Exception as error:
+                log.error("%s did not stop: %s", self._name_of(behavior), error, exc_info=error)
+
+    def inject(self, behavior: str, input: str, value: Any) -> None:
+        """Send a value to an input, once, as one more link ahead of its own, at the next tick.
+
+        Several values arrive as several links, in the order they were injected. May be called from
+        any thread. Raises HriError for a behavior or an input that is not there, or a value of
+        another type.
+        """
+        target = self.network[behavior]
+        declared = target.input_named(input)
+        try:
+            source: OutputPort[Any] = OutputPort(declared.check(value))
+        except ValueError as error:
+            raise HriError(f"{behavior}.{input}: {error}") from error
+        self._injected.append((getattr(target, input), source))
+
+    def watch(self, behavior: str, output: str, callback: Callable[[Any, float], object]) -> Watch:
+        """Call `callback(value, now)` after each tick in which the output sent something.
+
+        Raises HriError for a behavior or an output that is not there.
+        """
+        source = self.network[behavior]
+        source.output_named(output)
+        watch = Watch(getattr(source, output), callback, self._watches)
+        self._watches.append(watch)
+        return watch
 
     def tick(self, now: float) -> float:
-        """One cycle; returns how long it took in seconds and notes the slowest behavior."""
+        """One cycle; returns how long it took in seconds."""
         dt = 0.0 if self._last is None else now - self._last
         self._last = now
+        self._is_ticking = True
         for output in self._outputs:
             output.value = None
         if self._resting:
             self._wake(now)
-        begun = before = time.perf_counter()
-        longest = 0.0
-        for behavior in self._order:
+        injected = self._insert_injected() if self._injected else ()
+        begun = before = perf_counter()
+        for behavior, timing in self._order:
             try:
                 behavior.compute(now, dt)
             except Exception as error:
                 self._rest(behavior, now, error)
-            after = time.perf_counter()
-            if after - before > longest:
-                longest, self._slowest = after - before, behavior.id
+            after = perf_counter()
+            # Written out, in place of `timing.add`: this is the inner loop of it all.
+            timing.last = spent = after - before
+            timing.count += 1
+            timing.total += spent
+            if spent > timing.longest:
+                timing.longest = spent
             before = after
+        for port, source in injected:
+            port.sources.remove(source)
         self.statistics.ticks += 1
         self.statistics.recent.append(before - begun)
+        self._is_ticking = False
+        if self._watches:
+            self._tell_watches(now)
+        if self._ends_after_tick:
+            self.stop()
         return before - begun
 
     async def run(self, count: int | None = None, duration: float | None = None) -> None:
         """Tick until cancelled, `count` times, or for `duration` seconds."""
         clock, interval = self.context.clock, self.network.interval
-        begin = deadline = clock.now()
+        begin = clock.now()
+        slot = 0
         while count is None or self.statistics.ticks < count:
-            if duration is not None and deadline - begin > duration - interval / 2:
+            if duration is not None and (slot + 0.5) * interval > duration:
                 break
+            # From the beginning each time: sums of intervals would drift.
+            deadline = begin + slot * interval
             await clock.sleep_until(deadline)
-            self.tick(deadline if clock.is_fake else clock.now())
-            deadline += interval
-            if (late := clock.now() - deadline) > 0:
+            now = deadline if clock.is_fake else clock.now()
+            self.statistics.lateness.add(now - deadline)
+            took = self.tick(now)
+            log.debug("%s tick at %.3f s took %.1f us", self.network.name, now, took * 1e6)
+            slot += 1
+            if (late := clock.now() - (begin + slot * interval)) > 0:
                 skipped = int(late / interval) + 1
-                deadline += skipped * interval
+                slot += skipped
                 self._report_missed(skipped)
+
+    def _timed(self, behaviors: list[Behavior]) -> list[tuple[Behavior, Timing]]:
+        return [(behavior, self.statistics.behaviors[behavior.id]) for behavior in behaviors]
+
+    def _name_of(self, behavior: Behavior) -> str:
+        return f"{self.network.name}.{behavior.id}"
+
+    def _insert_injected(self) -> list[tuple[InputPort[Any], OutputPort[Any]]]:
+        """Make a link of each value that waits, ahead of the links of the network."""
+        inserted = []
+        counts: dict[int, int] = {}
+        while self._injected:
+            port, source = self._injected.popleft()
+            at = counts.get(id(port), 0)
+            port.sources.insert(at, source)
+            counts[id(port)] = at + 1
+            inserted.append((port, source))
+        return inserted
+
+    def _tell_watches(self, now: float) -> None:
+        for watch in tuple(self._watches):
+            if watch.port.value is not None:
+                try:
+                    watch.callback(watch.port.value, now)
+                except Exception as error:
+                    log.error("a watch on %s failed: %s", self.network.name, error, exc_info=error)
 
     def _rest(self, behavior: Behavior, now: float, error: Exception) -> None:
         """Leave a behavior that failed out for a while."""
         self.statistics.failures += 1
         self._resting[behavior] = now + REST
         # A new list, since the tick still walks over the old one.
-        self._order = [kept for kept in self._order if kept is not behavior]
-        name = f"{self.network.name}.{behavior.id}"
+        self._order = [kept for kept in self._order if kept[0] is not behavior]
+        name = self._name_of(behavior)
         # The first time with all that helps to mend it, then in a line.
         is_new = behavior not in self._failed
         self._failed.add(behavior)
@@ -130,12 +258,14 @@ class Runner:
         for behavior in rested:
             del self._resting[behavior]
         if rested:
-            self._order = [b for b in self.network.behaviors if b not in self._resting]
+            awake = [b for b in self.network.behaviors if b not in self._resting]
+            self._order = self._timed(awake)
 
     def _report_missed(self, skipped: int) -> None:
         """Count what was missed; tell of it at once, but not more often than a person can read."""
         self.statistics.missed += skipped
-        self.statistics.slowest = self._slowest
+        times = self.statistics.behaviors
+        self.statistics.slowest = max(times, key=lambda id: times[id].last, default="")
         now = self.context.clock.now()
         if now >= self._tell_after:
             self._tell_after = now + BETWEEN_REPORTS
@@ -143,8 +273,7 @@ class Runner:
                 "Missed desired interval.... (%s: %d so far, slowest was %s)",
                 self.network.name,
                 self.statistics.missed,
-                self._slowest,
+                self.statistics.slowest,
             )
 
     _tell_after = -math.inf
-    _slowest = ""

@@ -18,6 +18,7 @@ from hri.core import paths
 from hri.core.clock import Clock, FakeClock, RealClock
 from hri.core.errors import HriError
 from hri.core.events import EventBus
+from hri.core.realtime import become_realtime
 from hri.hal.configuration import load_configuration
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Resource
@@ -49,6 +50,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--without-resources", action="store_true", help="configure no devices at all")
     add("--load-all-resources", action="store_true", help="open every device at the start")
     add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
+    add("--realtime", action="store_true", help="run ahead of other programs, where allowed")
     add("--fast", action="store_true", help="fake time, as fast as the machine can")
     return parser
 
@@ -76,8 +78,12 @@ def _count(text: str) -> int:
 
 
 def _set_up_logging(debug: str | None) -> None:
+    handler = logging.StreamHandler(sys.stdout)
     form = "%(levelname)s - %(message)s [%(filename)s:%(lineno)d]"
-    logging.basicConfig(level=logging.INFO, format=form, stream=sys.stdout)
+    handler.setFormatter(logging.Formatter(form))
+    ours = logging.getLogger("hri")
+    ours.handlers = [handler]
+    ours.setLevel(logging.INFO)
     if debug is not None:
         logging.getLogger(f"hri.{debug}" if debug else "hri").setLevel(logging.DEBUG)
 
@@ -91,8 +97,7 @@ def _behave(options: argparse.Namespace) -> int:
     network = load_network(options.network)
     for warning in network.warnings:
         log.warning(warning)
-    for behavior in network.behaviors:
-        behavior.check()
+    network.check()
     if options.invocation_interval is not None:
         network.interval = options.invocation_interval
     runner = Runner(network, Context(clock, EventBus(clock), resources))
@@ -101,19 +106,38 @@ def _behave(options: argparse.Namespace) -> int:
             for id in resources.ids(Resource):
                 resources.obtain(id, Resource)
         runner.start()
+        if options.realtime and (refusal := become_realtime(clock)):
+            log.warning(refusal)
         log.info(f"Running network with an interval of {network.interval:.2f} sec.")
         trio.run(partial(_run, runner, clock, options))
     finally:
         runner.stop()
         resources.close()
+        _tell_timings(runner)
     return 1 if runner.statistics.failures else 0
+
+
+def _tell_timings(runner: Runner) -> None:
+    """How the run went, with --debug: the slowest behaviors first."""
+    statistics = runner.statistics
+    log.debug(
+        "%d ticks, %d missed; they began %.3f ms late in the mean, %.3f ms at most",
+        statistics.ticks,
+        statistics.missed,
+        statistics.lateness.mean * 1e3,
+        statistics.lateness.longest * 1e3,
+    )
+    by_time = sorted(statistics.behaviors.items(), key=lambda item: -item[1].total)
+    for id, timing in by_time:
+        line = "%s: %d times, %.1f us in the mean, %.1f us at most"
+        log.debug(line, id, timing.count, timing.mean * 1e6, timing.longest * 1e6)
 
 
 def _resources(options: argparse.Namespace, clock: Clock) -> ResourceManager:
     if options.without_resources:
         return ResourceManager((), clock)
     configuration = load_configuration(paths.find("config", options.config))
-    resources = ResourceManager(configuration.devices, clock)
+    resources = ResourceManager(configuration.devices, clock, shapes=configuration.shapes)
     resources.check()
     return resources
 

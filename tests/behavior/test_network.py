@@ -1,7 +1,11 @@
+import contextlib
+
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from hri.behavior.behavior import Behavior
-from hri.behavior.network import load_network
+from hri.behavior.network import Network, load_network
 from hri.behavior.ports import Input, Output, Param
 from hri.core.errors import AuthoringError, HriError
 
@@ -29,6 +33,7 @@ SUM = """\
 <Link from="sum.sum" to="show.input"/>"""
 
 
+@pytest.mark.proves("B04", "B06")
 def test_behaviors_run_in_dependency_order_whatever_the_file_says(tmp_path):
     network = load(tmp_path, SUM)
     assert [behavior.id for behavior in network.behaviors] == ["one", "two", "sum", "show"]
@@ -37,6 +42,7 @@ def test_behaviors_run_in_dependency_order_whatever_the_file_says(tmp_path):
     assert network["show"].collected == [3.0]
 
 
+@pytest.mark.proves("B05")
 def test_the_interval_is_a_tenth_of_a_second_unless_told(tmp_path):
     assert load(tmp_path, SUM).interval == 0.1
     assert load(tmp_path, SUM, ' invocation_interval="1/30"').interval == pytest.approx(1 / 30)
@@ -56,9 +62,8 @@ def test_the_interval_is_a_tenth_of_a_second_unless_told(tmp_path):
             '2:38: Hri.Constant has no parameter "parsed_valu" - did you mean "parsed_value"?',
         ),
         (
-            '<Behavior id="a" type="Hri.Constant">'
-            '<Parameter name="parsed_value" value="x"/></Behavior>',
-            'parsed_value: "x" is no number - write a number',
+            '<Behavior id="a" type="Hri.Scale"><Parameter name="factor" value="x"/></Behavior>',
+            'factor: "x" is no number - write a number',
         ),
         (SUM + '<Link from="one.out" to="sum.input"/>', 'Constant "one" has no output "out"'),
         (SUM + '<Link from="won.value" to="sum.input"/>', 'no behavior "won"'),
@@ -70,6 +75,7 @@ def test_mistakes_are_found_at_load_with_their_place(tmp_path, body, message):
     assert message in failure(tmp_path, body)
 
 
+@pytest.mark.proves("B02")
 def test_ports_of_different_types_do_not_link(tmp_path):
     body = (
         '<Behavior id="one" type="Hri.Constant"/><Behavior id="s" type="Hri.DoubleArraySplitter"/>'
@@ -93,6 +99,7 @@ def test_a_circle_is_named_link_by_link(tmp_path):
     assert "after" not in message
 
 
+@pytest.mark.proves("B03")
 def test_a_meaning_that_does_not_fit_is_a_warning(tmp_path):
     class Distance(Behavior):
         """Sends a distance."""
@@ -130,3 +137,103 @@ def test_an_unknown_parameter_in_code_is_an_error_too():
     assert Gain(gain=2.0).gain == 2.0
     with pytest.raises(HriError, match='did you mean "gain"'):
         Gain(gian=1.0)
+
+
+class Sensor(Behavior):
+    """Senses something."""
+
+    is_sensor = True
+    input = Input[float]("double", "anything")
+    reading = Output[float]("double", "a number")
+
+
+class Plain(Behavior):
+    """Is no sensor."""
+
+    input = Input[float]("double", "anything")
+    output = Output[float]("double", "a number")
+
+
+def sorted_ids(*behaviors, links=()):
+    network = Network("net")
+    for behavior in behaviors:
+        network.add(behavior)
+    for source, target in links:
+        network.connect(source, target)
+    network.sort()
+    return [behavior.id for behavior in network.behaviors]
+
+
+@pytest.mark.proves("B06")
+def test_sensors_run_first_in_each_cycle():
+    ids = sorted_ids(Plain("a"), Sensor("s"), Plain("b"), Sensor("t"))
+    assert ids == ["s", "t", "a", "b"]
+
+
+@pytest.mark.proves("B06")
+def test_what_a_sensor_depends_on_runs_before_it_all_the_same():
+    ids = sorted_ids(Plain("a"), Plain("b"), Sensor("s"), links=[("b.output", "s.input")])
+    assert ids.index("b") < ids.index("s")
+
+
+@given(st.data())
+def test_the_order_always_follows_the_links(data):
+    count = data.draw(st.integers(1, 12))
+    cls = st.sampled_from([Sensor, Plain])
+    behaviors = [data.draw(cls)(f"b{number}") for number in range(count)]
+    network = Network("net")
+    for behavior in data.draw(st.permutations(behaviors)):
+        network.add(behavior)
+    for target in range(1, count):
+        for source in data.draw(st.lists(st.integers(0, target - 1), max_size=3)):
+            output = next(iter(behaviors[source].outputs))
+            network.connect(f"b{source}.{output}", f"b{target}.input")
+    network.sort()
+    order = [behavior.id for behavior in network.behaviors]
+    for link in network.links:
+        assert order.index(link.source.id) < order.index(link.target.id)
+    free = [b.id for b in behaviors if not b.input.sources]
+    free_sensors = {b.id for b in behaviors if b.is_sensor and b.id in free}
+    assert set(order[: len(free_sensors)]) <= {b.id for b in behaviors if b.is_sensor}
+
+
+def test_ids_that_no_link_could_name_are_refused(tmp_path):
+    for id in ("", "a.b"):
+        message = failure(tmp_path, f'<Behavior id="{id}" type="Hri.Addition"/>')
+        assert "cannot be linked to" in message
+
+
+def test_loose_ends_are_told():
+    network = Network("net")
+    network.add(Plain("lonely"))
+    assert network.loose_ends() == ["nothing reaches lonely (input)"]
+
+
+@given(st.text(max_size=300))
+def test_any_text_is_a_network_or_one_clear_error(tmp_path_factory, body):
+    path = tmp_path_factory.mktemp("fuzz") / "net.xml"
+    path.write_text(f"<BehaviorNetwork>{body}</BehaviorNetwork>", "utf-8")
+    with contextlib.suppress(HriError):
+        load_network(path)
+
+
+TYPES = st.sampled_from(["Hri.Constant", "Evolution.Scale", "Hri.Nothing", "../x", "A.B"])
+WORDS = st.sampled_from(["a", "b", "a.value", "b.input", "parsed_value", "factor", "1/0", "9**9"])
+TAGS = st.sampled_from(["Behavior", "Link", "Parameter"])
+
+
+@given(st.lists(st.tuples(TAGS, TYPES, WORDS, WORDS), max_size=6), WORDS)
+def test_any_wiring_is_a_network_or_one_clear_error(tmp_path_factory, parts, interval):
+    lines = [
+        f'<{tag} id="{first}" type="{kind}"><Parameter name="{first}" value="{second}"/></{tag}>'
+        if tag == "Behavior"
+        else f'<{tag} from="{first}" to="{second}"/>'
+        for tag, kind, first, second in parts
+    ]
+    path = tmp_path_factory.mktemp("fuzz") / "net.xml"
+    body = "".join(lines)
+    path.write_text(
+        f'<BehaviorNetwork invocation_interval="{interval}">{body}</BehaviorNetwork>', "utf-8"
+    )
+    with contextlib.suppress(HriError):
+        load_network(path)

@@ -5,7 +5,7 @@ import trio
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.network import Network
-from hri.behavior.ports import Output
+from hri.behavior.ports import Input, Output
 from hri.behavior.runner import Runner
 from hri.core.clock import FakeClock
 from hri.core.events import EventBus
@@ -70,6 +70,7 @@ def run(clock, *jobs):
     trio.run(main)
 
 
+@pytest.mark.proves("B06")
 def test_two_networks_tick_at_their_own_rates():
     clock = FakeClock()
     fast, slow = Metronome("fast"), Metronome("slow")
@@ -91,6 +92,7 @@ def test_a_count_ends_the_run_and_stop_reaches_every_behavior():
     assert beat.is_stopped
 
 
+@pytest.mark.proves("B07")
 def test_a_missed_interval_is_counted_named_and_not_made_up_for(caplog):
     clock = FakeClock()
     beat, sluggish = Metronome("beat"), Sluggish("slow one")
@@ -148,3 +150,43 @@ def test_outputs_are_empty_again_at_the_next_tick():
     beat.compute = lambda now, dt: None
     runner.tick(0.1)
     assert beat.beat.value is None
+
+
+@pytest.mark.proves("B06")
+def test_deadlines_do_not_drift_over_hours():
+    clock = FakeClock()
+    beat = Metronome("beat")
+    runner = runner_of(clock, 0.1, beat)
+    run(clock, partial(runner.run, count=20_000))
+    assert beat.times == [k * 0.1 for k in range(20_000)]
+
+
+@pytest.mark.proves("B11", "B12")
+def test_an_input_has_many_links_and_those_that_sent_nothing_are_left_out():
+    class Pair(Behavior):
+        """Sends on one of two ports."""
+
+        first = Output[float]("double", "never")
+        second = Output[float]("double", "always")
+
+        def compute(self, now, dt):
+            self.second.send(7.0)
+
+    class Sink(Behavior):
+        """Takes all."""
+
+        input = Input[float]("double", "numbers")
+
+        def compute(self, now, dt):
+            self.taken = (self.input.value, self.input.values, len(self.input.sources))
+
+    network = Network("test")
+    network.add(Pair("pair"))
+    sink = network.add(Sink("sink"))
+    network.connect("pair.first", "sink.input")
+    network.connect("pair.second", "sink.input")
+    clock = FakeClock()
+    runner = Runner(network, Context(clock, EventBus(clock), ResourceManager((), clock)))
+    runner.start()
+    runner.tick(0.0)
+    assert sink.taken == (7.0, [7.0], 2)

@@ -1,0 +1,268 @@
+"""Schemas: what a behavior declares, as XML, for tools and for behaviors that have no code.
+
+<BehaviorSchema type="Examples.Numbers" driver="Evolution.MalleableBehavior"
+                display_name="Numbers" library="libevobeutil" category="sample_code">
+  <Parameter name="tcp_port" type="number" default="25000"/>
+  <Inputs>
+    <Port name="numbers" datatype="doublearray" description="Numbers to send."
+          semantic_type="Evolution.Generic"/>
+  </Inputs>
+</BehaviorSchema>
+
+A Python class is the source of truth of its own schema. Where a schema defines a behavior, its
+`driver` names the class that does the work.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from hri.behavior.behavior import Behavior
+from hri.behavior.ports import DATATYPES, GENERIC, Input, Output, Param
+from hri.core import registry
+from hri.core.errors import did_you_mean
+from hri.core.xml import Element, format_xml, load_xml
+
+TYPES: dict[str, Any] = {"string": "", "number": 0.0, "integer": 0, "boolean": False}
+"""The types of parameters with their empty values; `string` and `number` are those of 2003."""
+NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+TYPE_NAME = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)+", re.ASCII)
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter: its type is one of TYPES, its default a text as networks write it."""
+
+    name: str
+    type: str
+    default: str
+    description: str = ""
+    minimum: float = -math.inf
+    maximum: float = math.inf
+    choices: tuple[str, ...] = ()
+
+    def declare(self) -> Param[Any]:
+        """The declaration for a class. Raises ValueError when the default does not fit."""
+        declared = Param(
+            TYPES[self.type],
+            self.description,
+            minimum=self.minimum,
+            maximum=self.maximum,
+            among=self.choices,
+        )
+        if self.default or self.type == "string":
+            declared.default = declared.parse(self.default)
+        return declared
+
+
+@dataclass(frozen=True)
+class Port:
+    """An input or an output."""
+
+    name: str
+    datatype: str
+    description: str = ""
+    semantic_type: str = GENERIC
+
+
+@dataclass(frozen=True)
+class Schema:
+    """What is known of a behavior type without its code."""
+
+    type: str
+    driver: str
+    display_name: str
+    library: str
+    category: str
+    parameters: tuple[Parameter, ...] = ()
+    inputs: tuple[Port, ...] = ()
+    outputs: tuple[Port, ...] = ()
+
+
+def schema_of(cls: type[Behavior], type_name: str = "") -> Schema:
+    """The schema of a class; `type_name` is the name that files use, where it is not declared."""
+    if cls.schema is not None:
+        return cls.schema
+    name = type_name or registry.name_of("hri.behaviors", cls) or cls.__name__
+    return Schema(
+        type=name,
+        driver=name,
+        display_name=re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", name.rpartition(".")[2]),
+        library=cls.__module__,
+        category=cls.category,
+        parameters=tuple(_parameter(param) for param in cls.parameters.values()),
+        inputs=tuple(_port(port) for port in cls.inputs.values()),
+        outputs=tuple(_port(port) for port in cls.outputs.values()),
+    )
+
+
+def subclass(driver: type[Behavior], schema: Schema) -> type[Behavior]:
+    """A class with the ports and parameters of a schema, and the code of its driver.
+
+    Raises ValueError when a parameter or a port does not fit.
+    """
+    members: dict[str, Any] = {"__doc__": f"{schema.display_name}, defined by its schema."}
+    for parameter in schema.parameters:
+        members[parameter.name] = _declare(parameter, driver.parameters.get(parameter.name))
+    for port in schema.inputs:
+        members[port.name] = Input(port.datatype, port.description, port.semantic_type)
+    for port in schema.outputs:
+        members[port.name] = Output(port.datatype, port.description, port.semantic_type)
+    members["category"] = schema.category
+    cls: type[Behavior] = type(schema.type.rpartition(".")[2], (driver,), members)
+    whole = schema_of(cls, schema.type)
+    cls.schema = replace(
+        whole,
+        driver=schema.driver,
+        display_name=schema.display_name,
+        library=schema.library,
+    )
+    return cls
+
+
+def _declare(parameter: Parameter, inherited: Param[Any] | None) -> Param[Any]:
+    """A parameter as the schema has it; one of the driver keeps its type and range."""
+    if inherited is None:
+        return parameter.declare()
+    return Param(
+        inherited.parse(parameter.default),
+        parameter.description or inherited.doc,
+        minimum=inherited.minimum,
+        maximum=inherited.maximum,
+        among=inherited.among,
+    )
+
+
+def load_schema(path: Path) -> Schema:
+    """Read a schema. Raises AuthoringError with the place of the first mistake."""
+    root = load_xml(path, "behavior schema")
+    if root.tag != "BehaviorSchema":
+        raise root.error(f"the root is <{root.tag}>", "write <BehaviorSchema> around it all")
+    # The guide itself writes <Output> once.
+    root.check(
+        ("Parameter", "Inputs", "Outputs", "Output"),
+        ("type", "driver", "display_name", "library", "category"),
+    )
+    name = root.get("type")
+    if not TYPE_NAME.fullmatch(name):
+        raise root.error(f'"{name}" is no type', "write Namespace.Name", "type")
+    found: dict[str, list[Any]] = {"Parameter": [], "Inputs": [], "Outputs": [], "Output": []}
+    seen: set[str] = set()
+    for element in root:
+        if element.tag == "Parameter":
+            found["Parameter"].append(_read_parameter(element, seen))
+            continue
+        element.check(("Port",))
+        found[element.tag].extend(_read_port(child, seen) for child in element)
+    return Schema(
+        type=name,
+        driver=root.get("driver"),
+        display_name=root.get("display_name", name.rpartition(".")[2]),
+        library=root.get("library", ""),
+        category=root.get("category", "util"),
+        parameters=tuple(found["Parameter"]),
+        inputs=tuple(found["Inputs"]),
+        outputs=tuple(found["Outputs"] + found["Output"]),
+    )
+
+
+def _read_name(element: Element, seen: set[str]) -> str:
+    name = element.get("name")
+    if not NAME.fullmatch(name) or hasattr(Behavior, name):
+        raise element.error(f'the name "{name}" cannot be used', "choose another word", "name")
+    if name in seen:
+        raise element.error(f'the name "{name}" is used twice', "rename one of them", "name")
+    seen.add(name)
+    return name
+
+
+def _read_parameter(element: Element, seen: set[str]) -> Parameter:
+    element.check((), ("name", "type", "default", "description", "minimum", "maximum", "choices"))
+    name = _read_name(element, seen)
+    kind = element.get("type", "string")
+    if kind not in TYPES:
+        raise element.error(f'the type "{kind}"', did_you_mean(kind, TYPES), "type")
+    parameter = Parameter(
+        name,
+        kind,
+        element.get("default", ""),
+        element.get("description", ""),
+        element.number("minimum", -math.inf),
+        element.number("maximum", math.inf),
+        tuple(element.get("choices", "").split()),
+    )
+    try:
+        parameter.declare()
+    except ValueError as error:
+        what, _, remedy = str(error).partition(" - ")
+        raise element.error(f"{name}: {what}", remedy, "default") from error
+    return parameter
+
+
+def _read_port(element: Element, seen: set[str]) -> Port:
+    element.check((), ("name", "datatype", "description", "semantic_type"))
+    datatype = element.get("datatype")
+    if datatype not in DATATYPES:
+        remedy = did_you_mean(datatype, DATATYPES)
+        raise element.error(f'the datatype "{datatype}"', remedy, "datatype")
+    return Port(
+        _read_name(element, seen),
+        datatype,
+        element.get("description", ""),
+        element.get("semantic_type", GENERIC),
+    )
+
+
+def write_schema(schema: Schema) -> str:
+    """The canonical text of a schema file."""
+    attributes = {
+        "type": schema.type,
+        "driver": schema.driver,
+        "display_name": schema.display_name,
+        "library": schema.library,
+        "category": schema.category,
+    }
+    root = Element("BehaviorSchema", attributes)
+    root.children.extend(_parameter_element(parameter) for parameter in schema.parameters)
+    for tag, ports in (("Inputs", schema.inputs), ("Outputs", schema.outputs)):
+        if ports:
+            children = [Element("Port", dict(vars(port))) for port in ports]
+            root.children.append(Element(tag, {}, children=children))
+    return format_xml(root)
+
+
+def _parameter_element(parameter: Parameter) -> Element:
+    attributes = {
+        "name": parameter.name,
+        "type": parameter.type,
+        "default": parameter.default,
+        "description": parameter.description,
+    }
+    if parameter.minimum != -math.inf:
+        attributes["minimum"] = Param.text(parameter.minimum)
+    if parameter.maximum != math.inf:
+        attributes["maximum"] = Param.text(parameter.maximum)
+    if parameter.choices:
+        attributes["choices"] = " ".join(parameter.choices)
+    return Element("Parameter", attributes)
+
+
+def _parameter(declared: Param[Any]) -> Parameter:
+    kind = next(name for name, empty in TYPES.items() if type(empty) is type(declared.default))
+    return Parameter(
+        declared.name,
+        kind,
+        Param.text(declared.default),
+        declared.doc,
+        declared.minimum,
+        declared.maximum,
+        tuple(declared.among),
+    )
+
+
+def _port(declared: Input[Any] | Output[Any]) -> Port:
+    return Port(declared.name, declared.datatype, declared.doc, declared.semantic)

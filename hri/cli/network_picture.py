@@ -1,0 +1,90 @@
+"""Draws a laid-out network as PNG."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PIL import Image, ImageDraw, ImageFont
+
+from hri.behavior.drawing import COLORS, FAINT, FONT, INK, curve, wire_color
+from hri.behavior.layout import LINE, PADDING, TITLE, Layout, Node
+
+SCALE = 2
+"""Pixels of the picture for each of the layout."""
+MOST_PIXELS = 60_000_000
+STEPS = 24
+"""Straight pieces of a curve."""
+
+
+def write_png(layout: Layout, type_names: dict[str, str], out: Path) -> None:
+    """Write the picture; a very large network is drawn smaller."""
+    area = layout.width * layout.height
+    scale = min(SCALE, (MOST_PIXELS / area) ** 0.5)
+    size = (round(layout.width * scale), round(layout.height * scale))
+    image = Image.new("RGB", size, COLORS["paper"])
+    pen = _Pen(ImageDraw.Draw(image), scale)
+    for wire in layout.wires:
+        for piece in curve(wire.points):
+            pen.line(_samples(piece), wire_color(wire.link.datatype))
+    linked = {(wire.link.source.id, wire.link.output) for wire in layout.wires}
+    linked |= {(wire.link.target.id, wire.link.input) for wire in layout.wires}
+    for box in layout.boxes:
+        _draw_box(pen, box, type_names, linked)
+    image.save(out)
+
+
+class _Pen:
+    """Draws in the units of the layout."""
+
+    def __init__(self, draw: ImageDraw.ImageDraw, scale: float) -> None:
+        self.draw = draw
+        self.scale = scale
+        self.font = ImageFont.load_default(FONT * scale)
+
+    def line(self, points: list[tuple[float, float]], color: str) -> None:
+        scaled = [(x * self.scale, y * self.scale) for x, y in points]
+        self.draw.line(scaled, color, round(1.8 * self.scale), joint="curve")
+
+    def box(self, x: float, y: float, width: float, height: float, fill: str) -> None:
+        corners = [v * self.scale for v in (x, y, x + width, y + height)]
+        radius = 6 * self.scale
+        self.draw.rounded_rectangle(corners, radius, fill, COLORS["edge"], round(self.scale))
+
+    def dot(self, x: float, y: float, color: str) -> None:
+        self.draw.ellipse([v * self.scale for v in (x - 3, y - 3, x + 3, y + 3)], color)
+
+    def text(self, x: float, y: float, text: str, anchor: str, color: str) -> None:
+        position = (x * self.scale, y * self.scale)
+        self.draw.text(position, text, color, self.font, anchor=anchor)
+
+
+def _samples(piece: tuple[tuple[float, float], ...]) -> list[tuple[float, float]]:
+    (x0, y0), (x1, y1), (x2, y2), (x3, y3) = piece
+    points = []
+    for step in range(STEPS + 1):
+        t = step / STEPS
+        a, b, c, d = (1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t**3
+        points.append((a * x0 + b * x1 + c * x2 + d * x3, a * y0 + b * y1 + c * y2 + d * y3))
+    return points
+
+
+def _draw_box(
+    pen: _Pen, box: Node, type_names: dict[str, str], linked: set[tuple[str, str]]
+) -> None:
+    assert box.behavior is not None, "bends are not drawn"
+    fill = COLORS["sensor" if box.behavior.is_sensor else "box"]
+    pen.box(box.x, box.y, box.width, box.height, fill)
+    middle = box.x + box.width / 2
+    pen.text(middle, box.y + 14, box.behavior.id, "mm", INK)
+    pen.text(middle, box.y + 30, type_names[box.behavior.id], "mm", FAINT)
+    right = box.x + box.width
+    sides = (
+        (box.inputs, box.x, box.x + PADDING, "lm"),
+        (box.outputs, right, right - PADDING, "rm"),
+    )
+    for names, edge, x, anchor in sides:
+        for row, name in enumerate(names):
+            color = INK if (box.behavior.id, name) in linked else FAINT
+            y = box.y + TITLE + (row + 0.5) * LINE
+            pen.dot(edge, y, color)
+            pen.text(x, y, name, anchor, color)

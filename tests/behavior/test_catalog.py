@@ -1,0 +1,117 @@
+import pytest
+
+from hri.behavior.catalog import find_behavior, type_of
+from hri.behavior.network import load_network
+from hri.behavior.schema import schema_of
+from hri.core.errors import AuthoringError, HriError
+
+WAVE = '''
+from hri.behavior.behavior import Behavior
+from hri.behavior.ports import Output, Param
+
+
+class Wave(Behavior):
+    """Goes up and down."""
+
+    height = Param(1.0, "how far", minimum=0)
+    output = Output[float]("double", "a number")
+
+    def compute(self, now, dt):
+        self.output.send(self.height)
+'''
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.setenv("EVOLUTION_CONFIG_PATH", f"{tmp_path}/first:{tmp_path}/second")
+    monkeypatch.delenv("HRI_PATH", raising=False)
+    return tmp_path
+
+
+def write(folder, name, driver="Hri.Constant", library="", body="", type_name=None):
+    path = folder / "behavior" / f"{name.replace('.', '/')}.xml"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(
+        f'<BehaviorSchema type="{type_name or name}" driver="{driver}" library="{library}">'
+        f"{body}</BehaviorSchema>"
+    )
+    return path
+
+
+@pytest.mark.proves("P09", "B14")
+def test_the_first_folder_with_a_schema_wins(folder):
+    for place, value in (("first", "1"), ("second", "2")):
+        parameter = f'<Parameter name="parsed_value" default="{value}"/>'
+        write(folder / place, "Mine.Number", body=parameter)
+    assert find_behavior("Mine.Number")("n").parsed_value == "1"
+    (folder / "first/behavior/Mine/Number.xml").unlink()
+    assert find_behavior("Mine.Number")("n").parsed_value == "2"
+
+
+@pytest.mark.proves("P09")
+def test_a_missing_schema_names_the_folders_that_were_searched(folder):
+    with pytest.raises(HriError) as error:
+        find_behavior("Examples.Nowhere")
+    message = str(error.value)
+    assert 'unknown behavior type "Examples.Nowhere"' in message
+    assert "behavior/Examples/Nowhere.xml" in message
+    assert f"{folder}/first, {folder}/second" in message
+
+
+def test_no_name_leads_out_of_the_folders(folder):
+    for name in ("../secret", "A./etc/passwd", "Constant", "A..B", "A.B\n"):
+        with pytest.raises(HriError, match="is no behavior type"):
+            find_behavior(name)
+
+
+@pytest.mark.proves("B14")
+def test_a_python_file_beside_the_schema_brings_its_own_class(folder):
+    write(folder / "first", "Mine.Wave", "Mine.Wave", "../../wave.py")
+    (folder / "first/wave.py").write_text(WAVE)
+    network = folder / "net.xml"
+    network.write_text(
+        '<BehaviorNetwork><Behavior id="w" type="Mine.Wave">'
+        '<Parameter name="height" value="pi"/></Behavior></BehaviorNetwork>'
+    )
+    wave = load_network(network)["w"]
+    assert type_of(wave) == "Mine.Wave"
+    assert wave.height == pytest.approx(3.14159, abs=1e-5)
+    assert schema_of(type(wave)).library == "../../wave.py"
+    assert [port.name for port in schema_of(type(wave)).outputs] == ["output"]
+
+
+@pytest.mark.parametrize(
+    ("options", "code", "message"),
+    [
+        ({"driver": "Hri.Constnt"}, WAVE, 'unknown driver "Hri.Constnt" - did you mean'),
+        ({"driver": "Mine.Wav", "library": "wave.py"}, WAVE, 'did you mean "Wave"'),
+        ({"driver": "Mine.Wave", "library": "gone.py"}, WAVE, "cannot be imported"),
+        ({"driver": "Mine.Wave", "library": "wave.py"}, "class Wave: pass", "is no Behavior"),
+        ({"driver": "Mine.Wave", "library": "wave.py"}, "1 / 0", "division by zero"),
+        ({"driver": "Mine.Wave", "library": "wave.py"}, "class Wave(:", "wave.py:1:"),
+        ({"type_name": "Mine.Other"}, WAVE, 'the schema of "Mine.Other"'),
+        (
+            {
+                "driver": "Mine.Wave",
+                "library": "wave.py",
+                "body": '<Inputs><Port name="x" datatype="double"/></Inputs>',
+            },
+            WAVE,
+            'Wave has no input "x"',
+        ),
+    ],
+)
+def test_what_is_wrong_with_a_schema_is_told_with_its_file(folder, options, code, message):
+    path = write(folder / "first", "Mine.Wave", **options)
+    (path.parent / "wave.py").write_text(code)
+    with pytest.raises(HriError) as error:
+        find_behavior("Mine.Wave")
+    assert message in str(error.value)
+
+
+def test_a_network_names_the_schema_file_that_is_wrong(folder):
+    write(folder / "first", "Mine.Wave", "Hri.Nothing")
+    network = folder / "net.xml"
+    network.write_text('<BehaviorNetwork><Behavior id="w" type="Mine.Wave"/></BehaviorNetwork>')
+    with pytest.raises(AuthoringError, match=r"Mine/Wave\.xml:1:1: unknown driver"):
+        load_network(network)
