@@ -2,57 +2,103 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
+import numpy as np
+
 from hri.behavior.behavior import Behavior, Context
-from hri.behavior.ports import Input, Output, Param
-from hri.core.signals import Frame, Pose2D, RangeReading, Twist
+from hri.behavior.library.shaping import deadband
+from hri.behavior.ports import ANGULAR_VELOCITY, DBL_MAX, LINEAR_VELOCITY, Input, Output, Param
+from hri.core.errors import HriError
+from hri.core.signals import Frame, Image, Pose2D, RangeReading, Twist
+from hri.hal.audio_level import AudioLevel
 from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
 from hri.hal.camera import Camera
+from hri.hal.cliff_sensor import CliffSensor
 from hri.hal.drive import DriveSystem, Odometry
+from hri.hal.joystick import Joystick
 from hri.hal.range_sensor import RangeSensor
+from hri.hal.resource import Resource
+from hri.hal.screen import Screen
+
+R = TypeVar("R", bound=Resource)
 
 
-class CameraFrames(Behavior):
-    """Sends each new picture of a camera."""
+class DeviceBehavior(Behavior):
+    """Base of behaviors with a device: gives back what it took when it stops."""
 
     category = "drivers"
+
+    def start(self, context: Context) -> None:
+        self._resources = context.resources
+        self._held: list[Resource] = []
+
+    def obtain(self, id: str, interface: type[R]) -> R:
+        """A device, until this behavior stops. Raises as `ResourceManager.obtain` does."""
+        try:
+            resource = self._resources.obtain(id, interface)
+        except HriError:
+            # Who cannot start is not stopped either.
+            self._give_back()
+            raise
+        self._held.append(resource)
+        return resource
+
+    def stop(self) -> None:
+        self._give_back()
+
+    def _give_back(self) -> None:
+        while self._held:
+            self._resources.release(self._held.pop())
+
+
+class CameraFrames(DeviceBehavior):
+    """Sends each new picture of a camera."""
+
+    is_sensor = True
     camera_id = Param("camera", "id of the camera")
     raw_image = Output[Frame]("image", "the picture, when a new one was taken")
 
     def start(self, context: Context) -> None:
-        self._camera = context.resources.obtain(self.camera_id, Camera)
+        super().start(context)
+        self._camera = self.obtain(self.camera_id, Camera)
 
     def compute(self, now: float, dt: float) -> None:
         if (frame := self._camera.read(now)) is not None:
             self.raw_image.send(frame)
 
 
-class RangeSensorReading(Behavior):
+class RangeSensorReading(DeviceBehavior):
     """Sends what a range sensor measures."""
 
-    category = "drivers"
+    is_sensor = True
     sensor_id = Param("range", "id of the range sensor")
     reading = Output[RangeReading]("range", "the reading")
-    distance = Output[float]("double", "the distance in centimetres", "Evolution.Generic")
+    distance = Output[float](
+        "double", "centimeters; the largest number there is when nothing is in range"
+    )
 
     def start(self, context: Context) -> None:
-        self._sensor = context.resources.obtain(self.sensor_id, RangeSensor)
+        super().start(context)
+        self._sensor = self.obtain(self.sensor_id, RangeSensor)
 
     def compute(self, now: float, dt: float) -> None:
         reading = self._sensor.read(now)
         self.reading.send(reading)
-        self.distance.send(reading.distance * 100)
+        self.distance.send(min(reading.distance * 100, DBL_MAX))
 
 
-class BumperSwitch(Behavior):
+class BumperSwitch(DeviceBehavior):
     """Sends whether a bumper is pressed; raises `bumper.pressed` when it begins."""
 
-    category = "drivers"
+    is_sensor = True
     bumper_id = Param("bumper", "id of the bumper")
     is_pressed = Output[bool]("boolean", "true while it touches something")
 
     def start(self, context: Context) -> None:
-        self._bumper = context.resources.obtain(self.bumper_id, Bumper)
+        super().start(context)
+        self._bumper = self.obtain(self.bumper_id, Bumper)
         self._events = context.events
         self._was_pressed = False
 
@@ -64,16 +110,38 @@ class BumperSwitch(Behavior):
         self.is_pressed.send(pressed)
 
 
-class BatteryLevel(Behavior):
+class CliffEdge(DeviceBehavior):
+    """Sends whether a cliff sensor misses the floor; raises `cliff.found` when it begins."""
+
+    is_sensor = True
+    sensor_id = Param("cliff", "id of the cliff sensor")
+    is_cliff = Output[bool]("boolean", "true while there is no floor below the sensor")
+
+    def start(self, context: Context) -> None:
+        super().start(context)
+        self._sensor = self.obtain(self.sensor_id, CliffSensor)
+        self._events = context.events
+        self._was_cliff = False
+
+    def compute(self, now: float, dt: float) -> None:
+        cliff = self._sensor.is_cliff(now)
+        if cliff and not self._was_cliff:
+            self._events.raise_event("cliff.found", sensor=self.sensor_id)
+        self._was_cliff = cliff
+        self.is_cliff.send(cliff)
+
+
+class BatteryLevel(DeviceBehavior):
     """Sends how full the battery is; raises `battery.lowered` when it falls below the limit."""
 
-    category = "drivers"
+    is_sensor = True
     battery_id = Param("battery", "id of the battery")
     low = Param(0.2, "the limit, 0 to 1", minimum=0, maximum=1)
     level = Output[float]("double", "0 (empty) to 1 (full)")
 
     def start(self, context: Context) -> None:
-        self._battery = context.resources.obtain(self.battery_id, Battery)
+        super().start(context)
+        self._battery = self.obtain(self.battery_id, Battery)
         self._events = context.events
         self._is_low = False
 
@@ -86,38 +154,140 @@ class BatteryLevel(Behavior):
         self.level.send(level)
 
 
-class DriveCommand(Behavior):
-    """Passes velocities on to the drive; without one at a tick it stops the drive."""
+class MicrophoneLevel(DeviceBehavior):
+    """Sends how loud it is around the robot."""
 
-    category = "drivers"
-    drive_id = Param("drive", "id of the drive system")
-    velocity = Input[Twist]("twist", "the velocity to drive with")
+    is_sensor = True
+    level_id = Param("audio_level", "id of the audio level")
+    level = Output[float]("double", "0 (silence) to 1 (full scale), as a meter shows it")
+    level_dbfs = Output[float]("double", "decibels against full scale, 0 is the loudest")
 
     def start(self, context: Context) -> None:
-        self._drive = context.resources.obtain(self.drive_id, DriveSystem)
-        self._clock = context.clock
+        super().start(context)
+        self._audio = self.obtain(self.level_id, AudioLevel)
 
     def compute(self, now: float, dt: float) -> None:
-        velocity = self.velocity.value
-        if velocity is None:
-            self._drive.stop(now)
-        else:
+        self.level.send(self._audio.level(now))
+        self.level_dbfs.send(self._audio.level_dbfs(now))
+
+
+class JoystickSticks(DeviceBehavior):
+    """Sends where a joystick's sticks are, and the velocity that the first two ask for."""
+
+    is_sensor = True
+    joystick_id = Param("joystick", "id of the joystick")
+    deadband = Param(
+        0.1, "share of the way around the middle that counts as rest", minimum=0, maximum=0.9
+    )
+    max_linear = Param(0.4, "meters a second at the end of the way", minimum=0)
+    max_angular = Param(1.2, "radians a second at the end of the way", minimum=0)
+    axes = Output[tuple[float, ...]]("doublearray", "where the axes are, -1 to 1")
+    buttons = Output[tuple[float, ...]]("doublearray", "1 for each button that is pressed, else 0")
+    velocity = Output[Twist]("twist", "forward and to the left are positive")
+    linear_velocity = Output[float]("double", "cm/s, forward is positive", LINEAR_VELOCITY)
+    angular_velocity = Output[float]("double", "rad/s, left is positive", ANGULAR_VELOCITY)
+
+    def start(self, context: Context) -> None:
+        super().start(context)
+        self._joystick = self.obtain(self.joystick_id, Joystick)
+
+    def compute(self, now: float, dt: float) -> None:
+        axes = self._joystick.axes(now)
+        self.axes.send(axes)
+        self.buttons.send(tuple(map(float, self._joystick.buttons(now))))
+        right, back = (self._asked(axis) for axis in (*axes, 0.0, 0.0)[:2])
+        velocity = Twist(-back * self.max_linear, -right * self.max_angular)
+        self.velocity.send(velocity)
+        self.linear_velocity.send(velocity.linear * 100)
+        self.angular_velocity.send(velocity.angular)
+
+    def _asked(self, axis: float) -> float:
+        """-1 to 1, with rest around the middle."""
+        return deadband(axis, self.deadband) / (1 - self.deadband)
+
+
+class ImageDisplay(DeviceBehavior):
+    """Shows the pictures that come in on a screen, as large as they fit."""
+
+    category = "GUI"
+    screen_id = Param("screen", "id of the screen")
+    image = Input[Frame]("image", "the picture; without one the last stays")
+
+    def start(self, context: Context) -> None:
+        super().start(context)
+        self._screen = self.obtain(self.screen_id, Screen)
+
+    def compute(self, now: float, dt: float) -> None:
+        if (frame := self.image.value) is not None:
+            self._screen.show(fitted(frame.image, self._screen.width, self._screen.height), now)
+
+
+def fitted(image: Image, width: int, height: int) -> Image:
+    """A picture scaled to fit into another size, with black bars where the shapes differ."""
+    if image.shape[:2] == (height, width):
+        return image
+    scale = min(height / image.shape[0], width / image.shape[1])
+    rows, columns = (max(1, round(size * scale)) for size in image.shape[:2])
+    nearest = np.ix_(
+        np.arange(rows) * image.shape[0] // rows, np.arange(columns) * image.shape[1] // columns
+    )
+    canvas: Image = np.zeros((height, width, 3), np.uint8)
+    top, left = (height - rows) // 2, (width - columns) // 2
+    canvas[top : top + rows, left : left + columns] = image[nearest]
+    return canvas
+
+
+class DriveCommand(DeviceBehavior):
+    """Passes velocities on to the drive, and stops it when they end.
+
+    While nothing comes in it leaves the drive alone, so that somebody else may use it.
+    """
+
+    drive_id = Param("drive", "id of the drive system")
+    velocity = Input[Twist]("twist", "what to drive with; goes before the other two")
+    linear_velocity = Input[float]("double", "cm/s, 0 when only the other comes", LINEAR_VELOCITY)
+    angular_velocity = Input[float](
+        "double", "rad/s to the left, 0 when only the other comes", ANGULAR_VELOCITY
+    )
+
+    def start(self, context: Context) -> None:
+        super().start(context)
+        self._drive = self.obtain(self.drive_id, DriveSystem)
+        self._clock = context.clock
+        self._is_driving = False
+
+    def compute(self, now: float, dt: float) -> None:
+        velocity = self._asked()
+        if velocity is not None:
             self._drive.set_velocity(velocity, now)
+        elif self._is_driving:
+            self._drive.stop(now)
+        self._is_driving = velocity is not None
 
     def stop(self) -> None:
         self._drive.stop(self._clock.now())
+        super().stop()
+
+    def _asked(self) -> Twist | None:
+        if (velocity := self.velocity.value) is not None:
+            return velocity
+        linear, angular = self.linear_velocity.value, self.angular_velocity.value
+        if linear is None and angular is None:
+            return None
+        return Twist((linear or 0.0) / 100, angular or 0.0)
 
 
-class OdometryPose(Behavior):
+class OdometryPose(DeviceBehavior):
     """Sends the pose of the base and raises `odometry` at a rate of its own."""
 
-    category = "drivers"
+    is_sensor = True
     odometry_id = Param("odometry", "id of the odometry")
     event_interval = Param(0.5, "seconds between two events", minimum=0.01)
     pose = Output[Pose2D]("pose", "where the base is")
 
     def start(self, context: Context) -> None:
-        self._odometry = context.resources.obtain(self.odometry_id, Odometry)
+        super().start(context)
+        self._odometry = self.obtain(self.odometry_id, Odometry)
         self._events = context.events
         self._next = 0.0
 

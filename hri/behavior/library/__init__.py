@@ -1,0 +1,1 @@
+"""The general behaviors: what every network may need, whatever the robot."""

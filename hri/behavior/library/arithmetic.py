@@ -1,0 +1,104 @@
+"""Sums, products, extremes.
+
+What did not come in does not count; nothing is sent when nothing came in. Nor is a result sent
+that is no number, such as infinity less infinity.
+"""
+
+from __future__ import annotations
+
+import math
+
+from hri.behavior.behavior import Behavior
+from hri.behavior.ports import Input, Output, OutputPort
+
+
+class Addition(Behavior):
+    """The sum of all inputs; nothing when nothing comes in."""
+
+    category = "operators"
+    input = Input[float]("double", "numbers to add, any count of links")
+    sum = Output[float]("double", "their sum")
+
+    def compute(self, now: float, dt: float) -> None:
+        if values := self.input.values:
+            _send(self.sum, sum(values))
+
+
+class Subtraction(Behavior):
+    """The positive inputs less the negative ones; nothing when nothing positive comes in."""
+
+    category = "operators"
+    input_positive = Input[float]("double", "numbers to add, any count of links")
+    input_negative = Input[float]("double", "numbers to take away, any count of links")
+    difference = Output[float]("double", "what is left")
+
+    def compute(self, now: float, dt: float) -> None:
+        if values := self.input_positive.values:
+            _send(self.difference, sum(values) - sum(self.input_negative.values))
+
+
+class Multiplication(Behavior):
+    """The product of all inputs; nothing when nothing comes in."""
+
+    category = "operators"
+    input = Input[float]("double", "numbers to multiply, any count of links")
+    product = Output[float]("double", "their product")
+
+    def compute(self, now: float, dt: float) -> None:
+        if values := self.input.values:
+            _send(self.product, math.prod(values))
+
+
+class Division(Behavior):
+    """One number divided by another; nothing when one is missing, or the divisor is zero."""
+
+    category = "operators"
+    dividend = Input[float]("double", "what is divided")
+    divisor = Input[float]("double", "what it is divided by")
+    quotient = Output[float]("double", "dividend / divisor")
+
+    def compute(self, now: float, dt: float) -> None:
+        dividend, divisor = self.dividend.value, self.divisor.value
+        if dividend is not None and divisor:
+            _send(self.quotient, dividend / divisor)
+
+
+class Minimum(Behavior):
+    """The least of all inputs; nothing when nothing comes in."""
+
+    category = "operators"
+    input = Input[float]("double", "numbers, any count of links")
+    minimum = Output[float]("double", "the least of them")
+
+    def compute(self, now: float, dt: float) -> None:
+        if values := self.input.values:
+            _send(self.minimum, min(values))
+
+
+class Maximum(Behavior):
+    """The greatest of all inputs; nothing when nothing comes in."""
+
+    category = "operators"
+    input = Input[float]("double", "numbers, any count of links")
+    maximum = Output[float]("double", "the greatest of them")
+
+    def compute(self, now: float, dt: float) -> None:
+        if values := self.input.values:
+            _send(self.maximum, max(values))
+
+
+class Absolute(Behavior):
+    """A number without its sign; nothing when nothing comes in."""
+
+    category = "operators"
+    input = Input[float]("double", "a number")
+    magnitude = Output[float]("double", "how large it is")
+
+    def compute(self, now: float, dt: float) -> None:
+        if (value := self.input.value) is not None:
+            _send(self.magnitude, abs(value))
+
+
+def _send(port: OutputPort[float], value: float) -> None:
+    if not math.isnan(value):
+        port.send(value)

@@ -1,0 +1,42 @@
+"""Truths combined. What did not come in does not count."""
+
+from __future__ import annotations
+
+from hri.behavior.behavior import Behavior
+from hri.behavior.ports import Input, Output
+
+
+class And(Behavior):
+    """Whether all that came in is true; nothing when nothing comes in."""
+
+    category = "operators"
+    input = Input[bool]("boolean", "truths, any count of links")
+    result = Output[bool]("boolean", "true when all are true")
+
+    def compute(self, now: float, dt: float) -> None:
+        if values := self.input.values:
+            self.result.send(all(values))
+
+
+class Or(Behavior):
+    """Whether something that came in is true; nothing when nothing comes in."""
+
+    category = "operators"
+    input = Input[bool]("boolean", "truths, any count of links")
+    result = Output[bool]("boolean", "true when one of them is true")
+
+    def compute(self, now: float, dt: float) -> None:
+        if values := self.input.values:
+            self.result.send(any(values))
+
+
+class Not(Behavior):
+    """The opposite of a truth; nothing when nothing comes in."""
+
+    category = "operators"
+    input = Input[bool]("boolean", "a truth")
+    result = Output[bool]("boolean", "true when the input is false")
+
+    def compute(self, now: float, dt: float) -> None:
+        if (value := self.input.value) is not None:
+            self.result.send(not value)

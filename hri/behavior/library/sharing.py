@@ -1,0 +1,63 @@
+"""The slots of the robot's board, where networks and tasks meet."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from hri.behavior.behavior import Behavior, Context
+from hri.behavior.ports import Input, Output, Param
+from hri.core.latest import Latest
+
+
+class Share(Behavior):
+    """Puts what comes in on the robot's board, for other networks and tasks."""
+
+    slot = Param("", "name of the slot on the board")
+    emotion = Input[Any]("emotion", "an emotion state")
+    expression = Input[Any]("expression", "an expression")
+    prosody = Input[Any]("prosody", "how to say things")
+    gaze = Input[Any]("gaze", "where to look")
+    number = Input[Any]("double", "a number")
+    truth = Input[Any]("boolean", "a truth")
+    speech = Input[Any]("speech", "the speech that plays")
+    twist = Input[Any]("twist", "a velocity")
+    pose = Input[Any]("pose", "a pose")
+    head = Input[Any]("headpose", "the head that is seen")
+
+    def start(self, context: Context) -> None:
+        self._slot: Latest[Any] = context.board.slot(self.slot)
+        self._inputs = [getattr(self, name) for name in self.inputs]
+
+    def compute(self, now: float, dt: float) -> None:
+        for port in self._inputs:
+            if port.sources:
+                if port.value is None:
+                    self._slot.clear()
+                else:
+                    self._slot.set(port.value, now)
+
+
+class Shared(Behavior):
+    """Takes the newest value of a slot of the robot's board; link the port of its type."""
+
+    slot = Param("", "name of the slot on the board")
+    emotion = Output[Any]("emotion", "an emotion state")
+    expression = Output[Any]("expression", "an expression")
+    prosody = Output[Any]("prosody", "how to say things")
+    gaze = Output[Any]("gaze", "where to look")
+    number = Output[Any]("double", "a number")
+    truth = Output[Any]("boolean", "a truth")
+    speech = Output[Any]("speech", "the speech that plays")
+    twist = Output[Any]("twist", "a velocity")
+    pose = Output[Any]("pose", "a pose")
+    head = Output[Any]("headpose", "the head that is seen")
+
+    def start(self, context: Context) -> None:
+        self._slot: Latest[Any] = context.board.slot(self.slot)
+        self._outputs = [getattr(self, name) for name in self.outputs]
+
+    def compute(self, now: float, dt: float) -> None:
+        value, _ = self._slot.get()
+        if value is not None:
+            for port in self._outputs:
+                port.send(value)

@@ -1,0 +1,46 @@
+"""Velocities that end before an obstacle: the custom behavior of the guide and its exercise.
+
+Lengths in centimeters and velocities in cm/s, as the files of 2003 have them.
+"""
+
+from __future__ import annotations
+
+from hri.behavior.behavior import Behavior
+from hri.behavior.ports import LINEAR_VELOCITY, Input, InputPort, Output, Param
+
+
+class StopCrash(Behavior):
+    """Passes a velocity on, or 0, in both directions, while something is nearer than the limit."""
+
+    category = "sample_code"
+    stop_limit = Param(60.0, "centimeters; a reading below it stops the robot", minimum=0)
+    forward_velocity = Input[float]("double", "cm/s; only the first link counts", LINEAR_VELOCITY)
+    range_sensor = Input[float]("double", "readings in centimeters, any count of links")
+    velocity = Output[float]("double", "cm/s; 0 when no velocity comes in", LINEAR_VELOCITY)
+
+    def compute(self, now: float, dt: float) -> None:
+        velocity = _of_first_link(self.forward_velocity)
+        is_near = any(reading < self.stop_limit for reading in self.range_sensor.values)
+        self.velocity.send(0.0 if is_near else velocity)
+
+
+class StopCrashSelective(Behavior):
+    """Stops driving forward before obstacles in front, and backward before those behind."""
+
+    category = "sample_code"
+    stop_limit = Param(60.0, "centimeters; a reading below it stops the robot", minimum=0)
+    forward_velocity = Input[float]("double", "cm/s; only the first link counts", LINEAR_VELOCITY)
+    front_sensor = Input[float]("double", "centimeters ahead, any count of links")
+    rear_sensor = Input[float]("double", "centimeters behind, any count of links")
+    velocity = Output[float]("double", "cm/s; 0 when no velocity comes in", LINEAR_VELOCITY)
+
+    def compute(self, now: float, dt: float) -> None:
+        velocity = _of_first_link(self.forward_velocity)
+        sensors = self.front_sensor if velocity > 0 else self.rear_sensor
+        is_near = any(reading < self.stop_limit for reading in sensors.values)
+        self.velocity.send(0.0 if is_near else velocity)
+
+
+def _of_first_link(port: InputPort[float]) -> float:
+    """What the first link carries, 0 when that is nothing; the others do not count."""
+    return (port.sources[0].value or 0.0) if port.sources else 0.0
