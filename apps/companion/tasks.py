@@ -110,14 +110,14 @@ class Companion:
         words = self._words(rule, reply, text, tags)
         if reply.show:
             label = str(tags.get("emotion", "neutral")) if reply.show[0] == "{" else reply.show
-            self.face.start(verbs.show, self.context, label, SHOW_SECONDS)
+            self.face.start(verbs.show, label, SHOW_SECONDS)
         if words:
             self.say(words)
 
     def say(self, words: str) -> None:
         """Say it, in place of what is being said; nothing while it was told to be quiet."""
         if self.context.clock.now() >= self.silent_until:
-            self.talk.start(verbs.say, self.context, words)
+            self.talk.start(verbs.say, words)
 
     def _words(self, rule: str, reply: Reply, text: str, tags: dict[str, Any]) -> str:
         if not reply.say:
@@ -155,14 +155,14 @@ class Companion:
     def _move(self, tags: dict[str, Any]) -> None:
         self.motion.start(self._move_on, float(tags.get("distance", 0.5)))
 
-    async def _move_on(self, distance: float) -> None:
-        travelled = await verbs.move(self.context, distance)
+    async def _move_on(self, context: TaskContext, distance: float) -> None:
+        travelled = await verbs.move(context, distance)
         if abs(travelled) < 0.9 * abs(distance):
             self.say(self.replies.unasked["blocked"])
 
     def _turn(self, tags: dict[str, Any]) -> None:
         angle = math.radians(float(tags.get("angle", 90.0)))
-        self.motion.start(verbs.turn, self.context, angle)
+        self.motion.start(verbs.turn, angle)
 
     def _come(self, tags: dict[str, Any]) -> None:
         self.motion.start(self._approach, False)
@@ -170,24 +170,24 @@ class Companion:
     def _follow(self, tags: dict[str, Any]) -> None:
         self.motion.start(self._approach, True)
 
-    async def _approach(self, keep_on: bool) -> None:
+    async def _approach(self, context: TaskContext, keep_on: bool) -> None:
         """Turn to the head that is seen and drive up to it; with `keep_on`, again and again."""
         lost = 0
         while lost < 5:
             head = self.head()
             if head is None or head.box is None:
                 lost += 1
-                await self.context.clock.sleep(1.0)
+                await context.clock.sleep(1.0)
                 continue
             lost = 0
             bearing, nearness = self.bearing(head), self.nearness(head)
             if abs(bearing) > math.radians(6):
-                await verbs.turn(self.context, bearing)
+                await verbs.turn(context, bearing)
             elif nearness < CLOSE_HEAD:
-                await verbs.move(self.context, min(0.5, 0.5 * (CLOSE_HEAD / nearness - 1)))
+                await verbs.move(context, min(0.5, 0.5 * (CLOSE_HEAD / nearness - 1)))
             elif not keep_on:
                 return
-            await self.context.clock.sleep(0.5)
+            await context.clock.sleep(0.5)
         self.say(self.replies.unasked["nobody"])
 
     def _stop(self, tags: dict[str, Any]) -> None:
@@ -204,7 +204,7 @@ class Companion:
     def _sleep(self, tags: dict[str, Any]) -> None:
         self.is_asleep = True
         self.motion.stop()
-        self.face.start(verbs.show, self.context, "asleep", FOR_GOOD)
+        self.face.start(verbs.show, "asleep", FOR_GOOD)
 
     def _wake(self, tags: dict[str, Any]) -> None:
         self.is_asleep = False
@@ -270,14 +270,14 @@ async def wonder(context: TaskContext) -> None:
         count, last = count + 1, now
 
 
-async def _ask(companion: Companion, question: Any) -> None:
-    answer = await verbs.ask(companion.context, question.ask)
+async def _ask(context: TaskContext, companion: Companion, question: Any) -> None:
+    answer = await verbs.ask(context, question.ask)
     if answer is None:
         return
-    companion.last_contact = companion.context.clock.now()
+    companion.last_contact = context.clock.now()
     companion.emotion.feel("answered")
     if words := (question.yes if answer else question.no):
-        await verbs.say(companion.context, words)
+        await verbs.say(context, words)
 
 
 async def notice(context: TaskContext) -> None:

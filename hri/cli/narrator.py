@@ -32,9 +32,9 @@ LINES = {
 class Narrator:
     """Listens to a robot's events and prints them."""
 
-    def __init__(self, robot: Robot, out: TextIO = sys.stdout) -> None:
+    def __init__(self, robot: Robot, out: TextIO | None = None) -> None:
         self.robot = robot
-        self.out = out
+        self.out = out or sys.stdout
         self._counts: Counter[str] = Counter()
         self._label = ""
         self._pose = (0.0, 0.0)

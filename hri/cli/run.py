@@ -13,6 +13,7 @@ import trio
 from hri.cli.narrator import Narrator
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
+from hri.core.realtime import become_realtime
 from hri.drive.behaviors import CommandGate
 from hri.emotion.personality import load_personality
 from hri.face.model import load_face
@@ -49,6 +50,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add("--headless", action="store_true", help="draw the face, but show it to nobody")
     add("--duration", type=_seconds, metavar="S", help="end after so many seconds")
     add("--seed", type=int, default=None, metavar="N", help="seed of all that is random")
+    add("--realtime", action="store_true", help="run ahead of other programs, where allowed")
     add("--fast", action="store_true", help="fake time, as fast as the machine can")
     add("--personality", default="neutral", metavar="NAME", help="from emotions/personalities")
     add("--face", default="robot", metavar="NAME", help="from faces/")
@@ -162,7 +164,14 @@ class Session:
     def jobs(self) -> list[Job]:
         """What runs beside the app's own tasks."""
         jobs: list[Job] = [self.prepare, self.end_when_over, self.watch_window, self.watch_signals]
+        if self.options.realtime:
+            jobs.append(self.run_ahead)
         return jobs if self.robot.clock.is_fake else [*jobs, self.narrator.greet]
+
+    async def run_ahead(self, context: TaskContext) -> None:
+        """Ask for real-time priority; networks and devices have started by now."""
+        if refusal := become_realtime(context.clock):
+            self.narrator.tell(refusal)
 
     async def prepare(self, context: TaskContext) -> None:
         """Let the visitor in, or keep the simulated room empty for the real people."""

@@ -1,20 +1,21 @@
 """The verbs of driving: `move`, `turn`, `stop`.
 
-A motion writes velocities to the board, where the command gate reads them. Starting one ends the
-one before; `stop`, `CommandGate.halt` and a bump end it too. It ends by itself at the goal, or when
-it gets nowhere.
+A motion claims "drive" and writes velocities to the board, where the command gate reads them.
+Starting one ends the one before; `stop`, `CommandGate.halt` and a bump end it too. It ends by
+itself at the goal, or when it gets nowhere.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from abc import ABC, abstractmethod
 
 from hri.core.signals import Pose2D, Twist
 from hri.drive.behaviors import COMMAND, MOTION
 from hri.drive.gate import REST
 from hri.drive.profile import velocity_for
 from hri.hal.drive import Odometry
+from hri.hal.pending import Interrupted
 from hri.task.context import TaskContext
 
 CRUISE = 0.3
@@ -25,9 +26,6 @@ TURN_RATE = 1.0
 _PERIOD = 0.05
 _LINEAR_DECELERATION = 0.3
 _ANGULAR_DECELERATION = 1.0
-_NEAR_LINEAR = 0.005
-"""Metres from the goal at which a move is over; the base rolls out a little."""
-_NEAR_ANGULAR = math.radians(0.5)
 _HEADING_GAIN = 2.0
 """Radians a second for each radian off the heading."""
 _PATIENCE_S = 2.0
@@ -42,42 +40,20 @@ async def move(context: TaskContext, distance_m: float, speed: float | None = No
 
     Raises ValueError for a distance that is not finite or a speed (m/s) that is not above 0.
     """
-    cruise = CRUISE if speed is None else speed
-    if not math.isfinite(cruise) or cruise <= 0:
-        raise ValueError(f"cannot move at {speed} m/s - give a speed above 0")
-    motion = _Motion(context, distance_m)
-    start = motion.pose()
-
-    def travelled(pose: Pose2D) -> float:
-        ahead, left = math.cos(start.heading), math.sin(start.heading)
-        return (pose.x - start.x) * ahead + (pose.y - start.y) * left
-
-    def steered(remaining: float, pose: Pose2D) -> Twist:
-        linear = velocity_for(remaining, cruise, _LINEAR_DECELERATION, _PERIOD)
-        return Twist(linear, _HEADING_GAIN * wrapped(start.heading - pose.heading))
-
-    return await motion.run(travelled, steered, _NEAR_LINEAR)
+    return await _Motion(context).run(_Straight(distance_m, _above_0(speed, CRUISE, "m/s")))
 
 
-async def turn(context: TaskContext, angle_rad: float) -> float:
+async def turn(context: TaskContext, angle_rad: float, rate: float | None = None) -> float:
     """Turn on the spot, left when positive, also more than once round; the angle really turned.
 
-    Raises ValueError for an angle that is not finite.
+    Raises ValueError for an angle that is not finite or a rate (rad/s) that is not above 0.
     """
-    motion = _Motion(context, angle_rad)
-    turned = _Turned(motion.pose())
-
-    def steered(remaining: float, pose: Pose2D) -> Twist:
-        return Twist(0.0, velocity_for(remaining, TURN_RATE, _ANGULAR_DECELERATION, _PERIOD))
-
-    return await motion.run(turned, steered, _NEAR_ANGULAR)
+    return await _Motion(context).run(_Turn(angle_rad, _above_0(rate, TURN_RATE, "rad/s")))
 
 
 async def stop(context: TaskContext) -> None:
     """End any motion and wait until the base is at rest, two seconds at most."""
-    motion = _Motion(context, 0.0)
-    motion.end()
-    await motion.roll_out()
+    await _Motion(context).stop()
 
 
 def wrapped(angle: float) -> float:
@@ -85,64 +61,127 @@ def wrapped(angle: float) -> float:
     return math.remainder(angle, math.tau)
 
 
-class _Turned:
-    """The angle turned since the start, counted on through whole turns."""
+def _above_0(value: float | None, default: float, unit: str) -> float:
+    value = default if value is None else value
+    if not math.isfinite(value) or value <= 0:
+        raise ValueError(f"cannot move at {value} {unit} - give a speed above 0")
+    return value
 
-    def __init__(self, pose: Pose2D) -> None:
-        self._heading = pose.heading
-        self._angle = 0.0
 
-    def __call__(self, pose: Pose2D) -> float:
-        self._angle += wrapped(pose.heading - self._heading)
+class _Way(ABC):
+    """Where a motion leads: metres or radians from where it begins."""
+
+    near: float
+    """So close to the goal it is over; the base rolls out a little."""
+
+    def __init__(self, goal: float) -> None:
+        if not math.isfinite(goal):
+            raise ValueError(f"cannot go {goal} - give a finite number")
+        self.goal = goal
+        self.gone = 0.0
+        """How much of it has been travelled, as far as `look` has seen."""
+
+    def begin(self, pose: Pose2D) -> None:
+        self._start = pose
+
+    @abstractmethod
+    def look(self, pose: Pose2D) -> None:
+        """Take note of how far it got."""
+
+    @abstractmethod
+    def steered(self, pose: Pose2D) -> Twist:
+        """What to ask the base for on the way."""
+
+
+class _Straight(_Way):
+    near = 0.005
+
+    def __init__(self, goal: float, cruise: float) -> None:
+        super().__init__(goal)
+        self._cruise = cruise
+
+    def look(self, pose: Pose2D) -> None:
+        ahead, left = math.cos(self._start.heading), math.sin(self._start.heading)
+        self.gone = (pose.x - self._start.x) * ahead + (pose.y - self._start.y) * left
+
+    def steered(self, pose: Pose2D) -> Twist:
+        linear = velocity_for(self.goal - self.gone, self._cruise, _LINEAR_DECELERATION, _PERIOD)
+        return Twist(linear, _HEADING_GAIN * wrapped(self._start.heading - pose.heading))
+
+
+class _Turn(_Way):
+    near = math.radians(0.5)
+
+    def __init__(self, goal: float, rate: float) -> None:
+        super().__init__(goal)
+        self._rate = rate
+
+    def begin(self, pose: Pose2D) -> None:
         self._heading = pose.heading
-        return self._angle
+
+    def look(self, pose: Pose2D) -> None:
+        # Counted on, through whole turns.
+        self.gone += wrapped(pose.heading - self._heading)
+        self._heading = pose.heading
+
+    def steered(self, pose: Pose2D) -> Twist:
+        remaining = self.goal - self.gone
+        return Twist(0.0, velocity_for(remaining, self._rate, _ANGULAR_DECELERATION, _PERIOD))
 
 
 class _Motion:
-    """The one motion that may write commands, until another one starts or something ends it."""
+    """The one motion that may write commands, until another task claims the drive or a halt."""
 
-    def __init__(self, context: TaskContext, goal: float) -> None:
-        """`goal`: metres or radians from here. Raises ValueError when it is not finite."""
-        if not math.isfinite(goal):
-            raise ValueError(f"cannot go {goal} - give a finite number")
-        self._goal = goal
+    def __init__(self, context: TaskContext) -> None:
+        self._context = context
         self._clock = context.clock
         self._odometry = context.resources.obtain("odometry", Odometry)
         self._command = context.board.slot(COMMAND)
         self._current = context.board.slot(MOTION)
+
+    async def run(self, way: _Way) -> float:
+        """Steer until the goal is near; how far it got."""
+        try:
+            async with self._context.claim("drive"):
+                self._current.set(self, self._clock.now())
+                way.begin(self._pose())
+                await self._steer(way)
+                await self._roll_out()
+                way.look(self._pose())
+        except Interrupted:
+            return way.gone  # the caller sees that it is not the whole way
+        return way.gone
+
+    async def stop(self) -> None:
+        """End whatever motion goes on, and come to rest."""
         self._current.set(self, self._clock.now())
+        self._end()
+        await self._roll_out()
 
-    def pose(self) -> Pose2D:
-        return self._odometry.pose(self._clock.now())
-
-    async def run(
-        self,
-        travelled: Callable[[Pose2D], float],
-        steered: Callable[[float, Pose2D], Twist],
-        near: float,
-    ) -> float:
-        """Steer until what is `travelled` is near the goal; how far it got."""
-        patience = _Patience(self._clock.now(), abs(self._goal))
+    async def _steer(self, way: _Way) -> None:
+        patience = _Patience(self._clock.now(), abs(way.goal))
         try:
             while self._current.value is self:
-                pose, now = self.pose(), self._clock.now()
-                remaining = self._goal - travelled(pose)
-                if abs(remaining) <= near or patience.is_over(now, abs(remaining), near):
+                pose, now = self._pose(), self._clock.now()
+                way.look(pose)
+                remaining = abs(way.goal - way.gone)
+                if remaining <= way.near or patience.is_over(now, remaining, way.near):
                     break
-                self._command.set(steered(remaining, pose), now)
+                self._command.set(way.steered(pose), now)
                 await self._clock.sleep(_PERIOD)
         finally:
-            self.end()
-        await self.roll_out()
-        return travelled(self.pose())
+            self._end()
 
-    def end(self) -> None:
+    def _pose(self) -> Pose2D:
+        return self._odometry.pose(self._clock.now())
+
+    def _end(self) -> None:
         """Let the base come to rest, unless another motion has taken over."""
         if self._current.value is self:
             self._current.clear()
             self._command.set(REST, self._clock.now())
 
-    async def roll_out(self) -> None:
+    async def _roll_out(self) -> None:
         """Wait until the base stands or another motion drives it."""
         deadline = self._clock.now() + _LONGEST_ROLL_S
         while self._current.value is None and self._clock.now() < deadline:

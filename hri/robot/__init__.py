@@ -8,8 +8,8 @@ with Robot() as robot:
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack, suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -21,7 +21,7 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.network import Network
 from hri.behavior.runner import Runner
 from hri.core import paths
-from hri.core.clock import Clock, FakeClock, RealClock
+from hri.core.clock import Clock, RealClock
 from hri.core.errors import HriError
 from hri.core.events import EventBus
 from hri.core.latest import Board
@@ -35,11 +35,13 @@ from hri.hal.resource import Description
 from hri.robot import verbs
 from hri.robot.app import App, load_app
 from hri.robot.recording import Recording
+from hri.task import script
 from hri.task.context import TaskContext
+from hri.task.manager import TaskManager
+from hri.task.task import Job
+from hri.task.thread import LoopThread
 
-Job = Callable[..., Awaitable[Any]]
-
-__all__ = ["App", "Robot", "load_app"]
+__all__ = ["App", "Job", "Robot", "load_app"]
 
 
 class Robot:
@@ -77,36 +79,30 @@ class Robot:
             authored = replace(authored, devices=present)
         configuration = _with_devices(authored, devices)
         self.configuration = _with_seed(configuration, seed)
-        self.resources = ResourceManager(self.configuration.devices, self.clock, notice)
+        self.resources = ResourceManager(
+            self.configuration.devices, self.clock, notice, self.configuration.shapes
+        )
         self.resources.check()
-        self.networks = self.app.load_networks()
-        _override(self.networks, parameters or {})
-        for network in self.networks:
-            for behavior in network.behaviors:
-                behavior.check()
+        self._authored = self.app.load_networks()
+        _override(self._authored, parameters or {})
+        for network in self._authored:
+            network.check()
         self.events = EventBus(self.clock)
         self.board = Board()
-        self._context = Context(self.clock, self.events, self.resources, self.board, seed)
-        self.runners = [Runner(network, self._context) for network in self.networks]
-        self.context = TaskContext.of(self._context, self._behaviors())
+        context = Context(self.clock, self.events, self.resources, self.board, seed)
+        self.networks = context.networks
+        self.tasks = TaskManager(context, _behaviors_of(self._authored))
+        self.context = self.tasks.context
         self.app.check(self.context)
         self.record = None if record is None else Path(record)
         """Folder for a recording; may be set until the robot lives."""
         self.recording: Recording | None = None
+        self.runners: list[Runner] = []
+        """The app's networks as they run, or ran."""
         self.lived = 0.0
         """Seconds of the clock at which the robot ended."""
         self._finished = trio.Event()
-        self._started = threading.Event()
-        self._thread: threading.Thread | None = None
-        self._token: trio.lowlevel.TrioToken | None = None
-        self._failure: BaseException | None = None
-
-    def _behaviors(self) -> dict[str, Behavior]:
-        return {
-            f"{network.name}.{behavior.id}": behavior
-            for network in self.networks
-            for behavior in network.behaviors
-        }
+        self._ready: Callable[[], None] = lambda: None
 
     # --- the loop ---
 
@@ -119,17 +115,15 @@ class Robot:
         try:
             if self.record is not None:
                 self.recording = Recording(self.record, self.events, self.resources)
-            self._start_behaviors()
+            self.runners = [self.networks.start(network) for network in self._authored]
             self.events.subscribe("speech.heard", self._obey_stop)
             async with trio.open_nursery() as nursery:
-                self.context.nursery = nursery
+                self.tasks.live_in(nursery)
                 nursery.start_soon(self.clock.drive)
-                runs: list[Job] = [runner.run for runner in self.runners]
-                runs.extend(partial(job, self.context) for job in jobs)
-                for run in runs:
-                    self.clock.soon(partial(nursery.start_soon, run))
-                self._token = trio.lowlevel.current_trio_token()
-                self._started.set()
+                self.clock.soon(partial(nursery.start_soon, self.networks.run))
+                for job in jobs:
+                    self.clock.soon(partial(nursery.start_soon, self.tasks.run, job))
+                self._ready()
                 await self._finished.wait()
                 self.lived = self.clock.now()
                 if self.recording is not None:
@@ -148,10 +142,6 @@ class Robot:
                 raise
             raise _first_of(ours) from group
 
-    def _start_behaviors(self) -> None:
-        for runner in self.runners:
-            runner.start()
-
     def _obey_stop(self, event: Event) -> None:
         """Whatever tasks run, or none: "stop" stops the base."""
         if event.properties.get("rule") == "stop":
@@ -165,62 +155,49 @@ class Robot:
 
     def close(self) -> None:
         """Stop behaviors and close resources; a second call does nothing."""
-        for runner in reversed(self.runners):
-            runner.stop()
-        if self.recording is not None:
-            self.recording.stop()
-        self.resources.close()
+        with ExitStack() as stack:  # the next one is closed also when one raises
+            stack.callback(self.resources.close)
+            if self.recording is not None:
+                stack.callback(self.recording.stop)
+            stack.callback(self.networks.close)
 
     # --- blocking use ---
 
     def __enter__(self) -> Self:
-        if isinstance(self.clock, FakeClock):
-            self.clock.hold()
-        self._thread = threading.Thread(target=self._run_in_thread, name="robot", daemon=True)
-        self._thread.start()
-        self._started.wait()
-        if self._failure is not None:
-            raise self._failure
+        """Start to live. Raises RuntimeError when this or another robot does already, or has."""
+        if self._finished.is_set():
+            raise RuntimeError("this robot has lived - make a new one")
+        script.enter(self.tasks)
+        try:
+            self.tasks.thread = LoopThread(self.clock, "robot", self._live_in_thread)
+            self.tasks.thread.start()
+        except BaseException:
+            script.leave(self.tasks)
+            raise
         return self
 
-    def _run_in_thread(self) -> None:
-        try:
-            self.live_until_over()
-        except BaseException as error:
-            self._failure = error
-        finally:
-            self._started.set()
+    def _live_in_thread(self, ready: Callable[[], None]) -> None:
+        self._ready = ready
+        self.live_until_over()
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
-        if self._token is not None and self._thread is not None and self._thread.is_alive():
-            trio.from_thread.run_sync(self.finish, trio_token=self._token)
-        if self._thread is not None:
-            self._thread.join()
-        self._token = None
-        if isinstance(self.clock, FakeClock):
-            self.clock.release()
+        thread = self.tasks.thread
+        assert thread is not None
+        script.leave(self.tasks)
+        with suppress(RuntimeError):  # it may have ended by itself
+            thread.call(self.finish)
+        thread.join()
+        self.tasks.thread = None
         if self.recording is not None:
             self.recording.plot()
-        if kind is None and self._failure is not None:
-            raise self._failure
+        if kind is None and thread.failure is not None:
+            raise thread.failure
 
-    def run(self, job: Callable[..., Awaitable[Any]], *arguments: Any) -> Any:
+    def run(self, job: Job, *arguments: Any) -> Any:
         """Run a coroutine function with the robot's TaskContext and wait for what it returns."""
-        if self._token is None:
+        if self.tasks.thread is None:
             raise RuntimeError("the robot is not running - use it as `with Robot() as robot:`")
-        try:
-            return trio.from_thread.run(self._held, job, arguments, trio_token=self._token)
-        except trio.RunFinishedError:
-            raise RuntimeError(f"the robot has ended: {self._failure}") from self._failure
-
-    async def _held(self, job: Callable[..., Awaitable[Any]], arguments: tuple[Any, ...]) -> Any:
-        if not isinstance(self.clock, FakeClock):
-            return await job(self.context, *arguments)
-        self.clock.release()
-        try:
-            return await job(self.context, *arguments)
-        finally:
-            self.clock.hold()
+        return self.tasks.run(job, *arguments)
 
     def say(self, text: str) -> None:
         """Say something and wait until it is said."""
@@ -291,8 +268,13 @@ def _with_seed(configuration: Configuration, seed: int) -> Configuration:
 
 
 def _override(networks: list[Network], parameters: dict[str, dict[str, Any]]) -> None:
-    """Set parameters of behaviors by id, in whatever network they are."""
+    """Set parameters of behaviors by id, in whatever network they are. Raises HriError."""
     for network in networks:
         for behavior in network.behaviors:
             for name, value in parameters.get(behavior.id, {}).items():
-                behavior.__dict__[name] = value
+                behavior.set_parameter(name, value)
+
+
+def _behaviors_of(networks: list[Network]) -> dict[str, Behavior]:
+    """By `network.id`."""
+    return {f"{n.name}.{behavior.id}": behavior for n in networks for behavior in n.behaviors}

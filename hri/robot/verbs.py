@@ -10,7 +10,7 @@ from hri.emotion.behaviors import EmotionModel
 from hri.face.behaviors import Face
 from hri.face.model import load_face
 from hri.speech.behaviors import Listener
-from hri.speech.tasks import say
+from hri.speech.tasks import listener_of, say
 from hri.task.context import TaskContext
 
 __all__ = ["ask", "feel", "listen", "move", "say", "show", "turn"]
@@ -33,12 +33,11 @@ async def show(context: TaskContext, label: str, seconds: float = 4.0) -> None:
     if label not in known:
         raise HriError(f'the face has no expression "{label}" - {did_you_mean(label, known)}')
     slot = context.board.slot(SHOWN)
-    shown = Expression(label)
-    slot.set(shown, context.clock.now())
-    try:
-        await context.clock.sleep(seconds)
-    finally:
-        if slot.value is shown:
+    async with context.claim("face"):
+        slot.set(Expression(label), context.clock.now())
+        try:
+            await context.clock.sleep(seconds)
+        finally:
             slot.clear()
 
 
@@ -49,6 +48,7 @@ async def feel(context: TaskContext, stimulus: str, intensity: float = 1.0) -> N
 
 async def listen(context: TaskContext, timeout: float = float("inf")) -> Utterance | None:
     """The next thing heard; None when nothing is heard in time."""
+    listener_of(context)
     event = await context.wait_for("speech.heard", timeout=timeout)
     if event is None:
         return None
@@ -63,6 +63,8 @@ async def ask(context: TaskContext, question: str, timeout: float = 6.0) -> bool
     spoken and `question.answered` with the answer.
     """
     slot = context.board.slot(QUESTION)
+    if not context.behaviors:
+        listener_of(context)
     await say(context, question)
     slot.set(True, context.clock.now())
     try:

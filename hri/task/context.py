@@ -2,69 +2,76 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator, Mapping
+from contextlib import AbstractAsyncContextManager, contextmanager
 from dataclasses import dataclass
-from typing import TypeVar
-
-import trio
+from typing import TYPE_CHECKING, NoReturn, TypeVar
 
 from hri.behavior.behavior import Behavior, Context
+from hri.behavior.networks import Networks
 from hri.core.clock import Clock
 from hri.core.errors import HriError
 from hri.core.events import EventBus
 from hri.core.latest import Board
 from hri.core.signals import Event
 from hri.hal.manager import ResourceManager
+from hri.task.queue import EventQueue
+
+if TYPE_CHECKING:
+    from hri.task.manager import TaskManager
+    from hri.task.task import Task
 
 B = TypeVar("B", bound=Behavior)
 
-_LONGEST_QUEUE = 1000
 
-
-class EventQueue:
-    """Events that fit a pattern, kept until the task asks for them; the oldest give way."""
-
-    def __init__(self, clock: Clock) -> None:
-        self._clock = clock
-        self._events: deque[Event] = deque(maxlen=_LONGEST_QUEUE)
-        self._arrived = trio.Event()
-
-    def put(self, event: Event) -> None:
-        self._events.append(event)
-        # Through the clock, so that on fake time those who wait wake one after the other.
-        self._clock.soon(self._arrived.set)
-
-    async def get(self) -> Event:
-        """The next event; waits for it."""
-        while not self._events:
-            self._arrived = trio.Event()
-            await self._arrived.wait()
-        return self._events.popleft()
+class TaskFailed(HriError):
+    """A task that says itself that it has failed."""
 
 
 @dataclass
 class TaskContext:
-    """Lent by the robot to every task."""
+    """Lent to every task; made by the TaskManager."""
 
     clock: Clock
     events: EventBus
     resources: ResourceManager
     board: Board
-    behaviors: dict[str, Behavior]
-    """All running behaviors by `network.id`."""
-    nursery: trio.Nursery | None = None
+    networks: Networks
+    """The networks that run, to start, stop, swap, watch and inject into."""
+    manager: TaskManager
+    task: Task
+    """The task that this is lent to."""
+    planned: Mapping[str, Behavior]
+    """Behaviors by `network.id` of networks that have not been started yet."""
 
     @classmethod
-    def of(cls, context: Context, behaviors: dict[str, Behavior]) -> TaskContext:
-        return cls(context.clock, context.events, context.resources, context.board, behaviors)
+    def of(cls, context: Context, behaviors: Mapping[str, Behavior] | None = None) -> TaskContext:
+        """A context with a task manager of its own."""
+        from hri.task.manager import TaskManager
 
-    def behavior(self, cls: type[B]) -> B:
-        """The running behavior of that class. Raises HriError when no network has one."""
+        return TaskManager(context, behaviors).context
+
+    @property
+    def behaviors(self) -> dict[str, Behavior]:
+        """All behaviors of the networks that run by `network.id`."""
+        running = {
+            f"{name}.{behavior.id}": behavior
+            for name, runner in self.networks.runners.items()
+            for behavior in runner.network.behaviors
+        }
+        return running or dict(self.planned)
+
+    def find_behavior(self, cls: type[B]) -> B | None:
+        """The running behavior of that class; None when no network has one."""
         for behavior in self.behaviors.values():
             if isinstance(behavior, cls):
                 return behavior
+        return None
+
+    def behavior(self, cls: type[B]) -> B:
+        """The running behavior of that class. Raises HriError when no network has one."""
+        if (behavior := self.find_behavior(cls)) is not None:
+            return behavior
         raise HriError(f"no {cls.__name__} runs - add one to a network of the app")
 
     @contextmanager
@@ -83,3 +90,16 @@ class TaskContext:
         with self.queue(*patterns) as queue, self.clock.move_on_after(timeout):
             return await queue.get()
         return None
+
+    def claim(self, name: str, priority: int = 0) -> AbstractAsyncContextManager[None]:
+        """Have "drive", "voice" or the like alone while the body runs; see `hri.task.claims`."""
+        return self.manager.claims.claim(name, priority, self.task.name)
+
+    @property
+    def termination_requested(self) -> bool:
+        """Whether the task was told to end; for loops that look in place of being cancelled."""
+        return self.task.termination_requested
+
+    def fail(self, why: str) -> NoReturn:
+        """End the task with the status FAILURE."""
+        raise TaskFailed(why)

@@ -2,56 +2,34 @@
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Awaitable, Callable
 from typing import Any
 
-import trio
-
 from hri.task.context import TaskContext
-
-log = logging.getLogger("hri.task")
+from hri.task.task import Job, Task
 
 
 class Lane:
-    """Jobs that would fight over one thing, such as the drive, go into one lane."""
+    """Jobs of one kind, such as answers, of which only the newest counts.
+
+    A lane replaces whole jobs of one owner. Which task may use the drive or the voice, whoever
+    started it, is the business of `hri.task.claims`.
+    """
 
     def __init__(self, context: TaskContext) -> None:
-        self._context = context
-        self._scope: trio.CancelScope | None = None
+        self._manager = context.manager
+        self._task: Task | None = None
 
     @property
     def is_busy(self) -> bool:
-        return self._scope is not None
+        return self._task is not None and not self._task.is_over
 
-    def start(self, job: Callable[..., Awaitable[Any]], *arguments: Any) -> None:
-        """Start a coroutine function; the job that runs is cancelled."""
+    def start(self, job: Job, *arguments: Any) -> None:
+        """Start a job; the one that runs is cancelled."""
         self.stop()
-        if self._context.nursery is None:
-            raise RuntimeError("a lane needs a robot that lives")
-        scope = self._scope = trio.CancelScope()
-        self._context.nursery.start_soon(self._run, scope, job, arguments)
+        self._task = self._manager.install(job, *arguments)
 
     def stop(self) -> None:
         """Cancel the job that runs, if any."""
-        if self._scope is not None:
-            self._scope.cancel()
-            self._scope = None
-
-    async def _run(
-        self,
-        scope: trio.CancelScope,
-        job: Callable[..., Awaitable[Any]],
-        arguments: tuple[Any, ...],
-    ) -> None:
-        try:
-            with scope:
-                await job(*arguments)
-        except Exception as error:
-            # One job that fails must not end the robot; the drive stops as its commands run dry.
-            log.error("a job failed: %s", error, exc_info=error)
-            name = getattr(job, "__name__", "job")
-            self._context.events.raise_event("task.failed", task=name, error=str(error))
-        finally:
-            if self._scope is scope:
-                self._scope = None
+        if self._task is not None:
+            self._task.cancel()
+            self._task = None

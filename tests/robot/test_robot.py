@@ -3,11 +3,16 @@ import math
 import pytest
 
 from hri import Robot
+from hri.behavior.library.arithmetic import Addition
+from hri.behavior.network import Network
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError
 from hri.core.recording import read_events
 from hri.hal.drive import Odometry
+from hri.hal.speaker import Speaker
+from hri.robot import load_app
 from hri.simulation.world import SimulatedWorld
+from hri.task import navigation, speech
 
 
 @pytest.fixture
@@ -106,3 +111,82 @@ def test_leaving_early_by_an_error_closes_everything():
         fail_inside()
     with pytest.raises(RuntimeError, match="not running"):
         robot.say("too late")
+
+
+def test_a_robot_lives_once_and_only_one_does():
+    robot = Robot(config="simulated", clock=FakeClock())
+    with robot:
+        with pytest.raises(RuntimeError, match="runs already"), robot:
+            pass
+        with pytest.raises(RuntimeError, match="runs already"), Robot(clock=FakeClock()):
+            pass
+        robot.wait(0.1)
+    with pytest.raises(RuntimeError, match="make a new one"), robot:
+        pass
+
+
+def test_parameters_are_checked():
+    with pytest.raises(HriError, match=r"listener.strictness: 2 is out of range"):
+        Robot(config="simulated", clock=FakeClock(), parameters={"listener": {"strictness": 2.0}})
+
+
+def test_closing_goes_on_when_something_does_not_close(tmp_path):
+    robot = Robot(config="simulated", clock=FakeClock())
+    speaker = robot.resources.obtain("speaker", Speaker)
+
+    def fail():
+        raise OSError("the cable is off")
+
+    robot.networks.close = fail
+    with pytest.raises(OSError, match="cable"):
+        robot.close()
+    assert not speaker.is_active
+
+
+@pytest.mark.proves("T04", "T24")
+def test_the_tasks_of_2003_go_through_the_networks_of_a_robot(robot):
+    commanded = []
+    robot.events.subscribe("drive.commanded", commanded.append)
+    said = []
+    robot.events.subscribe("speech.said", said.append)
+    navigation.DriveMoveDelta(50, 20, 20)
+    odometry = robot.resources.obtain("odometry", Odometry)
+    assert odometry.pose(robot.clock.now()).x == pytest.approx(0.5, abs=0.02)
+    assert max(event.properties["linear"] for event in commanded) <= 0.21
+    speech.Speak("Here I am.")
+    assert [event.properties["text"] for event in said] == ["Here I am."]
+    assert speech.Listen(0.5) is None
+    assert not [name for name in robot.networks.runners if name.startswith("own ")]
+
+
+@pytest.mark.proves("T04")
+def test_a_way_that_is_not_free_fails_the_task(robot):
+    with pytest.raises(HriError, match=r"got -?\d.* of 30.00 m far - clear the way"):
+        navigation.DriveMoveDelta(3000, 40)
+
+
+@pytest.mark.proves("T24")
+def test_a_task_swaps_stops_watches_and_feeds_networks(robot):
+    seen = []
+
+    async def meddle(context):
+        networks = context.networks
+        networks.start(Network("sums", 0.1, [Addition("sum")]))
+        watch = networks.watch("sums", "sum", "sum", lambda value, now: seen.append(value))
+        networks.inject("sums", "sum", "input", 2.0)
+        networks.inject("sums", "sum", "input", 3.0)
+        await context.clock.sleep(0.5)
+        watch.cancel()
+        networks.swap("sums", Network("sums", 0.1, [Addition("other")]))
+        assert "sums.other" in context.behaviors
+        networks.stop("sums")
+        assert "sums.other" not in context.behaviors
+
+    robot.run(meddle)
+    assert seen == [5.0]
+
+
+def test_an_app_cannot_name_a_task_that_needs_arguments(tmp_path):
+    (tmp_path / "app.toml").write_text('networks = []\ntasks = ["Hri.Say"]\n')
+    with pytest.raises(HriError, match=r"app.toml: Hri.Say: missing a required argument: 'text'"):
+        load_app(str(tmp_path)).load_tasks()

@@ -3,26 +3,12 @@ from functools import partial
 import pytest
 import trio
 
-from hri.core.clock import FakeClock
-from hri.core.events import EventBus
-from hri.core.latest import Board
-from hri.hal.manager import ResourceManager
-from hri.task.context import TaskContext
 from hri.task.lane import Lane
+from tests.task.stage import Stage
 
 
 def run(job):
-    clock = FakeClock()
-    context = TaskContext(clock, EventBus(clock), ResourceManager((), clock), Board(), {})
-
-    async def main():
-        async with trio.open_nursery() as nursery:
-            context.nursery = nursery
-            nursery.start_soon(clock.drive)
-            await job(context)
-            nursery.cancel_scope.cancel()
-
-    trio.run(main)
+    Stage().run(job)
 
 
 def test_what_comes_next_takes_the_place_of_what_runs():
@@ -38,12 +24,12 @@ def test_what_comes_next_takes_the_place_of_what_runs():
 
     async def main(context):
         lane = Lane(context)
-        lane.start(job, context, "first", 10)
+        lane.start(job, "first", 10)
         await context.clock.sleep(1)
-        lane.start(job, context, "second", 2)
+        lane.start(job, "second", 2)
         await context.clock.sleep(3)
         assert not lane.is_busy
-        lane.start(job, context, "third", 2)
+        lane.start(job, "third", 2)
         await context.clock.sleep(1)
         lane.stop()
         lane.stop()
@@ -54,10 +40,8 @@ def test_what_comes_next_takes_the_place_of_what_runs():
 
 
 def test_a_lane_needs_a_robot_that_lives():
-    clock = FakeClock()
-    context = TaskContext(clock, EventBus(clock), ResourceManager((), clock), Board(), {})
     with pytest.raises(RuntimeError, match="lives"):
-        Lane(context).start(lambda: None)
+        Lane(Stage().context).start(lambda: None)
 
 
 def test_waiting_for_events_in_order_with_a_timeout():

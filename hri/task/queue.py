@@ -1,0 +1,50 @@
+"""Events kept for a task until it asks for them."""
+
+from __future__ import annotations
+
+from collections import deque
+
+import trio
+
+from hri.core.clock import Clock
+from hri.core.events import matches
+from hri.core.signals import Event
+
+LONGEST = 1000
+"""How many events a queue keeps; beyond it the oldest give way."""
+
+
+class EventQueue:
+    """Events in the order they were raised; the oldest give way when nobody asks."""
+
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
+        self._events: deque[Event] = deque(maxlen=LONGEST)
+        self._arrived = trio.Event()
+
+    def __len__(self) -> int:
+        return len(self._events)
+
+    def put(self, event: Event) -> None:
+        self._events.append(event)
+        # Through the clock, so that on fake time those who wait wake one after the other.
+        self._clock.soon(self._arrived.set)
+
+    def keep(self, *patterns: str) -> None:
+        """Forget the events that fit none of the patterns."""
+        kept = [event for event in self._events if _fits(event, patterns)]
+        self._events = deque(kept, LONGEST)
+
+    async def get(self, pattern: str = "*") -> Event:
+        """The next event, of those that fit; waits for it."""
+        while True:
+            for event in self._events:
+                if matches(pattern, event.name):
+                    self._events.remove(event)
+                    return event
+            self._arrived = trio.Event()
+            await self._arrived.wait()
+
+
+def _fits(event: Event, patterns: tuple[str, ...]) -> bool:
+    return any(matches(pattern, event.name) for pattern in patterns)

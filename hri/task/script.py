@@ -1,0 +1,134 @@
+"""The task manager of plain scripts, made when the first task is called.
+
+use(config="simulated")  # before the first task; else the default configuration
+speech.Speak("Hello.")
+get_task_manager().shutdown()  # or leave it to the end of the program
+
+Inside of `with Robot() as robot:` tasks run on that robot.
+"""
+
+from __future__ import annotations
+
+import atexit
+import threading
+from collections.abc import Callable
+from functools import partial
+
+import trio
+
+from hri.behavior.behavior import Context
+from hri.core import paths
+from hri.core.clock import Clock, RealClock
+from hri.core.events import EventBus
+from hri.hal.choices import apply_choices, load_choices
+from hri.hal.configuration import load_configuration
+from hri.hal.manager import ResourceManager
+from hri.task.manager import TaskManager
+from hri.task.thread import LoopThread
+
+_lock = threading.RLock()
+_current: TaskManager | None = None
+_make: Callable[[], TaskManager]
+
+
+class _Stage:
+    """Resources, networks and tasks with no app around them."""
+
+    def __init__(self, config: str, clock: Clock) -> None:
+        configuration = load_configuration(paths.find("config", config))
+        devices = configuration.devices
+        if not clock.is_fake:  # runs that repeat know nothing of this user's devices
+            devices = apply_choices(devices, load_choices())
+        resources = ResourceManager(devices, clock, shapes=configuration.shapes)
+        resources.check()
+        self._context = Context(clock, EventBus(clock), resources)
+        self._finished = trio.Event()
+        self.manager = TaskManager(self._context)
+        self._thread = LoopThread(clock, "task manager", self._run)
+
+    def start(self) -> None:
+        self.manager.thread = self._thread
+        self.manager.on_shutdown = self._end
+        self._thread.start()
+        atexit.register(self.manager.shutdown)
+
+    def _run(self, ready: Callable[[], None]) -> None:
+        trio.run(self._live, ready)
+
+    async def _live(self, ready: Callable[[], None]) -> None:
+        try:
+            async with trio.open_nursery() as nursery:
+                nursery.start_soon(self._context.clock.drive)
+                nursery.start_soon(self._context.networks.run)
+                self.manager.live_in(nursery)
+                ready()
+                await self._finished.wait()
+                nursery.cancel_scope.cancel()
+        finally:
+            self._context.networks.close()
+            self._context.resources.close()
+
+    def _end(self) -> None:
+        atexit.unregister(self.manager.shutdown)
+        leave(self.manager)
+        if not self._thread.is_alive:
+            return
+        self._thread.call(self._finished.set)
+        if not self._thread.is_here:
+            self._thread.join()
+
+
+def use(config: str = "resource-config", clock: Clock | None = None) -> None:
+    """Choose the configuration and the clock of scripts, before their first task.
+
+    Raises RuntimeError when tasks run already.
+    """
+    global _make
+    with _lock:
+        _refuse_second()
+        _make = partial(_started, config, clock)
+
+
+def get_task_manager() -> TaskManager:
+    """The task manager of this process: the running robot's, else one made now.
+
+    Raises HriError when the configuration is wrong.
+    """
+    with _lock:
+        if _current is None:
+            enter(_make())
+        assert _current is not None
+        return _current
+
+
+def enter(manager: TaskManager) -> None:
+    """Run the tasks of scripts on this manager, until `leave`. Raises RuntimeError."""
+    global _current
+    with _lock:
+        _refuse_second()
+        _current = manager
+
+
+def leave(manager: TaskManager) -> None:
+    """Undo `enter`; a second call does nothing."""
+    global _current
+    with _lock:
+        if _current is manager:
+            _current = None
+
+
+def _started(config: str, clock: Clock | None) -> TaskManager:
+    stage = _Stage(config, clock or RealClock())
+    stage.start()
+    return stage.manager
+
+
+def _refuse_second() -> None:
+    if _current is not None:
+        raise RuntimeError(
+            "a robot or a task manager runs already - leave its `with`, or call"
+            " get_task_manager().shutdown() first"
+        )
+
+
+_make = partial(_started, "resource-config", None)

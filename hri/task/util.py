@@ -1,0 +1,33 @@
+"""Small tasks that every program needs: Wait, RaiseEvent, WaitForEvent."""
+
+from __future__ import annotations
+
+import math
+
+from hri.core.signals import Event
+from hri.core.units import millisecond
+from hri.task.context import TaskContext
+from hri.task.events import parse_query
+from hri.task.task import task
+
+__all__ = ["RaiseEvent", "Wait", "WaitForEvent"]
+
+
+@task("Hri.Wait")
+async def Wait(context: TaskContext, milliseconds: float) -> None:
+    """Let some milliseconds pass, whatever the default unit of time is."""
+    await context.clock.sleep(milliseconds * millisecond)
+
+
+@task("Hri.RaiseEvent")
+async def RaiseEvent(context: TaskContext, text: str) -> None:
+    """Raise an event, written like `Door.Opened?count=2`; see `hri.task.events`."""
+    context.manager.raise_event(parse_query(text))
+
+
+@task("Hri.WaitForEvent")
+async def WaitForEvent(
+    context: TaskContext, pattern: str, milliseconds: float = math.inf
+) -> Event | None:
+    """The next event that fits, such as "Door.*"; None when none comes in time."""
+    return await context.wait_for(pattern, timeout=milliseconds * millisecond)

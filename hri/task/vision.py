@@ -1,0 +1,33 @@
+"""Tasks that see: GetImage."""
+
+from __future__ import annotations
+
+from hri.core.errors import HriError
+from hri.core.signals import Frame
+from hri.hal.camera import Camera
+from hri.task.context import TaskContext
+from hri.task.task import task
+
+__all__ = ["GetImage"]
+
+TIMEOUT = 5.0
+"""Seconds for a camera to give a picture."""
+LOOK_EVERY = 0.02
+
+
+@task("Hri.GetImage")
+async def GetImage(context: TaskContext, camera_id: str = "") -> Frame:
+    """The next picture of a camera, of the first one without an id; fails when none comes."""
+    camera = _camera(context, camera_id)
+    with context.clock.move_on_after(TIMEOUT):
+        while (frame := camera.read(context.clock.now())) is None:
+            await context.clock.sleep(LOOK_EVERY)
+        return frame
+    context.fail(f"{camera.id} gave no picture within {TIMEOUT:g} s - unplug it and plug it in")
+
+
+def _camera(context: TaskContext, id: str) -> Camera:
+    camera = context.resources.obtain(id, Camera) if id else context.resources.find(Camera)
+    if camera is None:
+        raise HriError("no camera in the configuration - add one")
+    return camera

@@ -1,0 +1,96 @@
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hri.core.signals import Event
+from hri.task.conditions import Condition, all_of, any_of, raise_when, sequence, when, without
+from tests.task.stage import Stage
+
+pytestmark = pytest.mark.proves("T18")
+
+
+def met(condition: Condition, text: str) -> int | None:
+    """`text`: the names of events, a letter each, a second apart; a dot is a second of nothing."""
+    events = [Event(name, at) for at, name in enumerate(text) if name != "."]
+    return condition.met(events)
+
+
+@pytest.mark.parametrize(
+    ("condition", "text", "expected"),
+    [
+        (all_of("a", "b"), "xbya", 3),
+        (all_of("a", "b"), "aaa", None),
+        (any_of("a", "b"), "xba", 1),
+        (sequence("a", "b"), "baxb", 3),
+        (sequence("a", "b"), "ba", None),
+        (without("a", "b"), "ba", 1),
+        (without(sequence("a", "c"), "b"), "abc", None),
+        (without(sequence("a", "c"), "b"), "abcac", 4),
+        (all_of("a", "b", within=2), "a..b", None),
+        (all_of("a", "b", within=2), "a..b.a", 2),
+        (sequence("a", all_of("b", "c"), within=3), "acb", 2),
+        (any_of(sequence("a", "b"), "c"), "ac", 1),
+        (all_of("*", "a"), "a", 0),
+    ],
+)
+def test_when_conditions_are_met(condition, text, expected):
+    assert met(condition, text) == expected
+
+
+TEXTS = st.text("abc.", max_size=12)
+
+
+@given(TEXTS)
+def test_the_logic_of_events(text):
+    first, second = (met(any_of(name), text) for name in "ab")
+    both, either = met(all_of("a", "b"), text), met(any_of("a", "b"), text)
+    known = [end for end in (first, second) if end is not None]
+    assert either == min(known, default=None)
+    assert both == (max(known) if len(known) == 2 else None)
+    assert met(all_of("b", "a"), text) == both
+    assert met(without("a", "d"), text) == first
+    assert met(sequence("a"), text) == first
+
+
+@given(TEXTS, st.integers(0, 12))
+def test_less_time_never_meets_more(text, seconds):
+    loose, tight = met(sequence("a", "b"), text), met(sequence("a", "b", within=seconds), text)
+    assert tight is None or (loose is not None and loose <= tight)
+
+
+@given(TEXTS, TEXTS)
+def test_what_is_met_stays_met(text, more):
+    condition = sequence(all_of("a", "b"), "c", within=4)
+    if (end := met(condition, text)) is not None:
+        assert met(condition, text + more) == end
+
+
+def test_a_task_waits_for_a_condition():
+    async def main(context):
+        for at, name in enumerate(["door.opened", "person.seen", "light.on", "door.closed"]):
+            context.clock.call_at(at, lambda name=name: context.events.raise_event(name))
+        last = await when(context, sequence("door.opened", any_of("light.*", "radio.on")))
+        assert (last.name, last.time) == ("light.on", 2.0)
+
+    Stage().run(main)
+
+
+def test_an_event_of_its_own_each_time():
+    async def main(context):
+        context.manager.install(raise_when, sequence("a", "b"), "ab")
+        await context.clock.sleep(1)
+        for name in "abaxbab":
+            context.events.raise_event(name)
+        await context.clock.sleep(1)
+        context.manager.shutdown()
+
+    stage = Stage()
+    stage.run(main)
+    assert stage.names().count("ab") == 3
+
+
+def test_mistakes():
+    with pytest.raises(ValueError, match="condition of nothing"):
+        all_of()
+    with pytest.raises(ValueError, match="part of its own condition"):
+        Stage().run(raise_when, "a*", "again")

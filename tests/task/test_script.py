@@ -1,0 +1,165 @@
+"""Tasks as plain functions, in a script without a robot."""
+
+import subprocess
+import sys
+
+import pytest
+
+from hri.core.clock import FakeClock
+from hri.core.errors import HriError
+from hri.core.signals import Frame
+from hri.hal.drive import Odometry
+from hri.robot import Robot
+from hri.task import (
+    UNIT_ANGLE,
+    UNIT_DISTANCE,
+    Parallel,
+    TaskStatus,
+    find_task,
+    get_task_manager,
+    navigation,
+    resource,
+    set_default_units,
+    speech,
+    use,
+    util,
+    vision,
+)
+from hri.task.task import task
+
+
+@pytest.fixture
+def clock():
+    """A script on fake time with simulated devices; the default units afterwards."""
+    clock = FakeClock()
+    use(config="simulated", clock=clock)
+    yield clock
+    get_task_manager().shutdown()
+    use()
+    set_default_units(UNIT_DISTANCE, "cm")
+    set_default_units(UNIT_ANGLE, "rad")
+
+
+def pose():
+    manager = get_task_manager()
+    return manager.context.resources.obtain("odometry", Odometry).pose(manager.clock.now())
+
+
+@pytest.mark.proves("T04", "T06")
+def test_tasks_are_called_like_functions(clock):
+    util.Wait(1500)
+    assert clock.now() == 1.5
+    navigation.DriveMoveDelta(50, 20, 20)
+    assert pose().x == pytest.approx(0.5, abs=0.01)
+    assert clock.now() == pytest.approx(1.5 + 50 / 20 + 20 / 20, abs=0.3)
+    navigation.TurnRelative(1.5)
+    assert pose().heading == pytest.approx(1.5, abs=0.03)
+    navigation.MoveRelative(-1.5, [10, 0, 20])
+    assert pose().x == pytest.approx(0.6, abs=0.02)
+    navigation.Stop()
+
+
+@pytest.mark.proves("T04", "C05", "C06")
+def test_tasks_take_default_units(clock):
+    set_default_units(UNIT_DISTANCE, "inches")
+    set_default_units(UNIT_ANGLE, "degrees")
+    find_task("Evolution.DriveMoveDelta")(20, 5, 20)
+    assert pose().x == pytest.approx(20 * 0.0254, abs=0.01)
+    assert clock.now() == pytest.approx(20 / 5 + 5 / 20, abs=0.3)
+    navigation.TurnRelative(-90)
+    assert pose().heading == pytest.approx(-1.571, abs=0.03)
+
+
+@pytest.mark.proves("T04", "H31")
+def test_the_first_camera_is_found_and_takes_a_picture(clock):
+    assert resource.FindResource("ICamera") == "camera"
+    with pytest.raises(HriError, match='no device is a "Camra" - did you mean "Camera"'):
+        resource.FindResource("Camra")
+    assert isinstance(vision.GetImage("camera"), Frame)
+    assert isinstance(vision.GetImage(), Frame)
+    with pytest.raises(HriError, match='no device "camera0"'):
+        vision.GetImage("camera0")
+
+
+@pytest.mark.proves("T05")
+def test_a_category_knows_its_tasks():
+    with pytest.raises(AttributeError, match=r'no task "Speek" - did you mean "Speak"\?'):
+        speech.Speek  # noqa: B018
+
+
+@pytest.mark.proves("T04", "T08", "T26")
+def test_speaking_is_cut_when_something_else_is_first(clock):
+    spoken = []
+    get_task_manager().context.events.subscribe("speech.finished", spoken.append)
+    race = Parallel()
+    speaking = race.add_task(speech.Speak, ["This is a sentence that takes longer than a second."])
+    waiting = race.add_task(util.Wait, [1000])
+    assert race.wait_for_first_task() is waiting
+    assert speaking.status is TaskStatus.CANCELLED
+    assert spoken[0].properties["cut"] is True
+    assert clock.now() == pytest.approx(1.0, abs=0.05)
+    speech.Speak("Yes.")
+    assert spoken[1].properties["cut"] is False
+
+
+@pytest.mark.proves("T09", "T12")
+def test_installed_tasks_and_events(clock):
+    manager = get_task_manager()
+    waiting = manager.install(util.WaitForEvent, "door.*", 5000)
+    endless = manager.install(util.Wait, 1e9)
+    util.Wait(100)
+    manager.raise_event("door.opened", width=80.0)
+    assert waiting.wait() is TaskStatus.SUCCESS
+    assert waiting.result.get_property("width", float) == 80.0
+    util.RaiseEvent("Door.Opened?count=2")
+    endless.cancel()
+    manager.wait()
+    assert endless.status is TaskStatus.CANCELLED
+
+
+@pytest.mark.proves("T07")
+def test_shutdown_may_be_called_twice_and_the_next_task_begins_anew(clock):
+    first = get_task_manager()
+    endless = first.install(util.Wait, 1e9)
+    util.Wait(100)
+    first.shutdown()
+    first.shutdown()
+    assert endless.status is TaskStatus.CANCELLED
+    assert get_task_manager() is not first
+    with pytest.raises(RuntimeError, match="has ended"):
+        first.run(util.Wait, 1)
+
+
+def test_the_second_to_run_is_refused(clock):
+    get_task_manager()
+    with pytest.raises(RuntimeError, match="runs already"):
+        use()
+    with pytest.raises(RuntimeError, match="runs already"), Robot(clock=FakeClock()):
+        pass
+
+
+@task("Examples.Failing")
+async def failing(context):
+    context.fail("nothing works")
+
+
+@pytest.mark.proves("T03")
+def test_a_failure_is_an_exception(clock):
+    with pytest.raises(HriError, match="nothing works"):
+        failing()
+
+
+@pytest.mark.proves("T07")
+def test_a_script_that_forgets_the_shutdown_still_ends():
+    script = (
+        "from hri.core.clock import FakeClock\n"
+        "from hri.task import use, util, get_task_manager\n"
+        "use('simulated', FakeClock())\n"
+        "get_task_manager().install(util.Wait, 1e9)\n"
+        "util.Wait(100)\n"
+        "print('done')\n"
+    )
+    ended = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, timeout=60
+    )
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "done\n", "")
