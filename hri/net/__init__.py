@@ -1,1 +1,9 @@
-"""Over the network: the Malleable bridge, its client, the event server."""
+"""Over the network: the Malleable bridge, a client for scripts, the event server.
+
+protocol, values, inbox    the arithmetic: lines, values of ports, what waits for a tick
+peer, link                 sockets: one other end, and a port with its thread
+server, client, sharing    the two kinds of port, and those that behaviors have in common
+malleable                  the behavior whose ports a schema defines
+connection                 for scripts and programs without a robot
+event_server               the task that carries events
+"""

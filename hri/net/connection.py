@@ -1,0 +1,118 @@
+"""A connection for scripts and foreign programs: lines out, lines in, no robot needed.
+
+    from hri.net.connection import Connection
+
+    with Connection("127.0.0.1", 25000) as connection:
+        print("Received:", connection.read())
+        connection.send('<tutorial><text count="1">reply from client</text></tutorial>')
+
+This is what TCPConnection with its StringTerminatedProtocol was in 2003.
+"""
+
+from __future__ import annotations
+
+import socket
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from types import TracebackType
+
+from hri.core.errors import HriError
+from hri.net.protocol import LONGEST
+
+_CHUNK = 65_536
+
+
+class Connection:
+    """A client that sends and reads lines, and blocks while it does; for one thread at a time."""
+
+    def __init__(self, host: str = "127.0.0.1", port: int = 25000, timeout: float = 10.0) -> None:
+        """Connect; `timeout` in seconds holds for this, and for each read and send.
+
+        Raises HriError when nobody answers.
+        """
+        self.timeout = timeout
+        try:
+            self._socket = socket.create_connection((host, port), timeout)
+        except OSError as error:
+            reason = error.strerror or str(error)
+            remedy = "start the server, or check host and port"
+            raise HriError(f"no connection with {host}:{port}: {reason} - {remedy}") from error
+        self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._rest = b""
+        self._lines: list[str] = []
+        self._reader: threading.Thread | None = None
+
+    def __enter__(self) -> Connection:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def __iter__(self) -> Iterator[str]:
+        """The lines, until the other end hangs up. Raises TimeoutError when none comes in time."""
+        try:
+            while True:
+                yield self.read()
+        except EOFError:
+            return
+
+    def send(self, line: str) -> None:
+        """Send a line; its end is added. Raises OSError when the connection is gone."""
+        self._socket.settimeout(self.timeout)
+        self._socket.sendall(line.encode() + b"\n")
+
+    def read(self, timeout: float | None = None) -> str:
+        """The next line, without its end.
+
+        Raises TimeoutError when none comes within `timeout` seconds, EOFError when the other end
+        has hung up, HriError for a line of more than 64 KiB.
+        """
+        end = time.perf_counter() + (self.timeout if timeout is None else timeout)
+        while not self._lines:
+            self._socket.settimeout(max(1e-3, end - time.perf_counter()))
+            self._receive()
+        return self._lines.pop(0)
+
+    def on_read(self, callback: Callable[[str], object]) -> None:
+        """From now on call back with each line, from a thread of its own; then do not `read`."""
+        if self._reader is not None:
+            raise RuntimeError("on_read was called before - one callback takes all lines")
+        self._reader = threading.Thread(target=self._call, args=(callback,), daemon=True)
+        self._reader.start()
+
+    def close(self) -> None:
+        """Hang up; a second call does nothing."""
+        with suppress(OSError):
+            # Wakes the thread of `on_read`, which `close` alone does not.
+            self._socket.shutdown(socket.SHUT_RDWR)
+        self._socket.close()
+        if self._reader is not None and self._reader is not threading.current_thread():
+            self._reader.join(self.timeout)
+
+    def _receive(self) -> None:
+        data = self._socket.recv(_CHUNK)
+        if not data:
+            raise EOFError("the other end has hung up")
+        *lines, self._rest = (self._rest + data).split(b"\n")
+        if len(self._rest) > LONGEST:
+            raise HriError(f"a line of more than {LONGEST} bytes - the other end must send less")
+        self._lines += [line.decode(errors="replace").rstrip("\r") for line in lines]
+
+    def _call(self, callback: Callable[[str], object]) -> None:
+        self._socket.settimeout(None)
+        while True:
+            while self._lines:
+                callback(self._lines.pop(0))
+            try:
+                self._receive()
+            except TimeoutError:
+                continue  # the timeout of a `send` in another thread
+            except (EOFError, OSError):
+                return

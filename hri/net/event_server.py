@@ -1,0 +1,57 @@
+"""The event server: events of other programs are raised here, and names of ours are told to them.
+
+What comes is text in the query form, `Examples.PhotoEvent.Shoot?count=5&delay=1`. The task ends
+when an event comes that has "End" in its name.
+"""
+
+from __future__ import annotations
+
+import logging
+
+from hri.core.errors import HriError
+from hri.core.signals import Event
+from hri.net.values import unquoted
+from hri.task.context import TaskContext
+from hri.task.events import parse_query, write_event
+from hri.task.primitive import Primitive, primitive
+from hri.task.task import TaskStatus
+
+log = logging.getLogger("hri.net")
+
+
+@primitive("Examples.EventServer")
+class EventServer(Primitive):
+    """Carry events to and from other programs over TCP, until one comes with End in its name."""
+
+    def __init__(self, context: TaskContext) -> None:
+        super().__init__(context)
+        self._raising = ""
+
+    def start(self) -> None:
+        self._subscription = self.context.events.subscribe("*", self._tell)
+        self.on_value("server", "event", self._raise)
+
+    def finish(self) -> None:
+        self._subscription.cancel()
+
+    def _tell(self, event: Event) -> None:
+        # Those who sent an event know of it.
+        if event.name != self._raising:
+            self.inject("server", "event_id", event.name)
+
+    def _raise(self, text: str, now: float) -> None:
+        text = unquoted(text)
+        print(f"Received event string: {text}")
+        try:
+            event = parse_query(text)
+        except HriError as error:
+            log.warning("%s", error)
+            return
+        print(f"Raising event: {write_event(event)}")
+        self._raising = event.name
+        try:
+            self.context.manager.raise_event(event)
+        finally:
+            self._raising = ""
+        if "End" in event.name:
+            self.set_status(TaskStatus.SUCCESS)

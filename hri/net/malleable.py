@@ -1,0 +1,82 @@
+"""The behavior whose ports a schema defines: inputs go out over TCP, what comes over TCP goes on.
+
+`docs/bridge.md` tells the protocol to those who write the other end.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from hri.behavior.behavior import Behavior, Context
+from hri.behavior.ports import Input, Output, Param
+from hri.core.errors import HriError
+from hri.net import values
+from hri.net.client import Client
+from hri.net.inbox import Inbox
+from hri.net.protocol import Item, Message, checked_name, encode
+from hri.net.server import Server
+from hri.net.sharing import borrow, give_back
+
+LOOPBACK = "127.0.0.1"
+BIND = "HRI_BIND"
+"""The environment variable for where servers listen."""
+
+
+class MalleableBehavior(Behavior):
+    """Sends its inputs over TCP, and on its outputs what arrives for them; ports by schema."""
+
+    category = "net"
+    tcp_host = Param("", "the server to connect with; empty: be the server")
+    tcp_port = Param(25000, "the port; 0: a free one, for servers", minimum=0, maximum=65535)
+    tag_name = Param("malleable", "behaviors with the same tag talk with each other")
+    bind = Param("", "where a server listens; empty: what HRI_BIND says, else 127.0.0.1")
+    keep_quotes = Param(
+        True, "leave the quotes that strings of other behaviors come in, as in 2003"
+    )
+
+    def check(self) -> None:
+        """Raises HriError for a datatype or a name that cannot travel."""
+        checked_name(self.tag_name)
+        ports: dict[str, Input[Any] | Output[Any]] = {**self.inputs, **self.outputs}
+        for name, port in ports.items():
+            checked_name(name)
+            if port.datatype not in values.FORMS:
+                travels = ", ".join(values.FORMS)
+                what = f"{self.id}.{name} is {port.datatype}, which does not travel over TCP"
+                raise HriError(f"{what} - use one of {travels}")
+
+    def start(self, context: Context) -> None:
+        self._inputs = [(name, getattr(self, name), p.datatype) for name, p in self.inputs.items()]
+        self._inbox = Inbox({name: port.datatype for name, port in self.outputs.items()})
+        if self.tcp_host:
+            self._link = borrow(Client, self.tcp_host, int(self.tcp_port))
+        else:
+            host = self.bind or os.environ.get(BIND) or LOOPBACK
+            self._link = borrow(Server, host, int(self.tcp_port))
+        self._link.subscribe(self.tag_name, self._receive)
+
+    @property
+    def port_in_use(self) -> int:
+        """The TCP port, from `start` on."""
+        return self._link.port
+
+    def compute(self, now: float, dt: float) -> None:
+        items = [
+            Item(name, values.write(datatype, value))
+            for name, port, datatype in self._inputs
+            for value in port.values
+        ]
+        if items:
+            self._link.send(encode(Message(self.tag_name, tuple(items))))
+        for name, value in self._inbox.take().items():
+            is_bare = self.keep_quotes or not isinstance(value, str)
+            getattr(self, name).send(value if is_bare else values.unquoted(value))
+
+    def stop(self) -> None:
+        self._link.unsubscribe(self.tag_name, self._receive)
+        give_back(self._link)
+
+    def _receive(self, message: Message) -> None:
+        """Keep what has arrived, in the thread of the port."""
+        self._inbox.put(*message.items)

@@ -1,0 +1,47 @@
+import threading
+
+import pytest
+
+from hri.net.client import Client
+from hri.net.peer import Limits
+from hri.net.server import Server
+
+WITHIN = 10.0
+"""Seconds after which a test that waits for a socket has failed."""
+
+
+class Taken:
+    """A listener that keeps what comes and lets a test wait for it."""
+
+    def __init__(self):
+        self.messages = []
+        self.changed = threading.Condition()
+
+    def __call__(self, message):
+        with self.changed:
+            self.messages.append(message)
+            self.changed.notify_all()
+
+    def wait_for(self, count):
+        with self.changed:
+            assert self.changed.wait_for(lambda: len(self.messages) >= count, WITHIN)
+        return self.messages
+
+
+@pytest.fixture
+def links():
+    """Opens servers on a free port of loopback, and clients; closes them all."""
+    opened = []
+
+    def server(**limits):
+        opened.append(Server("127.0.0.1", 0, Limits(**limits)))
+        return opened[-1]
+
+    def client(port, **limits):
+        opened.append(Client("127.0.0.1", port, Limits(**limits)))
+        return opened[-1]
+
+    yield server, client
+    for link in opened:
+        link.close()
+        assert not link._thread.is_alive()

@@ -1,0 +1,64 @@
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hri.net.inbox import KEPT, Inbox
+from hri.net.protocol import Item, ProtocolError
+
+
+def inbox():
+    return Inbox({"text": "string", "number": "double"})
+
+
+def ticks(filled, count, port="text"):
+    return [filled.take().get(port) for _ in range(count)]
+
+
+@pytest.mark.proves("W08")
+def test_a_counted_value_is_sent_in_as_many_ticks():
+    filled = inbox()
+    filled.put(Item("text", "once", 1))
+    filled.put(Item("text", "thrice", 3))
+    assert ticks(filled, 6) == ["once", "thrice", "thrice", "thrice", None, None]
+
+
+@pytest.mark.proves("W08")
+def test_a_value_without_a_count_is_sent_until_another_one_comes():
+    filled = inbox()
+    filled.put(Item("number", "1", None))
+    assert ticks(filled, 3, "number") == [1, 1, 1]
+    filled.put(Item("number", "2", None))
+    assert ticks(filled, 3, "number") == [2, 2, 2]
+    filled.put(Item("number", "3", 1))
+    assert ticks(filled, 3, "number") == [3, None, None]
+
+
+def test_numbers_that_come_faster_than_ticks_leave_the_newest_two():
+    filled = inbox()
+    for number in range(10):
+        filled.put(Item("number", str(number)))
+    assert ticks(filled, 3, "number") == [8, 9, None]
+
+
+@given(st.lists(st.text(max_size=3), max_size=20))
+def test_strings_all_wait_for_their_tick(texts):
+    filled = inbox()
+    for text in texts:
+        filled.put(Item("text", text))
+    assert ticks(filled, len(texts) + 1) == [*texts, None]
+
+
+def test_of_too_many_strings_the_oldest_give_way():
+    filled = inbox()
+    for number in range(KEPT["string"] + 5):
+        filled.put(Item("text", str(number)))
+    assert filled.take() == {"text": "5"}
+
+
+def test_ports_are_matched_by_name_and_values_by_datatype():
+    filled = inbox()
+    filled.put(Item("another", "x"))
+    assert filled.take() == {}
+    with pytest.raises(ProtocolError, match='"x" is no double'):
+        filled.put(Item("text", "first"), Item("number", "x"))
+    assert filled.take() == {}
