@@ -1,0 +1,107 @@
+"""What the diagnostic commands share: options, help as it was in 2003, and opening devices."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import TypeVar
+
+from hri.core import paths
+from hri.core.clock import Clock, FakeClock, RealClock
+from hri.core.errors import HriError, NotAvailable
+from hri.hal.choices import apply_choices, load_choices
+from hri.hal.configuration import Configuration, load_configuration
+from hri.hal.manager import ResourceManager
+from hri.hal.resource import Resource
+
+R = TypeVar("R", bound=Resource)
+
+
+def parser(name: str, help: str) -> argparse.ArgumentParser:
+    """A parser with the options of every diagnostic; `help` begins with its usage line."""
+    usage = help.splitlines()[0].removeprefix("Usage: ")
+    made = argparse.ArgumentParser(prog=name, usage=usage, add_help=False)
+    made.add_argument("--help", "-h", action="store_true")
+    made.add_argument("--config", default="resource-config")
+    made.add_argument("--fast", action="store_true")
+    return made
+
+
+class within:
+    """Type of an option: a number within limits."""
+
+    def __init__(self, kind: type[float], lowest: float, highest: float) -> None:
+        self.kind, self.lowest, self.highest = kind, lowest, highest
+
+    def __call__(self, text: str) -> float:
+        try:
+            value = self.kind(text)
+        except ValueError as error:
+            raise argparse.ArgumentTypeError(f'"{text}" is no such number') from error
+        if not self.lowest <= value <= self.highest:
+            remedy = f"write {self.lowest:g} to {self.highest:g}"
+            raise argparse.ArgumentTypeError(f"{text} - {remedy}")
+        return value
+
+
+def run(
+    parser: argparse.ArgumentParser,
+    help: str,
+    test: Callable[[argparse.Namespace], int],
+    arguments: Sequence[str] | None,
+) -> int:
+    """Run a diagnostic; its exit status, 2 when an option or a file is wrong."""
+    options = parser.parse_args(arguments)
+    if options.help:
+        print(help, end="")
+        return 0
+    try:
+        return test(options)
+    except HriError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+
+
+@contextmanager
+def resources_of(options: argparse.Namespace) -> Iterator[ResourceManager]:
+    """The devices that the options name, closed again at the end.
+
+    In real time they come without their stand-ins, which would hide that a device is missing.
+    """
+    clock: Clock = FakeClock() if options.fast else RealClock()
+    configuration = load_configuration(paths.find("config", options.config))
+    if not options.fast:
+        configuration = without_stand_ins(configuration)
+    resources = ResourceManager(configuration.devices, clock, shapes=configuration.shapes)
+    resources.check()
+    try:
+        yield resources
+    finally:
+        resources.close()
+
+
+def without_stand_ins(configuration: Configuration) -> Configuration:
+    """The configuration with the user's choices, each device standing for itself."""
+    return replace(
+        configuration,
+        devices=tuple(
+            replace(device, parameters={**device.parameters, "stand_in": ""})
+            for device in apply_choices(configuration.devices, load_choices())
+        ),
+    )
+
+
+def obtained(resources: ResourceManager, ids: Sequence[str], interface: type[R]) -> list[R]:
+    """The devices that can be opened; for each of the others a line says why not."""
+    opened = []
+    for id in ids:
+        try:
+            opened.append(resources.obtain(id, interface))
+        except NotAvailable as error:
+            print(f"Initializing...{error}", file=sys.stderr)
+    return opened

@@ -1,0 +1,113 @@
+"""`hri new`: a small working start for a driver, behavior, task, app or face of your own.
+
+The folders of `templates/` work as they are, under the name `thing`; a new one is a copy with
+another name.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import keyword
+import re
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+from hri.core import paths
+from hri.core.errors import HriError
+
+TEMPLATES = Path(__file__).with_name("templates")
+NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What can be begun."""
+
+    about: str
+    steps: tuple[str, ...]
+    """Commands to try, in the new folder."""
+
+
+KINDS = {
+    "driver": Kind(
+        "a range sensor with its spec and a configuration that names it",
+        (
+            "HRI_PATH=. hri devices --config ./devices.xml",
+            "HRI_PATH=. test_range_sensor --config ./devices.xml",
+        ),
+    ),
+    "behavior": Kind(
+        "a behavior with its schema and a network that runs it",
+        ("HRI_PATH=. behave ./thing.xml --without-resources",),
+    ),
+    "task": Kind("a task that is a script as well", ("python thing.py",)),
+    "app": Kind(
+        "an app whose face greets and counts",
+        ("hri run .", "hri run . --headless --fast --duration 10"),
+    ),
+    "face": Kind(
+        "a copy of the robot's face to redraw",
+        ("hri face check faces/thing", "HRI_PATH=. hri companion --face thing"),
+    ),
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("kind", choices=KINDS, help="what to begin")
+    parser.add_argument("name", metavar="NAME", help="small letters, digits and _: wave_hand")
+    parser.add_argument(
+        "--to", type=Path, default=Path(), metavar="DIR", help="where its folder goes (here)"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    kind, name = options.kind, options.name
+    if not NAME.fullmatch(name):
+        raise HriError(f'"{name}" is no name - write small letters, digits and _: wave_hand')
+    folder: Path = options.to / name
+    if folder.exists():
+        raise HriError(f"{folder}: is there already - choose another name, or --to another folder")
+    _refuse_taken(name, kind)
+    try:
+        _write(kind, name, folder)
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise HriError(f"{folder}: cannot be written: {reason} - check the folder") from error
+    print(f"{folder}: {KINDS[kind].about}. Next:\n\n  cd {folder}\n  pytest")
+    for step in KINDS[kind].steps:
+        print(f"  {_renamed(step, name)}")
+    return 0
+
+
+def _refuse_taken(name: str, kind: str) -> None:
+    """Refuse what would hide a module, or a word that the new code uses. Raises HriError."""
+    if keyword.iskeyword(name) or importlib.util.find_spec(name) is not None:
+        raise HriError(f'"{name}" means something in Python already - choose another name')
+    taken = {name, _class_name(name)}
+    for path in _files(kind):
+        if taken & set(re.findall(r"\w+", path.read_text("utf-8"))):
+            raise HriError(f'"{name}" is a word of the new {kind} itself - choose another name')
+
+
+def _write(kind: str, name: str, folder: Path) -> None:
+    for path in _files(kind):
+        target = folder / _renamed(str(path.relative_to(TEMPLATES / kind)), name)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_text(_renamed(path.read_text("utf-8"), name), "utf-8")
+    if kind == "face":
+        shutil.copytree(paths.find("faces", "robot"), folder / "faces" / name)
+
+
+def _files(kind: str) -> list[Path]:
+    found = sorted((TEMPLATES / kind).rglob("*"))
+    return [path for path in found if path.is_file() and path.suffix != ".pyc"]
+
+
+def _renamed(text: str, name: str) -> str:
+    return text.replace("thing", name).replace("Thing", _class_name(name))
+
+
+def _class_name(name: str) -> str:
+    return "".join(word.capitalize() for word in name.split("_"))

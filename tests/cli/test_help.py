@@ -1,0 +1,34 @@
+"""Every command explains itself."""
+
+from importlib.metadata import entry_points
+
+import pytest
+
+from hri.cli import main
+
+SCRIPTS = sorted(
+    (entry for entry in entry_points(group="console_scripts") if entry.value.startswith("hri.")),
+    key=lambda entry: entry.name,
+)
+
+
+@pytest.mark.proves("P10")
+@pytest.mark.parametrize("entry", SCRIPTS, ids=lambda entry: entry.name)
+def test_a_script_explains_itself(entry, capsys):
+    try:
+        status = entry.load()(["--help"])
+    except SystemExit as end:
+        status = end.code
+    assert status == 0
+    assert "usage" in capsys.readouterr().out.lower()
+
+
+@pytest.mark.proves("P10")
+@pytest.mark.parametrize("name", main.COMMANDS)
+def test_a_command_explains_itself(name, capsys):
+    with pytest.raises(SystemExit) as end:
+        main.main([name, "--help"])
+    assert end.value.code == 0
+    shown = capsys.readouterr().out
+    assert f"usage: hri {name}" in shown
+    assert main.COMMANDS[name][1].split()[0] in shown

@@ -1,0 +1,66 @@
+import pytest
+
+from hri.cli.main import main
+
+NETWORK = """\
+<BehaviorNetwork invocation_interval="0.02"><Link from="a.value" to="b.input"/>
+<Behavior id="b" type="Hri.Scale"/>
+<Behavior id="a" type="Hri.Constant"><Parameter name="parsed_value" value="3"/></Behavior>
+</BehaviorNetwork>
+"""
+
+
+@pytest.fixture
+def network(tmp_path):
+    path = tmp_path / "net.xml"
+    path.write_text(NETWORK)
+    return path
+
+
+def test_check_is_quiet_when_all_is_well(network, capsys):
+    assert main(["network", "check", str(network)]) == 0
+    assert capsys.readouterr().out == f"{network}: 2 behaviors, 1 links, ok\n"
+
+
+@pytest.mark.proves("B03")
+def test_check_warns_of_what_looks_wrong(network, capsys):
+    network.write_text(NETWORK.replace('<Link from="a.value" to="b.input"/>', ""))
+    assert main(["network", "check", str(network)]) == 1
+    assert "warning: nothing reaches b (input)" in capsys.readouterr().out
+
+
+def test_check_refuses_what_is_wrong(network, capsys):
+    network.write_text(NETWORK.replace("b.input", "c.input"))
+    assert main(["network", "check", str(network)]) == 2
+    assert 'net.xml:1:45: no behavior "c"' in capsys.readouterr().err
+
+
+def test_show_tells_the_order_the_rate_and_the_links(network, capsys):
+    assert main(["network", "show", str(network)]) == 0
+    out = capsys.readouterr().out
+    assert "every 0.02 s (50 Hz)" in out
+    assert out.index("Hri.Constant") < out.index("Hri.Scale")
+    assert "parsed_value = 3" in out
+    assert "a.value -> b.input" in out
+
+
+@pytest.mark.parametrize(("name", "begin"), [("out.svg", b"<svg"), ("out.png", b"\x89PNG\r\n")])
+def test_draw_writes_a_picture(network, tmp_path, name, begin):
+    out = tmp_path / name
+    assert main(["network", "draw", str(network), "--out", str(out)]) == 0
+    assert out.read_bytes().startswith(begin)
+
+
+def test_draw_knows_which_pictures_it_can(network, capsys):
+    assert main(["network", "draw", str(network), "--out", "x.gif"]) == 2
+    assert "*.svg or *.png" in capsys.readouterr().err
+
+
+@pytest.mark.proves("B04")
+def test_format_rewrites_once(network, capsys):
+    assert main(["network", "format", str(network)]) == 0
+    text = network.read_text()
+    assert text.splitlines()[2] == '  <Behavior id="b" type="Hri.Scale"/>'
+    assert main(["network", "format", str(network)]) == 0
+    assert network.read_text() == text
+    assert "is canonical" in capsys.readouterr().out

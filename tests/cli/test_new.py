@@ -1,0 +1,111 @@
+"""`hri new` writes what works at once."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from hri.cli.main import main
+from hri.cli.new import KINDS, TEMPLATES
+
+pytestmark = pytest.mark.proves("P15")
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_tests_of_what_is_new_pass_at_once(kind, folder, capsys):
+    assert main(["new", kind, f"wave_{kind}", "--to", "mine"]) == 0
+    assert f"cd mine/wave_{kind}\n  pytest\n" in capsys.readouterr().out
+    environment = {name: value for name, value in os.environ.items() if name != "HRI_PATH"}
+    done = subprocess.run(
+        [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-W", "error"],
+        cwd=folder / "mine" / f"wave_{kind}",
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "1 passed" in done.stdout
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_nothing_is_left_of_the_name_of_the_template(kind, folder):
+    main(["new", kind, "parrot"])
+    for path in (folder / "parrot").rglob("*"):
+        assert "thing" not in path.name.lower()
+        if path.is_file() and "faces" not in path.parts:
+            assert "thing" not in path.read_text().lower()
+
+
+def test_a_new_network_is_run_by_behave(folder, monkeypatch, capsys):
+    from hri.cli.behave import main as behave
+
+    main(["new", "behavior", "parrot"])
+    monkeypatch.setenv("HRI_PATH", str(folder / "parrot"))
+    assert (
+        behave(["parrot/parrot.xml", "--fast", "--without-resources", "--invocation-count=1"]) == 0
+    )
+    assert "Input show  double: 15\n" in capsys.readouterr().out
+
+
+def test_a_new_app_is_run_by_hri_run(folder, monkeypatch, capsys):
+    main(["new", "app", "parrot"])
+    monkeypatch.chdir(folder / "parrot")
+    assert main(["run", ".", "--config", "simulated", "--fast", "--duration", "3"]) == 0
+    assert "Hello, I am parrot." in capsys.readouterr().out
+
+
+def test_a_new_driver_is_listed_by_hri_devices(folder, monkeypatch, capsys):
+    main(["new", "driver", "parrot"])
+    monkeypatch.setenv("HRI_PATH", "parrot")
+    assert main(["devices", "--config", "parrot/devices.xml"]) == 0
+    assert "My.Parrot" in capsys.readouterr().out
+
+
+def test_a_new_face_passes_the_check(folder, capsys):
+    main(["new", "face", "parrot"])
+    assert main(["face", "check", "parrot/faces/parrot"]) == 0
+    assert "parrot: fine" in capsys.readouterr().out
+
+
+def test_nothing_is_overwritten(folder, capsys):
+    (folder / "parrot").mkdir()
+    (folder / "parrot" / "mine.txt").write_text("mine")
+    assert main(["new", "behavior", "parrot"]) == 2
+    assert "parrot: is there already - choose another name" in capsys.readouterr().err
+    assert [path.name for path in (folder / "parrot").iterdir()] == ["mine.txt"]
+
+
+@pytest.mark.parametrize(
+    "name", ["", "Wave", "wave-hand", "../parrot", "1wave", "w" * 41, "class", "random", "numpy"]
+)
+def test_a_name_that_cannot_be_a_module_is_refused(name, folder, capsys):
+    assert main(["new", "task", name]) == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
+    assert not list(folder.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("kind", "name"), [("task", "task"), ("task", "context"), ("behavior", "behavior")]
+)
+def test_a_name_that_the_code_itself_uses_is_refused(kind, name, folder, capsys):
+    assert main(["new", kind, name]) == 2
+    assert f"is a word of the new {kind} itself" in capsys.readouterr().err
+
+
+def test_a_folder_that_cannot_be_written_is_one_line(folder, capsys):
+    (folder / "file").write_text("")
+    assert main(["new", "task", "parrot", "--to", "file"]) == 2
+    assert "cannot be written" in capsys.readouterr().err
+
+
+def test_every_kind_has_its_template():
+    assert {path.name for path in Path(TEMPLATES).iterdir()} == set(KINDS)
