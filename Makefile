@@ -1,12 +1,14 @@
 # make run     set up and start the companion
 # make test    set up and run the tests
 # make check   format, lint, types, import rules
+# make docs    the reference of all classes, in build/reference/
+# make checklist    run the tests and write docs/checklist.md
 
 PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 
-.PHONY: run test check format clean
+.PHONY: run test check docs checklist format clean
 
 run: $(VENV)/.run
 	$(BIN)/hri companion $(OPTIONS)
@@ -20,12 +22,19 @@ check: $(VENV)/.dev
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 
+docs: $(VENV)/.dev
+	$(BIN)/pdoc -o build/reference hri $(subst /,.,$(patsubst %/__init__.py,%,$(wildcard hri/*/__init__.py)))
+	@echo "open build/reference/index.html"
+
+checklist: $(VENV)/.dev
+	$(BIN)/python -m pytest --checklist $(OPTIONS)
+
 format: $(VENV)/.dev
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
 clean:
-	rm -rf $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
+	rm -rf build $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
 
 $(BIN)/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \

@@ -11,6 +11,7 @@ from typing import TextIO
 from hri.core.signals import Event
 from hri.face.behaviors import FaceRenderer
 from hri.robot import Robot
+from hri.speech.behaviors import Listener
 from hri.task.context import TaskContext
 
 LINES = {
@@ -41,6 +42,7 @@ class Narrator:
         self._first_frame: float | None = None
         self._is_unread = False
         behaviors = robot.context.behaviors.values()
+        self._can_hear = any(isinstance(b, Listener) for b in behaviors)
         self._renderer = next((b for b in behaviors if isinstance(b, FaceRenderer)), None)
         robot.events.subscribe("*", self._hear)
 
@@ -61,7 +63,8 @@ class Narrator:
         while self._renderer is not None and not self._renderer.frames:
             await context.clock.sleep(0.02)
         self._first_frame = context.clock.now()
-        self.tell("ready: say hello, or ask what you can say - Ctrl-C ends it")
+        hint = "say hello, or ask what you can say - " if self._can_hear else ""
+        self.tell(f"ready: {hint}Ctrl-C ends it")
 
     def _hear(self, event: Event) -> None:
         self._counts[event.name] += 1

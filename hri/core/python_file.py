@@ -14,6 +14,7 @@ from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 def load_module(name: str, path: Path, search: list[str] | None = None) -> ModuleType:
     """The file as a module of that name; `search` are the folders of a package.
 
+    While it is imported it finds the files beside it.
     Raises HriError when it cannot be read or fails, AuthoringError with the place of a mistake in
     its Python.
     """
@@ -22,6 +23,7 @@ def load_module(name: str, path: Path, search: list[str] | None = None) -> Modul
         raise HriError(f"{path}: no Python file is there - check the path")
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
+    sys.path.append(str(path.parent))
     try:
         spec.loader.exec_module(module)
     except SyntaxError as error:
@@ -34,6 +36,8 @@ def load_module(name: str, path: Path, search: list[str] | None = None) -> Modul
     except Exception as error:
         del sys.modules[name]
         raise HriError(f"{path}: {type(error).__name__}: {error} - mend this file") from error
+    finally:
+        sys.path.remove(str(path.parent))
     return module
 
 

@@ -85,7 +85,7 @@ def test_a_python_file_beside_the_schema_brings_its_own_class(folder):
     [
         ({"driver": "Hri.Constnt"}, WAVE, 'unknown driver "Hri.Constnt" - did you mean'),
         ({"driver": "Mine.Wav", "library": "wave.py"}, WAVE, 'did you mean "Wave"'),
-        ({"driver": "Mine.Wave", "library": "gone.py"}, WAVE, "cannot be imported"),
+        ({"driver": "Mine.Wave", "library": "gone.py"}, WAVE, "no Python file is there"),
         ({"driver": "Mine.Wave", "library": "wave.py"}, "class Wave: pass", "is no Behavior"),
         ({"driver": "Mine.Wave", "library": "wave.py"}, "1 / 0", "division by zero"),
         ({"driver": "Mine.Wave", "library": "wave.py"}, "class Wave(:", "wave.py:1:"),

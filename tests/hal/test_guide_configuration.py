@@ -63,8 +63,10 @@ def test_ids_follow_the_compass_of_somebody_who_faces_the_robot(manager):
     north, east, west = (manager.pose_of(f"IR_t{end}") for end in ("n", "ne", "nw"))
     assert north.yaw == 0.0
     # The robot's right is at the left hand of whoever faces it, which 2003 calls the east.
-    assert east.y < 0 and east.yaw < 0
-    assert west.y > 0 and west.yaw > 0
+    assert east.y < 0
+    assert east.yaw < 0
+    assert west.y > 0
+    assert west.yaw > 0
 
 
 @pytest.mark.proves("H06", "H07", "H08", "H32")

@@ -5,6 +5,8 @@ import sys
 
 import pytest
 
+from hri.robot import load_app
+
 LAYERS = {
     "hri.core.events": ("hri.hal", "hri.behavior", "hri.task", "hri.robot", "hri.net"),
     "hri.hal.manager": ("hri.behavior", "hri.task", "hri.robot", "hri.simulation"),
@@ -22,6 +24,13 @@ def test_a_layer_brings_in_nothing_from_above(layer):
     )
     above = [name for name in ended.stdout.split() if name.startswith(LAYERS[layer])]
     assert above == []
+
+
+@pytest.mark.proves("P02")
+def test_the_companion_joins_all_four_components():
+    networks = load_app("companion").load_networks()
+    modules = {type(b).__module__.split(".")[1] for network in networks for b in network.behaviors}
+    assert modules >= {"behavior", "vision", "drive", "speech", "emotion", "face"}
 
 
 HARDWARE = """

@@ -69,6 +69,8 @@ class Webcam(Camera):
 
     def _find(self) -> cv2.VideoCapture | None:
         device = self.description.text("device", "0")
+        # A camera that is missing is ours to tell of, in one line.
+        cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
         if device.isdigit():
             capture = cv2.VideoCapture(int(device))
         else:

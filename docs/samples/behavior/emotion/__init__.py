@@ -1,0 +1,1 @@
+"""An app: `hri run docs/samples/behavior/emotion`."""

@@ -1,0 +1,36 @@
+"""Shows what the base measures, drives 20 cm ahead and back, and shows it again."""
+
+from hri.core.clock import Clock, RealClock
+from hri.core.units import cm
+from hri.hal.battery import Battery
+from hri.hal.bumper import Bumper
+from hri.hal.drive import DriveSystem, Odometry
+from hri.hal.manager import ResourceManager
+from hri.hal.range_sensor import RangeSensor
+
+SPEED, ACCELERATION = 20 * cm, 40 * cm
+
+
+def report(resources: ResourceManager) -> None:
+    """A line for each device."""
+    now = resources.clock.now()
+    battery, bumper = resources.obtain("battery", Battery), resources.obtain("bumper", Bumper)
+    print(f"battery      {battery.level(now):.0%}, {battery.voltage(now):.1f} V")
+    print(f"bumper       {'pressed' if bumper.is_pressed(now) else 'free'}")
+    for id in resources.ids(RangeSensor):
+        print(f"{id:<12} {resources.obtain(id, RangeSensor).read(now).distance / cm:.0f} cm")
+    print(f"odometry     {resources.obtain('odometry', Odometry).pose(now).x / cm:z.1f} cm ahead")
+
+
+def main(clock: Clock) -> None:
+    """Report before, ahead, and after."""
+    with ResourceManager.load("resource-config", clock) as resources:
+        drive = resources.obtain("drive", DriveSystem)
+        report(resources)
+        for distance in (20 * cm, -20 * cm):
+            drive.move_delta(distance, SPEED, ACCELERATION).wait()
+            report(resources)
+
+
+if __name__ == "__main__":
+    main(RealClock())

@@ -1,0 +1,25 @@
+import logging
+from collections.abc import Iterator
+
+import pytest
+
+from tests.checklist import Checklist
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--checklist", action="store_true", help="write docs/checklist.md")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    config.pluginmanager.register(Checklist(config.getoption("--checklist")), "checklist")
+
+
+@pytest.fixture(autouse=True)
+def quiet_loggers() -> Iterator[None]:
+    """What a command does to the loggers of its process ends with the test that ran it."""
+    loggers = [logging.getLogger(name) for name in ("hri", "hri.behavior", "hri.net")]
+    before = [(logger.level, logger.handlers[:]) for logger in loggers]
+    yield
+    for logger, (level, handlers) in zip(loggers, before, strict=True):
+        logger.setLevel(level)
+        logger.handlers = handlers

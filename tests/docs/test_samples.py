@@ -1,0 +1,208 @@
+"""The samples, each run on fake time in a simulated room."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hri.behavior.behavior import Context
+from hri.behavior.network import load_network
+from hri.behavior.runner import Runner
+from hri.cli import behave
+from hri.core import paths
+from hri.core.clock import FakeClock
+from hri.core.events import EventBus
+from hri.core.python_file import load_module
+from hri.face.model import load_face
+from hri.hal.drivers.memory import OffscreenScreen
+from hri.hal.manager import ResourceManager
+from hri.robot import Robot
+from hri.simulation.world import SimulatedWorld
+from hri.task import get_task_manager, use
+from hri.testing import live, live_for
+from tests.net.conftest import WITHIN, Taken
+
+SAMPLES = paths.house() / "docs" / "samples"
+GROUPS = [
+    *("driver/base", "driver/face", "driver/speech"),
+    *("behavior/emotion", "behavior/navigation", "behavior/network", "behavior/resource"),
+    *("behavior/speech", "behavior/unit_test", "behavior/vision"),
+    *("task", "objrec"),
+]
+
+
+def load(sample):
+    """A program as a module."""
+    return load_module(re.sub(r"\W", "_", sample), SAMPLES / sample)
+
+
+@pytest.fixture
+def simulated():
+    """A context with the devices that everybody gets, on fake time."""
+    with ResourceManager.load("resource-config", FakeClock()) as resources:
+        yield Context(resources.clock, EventBus(resources.clock), resources)
+
+
+def run(network, context, seconds):
+    """Run a network file of the samples; the runner."""
+    loaded = load_network(SAMPLES / network)
+    loaded.check()
+    runner = Runner(loaded, context)
+    live(context, [runner], seconds)
+    assert runner.statistics.failures == 0
+    return runner
+
+
+@pytest.mark.proves("P07", "P08")
+def test_the_page_names_a_sample_for_each_group_and_all_links_are_there():
+    page = (SAMPLES / "README.md").read_text()
+    rows = re.findall(r"^\| \[([\w/]+)\]\(([^)]+)\) \|.*\| `.+` \|$", page, re.MULTILINE)
+    assert [group for group, _ in rows] == GROUPS
+    for link in re.findall(r"\]\(([^)]+)\)", page):
+        assert (SAMPLES / link).exists(), link
+    for command in re.findall(r"docs/samples/[\w./-]+", page):
+        assert (SAMPLES.parents[1] / command).exists(), command
+
+
+@pytest.mark.proves("P08")
+def test_the_base_reports_drives_and_comes_back(capsys):
+    load("driver/base/base.py").main(FakeClock())
+    printed = capsys.readouterr().out
+    way = [float(text) for text in re.findall(r"odometry +(\S+) cm ahead", printed)]
+    assert way == pytest.approx([0, 20, 0], abs=0.1)
+    assert printed.count("battery ") == printed.count("range_front ") == 3
+
+
+@pytest.mark.proves("P08")
+def test_the_screen_shows_each_expression(monkeypatch, capsys):
+    pictures = []
+    monkeypatch.setattr(OffscreenScreen, "show", lambda _, image, time: pictures.append(image))
+    load("driver/face/faces.py").main(FakeClock())
+    assert capsys.readouterr().out.split() == list(load_face("robot").expressions)
+    assert len({picture.tobytes() for picture in pictures}) >= len(pictures) - 1 > 5
+
+
+@pytest.mark.proves("P08")
+def test_the_robot_understands_its_own_voice(capsys):
+    load("driver/speech/parrot.py").main(FakeClock())
+    lines = re.findall(r"said '(.+)', heard '(.+)'", capsys.readouterr().out)
+    assert len(lines) == 3
+    assert sum(heard.rstrip("s") == said.rstrip("s") for said, heard in lines) >= 2
+
+
+@pytest.mark.proves("P08", "P11")
+def test_the_face_shows_what_it_feels_and_messages_say_why(capsys):
+    robot = Robot(str(SAMPLES / "behavior/emotion"), "simulated", clock=FakeClock())
+    screen = robot.resources.obtain("screen", OffscreenScreen)
+    pictures = []
+
+    async def look(context):
+        while True:
+            await context.clock.sleep(4.0)
+            pictures.append(screen.image)
+
+    events = live_for(robot, 20.5, *robot.app.load_tasks(), look)
+    felt = [event.properties["label"] for event in events if event.name == "emotion.changed"]
+    assert {"joy", "anger", "sadness"} <= set(felt)
+    messages = capsys.readouterr().out.splitlines()
+    assert messages[0] == "person_seen: I am happy because I saw you."
+    assert [message.partition(":")[0] for message in messages] == [
+        "person_seen",
+        "praise",
+        "bump",
+        "scold",
+        "ignored",
+    ]
+    happy, angry = pictures[1], pictures[2]
+    assert np.mean(happy != angry) > 0.001
+
+
+@pytest.mark.proves("P08")
+def test_the_devices_are_told_while_the_robot_turns(simulated, capsys):
+    run("behavior/resource/devices.xml", simulated, 4.0)
+    printed = capsys.readouterr().out
+    for device in ("battery ", "bumper false", "range ", "pose "):
+        assert printed.count(f"\n{device}") >= 15, device
+    headings = [float(text) for text in re.findall(r"heading (\S+)", printed)]
+    assert headings[-1] > 1.0
+
+
+@pytest.mark.proves("P08")
+def test_what_the_person_says_is_printed(simulated, capsys):
+    simulated.resources.obtain("world", SimulatedWorld).say("hello robot", at=1.0)
+    run("behavior/speech/listening.xml", simulated, 4.0)
+    assert "heard: text hello robot, rule greet" in capsys.readouterr().out
+
+
+@pytest.mark.proves("P08")
+def test_the_head_is_followed_and_its_nod_is_seen(simulated, capsys):
+    world = simulated.resources.obtain("world", SimulatedWorld)
+    world.person.nod(at=2.0)
+    run("behavior/vision/head.xml", simulated, 5.0)
+    printed = capsys.readouterr().out
+    assert printed.count("head: time ") > 30
+    assert re.search(r"gesture: kind \w*nod", printed)
+
+
+@pytest.mark.proves("P08")
+def test_the_square_is_driven_once_around(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    clock = FakeClock()
+    use("simulated", clock)
+    corners = []
+    try:
+        manager = get_task_manager()
+        base = manager.context.resources.obtain("world", SimulatedWorld).base
+        manager.events.subscribe(
+            "patrol.turned", lambda _: corners.append((base.pose.x, base.pose.y))
+        )
+        load("task/patrol.py").main()
+    finally:
+        get_task_manager().shutdown()
+        use()
+    assert capsys.readouterr().out == "corner 1\ncorner 2\ncorner 3\ncorner 4\nback again\n"
+    square = [(0.5, 0.0), (0.5, 0.5), (0.0, 0.5), (0.0, 0.0)]
+    assert np.array(corners) == pytest.approx(np.array(square), abs=0.03)
+
+
+@pytest.mark.proves("P08")
+def test_the_objects_of_the_model_set_are_recognized_and_no_others(monkeypatch, capsys):
+    monkeypatch.setenv("HRI_PATH", str(SAMPLES / "objrec"))
+    options = ["--config", str(SAMPLES / "objrec/resource-config.xml"), "--fast", "--duration=0.4"]
+    assert behave.main([str(SAMPLES / "objrec/recognize.xml"), *options]) == 0
+    names = re.findall(r"Input seen  string: (\w+)", capsys.readouterr().out)
+    assert names == ["apple", "pear"] * 2
+
+
+@pytest.mark.proves("P08")
+@pytest.mark.parametrize("name", ["wander", "unit_test"])
+def test_the_networks_of_the_house_run_as_the_page_says(name, capsys):
+    assert f"`behave networks/{name}`" in (SAMPLES / "README.md").read_text()
+    assert behave.main([f"networks/{name}", "--fast", "--duration=2"]) == 0
+
+
+@pytest.mark.proves("P08")
+def test_the_two_networks_talk_over_tcp(simulated, capsys):
+    server, client = load_network("networks/server"), load_network("networks/client")
+    server["server"].set_parameter("tcp_port", 0)
+    runners, taken = [Runner(server, simulated), Runner(client, simulated)], Taken()
+    try:
+        runners[0].start()
+        client["client"].set_parameter("tcp_port", server["server"].port_in_use)
+        runners[1].start()
+        assert server["server"]._link.wait_for_peers(1, WITHIN)
+        client["client"]._link.subscribe("tutorial", taken)
+        runners[0].tick(0.1)
+        taken.wait_for(1)
+        runners[1].tick(0.2)
+    finally:
+        for runner in runners:
+            runner.stop()
+    assert capsys.readouterr().out == "Input client_received  double: 5\n"
+
+
+def test_samples_are_short():
+    for path in Path(SAMPLES).rglob("*.*"):
+        if path.suffix in (".py", ".xml", ".toml"):
+            assert len(path.read_text().splitlines()) <= 70, path
