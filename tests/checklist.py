@@ -85,8 +85,7 @@ class Checklist:
             lines = [f"## {table['title']}", "", "| row | what | proven by |", "|---|---|---|"]
             for id, what in table.items():
                 if id != "title":
-                    tests = self._proofs(id, taken)
-                    proof = "<br>".join(f"`{test}`" for test in tests) or "**nothing yet**"
+                    proof = _told(self._proofs(id, taken))
                     lines.append(f"| {id} | {what} | {proof} |")
             parts.append("\n".join(lines) + "\n")
         return "\n".join(parts)
@@ -99,6 +98,16 @@ class Checklist:
             for test in tests
             if self.outcomes[test] and self.outcomes[test] <= taken
         )
+
+
+def _told(tests: list[str]) -> str:
+    """The tests by file; their names are sentences."""
+    files: dict[str, list[str]] = defaultdict(list)
+    for test in tests:
+        file, _, name = test.partition("::")
+        files[file].append(name.removeprefix("test_").replace("_", " "))
+    links = [f"[{file}](../tests/{file}): {'; '.join(names)}" for file, names in files.items()]
+    return "<br>".join(links) or "**nothing yet**"
 
 
 def _test_of(nodeid: str) -> str:

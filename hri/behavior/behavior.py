@@ -56,10 +56,14 @@ class Context:
 class Behavior:
     """Base of all behaviors; subclasses declare ports and fill in `compute`."""
 
+    id: str = ""
+    """Its name in the network."""
     category: ClassVar[str] = "util"
     """The palette tab it is shown under."""
     is_sensor: ClassVar[bool] = False
     """Sensors run first in each cycle."""
+    takes_any_ports: ClassVar[bool] = False
+    """Whether a schema that names it as its driver may give it ports of its own."""
     inputs: ClassVar[dict[str, Input[Any]]] = {}
     outputs: ClassVar[dict[str, Output[Any]]] = {}
     parameters: ClassVar[dict[str, Param[Any]]] = {}
@@ -91,8 +95,8 @@ class Behavior:
         self.id = id or type(self).__name__
         for name in self.inputs:
             self.__dict__[name] = InputPort()
-        for name in self.outputs:
-            self.__dict__[name] = OutputPort()
+        for name, output in self.outputs.items():
+            self.__dict__[name] = OutputPort(datatype=output.datatype)
         for name, declared in self.parameters.items():
             self.__dict__[name] = declared.default
         for name, value in parameters.items():

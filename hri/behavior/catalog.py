@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from hri.behavior.behavior import Behavior
-from hri.behavior.schema import TYPE_NAME, Schema, load_schema, subclass
+from hri.behavior.ports import ANY
+from hri.behavior.schema import TYPE_NAME, Port, Schema, load_schema, subclass
 from hri.core import paths, registry
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 from hri.core.python_file import load_class
@@ -55,13 +56,17 @@ def find_schema(type_name: str) -> Path:
 
 
 def _behavior_of(schema: Schema, path: Path) -> type[Behavior]:
-    if not schema.library.endswith(".py"):
-        return subclass(_driver(schema), schema)
+    is_file = schema.library.endswith(".py")
+    cls = _class_in_file(schema, path) if is_file else _driver(schema)
+    _check_against(schema, cls)
+    return subclass(cls, schema)
+
+
+def _class_in_file(schema: Schema, path: Path) -> type[Behavior]:
     cls = load_class(path.parent / schema.library, schema.driver.rpartition(".")[2])
     if not issubclass(cls, Behavior):
         raise HriError(f"{schema.driver} is no Behavior - derive it from Behavior")
-    _check_against(schema, cls)
-    return subclass(cls, schema)
+    return cls  # type: ignore[no-any-return]
 
 
 def type_of(behavior: Behavior) -> str:
@@ -83,10 +88,15 @@ def _driver(schema: Schema) -> type[Behavior]:
 
 
 def _check_against(schema: Schema, cls: type[Behavior]) -> None:
-    """Refuse a schema that promises what its class does not have."""
-    for kind in ("parameters", "inputs", "outputs"):
+    """Refuse a schema that promises what its class does not have. Raises AuthoringError."""
+    for kind in ("parameters",) if cls.takes_any_ports else ("parameters", "inputs", "outputs"):
         has = getattr(cls, kind)
         for promised in getattr(schema, kind):
             if promised.name not in has:
-                remedy = did_you_mean(promised.name, has)
-                raise HriError(f'{cls.__name__} has no {kind[:-1]} "{promised.name}" - {remedy}')
+                what = f'{cls.__name__} has no {kind[:-1]} "{promised.name}"'
+                raise AuthoringError(promised.place, what, did_you_mean(promised.name, has))
+            if isinstance(promised, Port):
+                declared = has[promised.name].datatype
+                if declared not in (promised.datatype, ANY):
+                    what = f'the {kind[:-1]} "{promised.name}" of {cls.__name__} is {declared}'
+                    raise AuthoringError(promised.place, what, f'write datatype="{declared}"')

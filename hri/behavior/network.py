@@ -82,7 +82,10 @@ class Network:
         return behavior
 
     def connect(self, source: str, target: str, place: Place | None = None) -> None:
-        """Wire `behavior.output` to `behavior.input`. Raises AuthoringError on a misfit."""
+        """Wire `behavior.output` to `behavior.input`.
+
+        Raises AuthoringError on a misfit, and when they are linked already.
+        """
         place = place or Place(self.path)
         sender, output = self._port(source, "outputs", place)
         receiver, input = self._port(target, "inputs", place)
@@ -95,6 +98,9 @@ class Network:
             self.warnings.append(
                 f"{place}: {source} means {sends.semantic}, {target} wants {takes.semantic}"
             )
+        if getattr(sender, output) in getattr(receiver, input).sources:
+            what = f"the link {source} -> {target} is there twice"
+            raise AuthoringError(place, what, "take one of them out")
         self.links.append(Link(sender, output, receiver, input, place))
         log.debug("link %s (%s)", self.links[-1], sends.datatype)
         getattr(receiver, input).sources.append(getattr(sender, output))
@@ -105,7 +111,8 @@ class Network:
         return [
             f"nothing reaches {behavior.id} ({', '.join(behavior.inputs)})"
             for behavior in self.behaviors
-            if behavior.inputs and behavior.id not in fed
+            if behavior.id not in fed
+            and any(not input.is_optional for input in behavior.inputs.values())
         ]
 
     def check(self) -> None:
@@ -219,6 +226,8 @@ def _add(network: Network, element: Element) -> None:
         if name not in cls.parameters:
             what = f'{element.get("type")} has no parameter "{name}"'
             raise child.error(what, did_you_mean(name, cls.parameters))
+        if name in parameters:
+            raise child.error(f'"{name}" is set twice', "take one of them out", "name")
         try:
             parameters[name] = cls.parameters[name].parse(child.get("value"))
         except ValueError as error:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable
 from functools import partial
 from typing import Any
@@ -12,6 +13,8 @@ from hri.behavior.behavior import Context
 from hri.behavior.network import Network
 from hri.behavior.runner import Runner, Watch
 from hri.core.errors import HriError, did_you_mean
+
+log = logging.getLogger("hri.behavior")
 
 
 class Networks:
@@ -50,12 +53,14 @@ class Networks:
     def swap(self, name: str, network: Network) -> Runner:
         """Put another network in the place of one that runs; that goes on when the new one fails.
 
-        The watches of the old one end with it. Raises HriError.
+        The watches of the old one end with it, which is told to the log. Raises HriError.
         """
         old = self._runner(name)
         if network.name != name and network.name in self.runners:
             raise HriError(f'a network "{network.name}" runs already - stop it first')
         runner = self._started(network)
+        if old.is_watched:
+            log.warning("%s was swapped, and those who watched it see no more", name)
         self._end(old)
         del self.runners[name]
         self.runners[network.name] = runner

@@ -74,12 +74,22 @@ class InputPort(Generic[T]):
 class OutputPort(Generic[T]):
     """What a behavior sends in this tick; empty again at the next."""
 
-    __slots__ = ("value",)
+    __slots__ = ("_datatype", "_kind", "value")
 
-    def __init__(self, value: T | None = None) -> None:
+    def __init__(self, value: T | None = None, datatype: str = ANY) -> None:
         self.value = value
+        self._datatype = datatype
+        # Whole numbers are good enough for a double.
+        self._kind = (float, int) if datatype == "double" else DATATYPES[datatype]
+
+    def takes(self, value: object) -> bool:
+        """Whether a value is of the port's datatype."""
+        return isinstance(value, self._kind)
 
     def send(self, value: T) -> None:
+        """Send a value in this tick. Raises TypeError when it is not of the port's datatype."""
+        if not isinstance(value, self._kind):
+            raise TypeError(f"{_shown(value)} was sent - this output is a {self._datatype}")
         self.value = value
 
 
@@ -88,10 +98,14 @@ class Input(Generic[T]):
 
     name = ""
 
-    def __init__(self, datatype: str, doc: str, semantic: str = GENERIC) -> None:
+    def __init__(
+        self, datatype: str, doc: str, semantic: str = GENERIC, *, is_optional: bool = False
+    ) -> None:
+        """`is_optional`: the behavior has other things to do when no link leads there."""
         self.datatype = _checked(datatype)
         self.doc = doc
         self.semantic = semantic
+        self.is_optional = is_optional
 
     @overload
     def __get__(self, instance: None, owner: type) -> Input[T]: ...

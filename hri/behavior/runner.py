@@ -3,8 +3,8 @@
 The order of a tick, once and in words: all outputs are emptied; what was injected takes its place
 as links; the behaviors run, sensors first and then in dependency order; the time each one took is
 kept; those who watch outputs are told what was sent. A tick that ends after its deadline is a
-missed interval: it is counted, reported with the slowest behavior's name, and the deadlines that
-have passed are skipped, never run in a burst.
+missed interval: it is counted, reported with what took longest, and the deadlines that have passed
+are skipped, never run in a burst.
 
 A behavior that raises an exception rests for a second, sending nothing, and is tried again; the
 others go on. What depends on it sees empty inputs, which for a drive means: stand still.
@@ -23,7 +23,7 @@ from typing import Any
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.network import Network
 from hri.behavior.ports import InputPort, OutputPort
-from hri.core.errors import HriError
+from hri.core.errors import AuthoringError, HriError
 
 log = logging.getLogger("hri.behavior")
 
@@ -64,7 +64,7 @@ class Statistics:
     ticks: int = 0
     missed: int = 0
     slowest: str = ""
-    """The behavior that took longest in the last missed interval."""
+    """What took longest in the last missed interval: a behavior, or "" when the tick began late."""
     failures: int = 0
     """Exceptions that behaviors have raised."""
     recent: deque[float] = field(default_factory=lambda: deque(maxlen=1000))
@@ -78,6 +78,7 @@ class Watch:
     port: OutputPort[Any]
     callback: Callable[[Any, float], object]
     watches: list[Watch]
+    has_failed: bool = False
 
     def cancel(self) -> None:
         if self in self.watches:
@@ -95,7 +96,7 @@ class Runner:
         self._outputs = [
             getattr(behavior, name) for behavior in network.behaviors for name in behavior.outputs
         ]
-        self._order = self._timed(network.behaviors)
+        self._order = self._ran = self._timed(network.behaviors)
         self._injected: deque[tuple[InputPort[Any], OutputPort[Any]]] = deque()
         self._watches: list[Watch] = []
         self._resting: dict[Behavior, float] = {}
@@ -109,11 +110,19 @@ class Runner:
         """Start all behaviors; when one cannot, those before it are stopped again."""
         try:
             for behavior in self.network.behaviors:
-                behavior.start(self.context)
+                self._start(behavior)
                 self._started.append(behavior)
         except BaseException:
             self.stop()
             raise
+
+    def _start(self, behavior: Behavior) -> None:
+        try:
+            behavior.start(self.context)
+        except AuthoringError:
+            raise  # says where itself
+        except HriError as error:
+            raise type(error)(f"{self._name_of(behavior)}: {error}") from error
 
     def stop(self) -> None:
         """Stop the behaviors, last first; a second call does nothing.
@@ -157,39 +166,54 @@ class Runner:
         self._watches.append(watch)
         return watch
 
+    @property
+    def is_watched(self) -> bool:
+        return bool(self._watches)
+
     def tick(self, now: float) -> float:
         """One cycle; returns how long it took in seconds."""
         dt = 0.0 if self._last is None else now - self._last
         self._last = now
-        self._is_ticking = True
+        try:
+            took = self._cycle(now, dt)
+            if self._watches:
+                self._tell_watches(now)
+        finally:
+            # Also when a behavior was interrupted, by Ctrl-C or the end of the loop.
+            if self._ends_after_tick:
+                self.stop()
+        return took
+
+    def _cycle(self, now: float, dt: float) -> float:
+        """Let the behaviors compute; returns how long that took."""
         for output in self._outputs:
             output.value = None
         if self._resting:
             self._wake(now)
         injected = self._insert_injected() if self._injected else ()
+        self._ran = self._order
+        self._is_ticking = True
         begun = before = perf_counter()
-        for behavior, timing in self._order:
-            try:
-                behavior.compute(now, dt)
-            except Exception as error:
-                self._rest(behavior, now, error)
-            after = perf_counter()
-            # Written out, in place of `timing.add`: this is the inner loop of it all.
-            timing.last = spent = after - before
-            timing.count += 1
-            timing.total += spent
-            if spent > timing.longest:
-                timing.longest = spent
-            before = after
-        for port, source in injected:
-            port.sources.remove(source)
+        try:
+            for behavior, timing in self._ran:
+                try:
+                    behavior.compute(now, dt)
+                except Exception as error:
+                    self._rest(behavior, now, error)
+                after = perf_counter()
+                # Written out, in place of `timing.add`: this is the inner loop of it all.
+                timing.last = spent = after - before
+                timing.count += 1
+                timing.total += spent
+                if spent > timing.longest:
+                    timing.longest = spent
+                before = after
+        finally:
+            self._is_ticking = False
+            for port, source in injected:
+                port.sources.remove(source)
         self.statistics.ticks += 1
         self.statistics.recent.append(before - begun)
-        self._is_ticking = False
-        if self._watches:
-            self._tell_watches(now)
-        if self._ends_after_tick:
-            self.stop()
         return before - begun
 
     async def run(self, count: int | None = None, duration: float | None = None) -> None:
@@ -203,15 +227,17 @@ class Runner:
             # From the beginning each time: sums of intervals would drift.
             deadline = begin + slot * interval
             await clock.sleep_until(deadline)
-            now = deadline if clock.is_fake else clock.now()
+            began = clock.now()
+            now = deadline if clock.is_fake else began
             self.statistics.lateness.add(now - deadline)
             took = self.tick(now)
             log.debug("%s tick at %.3f s took %.1f us", self.network.name, now, took * 1e6)
             slot += 1
-            if (late := clock.now() - (begin + slot * interval)) > 0:
+            ended = clock.now()
+            if (late := ended - (begin + slot * interval)) > 0:
                 skipped = int(late / interval) + 1
                 slot += skipped
-                self._report_missed(skipped)
+                self._report_missed(skipped, began_late=began - deadline > ended - began)
 
     def _timed(self, behaviors: list[Behavior]) -> list[tuple[Behavior, Timing]]:
         return [(behavior, self.statistics.behaviors[behavior.id]) for behavior in behaviors]
@@ -237,7 +263,10 @@ class Runner:
                 try:
                     watch.callback(watch.port.value, now)
                 except Exception as error:
-                    log.error("a watch on %s failed: %s", self.network.name, error, exc_info=error)
+                    if not watch.has_failed:
+                        what = "a watch on %s failed, which is told once: %s"
+                        log.error(what, self.network.name, error, exc_info=error)
+                    watch.has_failed = True
 
     def _rest(self, behavior: Behavior, now: float, error: Exception) -> None:
         """Leave a behavior that failed out for a while."""
@@ -261,19 +290,21 @@ class Runner:
             awake = [b for b in self.network.behaviors if b not in self._resting]
             self._order = self._timed(awake)
 
-    def _report_missed(self, skipped: int) -> None:
+    def _report_missed(self, skipped: int, began_late: bool) -> None:
         """Count what was missed; tell of it at once, but not more often than a person can read."""
         self.statistics.missed += skipped
-        times = self.statistics.behaviors
-        self.statistics.slowest = max(times, key=lambda id: times[id].last, default="")
+        self.statistics.slowest, cause = "", "something else held the loop up"
+        if not began_late and self._ran:
+            behavior, _ = max(self._ran, key=lambda ran: ran[1].last)
+            self.statistics.slowest, cause = behavior.id, f"slowest was {behavior.id}"
         now = self.context.clock.now()
         if now >= self._tell_after:
             self._tell_after = now + BETWEEN_REPORTS
             log.warning(
-                "Missed desired interval.... (%s: %d so far, slowest was %s)",
+                "Missed desired interval.... (%s: %d so far, %s)",
                 self.network.name,
                 self.statistics.missed,
-                self.statistics.slowest,
+                cause,
             )
 
     _tell_after = -math.inf

@@ -17,19 +17,20 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.ports import DATATYPES, GENERIC, Input, Output, Param
 from hri.core import registry
-from hri.core.errors import did_you_mean
-from hri.core.xml import Element, format_xml, load_xml
+from hri.core.errors import AuthoringError, Place, did_you_mean
+from hri.core.xml import NOWHERE, Element, format_xml, load_xml
 
 TYPES: dict[str, Any] = {"string": "", "number": 0.0, "integer": 0, "boolean": False}
 """The types of parameters with their empty values; `string` and `number` are those of 2003."""
-NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
+"""Of ports and parameters; what begins with _ is the driver's own."""
 TYPE_NAME = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)+", re.ASCII)
 
 
@@ -44,6 +45,7 @@ class Parameter:
     minimum: float = -math.inf
     maximum: float = math.inf
     choices: tuple[str, ...] = ()
+    place: Place = field(default=NOWHERE, compare=False, repr=False)
 
     def declare(self) -> Param[Any]:
         """The declaration for a class. Raises ValueError when the default does not fit."""
@@ -67,6 +69,7 @@ class Port:
     datatype: str
     description: str = ""
     semantic_type: str = GENERIC
+    place: Place = field(default=NOWHERE, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -103,8 +106,13 @@ def schema_of(cls: type[Behavior], type_name: str = "") -> Schema:
 def subclass(driver: type[Behavior], schema: Schema) -> type[Behavior]:
     """A class with the ports and parameters of a schema, and the code of its driver.
 
-    Raises ValueError when a parameter or a port does not fit.
+    Raises AuthoringError when a parameter or a port does not fit.
     """
+    for kind in ("parameters", "inputs", "outputs"):
+        for part in getattr(schema, kind):
+            if hasattr(driver, part.name) and part.name not in getattr(driver, kind):
+                what = f'{driver.__name__} uses the name "{part.name}" for something else'
+                raise AuthoringError(part.place, what, "choose another word")
     members: dict[str, Any] = {"__doc__": f"{schema.display_name}, defined by its schema."}
     for parameter in schema.parameters:
         members[parameter.name] = _declare(parameter, driver.parameters.get(parameter.name))
@@ -128,8 +136,13 @@ def _declare(parameter: Parameter, inherited: Param[Any] | None) -> Param[Any]:
     """A parameter as the schema has it; one of the driver keeps its type and range."""
     if inherited is None:
         return parameter.declare()
+    try:
+        default = inherited.parse(parameter.default)
+    except ValueError as error:
+        what, _, remedy = str(error).partition(" - ")
+        raise AuthoringError(parameter.place, f"{parameter.name}: {what}", remedy) from error
     return Param(
-        inherited.parse(parameter.default),
+        default,
         parameter.description or inherited.doc,
         minimum=inherited.minimum,
         maximum=inherited.maximum,
@@ -194,6 +207,7 @@ def _read_parameter(element: Element, seen: set[str]) -> Parameter:
         element.number("minimum", -math.inf),
         element.number("maximum", math.inf),
         tuple(element.get("choices", "").split()),
+        element.place,
     )
     try:
         parameter.declare()
@@ -214,6 +228,7 @@ def _read_port(element: Element, seen: set[str]) -> Port:
         datatype,
         element.get("description", ""),
         element.get("semantic_type", GENERIC),
+        element.place,
     )
 
 
@@ -230,9 +245,18 @@ def write_schema(schema: Schema) -> str:
     root.children.extend(_parameter_element(parameter) for parameter in schema.parameters)
     for tag, ports in (("Inputs", schema.inputs), ("Outputs", schema.outputs)):
         if ports:
-            children = [Element("Port", dict(vars(port))) for port in ports]
-            root.children.append(Element(tag, {}, children=children))
+            root.children.append(Element(tag, {}, children=[_port_element(p) for p in ports]))
     return format_xml(root)
+
+
+def _port_element(port: Port) -> Element:
+    attributes = {
+        "name": port.name,
+        "datatype": port.datatype,
+        "description": port.description,
+        "semantic_type": port.semantic_type,
+    }
+    return Element("Port", attributes)
 
 
 def _parameter_element(parameter: Parameter) -> Element:

@@ -24,8 +24,12 @@ ATTRIBUTES = {
 """The order of the attributes of each element."""
 
 
-def write_network(network: Network) -> str:
-    """The canonical text of a network. Raises HriError for a behavior whose type has no name."""
+def write_network(network: Network, path: Path | None = None) -> str:
+    """The canonical text of a network, for the file it came from or the one of `path`.
+
+    A network that is named after its file needs no other name. Raises HriError for a behavior whose
+    type has no name.
+    """
     root = network.document or Element("BehaviorNetwork", {})
     behaviors = {element.get("id"): element for element in root if element.tag == "Behavior"}
     links = {_ends(element): element for element in root if element.tag == "Link"}
@@ -34,12 +38,12 @@ def write_network(network: Network) -> str:
     ids += [id for id in known if id not in behaviors]
     children = [_behavior(known[id], behaviors.get(id)) for id in ids]
     children += [_link(link, links.get(str(link))) for link in network.links]
-    return format_xml(_element(root, _heading(network, root), children))
+    return format_xml(_element(root, _heading(network, root, path or network.path), children))
 
 
 def save_network(network: Network, path: Path) -> None:
     """Write a network to a file."""
-    path.write_text(write_network(network), encoding="utf-8")
+    path.write_text(write_network(network, path), encoding="utf-8")
 
 
 def _element(authored: Element, attributes: dict[str, str], children: list[Element]) -> Element:
@@ -58,9 +62,9 @@ def _element(authored: Element, attributes: dict[str, str], children: list[Eleme
     )
 
 
-def _heading(network: Network, root: Element) -> dict[str, str]:
+def _heading(network: Network, root: Element, path: Path) -> dict[str, str]:
     attributes = dict(root.attributes)
-    if "name" in attributes or network.name != network.path.stem:
+    if "name" in attributes or network.name != path.stem:
         attributes["name"] = network.name
     if root.number("invocation_interval", DEFAULT_INTERVAL) != network.interval:
         attributes["invocation_interval"] = Param.text(network.interval)

@@ -8,15 +8,16 @@ import signal
 import sys
 from collections.abc import Sequence
 from functools import partial
+from typing import TextIO
 
 import trio
 
 from hri.behavior.behavior import Context
 from hri.behavior.network import load_network
 from hri.behavior.runner import Runner
+from hri.cli.outcome import status_of
 from hri.core import paths
 from hri.core.clock import Clock, FakeClock, RealClock
-from hri.core.errors import HriError
 from hri.core.events import EventBus
 from hri.core.realtime import become_realtime
 from hri.hal.configuration import load_configuration
@@ -32,11 +33,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run a network. Exit status 0, 1 when a behavior failed, 2 when a file or option is wrong."""
     options = _parser().parse_args(sys.argv[1:] if arguments is None else arguments)
     _set_up_logging(options.debug)
-    try:
-        return _behave(options)
-    except HriError as error:
-        print(error, file=sys.stderr)
+    if options.fast and options.duration is None and options.invocation_count is None:
+        print("behave: --fast runs as fast as it can - say --duration S as well", file=sys.stderr)
         return 2
+    return status_of(lambda: _behave(options))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -77,8 +77,18 @@ def _count(text: str) -> int:
     return int(text)
 
 
+class _Lines(logging.StreamHandler[TextIO]):
+    """Writes the log, and ends the program when nobody reads it any more."""
+
+    def handleError(self, record: logging.LogRecord) -> None:
+        error = sys.exc_info()[1]
+        if isinstance(error, BrokenPipeError):
+            raise error
+        super().handleError(record)
+
+
 def _set_up_logging(debug: str | None) -> None:
-    handler = logging.StreamHandler(sys.stdout)
+    handler = _Lines(sys.stdout)
     form = "%(levelname)s - %(message)s [%(filename)s:%(lineno)d]"
     handler.setFormatter(logging.Formatter(form))
     ours = logging.getLogger("hri")

@@ -100,7 +100,7 @@ class _Probe:
         except HriError as error:
             self._says = str(error).removeprefix(f"{device.id}: ")
         except Exception as error:
-            self._says = f"its driver failed: {error!r} - see whether another program uses it"
+            self._says = f"its driver failed: {error!r} - mend the driver"
         else:
             self._opened, self._state, self._says = resource, "present", resource.describe()
 

@@ -9,9 +9,10 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import TypeVar
 
+from hri.cli.outcome import status_of
 from hri.core import paths
 from hri.core.clock import Clock, FakeClock, RealClock
-from hri.core.errors import HriError, NotAvailable
+from hri.core.errors import NotAvailable
 from hri.hal.choices import apply_choices, load_choices
 from hri.hal.configuration import Configuration, load_configuration
 from hri.hal.manager import ResourceManager
@@ -58,13 +59,7 @@ def run(
     if options.help:
         print(help, end="")
         return 0
-    try:
-        return test(options)
-    except HriError as error:
-        print(error, file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        return 130
+    return status_of(lambda: test(options))
 
 
 @contextmanager
@@ -96,12 +91,22 @@ def without_stand_ins(configuration: Configuration) -> Configuration:
     )
 
 
-def obtained(resources: ResourceManager, ids: Sequence[str], interface: type[R]) -> list[R]:
-    """The devices that can be opened; for each of the others a line says why not."""
-    opened = []
+def obtained(
+    resources: ResourceManager, ids: Sequence[str], interface: type[R]
+) -> tuple[list[R], int]:
+    """The devices that can be opened, and how many cannot; of each of these a line says why.
+
+    One that stands in for several counts once.
+    """
+    opened: list[R] = []
+    missing = 0
     for id in ids:
         try:
-            opened.append(resources.obtain(id, interface))
+            device = resources.obtain(id, interface)
         except NotAvailable as error:
             print(f"Initializing...{error}", file=sys.stderr)
-    return opened
+            missing += 1
+        else:
+            if device not in opened:
+                opened.append(device)
+    return opened, missing

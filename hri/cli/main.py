@@ -1,8 +1,4 @@
-"""The command `hri`: finds the subcommand, prints errors as one line, sets the exit status.
-
-Exit status: 0 when all went well, 1 when a check found fault or a device failed, 2 when the
-command line or a file is wrong.
-"""
+"""The command `hri`: finds the subcommand and runs it."""
 
 from __future__ import annotations
 
@@ -11,7 +7,8 @@ import importlib
 import sys
 from collections.abc import Sequence
 
-from hri.core.errors import HriError, did_you_mean
+from hri.cli.outcome import status_of
+from hri.core.errors import did_you_mean
 
 COMMANDS = {
     "companion": ("hri.cli.companion", "start the companion (same as `run companion`)"),
@@ -51,20 +48,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def run_command(name: str, words: Sequence[str]) -> int:
     """Run a command of the table with its arguments; errors of ours become one line."""
+    return status_of(lambda: _run(name, words))
+
+
+def _run(name: str, words: Sequence[str]) -> int:
     module = importlib.import_module(COMMANDS[name][0])
     parser = argparse.ArgumentParser(prog=f"hri {name}", description=COMMANDS[name][1])
     module.add_arguments(parser)
-    try:
-        return int(module.run(parser.parse_args(words)))
-    except HriError as error:
-        print(error, file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        return 130
-    except BrokenPipeError:
-        # The reader of our output has gone, as in `hri grammar expand ... | head`.
-        sys.stderr.close()
-        return 0
+    return int(module.run(parser.parse_args(words)))
 
 
 def _overview() -> str:

@@ -36,8 +36,12 @@ def check(network: Network, options: argparse.Namespace) -> int:
     for warning in warnings:
         print(f"warning: {warning}")
     counts = f"{len(network.behaviors)} behaviors, {len(network.links)} links"
-    print(f"{network.path}: {counts}, {f'{len(warnings)} warnings' if warnings else 'ok'}")
+    print(f"{network.path}: {counts}, {_counted(warnings)}")
     return 1 if warnings else 0
+
+
+def _counted(warnings: list[str]) -> str:
+    return {0: "ok", 1: "1 warning"}.get(len(warnings), f"{len(warnings)} warnings")
 
 
 def show(network: Network, options: argparse.Namespace) -> int:

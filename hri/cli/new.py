@@ -56,16 +56,20 @@ KINDS = {
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("kind", choices=KINDS, help="what to begin")
-    parser.add_argument("name", metavar="NAME", help="small letters, digits and _: wave_hand")
+    parser.add_argument(
+        "name", metavar="NAME", help="letters, digits and _: wave_hand, or WaveHand"
+    )
     parser.add_argument(
         "--to", type=Path, default=Path(), metavar="DIR", help="where its folder goes (here)"
     )
 
 
 def run(options: argparse.Namespace) -> int:
-    kind, name = options.kind, options.name
+    kind, name = options.kind, _module_name(options.name)
     if not NAME.fullmatch(name):
-        raise HriError(f'"{name}" is no name - write small letters, digits and _: wave_hand')
+        raise HriError(f'"{options.name}" is no name - write letters, digits and _: wave_hand')
+    if not options.to.is_dir():
+        raise HriError(f"{options.to}: no such folder - make it, or check the path")
     folder: Path = options.to / name
     if folder.exists():
         raise HriError(f"{folder}: is there already - choose another name, or --to another folder")
@@ -75,7 +79,8 @@ def run(options: argparse.Namespace) -> int:
     except OSError as error:
         reason = error.strerror or str(error)
         raise HriError(f"{folder}: cannot be written: {reason} - check the folder") from error
-    print(f"{folder}: {KINDS[kind].about}. Next:\n\n  cd {folder}\n  pytest")
+    print(f"{folder}: {KINDS[kind].about}. Next:\n\n  cd {folder}")
+    print("  python -m pytest    # where it is missing: pip install pytest")
     for step in KINDS[kind].steps:
         print(f"  {_renamed(step, name)}")
     return 0
@@ -84,7 +89,8 @@ def run(options: argparse.Namespace) -> int:
 def _refuse_taken(name: str, kind: str) -> None:
     """Refuse what would hide a module, or a word that the new code uses. Raises HriError."""
     if keyword.iskeyword(name) or importlib.util.find_spec(name) is not None:
-        raise HriError(f'"{name}" means something in Python already - choose another name')
+        what = f'"{name}" is a word or an installed module of Python'
+        raise HriError(f'{what} - choose another name, such as "my_{name}"')
     taken = {name, _class_name(name)}
     for path in _files(kind):
         if taken & set(re.findall(r"\w+", path.read_text("utf-8"))):
@@ -107,6 +113,11 @@ def _files(kind: str) -> list[Path]:
 
 def _renamed(text: str, name: str) -> str:
     return text.replace("thing", name).replace("Thing", _class_name(name))
+
+
+def _module_name(name: str) -> str:
+    """`WaveHand` as Python names a module: `wave_hand`."""
+    return re.sub("(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
 
 
 def _class_name(name: str) -> str:

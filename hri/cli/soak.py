@@ -33,7 +33,8 @@ def run(options: argparse.Namespace) -> int:
     print(
         f"{verdict.hours:g} hours, {verdict.ticks} ticks, {verdict.events} events,"
         f" {verdict.tasks} tasks, {verdict.injected} values injected, {verdict.swaps} networks"
-        f" swapped; drift {verdict.drift:.1e} s, memory {verdict.growth / 1000:+.1f} kB"
+        f" swapped, {verdict.drives} drives, {verdict.crossings} bridges;"
+        f" drift {verdict.drift:.1e} s, memory {verdict.growth / 1000:+.1f} kB"
     )
     for fault in verdict.faults[:20]:
         print(f"FAULT: {fault}")

@@ -47,10 +47,12 @@ def _test(options: argparse.Namespace) -> int:
         if not ids:
             raise HriError(f"{options.config}: no camera in it - add one, or name another")
         _make_folder(options.out)
-        cameras = diagnostic.obtained(resources, ids, Camera)
-        failures = len(ids) - len(cameras)
+        cameras, failures = diagnostic.obtained(resources, ids, Camera)
         print("*** test_camera ***")
         print(f"Obtained cameras: {', '.join(camera.id for camera in cameras)}")
+        if not cameras:
+            print("none of them is there - see the lines above", file=sys.stderr)
+            return 1
         print(f"Frame count: {options.frames}. Pause time: {options.pause_time:g} sec.", flush=True)
         for number in range(1, options.frames + 1):
             if number > 1:

@@ -57,7 +57,7 @@ def _test(options: argparse.Namespace) -> int:
         ids = [options.drive_id] if options.drive_id else resources.ids(DriveSystem)[:1]
         if not ids:
             raise HriError(f"{options.config}: no drive system in it - add one, or name another")
-        drives = diagnostic.obtained(resources, ids, DriveSystem)
+        drives, _ = diagnostic.obtained(resources, ids, DriveSystem)
         if not drives:
             return 1
         print("*** test_drive_system ***")

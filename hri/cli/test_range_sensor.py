@@ -44,15 +44,18 @@ def _test(options: argparse.Namespace) -> int:
         ids = sorted(options.ids or resources.ids(RangeSensor))
         if not ids:
             raise HriError(f"{options.config}: no range sensor in it - add one, or name another")
-        sensors = diagnostic.obtained(resources, ids, RangeSensor)
+        sensors, missing = diagnostic.obtained(resources, ids, RangeSensor)
         print("*** test_range_sensor ***")
         print(f"Obtained range sensors: {', '.join(sensor.id for sensor in sensors)}")
+        if not sensors:
+            print("none of them is there - see the lines above", file=sys.stderr)
+            return 1
         for count in range(options.read_count):
             if count > 0:
                 resources.clock.advance(options.pause_time)
             for sensor in sensors:
                 print(told(sensor.id, sensor.read(resources.clock.now())), flush=True)
-    return 0 if len(sensors) == len(ids) else 1
+    return 1 if missing else 0
 
 
 def told(id: str, reading: RangeReading) -> str:

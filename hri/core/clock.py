@@ -29,6 +29,8 @@ NAP = 0.005
 """Seconds; how often a program without a robot loop looks whether what it waits for is there."""
 POLL = 0.001
 """Seconds; the step in which the system counts the time that a program waits for anything."""
+CLUTTER = 100
+"""Timers that may wait before those that were cancelled are cleared away."""
 FAKE_MORNING = datetime(2003, 6, 18, 10, 0)
 """What a fake clock shows when it starts."""
 
@@ -80,6 +82,7 @@ class Clock(ABC):
 
     def __init__(self) -> None:
         self._timers: list[Timer] = []
+        self._room = CLUTTER
         self._lock = threading.Lock()
         self._order = itertools.count()
         self._changed = trio.Event()
@@ -170,7 +173,18 @@ class Clock(ABC):
 
     def _push(self, timer: Timer) -> None:
         with self._lock:
+            if len(self._timers) >= self._room:
+                self._clear_away()
             heapq.heappush(self._timers, timer)
+
+    def _clear_away(self) -> None:
+        """Drop cancelled timers, which otherwise stay until they are due.
+
+        Not again before there are twice as many as are left, so that it costs next to nothing.
+        """
+        self._timers = [timer for timer in self._timers if not timer.is_cancelled]
+        heapq.heapify(self._timers)
+        self._room = max(CLUTTER, 2 * len(self._timers))
 
     def _pop_timer(self) -> Timer | None:
         """Take the earliest timer that still counts off the heap."""

@@ -6,6 +6,9 @@ import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
+
+E = TypeVar("E", bound=BaseException)
 
 
 class HriError(Exception):
@@ -51,6 +54,12 @@ def did_you_mean(word: str, known: Iterable[str], otherwise: str = "") -> str:
     if otherwise:
         return otherwise
     return f"known are: {', '.join(names)}" if names else "none is known here"
+
+
+def first_of(group: BaseExceptionGroup[E]) -> E:
+    """The first error of a group, or of the groups in it."""
+    inner = group.exceptions[0]
+    return first_of(inner) if isinstance(inner, BaseExceptionGroup) else inner
 
 
 LARGEST_FILE = 4_000_000

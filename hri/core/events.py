@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -11,18 +12,31 @@ from hri.core.signals import Event
 
 Listener = Callable[[Event], object]
 
+log = logging.getLogger("hri.events")
 
-@dataclass(slots=True)
+
+@dataclass(eq=False, slots=True)
 class Subscription:
     """A listener's place in the bus; `cancel()` ends it, a second call does nothing."""
 
     pattern: str
     listener: Listener
     bus: EventBus
+    has_failed: bool = False
 
     def cancel(self) -> None:
         if self in self.bus.subscriptions:
             self.bus.subscriptions.remove(self)
+
+    def tell(self, event: Event) -> None:
+        """Let the listener hear an event; what it fails with is for the log."""
+        try:
+            self.listener(event)
+        except Exception as error:
+            if not self.has_failed:
+                what = 'a listener to "%s" failed at %s, which is told once: %s'
+                log.error(what, self.pattern, event.name, error, exc_info=error)
+            self.has_failed = True
 
 
 class EventBus:
@@ -33,11 +47,11 @@ class EventBus:
         self.subscriptions: list[Subscription] = []
 
     def raise_event(self, name: str, /, **properties: Any) -> Event:
-        """Tell all listeners whose pattern fits, now."""
+        """Tell all listeners whose pattern fits, now; one that fails keeps none from hearing."""
         event = Event(name, self.clock.now(), properties)
         for subscription in tuple(self.subscriptions):
             if matches(subscription.pattern, name):
-                subscription.listener(event)
+                subscription.tell(event)
         return event
 
     def subscribe(self, pattern: str, listener: Listener) -> Subscription:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 from collections.abc import Iterator
 from pathlib import Path
@@ -52,8 +53,23 @@ def find(kind: str, name: str) -> Path:
         for candidate in (below / name for below in (folder / kind, folder) for name in spellings):
             if candidate.exists() and candidate != folder:
                 return candidate
-    known = [Path(found).stem for found in names(kind)]
-    raise HriError(f'no "{name}" in {kind} - {did_you_mean(Path(name).stem, known)}')
+    if name.startswith((".", os.sep, "~")):
+        raise HriError(f"{name}: no such file or folder - check the path")
+    raise HriError(f'no "{name}" in {kind} - {_meant(kind, name)}')
+
+
+def _meant(kind: str, name: str) -> str:
+    """The remedy for a name that is not found: one like it, also in a folder of its kind."""
+    suffix = SUFFIXES.get(kind, ".toml")
+    known = {Path(found).stem: Path(found).stem for found in names(kind)}
+    for below in [found for found in names(kind) if not Path(found).suffix]:
+        for found in names(f"{kind}/{below}"):
+            if found.endswith(suffix):
+                known.setdefault(Path(found).stem, f"{below}/{Path(found).stem}")
+    near = difflib.get_close_matches(Path(name).stem, known, n=1)
+    if near:
+        return f'did you mean "{known[near[0]]}"?'
+    return did_you_mean(Path(name).stem, [known[stem] for stem in known])
 
 
 def names(kind: str) -> list[str]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import importlib.util
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -25,20 +27,32 @@ def load_module(name: str, path: Path, search: list[str] | None = None) -> Modul
     sys.modules[name] = module
     sys.path.append(str(path.parent))
     try:
-        spec.loader.exec_module(module)
-    except SyntaxError as error:
-        del sys.modules[name]
-        place = Place(Path(error.filename or path), error.lineno or 1, error.offset or 1)
-        raise AuthoringError(place, error.msg, "mend the Python here") from error
-    except ImportError as error:
-        del sys.modules[name]
-        raise HriError(f"{path}: {error} - install it, or mend the import") from error
-    except Exception as error:
-        del sys.modules[name]
-        raise HriError(f"{path}: {type(error).__name__}: {error} - mend this file") from error
+        with _told(path):
+            spec.loader.exec_module(module)
+    except BaseException:
+        # Half a module: the next who asks for it must not find it.
+        sys.modules.pop(name, None)
+        raise
     finally:
         sys.path.remove(str(path.parent))
     return module
+
+
+@contextmanager
+def _told(path: Path) -> Iterator[None]:
+    """Make one clear error of whatever a file raises."""
+    try:
+        yield
+    except SyntaxError as error:
+        place = Place(Path(error.filename or path), error.lineno or 1, error.offset or 1)
+        raise AuthoringError(place, error.msg, "mend the Python here") from error
+    except ImportError as error:
+        raise HriError(f"{path}: {error} - install it, or mend the import") from error
+    except SystemExit as error:
+        what = "it ends the program while it is imported"
+        raise HriError(f"{path}: {what} - leave that to the code that runs it") from error
+    except Exception as error:
+        raise HriError(f"{path}: {type(error).__name__}: {error} - mend this file") from error
 
 
 def load_class(path: Path, name: str) -> Any:

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from typing import Generic, TypeVar
 
 from hri.behavior.behavior import Behavior, Context
-from hri.behavior.ports import Input, Output, Param
+from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
 from hri.core.events import EventBus
 from hri.core.signals import RangeReading, Twist
 from hri.drive.gate import REST, Limits, VelocityGate, max_forward
+
+T = TypeVar("T")
 
 COMMAND = "drive.command"
 """The board slot in which tasks leave the Twist they want, with its time."""
@@ -20,7 +23,11 @@ _PRUDENCE = 0.7
 
 
 class CommandGate(Behavior):
-    """Limits what the base is asked for, stops it at obstacles and when nobody asks any more."""
+    """Limits what the base is asked for, stops it at obstacles and when nobody asks any more.
+
+    A linked sensor that says nothing for `timeout_s` counts as an obstacle that touches, a linked
+    switch as pressed.
+    """
 
     category = "drive"
 
@@ -28,7 +35,12 @@ class CommandGate(Behavior):
     max_angular = Param(1.2, "radians a second", minimum=0.01, maximum=6)
     acceleration = Param(0.4, "metres a second squared", minimum=0.05, maximum=5)
     deceleration = Param(0.5, "metres a second squared", minimum=0.05, maximum=10)
-    timeout_s = Param(0.5, "seconds without a command until it stops", minimum=0.05, maximum=0.5)
+    timeout_s = Param(
+        0.5,
+        "seconds without a command or a sensor's word until it stops",
+        minimum=0.05,
+        maximum=0.5,
+    )
     clearance = Param(0.25, "metres kept free ahead", minimum=0, maximum=2)
     slot = Param(COMMAND, "board slot with the commands of tasks")
 
@@ -43,6 +55,8 @@ class CommandGate(Behavior):
         self._motion = context.board.slot(MOTION)
         self._gate = VelocityGate(self._limits())
         self._reporter = MotionReporter(context.events)
+        self._ranges = _LastWords(self.range, self.timeout_s)
+        self._bumps = _LastWords(self.bump, self.timeout_s)
         self._taken: tuple[Twist, float] | None = None
         self._was_bumped = False
         self._must_let_go = False
@@ -96,7 +110,7 @@ class CommandGate(Behavior):
 
     def _max_forward(self, now: float) -> float:
         """How fast it may go forward, in m/s; a touch ends a motion for good."""
-        is_bumped = any(self.bump.values)
+        is_bumped = any(pressed is not False for pressed in self._bumps.at(now))
         # The ring does not tell which side it was touched on, so any motion ends.
         if is_bumped and not self._was_bumped and self._gate.is_moving:
             self._drop("bump")
@@ -108,14 +122,38 @@ class CommandGate(Behavior):
         return min(
             (
                 max_forward(self._distance(reading, now), self.clearance, deceleration, is_moving)
-                for reading in self.range.values
+                for reading in self._ranges.at(now)
             ),
             default=math.inf,
         )
 
-    def _distance(self, reading: RangeReading, now: float) -> float:
+    def _distance(self, reading: RangeReading | None, now: float) -> float:
         """Metres; a sensor that has stopped reporting might look at anything."""
-        return reading.distance if now - reading.time <= self.timeout_s else 0.0
+        if reading is not None and now - reading.time <= self.timeout_s:
+            return reading.distance
+        return 0.0
+
+
+class _LastWords(Generic[T]):
+    """What each link of a port carried last; a sensor may be slower than the gate, not silent."""
+
+    def __init__(self, port: InputPort[T], patience: float) -> None:
+        """`patience`: seconds that a value counts for."""
+        self._port, self._patience = port, patience
+        self._heard: dict[OutputPort[T], tuple[T | None, float]] = {}
+
+    def at(self, now: float) -> list[T | None]:
+        """A value for each link, None for one that is silent."""
+        # Made anew each time, so that what was injected for one tick is forgotten after it.
+        self._heard = {source: self._last_of(source, now) for source in self._port.sources}
+        return [
+            value if now - time <= self._patience else None for value, time in self._heard.values()
+        ]
+
+    def _last_of(self, source: OutputPort[T], now: float) -> tuple[T | None, float]:
+        if source.value is not None:
+            return source.value, now
+        return self._heard.get(source, (None, now))
 
 
 class MotionReporter:

@@ -8,7 +8,7 @@ ahead.
 from __future__ import annotations
 
 import math
-from collections.abc import Awaitable
+from collections.abc import Awaitable, Callable
 
 from hri.core.errors import HriError
 from hri.drive import tasks as verbs
@@ -91,13 +91,13 @@ async def stop(context: TaskContext) -> None:
     if context.find_behavior(CommandGate) is not None:
         await verbs.stop(context)
     else:
-        await _drive(context).halt(Stop.SMOOTH)
+        await _carry_out(context, lambda drive: drive.halt(Stop.SMOOTH))
 
 
 async def _move(context: TaskContext, distance: float, speed: float, acceleration: float) -> None:
     async with context.claim("drive"):
         if context.find_behavior(CommandGate) is None:
-            await _finish(context, _drive(context).move_delta(distance, speed, acceleration))
+            await _carry_out(context, lambda drive: drive.move_delta(distance, speed, acceleration))
         else:
             gone = await _checked(verbs.move(context, distance, speed))
             _refuse_short(context, gone, distance, "m")
@@ -106,20 +106,27 @@ async def _move(context: TaskContext, distance: float, speed: float, acceleratio
 async def _turn(context: TaskContext, angle: float, rate: float, acceleration: float) -> None:
     async with context.claim("drive"):
         if context.find_behavior(CommandGate) is None:
-            await _finish(context, _drive(context).turn_delta(angle, rate, acceleration))
+            await _carry_out(context, lambda drive: drive.turn_delta(angle, rate, acceleration))
         else:
             gone = await _checked(verbs.turn(context, angle, rate))
             _refuse_short(context, gone, angle, "rad")
 
 
-async def _finish(context: TaskContext, motion: Pending[None]) -> None:
-    """Wait for a motion; when that is cancelled, the base comes to rest."""
+async def _carry_out(context: TaskContext, command: Callable[[DriveSystem], Pending[None]]) -> None:
+    """Give the drive a command and wait for its end; when that is cancelled, it comes to rest.
+
+    The drive is given back once the command is over, so that giving it back brakes nothing.
+    """
+    drive = _drive(context)
+    motion: Pending[None] | None = None
     try:
+        motion = command(drive)
         await motion
     finally:
-        if not motion.is_done:
-            motion.cancel()
-            _drive(context).halt(Stop.SMOOTH)
+        if motion is None or motion.is_done:
+            context.resources.release(drive)
+        else:
+            drive.halt(Stop.SMOOTH).on_done(lambda _: context.resources.release(drive))
 
 
 async def _checked(motion: Awaitable[float]) -> float:

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 from hri.core.signals import Pose2D, Twist
 from hri.drive.behaviors import COMMAND, MOTION
@@ -40,7 +42,9 @@ async def move(context: TaskContext, distance_m: float, speed: float | None = No
 
     Raises ValueError for a distance that is not finite or a speed (m/s) that is not above 0.
     """
-    return await _Motion(context).run(_Straight(distance_m, _above_0(speed, CRUISE, "m/s")))
+    way = _Straight(distance_m, _above_0(speed, CRUISE, "m/s"))
+    with _motion(context) as motion:
+        return await motion.run(way)
 
 
 async def turn(context: TaskContext, angle_rad: float, rate: float | None = None) -> float:
@@ -48,12 +52,15 @@ async def turn(context: TaskContext, angle_rad: float, rate: float | None = None
 
     Raises ValueError for an angle that is not finite or a rate (rad/s) that is not above 0.
     """
-    return await _Motion(context).run(_Turn(angle_rad, _above_0(rate, TURN_RATE, "rad/s")))
+    way = _Turn(angle_rad, _above_0(rate, TURN_RATE, "rad/s"))
+    with _motion(context) as motion:
+        return await motion.run(way)
 
 
 async def stop(context: TaskContext) -> None:
     """End any motion and wait until the base is at rest, two seconds at most."""
-    await _Motion(context).stop()
+    with _motion(context) as motion:
+        await motion.stop()
 
 
 def wrapped(angle: float) -> float:
@@ -132,10 +139,10 @@ class _Turn(_Way):
 class _Motion:
     """The one motion that may write commands, until another task claims the drive or a halt."""
 
-    def __init__(self, context: TaskContext) -> None:
+    def __init__(self, context: TaskContext, odometry: Odometry) -> None:
         self._context = context
         self._clock = context.clock
-        self._odometry = context.resources.obtain("odometry", Odometry)
+        self._odometry = odometry
         self._command = context.board.slot(COMMAND)
         self._current = context.board.slot(MOTION)
 
@@ -189,6 +196,16 @@ class _Motion:
             await self._clock.sleep(_PERIOD)
             if abs(velocity.linear) < _STANDING and abs(velocity.angular) < _STANDING:
                 return
+
+
+@contextmanager
+def _motion(context: TaskContext) -> Iterator[_Motion]:
+    """A motion, with the odometry for as long as it lasts."""
+    odometry = context.resources.obtain("odometry", Odometry)
+    try:
+        yield _Motion(context, odometry)
+    finally:
+        context.resources.release(odometry)
 
 
 class _Patience:

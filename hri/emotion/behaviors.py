@@ -23,7 +23,9 @@ class EmotionModel(Behavior):
     category = "emotion"
 
     personality = Param("neutral", "name of a file in emotions/personalities, or a path")
-    stimulus = Input[Stimulus]("stimulus", "felt at every tick in which it is sent")
+    stimulus = Input[Stimulus](
+        "stimulus", "felt at every tick in which it is sent", is_optional=True
+    )
     state = Output[EmotionState]("emotion", "what is felt now")
 
     def check(self) -> None:

@@ -23,12 +23,16 @@ class Face(Behavior):
     category = "face"
 
     face = Param("robot", "name of a folder in faces/, or a path")
-    expression = Input[Expression]("expression", "what the face shows; the last one stays")
-    speech = Input[Speech]("speech", "what is being said")
-    position = Input[float]("double", "seconds of the speech that have been heard")
-    is_speaking = Input[bool]("boolean", "whether the speech plays")
-    gaze = Input[Gaze]("gaze", "where to look; straight ahead when nothing comes")
-    arousal = Input[float]("double", "-1 to 1: pupils and blinks follow")
+    expression = Input[Expression](
+        "expression", "what the face shows; the last one stays", is_optional=True
+    )
+    speech = Input[Speech]("speech", "what is being said", is_optional=True)
+    position = Input[float](
+        "double", "seconds of the speech that have been heard", is_optional=True
+    )
+    is_speaking = Input[bool]("boolean", "whether the speech plays", is_optional=True)
+    gaze = Input[Gaze]("gaze", "where to look; straight ahead when nothing comes", is_optional=True)
+    arousal = Input[float]("double", "-1 to 1: pupils and blinks follow", is_optional=True)
     weights = Output[FaceWeights]("weights", "weights of all channels that are not at rest")
     caption = Output[str]("string", "the text that is being said")
 
@@ -73,7 +77,7 @@ class FaceRenderer(Behavior):
     face = Param("robot", "name of a folder in faces/, or a path")
     captions = Param(False, "write what is said below the face")
     weights = Input[FaceWeights]("weights", "what to draw")
-    caption = Input[str]("string", "what to write, when captions are on")
+    caption = Input[str]("string", "what to write, when captions are on", is_optional=True)
 
     captions_on = False
     """Whether captions are written; may be switched at any time."""

@@ -21,10 +21,14 @@ class DriveSystem(Resource):
     """A base that follows velocities; it must stop by itself when no command comes for 0.5 s.
 
     A network sends velocities, tick by tick. A program asks for whole motions: these repeat their
-    commands by themselves, need the clock to run, and replace each other; a motion that another
-    command ends fails with Interrupted. Ways and angles may be negative, velocities of `move_delta`
-    and `turn_delta` and all accelerations must be above 0; what the base cannot reach is cut to
-    what it can. HriError is raised for anything else.
+    commands by themselves, need the clock to run, and replace each other. A motion that another
+    command ends fails with Interrupted, once that command was given; a callback may then ask for
+    the next motion, but not in answer to `stop` or `halt`. A motion whose hardware fails ends with
+    HriError, and the base brakes.
+
+    Ways and angles may be negative, velocities of `move_delta` and `turn_delta` and all
+    accelerations must be above 0; what the base cannot reach is cut to what it can. HriError is
+    raised for anything else, and by a drive that is closed; `stop` then does nothing.
     """
 
     max_linear: float = 0.5

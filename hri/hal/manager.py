@@ -248,4 +248,6 @@ class ResourceManager:
         if not (isinstance(found, type) and issubclass(found, Resource)):
             what = f"{name} is no driver"
             raise description.error("type", what, "derive its class from hri.hal.resource.Resource")
+        if missing := sorted(found.__abstractmethods__):
+            raise description.error("type", f"{name} lacks {', '.join(missing)}", "write it")
         return found

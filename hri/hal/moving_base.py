@@ -6,8 +6,14 @@ watchdog stops it when this program falls silent.
 
 from __future__ import annotations
 
+import logging
 import math
+import threading
 from abc import abstractmethod
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from hri.core.clock import Timer
 from hri.core.errors import HriError
@@ -26,6 +32,12 @@ from hri.hal.motion import (
 )
 from hri.hal.pending import Interrupted, Pending, completed
 from hri.hal.profile import Trapezoid
+from hri.hal.resource import Description
+
+if TYPE_CHECKING:
+    from hri.hal.manager import ResourceManager
+
+log = logging.getLogger("hri.resources")
 
 SMOOTH = Twist(0.4, 1.6)
 """How fast a smooth stop slows down: m/s² and rad/s²."""
@@ -34,23 +46,50 @@ _HEADROOM = 0.8
 """Share of the greatest acceleration that motions plan with; the rest is left to catch up with."""
 
 
+@dataclass(eq=False)
+class _Run:
+    """A motion on its way."""
+
+    motion: Motion
+    pending: Pending[None]
+    began: float
+    due: float
+    """When its next command is sent."""
+    origin: Way
+    """What the wheels had rolled when it began."""
+    timer: Timer | None = None
+
+
+class _Here(threading.local):
+    """What this thread is about."""
+
+    is_stopping = False
+
+
 class MovingBase(DriveSystem):
     """Executes motions over `_send`, `_brake`, `_set_power`, `_rolled` and `_velocity`."""
 
+    def __init__(self, description: Description, manager: ResourceManager) -> None:
+        super().__init__(description, manager)
+        self._run: _Run | None = None
+        self._here = _Here()
+
     def _open(self) -> None:
-        self._motion: Motion | None = None
-        self._pending: Pending[None] = completed(self.manager.clock, None)
-        self._timer: Timer | None = None
-        self._began = self._due = 0.0
-        self._origin = Way()
         self._idle_power = 0.0
         self._move_power = FULL_POWER
 
+    def deactivate(self) -> None:
+        ended = None
+        try:
+            with self._lock:
+                ended = self._forget()
+                super().deactivate()
+        finally:
+            self._interrupt(ended, "the drive was closed - open it again")
+
     def _close(self) -> None:
-        now = self.manager.clock.now()
-        self._replace("the drive was closed - open it again")
-        self._brake(now)
-        self._set_power(0.0, now)
+        self._idle_power = 0.0
+        self._try_to_rest()
 
     # --- what a driver fills in ---
 
@@ -77,13 +116,14 @@ class MovingBase(DriveSystem):
     # --- velocities ---
 
     def set_velocity(self, twist: Twist, now: float) -> None:
-        with self._lock:
-            self._replace("a velocity came in between - send none while it moves by itself")
+        self._refuse_while_stopping()
+        with self._in_place_of_motion("a velocity came in between - send none while it moves"):
             self._send(twist, now)
 
     def stop(self, now: float) -> None:
-        with self._lock:
-            self._replace("the drive was stopped - start it again")
+        if not self.is_active:
+            return  # closing it was a stop
+        with self._stopping(), self._in_place_of_motion("the drive was stopped - start it again"):
             self._brake(now)
 
     # --- power ---
@@ -91,14 +131,17 @@ class MovingBase(DriveSystem):
     def set_idle_power(self, percent: float) -> Pending[None]:
         _within(percent, "idle power", least=0.0)
         with self._lock:
+            self._refuse_closed()
             self._idle_power = percent
-            if self._motion is None:
+            if self._run is None:
                 self._set_power(percent, self.manager.clock.now())
         return completed(self.manager.clock, None)
 
     def set_move_power(self, percent: float) -> Pending[None]:
         _within(percent, "move power", least=1.0)
-        self._move_power = percent
+        with self._lock:
+            self._refuse_closed()
+            self._move_power = percent
         return completed(self.manager.clock, None)
 
     # --- motions ---
@@ -109,6 +152,7 @@ class MovingBase(DriveSystem):
         _positive(acceleration, "acceleration", "m/s²")
         velocity = min(velocity, self.max_linear)
         acceleration = min(acceleration, self._limits.linear)
+        self._refuse_while_stopping()
         return self._begin(MoveDelta(Trapezoid(distance, velocity, acceleration)))
 
     def turn_delta(self, angle: float, velocity: float, acceleration: float) -> Pending[None]:
@@ -117,6 +161,7 @@ class MovingBase(DriveSystem):
         _positive(acceleration, "acceleration", "rad/s²")
         velocity = min(velocity, self.max_angular)
         acceleration = min(acceleration, self._limits.angular)
+        self._refuse_while_stopping()
         return self._begin(TurnDelta(Trapezoid(angle, velocity, acceleration)))
 
     def move_and_turn(
@@ -132,13 +177,17 @@ class MovingBase(DriveSystem):
         _positive(angular_acceleration, "angular acceleration", "rad/s²")
         goal = Twist(_cut(linear, self.max_linear), _cut(angular, self.max_angular))
         acceleration = _slower(Twist(linear_acceleration, angular_acceleration), self._limits)
-        self._begin(Ramp(self._velocity(self.manager.clock.now()), goal, acceleration))
+        self._refuse_while_stopping()
+        begun = self._begin(Ramp(self._velocity(self.manager.clock.now()), goal, acceleration))
+        if begun.is_done:
+            begun.result()  # nobody else would be told why it ended at once
 
     def halt(self, how: Stop = Stop.SMOOTH) -> Pending[None]:
-        if how is Stop.ABRUPT:
-            return self._begin(Brake())
-        start = self._velocity(self.manager.clock.now())
-        return self._begin(SlowDown(start, _slower(SMOOTH, self._limits)))
+        with self._stopping():
+            if how is Stop.ABRUPT:
+                return self._begin(Brake())
+            start = self._velocity(self.manager.clock.now())
+            return self._begin(SlowDown(start, _slower(SMOOTH, self._limits)))
 
     @property
     def _limits(self) -> Twist:
@@ -146,67 +195,131 @@ class MovingBase(DriveSystem):
         share = _HEADROOM * self._move_power / FULL_POWER
         return Twist(self.max_acceleration * share, self.max_angular_acceleration * share)
 
-    # --- the timer ---
+    # --- one motion in place of another ---
 
     def _begin(self, motion: Motion) -> Pending[None]:
         """Run a motion in place of the one before."""
         clock = self.manager.clock
-        pending: Pending[None] = Pending(clock, on_cancel=lambda: self.stop(clock.now()))
-        with self._lock:
-            if not self.is_active:
-                raise HriError(f"{self.id}: the drive is closed - obtain it first")
-            self._replace("another command took its place - wait for the one before")
+        pending: Pending[None] = Pending(clock, on_cancel=lambda: self._abandon(pending))
+        with self._in_place_of_motion("another command took its place - wait for the one before"):
             now = clock.now()
-            self._motion, self._pending = motion, pending
-            self._began = self._due = now
-            self._origin = self._rolled(now)
+            self._run = run = _Run(motion, pending, now, now, self._rolled(now))
             self._set_power(self._move_power, now)
-            self._tick()
+            self._tick(run)
         return pending
 
-    def _tick(self) -> None:
-        with self._lock:
-            motion, now = self._motion, self.manager.clock.now()
-            if motion is None:
-                return
-            try:
-                twist = motion.step(now - self._began, self._reading(now))
-            except HriError as error:
-                self._end(now).fail(HriError(f"{self.id}: {error}"))
-                return
-            if twist is None:
-                self._end(now).complete(None)
-                return
-            if motion.is_braking:
-                self._brake(now)
-            else:
-                self._send(twist, now)
-            self._due = max(self._due + PERIOD, now)
-            self._timer = self.manager.clock.call_at(self._due, self._tick)
+    @contextmanager
+    def _in_place_of_motion(self, reason: str) -> Iterator[None]:
+        """Give a command while no motion runs.
 
-    def _reading(self, now: float) -> Reading:
-        rolled, origin = self._rolled(now), self._origin
+        Whose motion it ended is told last and outside of the lock, since he may at once ask for
+        the next.
+        """
+        ended = None
+        try:
+            with self._lock:
+                self._refuse_closed()
+                ended = self._forget()
+                try:
+                    yield
+                except Exception:
+                    self._try_to_rest()
+                    raise
+        finally:
+            self._interrupt(ended, reason)
+
+    def _interrupt(self, run: _Run | None, reason: str) -> None:
+        if run is not None:
+            run.pending.fail(Interrupted(f"{self.id}: {reason}"))
+
+    def _forget(self) -> _Run | None:
+        """Let no motion run; the one that ran."""
+        run, self._run = self._run, None
+        if run is not None and run.timer is not None:
+            run.timer.cancel()
+        return run
+
+    def _abandon(self, pending: Pending[None]) -> None:
+        """Brake when the motion of that call still is the one that runs."""
+        with self._lock:
+            if self._run is not None and self._run.pending is pending:
+                self._forget()
+                self._brake(self.manager.clock.now())
+
+    @contextmanager
+    def _stopping(self) -> Iterator[None]:
+        """A stop wins: who is told of it in here cannot answer with the next motion."""
+        before, self._here.is_stopping = self._here.is_stopping, True
+        try:
+            yield
+        finally:
+            self._here.is_stopping = before
+
+    def _refuse_while_stopping(self) -> None:
+        if self.is_active and self._here.is_stopping:
+            raise Interrupted(f"{self.id}: the drive is being stopped - move it afterwards")
+
+    def _refuse_closed(self) -> None:
+        if not self.is_active:
+            raise HriError(f"{self.id}: the drive is closed - obtain it first")
+
+    # --- the timer ---
+
+    def _tick(self, run: _Run) -> None:
+        """Say the next command of a motion, unless something else has taken its place."""
+        try:
+            with self._lock:
+                if self._run is not run or self._step(run):
+                    return
+                self._end()
+        except Exception as error:
+            self._fail(run, error)
+        else:
+            run.pending.complete(None)
+
+    def _step(self, run: _Run) -> bool:
+        """Send a command; False when the motion is over."""
+        now = self.manager.clock.now()
+        twist = run.motion.step(now - run.began, self._reading(run, now))
+        if twist is None:
+            return False
+        if run.motion.is_braking:
+            self._brake(now)
+        else:
+            self._send(twist, now)
+        run.due = max(run.due + PERIOD, now)
+        run.timer = self.manager.clock.call_at(run.due, lambda: self._tick(run))
+        return True
+
+    def _reading(self, run: _Run, now: float) -> Reading:
+        rolled, origin = self._rolled(now), run.origin
         way = Way(rolled.linear - origin.linear, rolled.angular - origin.angular)
         return Reading(way, self._velocity(now))
 
-    def _end(self, now: float) -> Pending[None]:
-        """Let the base rest; the call that is over now."""
+    def _end(self) -> None:
+        """Let the base rest, with no motion that runs."""
         self._forget()
-        self._brake(now)
-        self._set_power(self._idle_power, now)
-        return self._pending
+        now = self.manager.clock.now()
+        try:
+            self._brake(now)
+        finally:
+            self._set_power(self._idle_power, now)
 
-    def _replace(self, reason: str) -> None:
-        """End the motion that runs because something else is asked for."""
-        if self._motion is not None:
-            self._forget()
-            self._pending.fail(Interrupted(f"{self.id}: {reason}"))
+    def _fail(self, run: _Run, error: Exception) -> None:
+        """End a motion that cannot go on, whatever the hardware says to that."""
+        with self._lock:
+            if self._run is run:
+                self._try_to_rest()
+        if not isinstance(error, HriError):
+            log.error("%s: a motion failed: %s", self.id, error, exc_info=error)
+            error = HriError(f"{error or type(error).__name__} - see that the base is connected")
+        run.pending.fail(HriError(f"{self.id}: {error}"))
 
-    def _forget(self) -> None:
-        self._motion = None
-        if self._timer is not None:
-            self._timer.cancel()
-            self._timer = None
+    def _try_to_rest(self) -> None:
+        try:
+            self._end()
+        except Exception as error:
+            log.error("%s: it does not stop: %s - switch the base off", self.id, error)
 
 
 def _cut(value: float, limit: float) -> float:

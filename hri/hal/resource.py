@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from abc import ABC
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -88,7 +89,7 @@ class Description:
         return value
 
 
-class Resource:
+class Resource(ABC):  # noqa: B024 - what must be written is named by each interface
     """Base of all drivers. A subclass fills in `_open` and `_close`, and its interface."""
 
     parameters: ClassVar[tuple[str, ...]] = ()
@@ -125,6 +126,11 @@ class Resource:
                 return
             try:
                 self._open()
+            except OSError as error:
+                self._let_go()
+                why = error.strerror or str(error)
+                remedy = "see that it is plugged in and nothing else uses it"
+                raise self.not_available(why, remedy) from error
             except BaseException:
                 self._let_go()
                 raise
@@ -179,8 +185,8 @@ class Resource:
         """The error to raise when the thing is not there."""
         return NotAvailable(f"{self.id}: {why} - {remedy}")
 
-    def _open(self) -> None:
+    def _open(self) -> None:  # noqa: B027 - many have nothing to open
         """Acquire the device."""
 
-    def _close(self) -> None:
+    def _close(self) -> None:  # noqa: B027 - nor to close
         """Let the device go; must not raise."""

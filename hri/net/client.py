@@ -49,7 +49,10 @@ class Client(Link):
         except (OSError, ValueError) as error:  # a name that cannot be one is a ValueError
             return self._rest(str(error))
         family, address = self._addresses.pop(0)
-        self._dialing = socket.socket(family, socket.SOCK_STREAM)
+        try:
+            self._dialing = socket.socket(family, socket.SOCK_STREAM)
+        except OSError as error:  # a family that this machine has not, or no file left
+            return self._try_next(str(error))
         self._dialing.setblocking(False)
         code = self._dialing.connect_ex(address)
         if code not in (0, errno.EINPROGRESS, errno.EWOULDBLOCK):
@@ -79,7 +82,10 @@ class Client(Link):
             self._selector.unregister(dialed)
         dialed.close()
         self._dialing = None
-        return 0.0 if self._addresses else self._rest(errno.errorcode.get(code, str(code)))
+        return self._try_next(errno.errorcode.get(code, str(code)))
+
+    def _try_next(self, why: str) -> float:
+        return 0.0 if self._addresses else self._rest(why)
 
     def _rest(self, why: str) -> float:
         log.debug("%s: no connection: %s", self.address, why)

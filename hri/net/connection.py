@@ -38,7 +38,8 @@ class Connection:
         except OSError as error:
             reason = error.strerror or str(error)
             remedy = "start the server, or check host and port"
-            raise HriError(f"no connection with {host}:{port}: {reason} - {remedy}") from error
+            # `from None`: who runs a client by hand needs this line, not how sockets say it.
+            raise HriError(f"no connection with {host}:{port}: {reason} - {remedy}") from None
         self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self._rest = b""
         self._lines: list[str] = []

@@ -27,6 +27,8 @@ log = logging.getLogger("hri.net")
 Listener = Callable[[Message], object]
 """Called in the thread of the port; when it raises ProtocolError the peer loses its connection."""
 
+AFTER_MISTAKE = 1.0
+"""Seconds that the thread rests after an exception that nobody expected."""
 TO_STOP = 2.0
 """Seconds that `close` waits for the thread; only the search for a host's address takes longer."""
 
@@ -41,7 +43,7 @@ class Link(ABC):
         self._peers: tuple[Peer, ...] = ()
         self._listeners: dict[str, tuple[Listener, ...]] = {}
         self._changed = threading.Condition()
-        self._is_closing = False
+        self._closing = threading.Event()
         self._selector = selectors.DefaultSelector()
         self._bell, self._ear = socket.socketpair()
         self._bell.setblocking(False)
@@ -83,7 +85,7 @@ class Link(ABC):
 
     def close(self) -> None:
         """Hang up and end the thread; a second call does nothing."""
-        self._is_closing = True
+        self._closing.set()
         self._ring()
         self._thread.join(TO_STOP)
 
@@ -105,20 +107,28 @@ class Link(ABC):
 
     def _run(self) -> None:
         wake = -math.inf
-        while not self._is_closing:
-            now = time.perf_counter()
-            timeout = None if wake == math.inf else max(0.0, wake - now)
-            for key, mask in self._selector.select(timeout):
-                key.data(mask)
-            now = time.perf_counter()
-            wake = min([self._care(peer, now) for peer in self._peers], default=math.inf)
-            wake = min(wake, self._tend(now))
+        while not self._closing.is_set():
+            try:
+                wake = self._turn(wake)
+            except Exception as error:
+                # Our own mistake; the thread must not end, nor try again in a rush.
+                log.error("%s: %s", self.address, error, exc_info=error)
+                self._closing.wait(AFTER_MISTAKE)
         for peer in self._peers:
             self._remove(peer)
         self._hang_up()
         self._selector.close()
         self._bell.close()
         self._ear.close()
+
+    def _turn(self, wake: float) -> float:
+        """Serve who has something for us, at the latest at `wake`; when to be called again."""
+        timeout = None if wake == math.inf else max(0.0, wake - time.perf_counter())
+        for key, mask in self._selector.select(timeout):
+            key.data(mask)
+        now = time.perf_counter()
+        cared = min([self._care(peer, now) for peer in self._peers], default=math.inf)
+        return min(cared, self._tend(now))
 
     def _add(self, connection: socket.socket, name: str) -> None:
         try:

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 from typing import Any
 
@@ -14,9 +15,11 @@ from hri.core.errors import HriError
 from hri.net import values
 from hri.net.client import Client
 from hri.net.inbox import Inbox
-from hri.net.protocol import Item, Message, checked_name, encode
+from hri.net.protocol import LONGEST, Item, Message, checked_name, split
 from hri.net.server import Server
 from hri.net.sharing import borrow, give_back
+
+log = logging.getLogger("hri.net")
 
 LOOPBACK = "127.0.0.1"
 BIND = "HRI_BIND"
@@ -27,6 +30,7 @@ class MalleableBehavior(Behavior):
     """Sends its inputs over TCP, and on its outputs what arrives for them; ports by schema."""
 
     category = "net"
+    takes_any_ports = True
     tcp_host = Param("", "the server to connect with; empty: be the server")
     tcp_port = Param(25000, "the port; 0: a free one, for servers", minimum=0, maximum=65535)
     tag_name = Param("malleable", "behaviors with the same tag talk with each other")
@@ -48,6 +52,7 @@ class MalleableBehavior(Behavior):
 
     def start(self, context: Context) -> None:
         self._inputs = [(name, getattr(self, name), p.datatype) for name, p in self.inputs.items()]
+        self._told: set[str] = set()
         self._inbox = Inbox({name: port.datatype for name, port in self.outputs.items()})
         if self.tcp_host:
             self._link = borrow(Client, self.tcp_host, int(self.tcp_port))
@@ -66,9 +71,10 @@ class MalleableBehavior(Behavior):
             Item(name, values.write(datatype, value))
             for name, port, datatype in self._inputs
             for value in port.values
+            if values.can_travel(value)
         ]
         if items:
-            self._link.send(encode(Message(self.tag_name, tuple(items))))
+            self._send(items)
         for name, value in self._inbox.take().items():
             is_bare = self.keep_quotes or not isinstance(value, str)
             getattr(self, name).send(value if is_bare else values.unquoted(value))
@@ -76,6 +82,16 @@ class MalleableBehavior(Behavior):
     def stop(self) -> None:
         self._link.unsubscribe(self.tag_name, self._receive)
         give_back(self._link)
+
+    def _send(self, items: list[Item]) -> None:
+        lines, too_long = split(Message(self.tag_name, tuple(items)))
+        for line in lines:
+            self._link.send(line)
+        for item in too_long:
+            if item.port not in self._told:
+                self._told.add(item.port)
+                what = "%s.%s: a value of %d characters is not sent - keep it within %d bytes"
+                log.warning(what, self.id, item.port, len(item.text), LONGEST)
 
     def _receive(self, message: Message) -> None:
         """Keep what has arrived, in the thread of the port."""

@@ -13,6 +13,7 @@ value; lines of more than 64 KiB.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 from xml.parsers import expat
@@ -56,12 +57,31 @@ def encode(message: Message) -> bytes:
     Characters that XML cannot carry become U+FFFD. Raises ProtocolError for what is not a name,
     and for more than 64 KiB.
     """
-    items = "".join(map(_element, message.items))
-    tag = checked_name(message.tag)
-    line = f"<{tag}>{items}</{tag}>\n".encode()
+    line = _line(message.tag, map(_element, message.items))
     if len(line) > LONGEST:
         raise ProtocolError(f"a message of {len(line)} bytes - keep it within {LONGEST}")
     return line
+
+
+def split(message: Message) -> tuple[list[bytes], list[Item]]:
+    """As many lines as a message of any length takes, and the items too long for a line.
+
+    Raises ProtocolError for what is not a name.
+    """
+    room = LONGEST - len(_line(message.tag, ()))
+    lines: list[list[bytes]] = [[]]
+    left, too_long = room, []
+    for item in message.items:
+        element = _element(item)
+        if len(element) > room:
+            too_long.append(item)
+            continue
+        if len(element) > left:
+            lines.append([])
+            left = room
+        lines[-1].append(element)
+        left -= len(element)
+    return [_line(message.tag, line) for line in lines if line], too_long
 
 
 def decode(line: bytes) -> Message:
@@ -79,10 +99,15 @@ def checked_name(name: str) -> str:
     return name
 
 
-def _element(item: Item) -> str:
+def _line(tag: str, elements: Iterable[bytes]) -> bytes:
+    name = checked_name(tag).encode()
+    return b"<%b>%b</%b>\n" % (name, b"".join(elements), name)
+
+
+def _element(item: Item) -> bytes:
     port = checked_name(item.port)
     count = "" if item.count is None else f' count="{item.count}"'
-    return f"<{port}{count}>{_escaped(item.text)}</{port}>"
+    return f"<{port}{count}>{_escaped(item.text)}</{port}>".encode()
 
 
 def _escaped(text: str) -> str:

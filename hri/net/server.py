@@ -8,12 +8,16 @@ import math
 import os
 import selectors
 import socket
+import time
 
 from hri.core.errors import HriError
 from hri.net.link import Link
 from hri.net.peer import Limits
 
 log = logging.getLogger("hri.net")
+
+REST = 1.0
+"""Seconds without a new peer, when this process has no file left for one."""
 
 
 class Server(Link):
@@ -23,7 +27,10 @@ class Server(Link):
         """Raises HriError when the port cannot be had."""
         self._socket = _listening(host, port)
         super().__init__(host, self._socket.getsockname()[1], limits)
-        self._is_full = False
+        self._has_warned = False
+        """Whether it was told already that nobody more can be let in."""
+        self._rests_until = math.inf
+        """When to accept again; inf while it does."""
         self._selector.register(self._socket, selectors.EVENT_READ, self._accept)
         self._thread.start()
         if port == 0:
@@ -32,21 +39,31 @@ class Server(Link):
     def _accept(self, mask: int) -> None:
         try:
             connection, (host, port, *_) = self._socket.accept()
+        except (BlockingIOError, ConnectionError):
+            return  # it hung up again
         except OSError as error:
-            # Nothing to serve: it hung up again, or this process has no file left.
-            log.debug("%s: accept: %s", self.address, error)
+            # What waits would wake us at once, and for ever.
+            self._selector.unregister(self._socket)
+            self._rests_until = time.perf_counter() + REST
+            self._warn(f"cannot let anybody in: {error.strerror}")
             return
         if len(self._peers) < self._limits.peers:
-            self._is_full = False
+            self._has_warned = False
             self._add(connection, f"{host}:{port}")
             return
         connection.close()
-        if not self._is_full:
-            self._is_full = True
-            log.warning("%s: turned %s away: %d peers", self.address, host, len(self._peers))
+        self._warn(f"turned {host} away: {len(self._peers)} peers")
+
+    def _warn(self, what: str) -> None:
+        if not self._has_warned:
+            log.warning("%s: %s", self.address, what)
+        self._has_warned = True
 
     def _tend(self, now: float) -> float:
-        return math.inf
+        if now >= self._rests_until:
+            self._rests_until = math.inf
+            self._selector.register(self._socket, selectors.EVENT_READ, self._accept)
+        return self._rests_until
 
     def _hang_up(self) -> None:
         self._socket.close()

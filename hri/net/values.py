@@ -7,6 +7,8 @@
 | `doublearray` | doubles with a space between, `1.000000 2.000000` | any white space between |
 | `boolean` | `true`, `false` | `1`, `0` |
 
+NaN does not travel.
+
 As in 2003, quotes are not taken off a string that arrives: from a behavior it comes with them, from
 a program that wrote none it comes without. `unquoted` takes them off.
 """
@@ -46,8 +48,14 @@ def read(datatype: str, text: str) -> Any:
         raise ProtocolError(f'"{text[:40]}" is no {datatype} - see docs/bridge.md') from error
 
 
+def can_travel(value: Any) -> bool:
+    """Whether a value has a text: NaN, alone or in an array, has none."""
+    numbers = value if isinstance(value, tuple) else (value,)
+    return all(number == number for number in numbers)  # only NaN is not equal to itself
+
+
 def write(datatype: str, value: Any) -> str:
-    """The text of a value."""
+    """The text of a value that can travel."""
     return FORMS[datatype].write(value)
 
 

@@ -22,7 +22,7 @@ from hri.behavior.network import Network
 from hri.behavior.runner import Runner
 from hri.core import paths
 from hri.core.clock import Clock, RealClock
-from hri.core.errors import HriError
+from hri.core.errors import HriError, first_of
 from hri.core.events import EventBus
 from hri.core.latest import Board
 from hri.core.registry import canonical
@@ -140,7 +140,7 @@ class Robot:
             ours = group.subgroup(HriError)
             if ours is None:
                 raise
-            raise _first_of(ours) from group
+            raise first_of(ours) from group
 
     def _obey_stop(self, event: Event) -> None:
         """Whatever tasks run, or none: "stop" stops the base."""
@@ -238,12 +238,6 @@ class Robot:
             await context.clock.sleep(seconds)
 
         self.run(wait)
-
-
-def _first_of(group: BaseExceptionGroup[HriError]) -> HriError:
-    """The first error inside nested groups."""
-    inner = group.exceptions[0]
-    return _first_of(inner) if isinstance(inner, BaseExceptionGroup) else inner
 
 
 def _find_configuration(name: str) -> Configuration:

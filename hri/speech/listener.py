@@ -33,7 +33,9 @@ class Listener(Behavior):
 
     category = "speech"
 
-    is_speaking = Input[bool]("boolean", "whether the robot speaks; then few rules count")
+    is_speaking = Input[bool](
+        "boolean", "whether the robot speaks; then few rules count", is_optional=True
+    )
     utterance = Output[Utterance]("utterance", "what was heard, when something was")
     is_hearing = Output[bool]("boolean", "whether a voice is going on")
     microphone_id = Param("microphone", "resource that hears")

@@ -31,7 +31,7 @@ class Voice(Behavior):
 
     category = "speech"
 
-    prosody = Input[Prosody]("prosody", "how it is said")
+    prosody = Input[Prosody]("prosody", "how it is said", is_optional=True)
     speech = Output[Speech]("speech", "what is being said")
     position = Output[float]("double", "seconds of it that have been heard")
     is_speaking = Output[bool]("boolean", "whether a sound is going on")

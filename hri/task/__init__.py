@@ -10,11 +10,13 @@ task            the decorator `@task`, Task (one run), TaskStatus, find_task
 parallel        Parallel: until the first is done, or until all are
 patterns        with_timeout, retry, repeat
 claims          who may use the drive and the voice
+context         TaskContext: what a task may use
 events          events as text; conditions: combinations; thresholds: events on values of ports
 primitive       tasks that are a network
 units           the units of the tasks in navigation, net, resource, speech, util, vision
 """
 
+from hri.task.context import TaskContext
 from hri.task.manager import TaskManager
 from hri.task.parallel import Parallel
 from hri.task.script import get_task_manager, use
@@ -32,6 +34,7 @@ __all__ = [
     "UNIT_DISTANCE",
     "UNIT_TIME",
     "Parallel",
+    "TaskContext",
     "TaskManager",
     "TaskStatus",
     "find_task",

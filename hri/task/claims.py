@@ -138,7 +138,9 @@ class Claims:
                 arena.leave(hold)
                 self._grant(arena)
         if hold.scope.cancelled_caught:
-            raise Interrupted(f"{hold.taken_by} has taken the {name} - try again when it is free")
+            # Another part of the same task, or another run of it, has the same name.
+            by = f"a newer claim of {owner}" if hold.taken_by == owner else hold.taken_by
+            raise Interrupted(f"{by} has taken the {name} - try again when it is free")
 
     def _grant(self, arena: Arena) -> None:
         if (hold := arena.next()) is not None:

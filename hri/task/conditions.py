@@ -6,26 +6,48 @@ context.manager.install(raise_when, door, "visitor.came")  # an event of its own
 
 A pattern such as "head.*" is the simplest condition. `within` is in seconds, from the first event
 that counts to the one that completes it.
+
+An event is looked at once, when it comes, and is not kept. What is kept of each part is the latest
+event from which on it has been met: no more is needed by the parts that follow it and by the times
+around it, however long ago it was.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from hri.core.events import matches
 from hri.core.signals import Event
 from hri.task.context import TaskContext
 from hri.task.queue import EventQueue
 
-LONGEST = 100
-"""How many events of the patterns in question are remembered; the oldest give way."""
+
+class Begin(NamedTuple):
+    """An event that a condition may begin with; the latest is the greatest."""
+
+    order: int
+    time: float
+    outer: Begin | None
+    """Where the condition around this one begins."""
+
+
+ANYWHERE = Begin(0, 0.0, None)
+"""For a condition that no other is around: it does not matter where it begins."""
+
+Match = Callable[[Event, Begin | None], Begin | None]
+"""Looks at the next event, from which on the condition may begin; None while it may not yet.
+
+Returns the latest event from which on the condition has been met; None while it has not.
+"""
 
 
 class Condition(ABC):
-    """Pure: looks at events in their order."""
+    """What is to happen."""
 
     @property
     @abstractmethod
@@ -33,8 +55,8 @@ class Condition(ABC):
         """The events it looks at."""
 
     @abstractmethod
-    def met(self, events: Sequence[Event], start: int = 0) -> int | None:
-        """The index of the event that completes it, of those from `start` on; None without."""
+    def match(self) -> Match:
+        """Look for it among the events from now on."""
 
 
 @dataclass(frozen=True)
@@ -45,11 +67,16 @@ class _One(Condition):
     def patterns(self) -> frozenset[str]:
         return frozenset([self.pattern])
 
-    def met(self, events: Sequence[Event], start: int = 0) -> int | None:
-        for at in range(start, len(events)):
-            if matches(self.pattern, events[at].name):
-                return at
-        return None
+    def match(self) -> Match:
+        since: Begin | None = None
+
+        def see(event: Event, begin: Begin | None) -> Begin | None:
+            nonlocal since
+            if begin is not None and matches(self.pattern, event.name):
+                since = begin
+            return since
+
+        return see
 
 
 @dataclass(frozen=True)
@@ -62,25 +89,39 @@ class _Parts(Condition):
 
 
 class _All(_Parts):
-    def met(self, events: Sequence[Event], start: int = 0) -> int | None:
-        ends = [end for part in self.parts if (end := part.met(events, start)) is not None]
-        return max(ends) if len(ends) == len(self.parts) else None
+    def match(self) -> Match:
+        parts = [part.match() for part in self.parts]
+
+        def see(event: Event, begin: Begin | None) -> Begin | None:
+            begins = [met for part in parts if (met := part(event, begin)) is not None]
+            return min(begins) if len(begins) == len(parts) else None
+
+        return see
 
 
 class _Any(_Parts):
-    def met(self, events: Sequence[Event], start: int = 0) -> int | None:
-        ends = [end for part in self.parts if (end := part.met(events, start)) is not None]
-        return min(ends, default=None)
+    def match(self) -> Match:
+        parts = [part.match() for part in self.parts]
+
+        def see(event: Event, begin: Begin | None) -> Begin | None:
+            begins = [met for part in parts if (met := part(event, begin)) is not None]
+            return max(begins, default=None)
+
+        return see
 
 
 class _Sequence(_Parts):
-    def met(self, events: Sequence[Event], start: int = 0) -> int | None:
-        end = start - 1
-        for part in self.parts:
-            if (next := part.met(events, end + 1)) is None:
-                return None
-            end = next
-        return end
+    def match(self) -> Match:
+        parts = [part.match() for part in self.parts]
+        since: list[Begin | None] = [None] * len(parts)
+
+        def see(event: Event, begin: Begin | None) -> Begin | None:
+            # Each part may begin once the one before it was met, by an earlier event.
+            begins = [begin, *since[:-1]]
+            since[:] = [part(event, begin) for part, begin in zip(parts, begins, strict=True)]
+            return since[-1]
+
+        return see
 
 
 @dataclass(frozen=True)
@@ -92,13 +133,19 @@ class _Without(Condition):
     def patterns(self) -> frozenset[str]:
         return self.wanted.patterns | self.unwanted.patterns
 
-    def met(self, events: Sequence[Event], start: int = 0) -> int | None:
-        while (end := self.wanted.met(events, start)) is not None:
-            spoiled = self.unwanted.met(events, start)
-            if spoiled is None or spoiled > end:
-                return end
-            start = spoiled + 1
-        return None
+    def match(self) -> Match:
+        wanted, unwanted = self.wanted.match(), self.unwanted.match()
+        since: Begin | None = None
+
+        def see(event: Event, begin: Begin | None) -> Begin | None:
+            nonlocal wanted, unwanted, since
+            if unwanted(event, begin) is not None:
+                wanted, unwanted = self.wanted.match(), self.unwanted.match()
+            else:
+                since = wanted(event, begin) or since
+            return since
+
+        return see
 
 
 @dataclass(frozen=True)
@@ -110,13 +157,19 @@ class _Within(Condition):
     def patterns(self) -> frozenset[str]:
         return self.wanted.patterns
 
-    def met(self, events: Sequence[Event], start: int = 0) -> int | None:
-        ends = []
-        for begin in range(start, len(events)):
-            end = self.wanted.met(events, begin)
-            if end is not None and events[end].time - events[begin].time <= self.seconds:
-                ends.append(end)
-        return min(ends, default=None)
+    def match(self) -> Match:
+        wanted, orders = self.wanted.match(), itertools.count()
+        since: Begin | None = None
+
+        def see(event: Event, begin: Begin | None) -> Begin | None:
+            nonlocal since
+            here = None if begin is None else Begin(next(orders), event.time, begin)
+            met = wanted(event, here)
+            if met is not None and event.time - met.time <= self.seconds:
+                since = met.outer
+            return since
+
+        return see
 
 
 def all_of(*parts: str | Condition, within: float = math.inf) -> Condition:
@@ -161,13 +214,11 @@ async def raise_when(context: TaskContext, condition: str | Condition, name: str
 
 async def _next(queue: EventQueue, condition: Condition) -> Event:
     """The event that completes a condition, of those from a queue."""
-    events: list[Event] = []
+    match = condition.match()
     while True:
         event = await queue.get()
-        if any(matches(pattern, event.name) for pattern in condition.patterns):
-            events = [*events[-LONGEST + 1 :], event]
-            if condition.met(events) is not None:
-                return event
+        if match(event, ANYWHERE) is not None:
+            return event
 
 
 def _conditions(parts: Sequence[str | Condition]) -> tuple[Condition, ...]:

@@ -12,7 +12,8 @@ class Counter(Primitive):
             self.set_status(TaskStatus.SUCCESS, count)
 
 `Counter` is now a task like any other. Its network is `primitive/Examples/Counter.xml`, in the
-first search folder that has it; it runs from `start` to `finish`.
+first search folder that has it; it runs from `start` to `finish`. When somebody else stops or swaps
+the network, the task ends with Interrupted.
 """
 
 from __future__ import annotations
@@ -25,8 +26,10 @@ import trio
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.network import Network, load_network
+from hri.behavior.runner import Runner
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.hal.pending import Interrupted
 from hri.task.context import TaskContext
 from hri.task.task import TaskStatus, TaskType
 
@@ -40,6 +43,7 @@ class Primitive:
     def __init__(self, context: TaskContext) -> None:
         self.context = context
         self.network: Network
+        self._runner: Runner
         self._result: Any = None
         self._error: Exception | None = None
         self._ended = trio.Event()
@@ -55,7 +59,7 @@ class Primitive:
 
     def inject(self, behavior: str, input: str, value: Any) -> None:
         """Send a value to an input of the network, once, at the next tick. Raises HriError."""
-        self.context.networks.inject(self.network.name, behavior, input, value)
+        self._runner.inject(behavior, input, value)
 
     def on_value(
         self, behavior: str, output: str, callback: Callable[[Any, float], object]
@@ -68,7 +72,7 @@ class Primitive:
         def guarded(value: Any, now: float) -> None:
             self._guard(callback, value, now)
 
-        self.context.networks.watch(self.network.name, behavior, output, guarded)
+        self._runner.watch(behavior, output, guarded)
 
     def set_status(self, status: TaskStatus, result: Any = None) -> None:
         """End the task: SUCCESS with a result, or FAILURE with the reason as a text."""
@@ -85,16 +89,31 @@ class Primitive:
         self.network = load_network(network_path(self.id))
         self.network.name = self._free_name()
         self.network.add(_Cycle("primitive", self))
-        self.context.networks.start(self.network)
+        self._runner = self.context.networks.start(self.network)
         try:
             self.start()
             await self._ended.wait()
         finally:
-            self.context.networks.stop(self.network.name)
-            self.finish()
+            try:
+                self._stop()
+            finally:
+                self.finish()
         if self._error is not None:
             raise self._error
         return self._result
+
+    def _stop(self) -> None:
+        """Stop the network, unless somebody else has."""
+        networks, name = self.context.networks, self.network.name
+        if networks.runners.get(name) is self._runner:
+            networks.stop(name)
+
+    def _lose_network(self) -> None:
+        """End the task, unless that is why its network ends."""
+        if not self._ended.is_set():
+            reason = f"the network of {self.id} was stopped or swapped - cancel the task instead"
+            self._error = self._error or Interrupted(reason)
+            self._end()
 
     def _free_name(self) -> str:
         """A name of its own for each run, so that two may run at once."""
@@ -117,7 +136,7 @@ class Primitive:
 
 
 class _Cycle(Behavior):
-    """Lets a primitive compute when all other behaviors have."""
+    """Lets a primitive compute when all other behaviors have, and tells it when they stop."""
 
     def __init__(self, id: str, primitive: Primitive) -> None:
         super().__init__(id)
@@ -125,6 +144,9 @@ class _Cycle(Behavior):
 
     def compute(self, now: float, dt: float) -> None:
         self._primitive._guard(self._primitive.compute)
+
+    def stop(self) -> None:
+        self._primitive._lose_network()
 
 
 def primitive(id: str) -> Callable[[type[Primitive]], TaskType]:

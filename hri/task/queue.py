@@ -20,7 +20,7 @@ class EventQueue:
     def __init__(self, clock: Clock) -> None:
         self._clock = clock
         self._events: deque[Event] = deque(maxlen=LONGEST)
-        self._arrived = trio.Event()
+        self._waiting = trio.lowlevel.ParkingLot()
 
     def __len__(self) -> int:
         return len(self._events)
@@ -28,7 +28,8 @@ class EventQueue:
     def put(self, event: Event) -> None:
         self._events.append(event)
         # Through the clock, so that on fake time those who wait wake one after the other.
-        self._clock.soon(self._arrived.set)
+        for _ in range(len(self._waiting)):
+            self._clock.soon(self._waiting.unpark)
 
     def keep(self, *patterns: str) -> None:
         """Forget the events that fit none of the patterns."""
@@ -36,14 +37,13 @@ class EventQueue:
         self._events = deque(kept, LONGEST)
 
     async def get(self, pattern: str = "*") -> Event:
-        """The next event, of those that fit; waits for it."""
+        """The next event, of those that fit; waits for it. Several may wait at once."""
         while True:
             for event in self._events:
                 if matches(pattern, event.name):
                     self._events.remove(event)
                     return event
-            self._arrived = trio.Event()
-            await self._arrived.wait()
+            await self._waiting.park()
 
 
 def _fits(event: Event, patterns: tuple[str, ...]) -> bool:

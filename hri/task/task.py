@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any, get_origin
 import trio
 
 from hri.core import registry
-from hri.core.errors import HriError
+from hri.core.errors import HriError, first_of
 from hri.core.events import Subscription, matches
 from hri.core.signals import Event
 from hri.hal.pending import Interrupted
@@ -113,12 +113,14 @@ class Task:
             with self._scope:
                 self.result = await self._job(replace(context, task=self), *self._arguments)
                 outcome = TaskStatus.SUCCESS
-        except Interrupted as error:
-            self.error = error
-            if not self._scope.cancel_called:
-                raise
-        except Exception as error:
-            self.error, outcome = error, TaskStatus.FAILURE
+        except Exception as raised:
+            self.error = error = _unwrapped(raised)
+            if not isinstance(error, Interrupted):
+                outcome = TaskStatus.FAILURE
+            elif self._scope.cancel_called:
+                return None
+            if error is not raised:
+                raise error from raised
             raise
         finally:
             self._end(outcome)
@@ -217,7 +219,7 @@ class TaskType:
         try:
             bound = self._signature.bind(*arguments, **named)
         except TypeError as error:
-            raise HriError(f"{self.id}: {error} - it takes {self._signature}") from error
+            raise HriError(f"{self.id}: {error} - it takes {self._signature}") from None
         bound.apply_defaults()
         given = dict(bound.arguments)
         for name, value in given.items():
@@ -285,6 +287,15 @@ def name_of(job: Job) -> str:
     if isinstance(job, partial):
         return name_of(job.func)
     return getattr(job, "__name__", "task")
+
+
+def _unwrapped(error: Exception) -> Exception:
+    """What ended a job; of a nursery in which all were interrupted, the first that was."""
+    if isinstance(error, ExceptionGroup):
+        interrupted, others = error.split(Interrupted)
+        if interrupted is not None and others is None:
+            return first_of(interrupted)
+    return error
 
 
 def _surprise(error: Exception) -> Exception | None:

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Awaitable, Callable
+from contextlib import suppress
 from typing import Any
 
 import trio
 
 from hri.core.clock import Clock, FakeClock
+
+_LOOK = 0.05
+"""Seconds; how often a script that waits looks whether the loop still runs."""
 
 Loop = Callable[[Callable[[], None]], object]
 """Runs a trio loop until it is over; calls what it is given once, from inside, when it is ready."""
@@ -66,14 +70,35 @@ class LoopThread:
     def run(self, job: Callable[..., Awaitable[Any]], *arguments: Any) -> Any:
         """Run a coroutine function in the loop, block until it is done, and give its result.
 
-        Inside of the loop: what to await. Raises RuntimeError when the loop is over or ends.
+        Inside of the loop: what to await. Raises RuntimeError when the loop is over or ends. What
+        interrupts the script, such as Ctrl-C, cancels the job and is raised when that has ended.
         """
         if self.is_here:
             return job(*arguments)
+        scope, ended = trio.CancelScope(), threading.Event()
+
+        async def run() -> Any:
+            try:
+                with scope:
+                    return await self._held(job, arguments)
+            finally:
+                ended.set()
+
         try:
-            return trio.from_thread.run(self._held, job, arguments, trio_token=self._token)
-        except (trio.RunFinishedError, trio.Cancelled):
-            raise self._over() from self.failure
+            return trio.from_thread.run(run, trio_token=self._token)
+        except BaseException as error:
+            if _is_end_of_loop(error):
+                raise self._over() from self.failure
+            self._cancel(scope, ended)
+            raise
+
+    def _cancel(self, scope: trio.CancelScope, ended: threading.Event) -> None:
+        """Cancel a job and wait for its end; does nothing when it has ended."""
+        assert self._token is not None
+        with suppress(trio.RunFinishedError):
+            self._token.run_sync_soon(scope.cancel)
+        while not ended.wait(_LOOK) and self.is_alive:
+            pass
 
     async def _held(self, job: Callable[..., Awaitable[Any]], arguments: tuple[Any, ...]) -> Any:
         if not isinstance(self._clock, FakeClock):
@@ -99,3 +124,10 @@ class LoopThread:
     def _over(self) -> RuntimeError:
         why = f": {self.failure}" if self.failure is not None else ""
         return RuntimeError(f"the {self._name} has ended{why}")
+
+
+def _is_end_of_loop(error: BaseException) -> bool:
+    """Whether a job came to nothing because the loop ended; nurseries of it make groups."""
+    if isinstance(error, BaseExceptionGroup):
+        return error.split(trio.Cancelled)[1] is None
+    return isinstance(error, (trio.RunFinishedError, trio.Cancelled))

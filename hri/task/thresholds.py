@@ -16,8 +16,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, get_type_hints
 
+from hri.behavior.ports import DATATYPES, Output
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 from hri.core.units import Quantity, factor
 from hri.task.context import TaskContext
@@ -61,15 +62,36 @@ class Threshold:
     def holds(self, value: Any) -> bool:
         """Whether a value fits. Raises HriError for one that cannot be compared."""
         if self.field:
-            if not hasattr(value, self.field) or self.field.startswith("_"):
-                what = f'{self.behavior}.{self.port} has no field "{self.field}"'
-                known = getattr(value, "__dataclass_fields__", ())
-                raise HriError(f"{what} - {did_you_mean(self.field, known)}")
+            self._check_field(value)
             value = getattr(value, self.field)
-        if not isinstance(value, (int, float)):
-            kind = type(value).__name__
-            raise HriError(f"{self.behavior}.{self.port} sends a {kind} - compare a number of it")
+        self._check_number(type(value))
         return _COMPARISONS[self.sign](value, self.limit)
+
+    def check(self, output: Output[Any]) -> None:
+        """Look whether what an output declares can be compared, as far as it tells.
+
+        Raises HriError.
+        """
+        kind = DATATYPES[output.datatype]
+        if self.field and kind is not object:
+            self._check_field(kind)
+            kind = get_type_hints(kind).get(self.field, object)
+        # What may be a number, or is a property, tells it when it is sent.
+        if isinstance(kind, type) and kind is not object:
+            self._check_number(kind)
+
+    def _check_field(self, owner: object) -> None:
+        """`owner`: a value, or its type."""
+        known = getattr(owner, "__dataclass_fields__", ())
+        is_there = self.field in known or hasattr(owner, self.field)
+        if not is_there or self.field.startswith("_"):
+            what = f'{self.behavior}.{self.port} has no field "{self.field}"'
+            raise HriError(f"{what} - {did_you_mean(self.field, known)}")
+
+    def _check_number(self, kind: type) -> None:
+        if not issubclass(kind, (int, float)):
+            what = f"{self.behavior}.{self.port} sends a {kind.__name__}"
+            raise HriError(f"{what} - compare a number of it")
 
 
 def parse_threshold(text: str, path: Path = Path("-"), line: int = 1) -> Threshold:
@@ -134,7 +156,8 @@ class Edge:
 def raising(context: TaskContext, threshold: str | Threshold, name: str) -> Iterator[None]:
     """Raise an event of that name whenever a threshold is passed, while the body runs.
 
-    Its property `value` is what the port sent. Raises HriError when no such port runs.
+    Its property `value` is what the port sent. Raises HriError when no such port runs, or what it
+    sends cannot be compared with a number. Ends, like every watch, when the network is swapped.
     """
     if isinstance(threshold, str):
         threshold = parse_threshold(threshold)
@@ -148,6 +171,8 @@ def raising(context: TaskContext, threshold: str | Threshold, name: str) -> Iter
     network = limit.network or _network_of(context, limit.behavior)
     watch = context.networks.watch(network, limit.behavior, limit.port, look)
     try:
+        behavior = context.networks.runners[network].network[limit.behavior]
+        limit.check(behavior.outputs[limit.port])
         yield
     finally:
         watch.cancel()

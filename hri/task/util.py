@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from hri.core.errors import HriError
 from hri.core.signals import Event
 from hri.core.units import millisecond
 from hri.task.context import TaskContext
@@ -15,8 +16,10 @@ __all__ = ["RaiseEvent", "Wait", "WaitForEvent"]
 
 @task("Hri.Wait")
 async def Wait(context: TaskContext, milliseconds: float) -> None:
-    """Let some milliseconds pass, whatever the default unit of time is."""
-    await context.clock.sleep(milliseconds * millisecond)
+    """Let some milliseconds pass, whatever the default unit of time is; fails for infinity."""
+    if math.isinf(milliseconds):
+        raise HriError(f"Hri.Wait: {milliseconds} is no time - wait for an event instead")
+    await context.clock.sleep(_seconds(milliseconds))
 
 
 @task("Hri.RaiseEvent")
@@ -30,4 +33,10 @@ async def WaitForEvent(
     context: TaskContext, pattern: str, milliseconds: float = math.inf
 ) -> Event | None:
     """The next event that fits, such as "Door.*"; None when none comes in time."""
-    return await context.wait_for(pattern, timeout=milliseconds * millisecond)
+    return await context.wait_for(pattern, timeout=_seconds(milliseconds))
+
+
+def _seconds(milliseconds: float) -> float:
+    if math.isnan(milliseconds):
+        raise HriError("nan is no time - give milliseconds")
+    return milliseconds * millisecond

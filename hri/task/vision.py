@@ -19,10 +19,13 @@ LOOK_EVERY = 0.02
 async def GetImage(context: TaskContext, camera_id: str = "") -> Frame:
     """The next picture of a camera, of the first one without an id; fails when none comes."""
     camera = _camera(context, camera_id)
-    with context.clock.move_on_after(TIMEOUT):
-        while (frame := camera.read(context.clock.now())) is None:
-            await context.clock.sleep(LOOK_EVERY)
-        return frame
+    try:
+        with context.clock.move_on_after(TIMEOUT):
+            while (frame := camera.read(context.clock.now())) is None:
+                await context.clock.sleep(LOOK_EVERY)
+            return frame
+    finally:
+        context.resources.release(camera)
     context.fail(f"{camera.id} gave no picture within {TIMEOUT:g} s - unplug it and plug it in")
 
 

@@ -1,24 +1,36 @@
-"""A large network that runs for simulated hours while tasks, values and networks come and go."""
+"""A large network that runs for simulated hours while tasks, values and networks come and go.
+
+Beside it a base drives to and fro, tasks take claims from each other, and numbers cross the
+bridge: that alone takes real time, so how many ticks it lasts is not the same in two runs.
+"""
 
 from __future__ import annotations
 
 import gc
+import math
 import random
 import tracemalloc
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import trio
 
 from hri.behavior.behavior import Behavior, Context
+from hri.behavior.catalog import find_behavior
 from hri.behavior.network import Network
 from hri.behavior.ports import Input, Output
-from hri.core.clock import FakeClock
+from hri.behavior.schema import Port, Schema, subclass
+from hri.core.clock import FakeClock, RealClock
 from hri.core.events import EventBus
 from hri.core.signals import Event
+from hri.drive.navigation import drive_move_delta, drive_turn_delta
 from hri.hal.manager import ResourceManager
+from hri.hal.pending import Interrupted
+from hri.hal.resource import Description
 from hri.task.context import TaskContext
 from hri.task.manager import TaskManager
+from hri.task.task import TaskStatus
 
 INTERVAL = 0.1
 """Seconds between ticks of the large network."""
@@ -26,15 +38,34 @@ EVENT_EVERY = 10
 """Ticks of a crier between two of its events."""
 CRIERS = 5
 PATIENCE = 3.0
-"""Seconds; the longest that a visiting task waits for its event."""
+"""Seconds; the longest that an impatient visitor waits for its event."""
+LONG_PATIENCE = 7200.0
+"""Seconds; the timeout of those who are patient: their timers are cancelled long before."""
 GUEST_SECONDS = 60.0
 """Between two exchanges of the small network."""
 WARM_UP = 0.25
 """Share of the run after which memory must not grow."""
-MOST_GROWTH = 100_000
+CROSSING_PATIENCE = 10.0
+"""Seconds of real time that a number may take over the bridge."""
+NAP = 0.001
+"""Seconds of real time between two looks whether it has arrived."""
+STRETCH = 20.0
+"""Centimetres that the base drives to and fro."""
+MOST_GROWTH = 150_000
 """Bytes; queues and tables reach their size in the warm-up."""
 MOST_DRIFT = 1e-6
 """Seconds that a tick may be off its place on the grid."""
+
+
+DEVICES = (
+    Description("world", "Hri.SimulatedWorld"),
+    Description("drive", "Hri.SimulatedDrive", bus="world"),
+    Description("odometry", "Hri.SimulatedOdometry", bus="world"),
+)
+BRIDGE = Schema("Soak.Bridge", "Hri.MalleableBehavior", "Bridge", "", "net")
+NUMBERS = (Port("number", "double"),)
+SENDER = replace(BRIDGE, type="Soak.Sender", inputs=NUMBERS)
+RECEIVER = replace(BRIDGE, type="Soak.Receiver", outputs=NUMBERS)
 
 
 class Crier(Behavior):
@@ -86,6 +117,9 @@ class Verdict:
     tasks: int = 0
     swaps: int = 0
     injected: int = 0
+    drives: int = 0
+    crossings: int = 0
+    """Numbers that went over a bridge of their own."""
     drift: float = 0.0
     """Seconds."""
     growth: int = 0
@@ -102,8 +136,10 @@ class Soak:
         self.tell = tell
         self.random = random.Random(0)
         self.clock = FakeClock()
+        self.real = RealClock()
         self.events = EventBus(self.clock)
-        context = Context(self.clock, self.events, ResourceManager((), self.clock))
+        self.resources = ResourceManager(DEVICES, self.clock)
+        context = Context(self.clock, self.events, self.resources)
         self.networks = context.networks
         self.tasks = TaskManager(context)
         self.network = large_network(max(behaviors, CRIERS + 2))
@@ -119,6 +155,7 @@ class Soak:
         finally:
             tracemalloc.stop()
             self.networks.close()
+            self.resources.close()
         self._judge()
         return self.verdict
 
@@ -133,6 +170,9 @@ class Soak:
             self.events.subscribe("soak.cried", self._hear)
             nursery.start_soon(self._send_visitors)
             nursery.start_soon(self._exchange_guests)
+            nursery.start_soon(self._send_drivers)
+            nursery.start_soon(self._cross_bridges)
+            resident = self.tasks.install(self._reside)
             await self.clock.sleep(self.seconds * WARM_UP)
             listeners, memory = len(self.events.subscriptions), _memory()
             for quarter in (0.5, 0.75, 1.0):
@@ -140,11 +180,14 @@ class Soak:
                 self.verdict.growth = _memory() - memory
                 self._tell_progress()
             self.verdict.ticks = self.networks.runners["large"].statistics.ticks
-            # No new visitors come while those that wait run out of patience.
+            # No new visitors come while those that wait run out of patience, or get their event.
             self._is_closing = True
-            await self.clock.sleep(2 * PATIENCE)
+            resident.cancel()
+            await self.clock.sleep(GUEST_SECONDS)
             if len(self.events.subscriptions) > listeners:
                 self.verdict.faults.append("tasks that ended still listen to events")
+            if (holder := self.tasks.claims.holder("drive")) is not None:
+                self.verdict.faults.append(f"{holder} still holds the drive")
             nursery.cancel_scope.cancel()
 
     _is_closing = False
@@ -153,7 +196,9 @@ class Soak:
         """Install tasks that wait, end, fail or are cancelled."""
         while not self._is_closing:
             await self.clock.sleep(self.random.uniform(0.1, 2.0))
-            task = self.tasks.install(self._visit, self.random.uniform(0.1, PATIENCE))
+            is_patient = self.random.random() < 0.5
+            patience = LONG_PATIENCE if is_patient else self.random.uniform(0.1, PATIENCE)
+            task = self.tasks.install(self._visit, patience)
             self.verdict.tasks += 1
             if self.random.random() < 0.2:
                 await self.clock.sleep(self.random.uniform(0.0, 1.0))
@@ -162,8 +207,56 @@ class Soak:
     async def _visit(self, context: TaskContext, patience: float) -> None:
         event = await context.wait_for("soak.c*", timeout=patience)
         if event is not None:
-            self.networks.inject("large", "relay0", "input", event.properties["number"])
-            self.verdict.injected += 1
+            async with context.claim("relay0"):
+                self.networks.inject("large", "relay0", "input", event.properties["number"])
+                self.verdict.injected += 1
+                await context.clock.sleep(INTERVAL)
+
+    async def _reside(self, context: TaskContext) -> None:
+        """Wait for one event after the other, each time with a timeout that never comes."""
+        while True:
+            await context.wait_for("soak.cried", timeout=LONG_PATIENCE)
+
+    async def _send_drivers(self) -> None:
+        """Let one task turn the base until another one takes the drive and drives to and fro."""
+        while not self._is_closing:
+            turning = self.tasks.install(drive_turn_delta, math.tau)
+            await self.clock.sleep(1.0)
+            driving = self.tasks.install(drive_to_and_fro)
+            await driving.wait()
+            self.verdict.drives += 1
+            if not isinstance(turning.error, Interrupted):
+                self.verdict.faults.append(f"{turning} did not lose the drive to {driving}")
+            if driving.status is not TaskStatus.SUCCESS:
+                self.verdict.faults.append(f"{driving}: {driving.error}")
+            await self.clock.sleep(GUEST_SECONDS)
+
+    async def _cross_bridges(self) -> None:
+        """Open a bridge, send a number over it and close it, again and again."""
+        while not self._is_closing:
+            receiver = bridge_end(RECEIVER, bind="127.0.0.1", tcp_port=0)
+            self.networks.start(receiver)
+            listening: Any = receiver["bridge"]
+            sender = bridge_end(SENDER, tcp_host="127.0.0.1", tcp_port=listening.port_in_use)
+            self.networks.start(sender)
+            if await self._has_crossed(sender.name, receiver.name):
+                self.verdict.crossings += 1
+            else:
+                self.verdict.faults.append("a number did not cross the bridge")
+            self.networks.stop(sender.name)
+            self.networks.stop(receiver.name)
+            await self.clock.sleep(GUEST_SECONDS)
+
+    async def _has_crossed(self, sender: str, receiver: str) -> bool:
+        """Send numbers until one arrives; those before there is a connection are lost."""
+        arrived: list[float] = []
+        self.networks.watch(receiver, "bridge", "number", lambda value, _: arrived.append(value))
+        given_up = self.real.now() + CROSSING_PATIENCE
+        while not arrived and self.real.now() < given_up:
+            self.networks.inject(sender, "bridge", "number", 1.0)
+            await self.clock.sleep(INTERVAL)
+            self.real.advance(NAP)
+        return bool(arrived)
 
     async def _exchange_guests(self) -> None:
         while True:
@@ -205,6 +298,13 @@ class Soak:
             faults.append(f"memory grew by {verdict.growth} bytes")
 
 
+async def drive_to_and_fro(context: TaskContext) -> None:
+    """Drive ahead and back again."""
+    async with context.claim("drive"):
+        await drive_move_delta(context, STRETCH)
+        await drive_move_delta(context, -STRETCH)
+
+
 def _memory() -> int:
     gc.collect()
     return tracemalloc.get_traced_memory()[0]
@@ -228,4 +328,11 @@ def guest_network(number: int) -> Network:
     """A small one, of another rate each time."""
     network = Network("guest", INTERVAL * (1 + number % 5))
     network.add(Relay("relay"))
+    return network
+
+
+def bridge_end(schema: Schema, **parameters: Any) -> Network:
+    """A network with one end of a bridge, named like its schema."""
+    network = Network(schema.type, INTERVAL)
+    network.add(subclass(find_behavior(schema.driver), schema)("bridge", **parameters))
     return network

@@ -96,7 +96,9 @@ class HeadGestures(Behavior):
     category = "vision"
 
     pose = Input[HeadPose]("headpose", "the poses of one head")
-    prompted = Input[bool]("boolean", "true while an answer is expected: a single nod will do")
+    prompted = Input[bool](
+        "boolean", "true while an answer is expected: a single nod will do", is_optional=True
+    )
     gesture = Output[HeadGesture]("gesture", "the nod or shake, while it is made")
 
     def start(self, context: Context) -> None:

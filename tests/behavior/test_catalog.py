@@ -115,3 +115,81 @@ def test_a_network_names_the_schema_file_that_is_wrong(folder):
     network.write_text('<BehaviorNetwork><Behavior id="w" type="Mine.Wave"/></BehaviorNetwork>')
     with pytest.raises(AuthoringError, match=r"Mine/Wave\.xml:1:1: unknown driver"):
         load_network(network)
+
+
+def refusal(folder, driver, body):
+    write(folder / "first", "Mine.Thing", driver, body=body)
+    with pytest.raises(AuthoringError) as error:
+        find_behavior("Mine.Thing")
+    return str(error.value).partition("Thing.xml:")[2]
+
+
+@pytest.mark.parametrize("name", ["id", "tag_name", "port_in_use", "_inbox", "compute"])
+def test_a_port_may_not_have_a_name_that_its_driver_uses(folder, name):
+    body = f'\n<Inputs>\n<Port name="{name}" datatype="double"/></Inputs>'
+    assert refusal(folder, "Hri.MalleableBehavior", body).startswith("3:")
+
+
+def test_a_parameter_may_not_have_the_name_of_something_else(folder):
+    assert 'has no parameter "input"' in refusal(
+        folder, "Hri.Addition", '<Parameter name="input" type="number" default="1"/>'
+    )
+
+
+@pytest.mark.parametrize(
+    ("body", "message"),
+    [
+        (
+            '<Inputs>\n<Port name="inputt" datatype="double"/></Inputs>',
+            '2:1: Addition has no input "inputt" - did you mean "input"?',
+        ),
+        (
+            '<Inputs>\n<Port name="input" datatype="string"/></Inputs>',
+            '2:1: the input "input" of Addition is double - write datatype="double"',
+        ),
+        (
+            '<Outputs>\n<Port name="sum" datatype="any"/></Outputs>',
+            '2:1: the output "sum" of Addition is double - write datatype="double"',
+        ),
+        (
+            '\n<Parameter name="gain" type="number" default="1"/>',
+            '2:1: Addition has no parameter "gain"',
+        ),
+    ],
+)
+def test_a_schema_may_promise_only_what_its_driver_has(folder, body, message):
+    assert refusal(folder, "Hri.Addition", body).startswith(message)
+
+
+def test_a_schema_may_narrow_a_port_that_takes_anything(folder):
+    port = '<Inputs><Port name="input" datatype="string"/></Inputs>'
+    write(folder / "first", "Mine.Show", "Hri.InputCollector", body=port)
+    assert find_behavior("Mine.Show").inputs["input"].datatype == "string"
+
+
+@pytest.mark.parametrize(
+    ("default", "remedy"),
+    [('type="string" default="abc"', "write a number"), ('default="70000"', "from 0 to 65535")],
+)
+def test_a_default_that_does_not_fit_its_driver_is_told_where_it_stands(folder, default, remedy):
+    body = f'\n<Parameter name="tcp_port" {default}/>'
+    message = refusal(folder, "Hri.MalleableBehavior", body)
+    assert message.startswith("2:1: tcp_port: ")
+    assert remedy in message
+
+
+def test_a_library_that_ends_the_program_is_told_each_time(folder):
+    path = write(folder / "first", "Mine.Wave", "Mine.Wave", "wave.py")
+    (path.parent / "wave.py").write_text("import sys\nsys.exit(3)")
+    for _ in range(2):
+        with pytest.raises(AuthoringError, match=r"wave\.py: it ends the program"):
+            find_behavior("Mine.Wave")
+
+
+def test_of_a_library_whose_import_was_interrupted_no_half_is_left(folder):
+    path = write(folder / "first", "Mine.Wave", "Mine.Wave", "wave.py")
+    (path.parent / "wave.py").write_text("raise KeyboardInterrupt")
+    with pytest.raises(KeyboardInterrupt):
+        find_behavior("Mine.Wave")
+    (path.parent / "wave.py").write_text(WAVE)
+    assert find_behavior("Mine.Wave")("w").height == 1.0

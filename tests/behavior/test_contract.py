@@ -38,7 +38,11 @@ PALETTES = {
     "drive",
     "net",
 }
-PARAMETERS = {"Hri.MalleableBehavior": {"tcp_port": 0}}
+PARAMETERS = {
+    "Hri.MalleableBehavior": {"tcp_port": 0},
+    "Hri.Share": {"slot": "there"},
+    "Hri.Shared": {"slot": "there"},
+}
 
 
 @pytest.fixture

@@ -185,7 +185,7 @@ def test_the_order_always_follows_the_links(data):
     for behavior in data.draw(st.permutations(behaviors)):
         network.add(behavior)
     for target in range(1, count):
-        for source in data.draw(st.lists(st.integers(0, target - 1), max_size=3)):
+        for source in data.draw(st.lists(st.integers(0, target - 1), max_size=3, unique=True)):
             output = next(iter(behaviors[source].outputs))
             network.connect(f"b{source}.{output}", f"b{target}.input")
     network.sort()
@@ -237,3 +237,30 @@ def test_any_wiring_is_a_network_or_one_clear_error(tmp_path_factory, parts, int
     )
     with contextlib.suppress(HriError):
         load_network(path)
+
+
+def test_a_parameter_is_set_once(tmp_path):
+    twice = "".join(f'\n<Parameter name="parsed_value" value="{n}"/>' for n in (1, 2))
+    message = failure(tmp_path, f'<Behavior id="a" type="Hri.Constant">{twice}</Behavior>')
+    assert message.startswith('4:12: "parsed_value" is set twice')
+
+
+def test_a_link_is_made_once(tmp_path):
+    again = '\n<Link from="two.value" to="sum.input"/>'
+    message = failure(tmp_path, SUM + again)
+    assert "10:1: the link two.value -> sum.input is there twice" in message
+
+
+@pytest.mark.parametrize("type_name", ["Hri.Share", "Hri.Shared"])
+def test_who_shares_needs_a_slot(tmp_path, type_name):
+    with pytest.raises(HriError, match="it has no slot on the board - set its parameter slot"):
+        load(tmp_path, f'<Behavior id="it" type="{type_name}"/>').check()
+
+
+def test_no_class_hides_the_id_of_a_behavior():
+    with pytest.raises(TypeError, match="hides what Behavior uses"):
+
+        class Named(Behavior):
+            """Would lose its name."""
+
+            id = Output[float]("double", "a number")

@@ -1,4 +1,5 @@
 from functools import partial
+from time import perf_counter
 
 import pytest
 import trio
@@ -8,8 +9,10 @@ from hri.behavior.network import Network
 from hri.behavior.ports import Input, Output
 from hri.behavior.runner import Runner
 from hri.core.clock import FakeClock
+from hri.core.errors import HriError
 from hri.core.events import EventBus
 from hri.hal.manager import ResourceManager
+from hri.hal.resource import Resource
 
 
 class Metronome(Behavior):
@@ -190,3 +193,105 @@ def test_an_input_has_many_links_and_those_that_sent_nothing_are_left_out():
     runner.start()
     runner.tick(0.0)
     assert sink.taken == (7.0, [7.0], 2)
+
+
+def test_a_loop_that_something_else_holds_up_blames_no_behavior(caplog):
+    clock = FakeClock()
+    beat = Metronome("beat")
+    runner = runner_of(clock, 0.1, beat)
+
+    async def hold_up():
+        await clock.sleep(0.35)
+        clock.advance(0.3)
+
+    run(clock, partial(runner.run, duration=1.0), hold_up)
+    assert runner.statistics.missed == 2
+    assert runner.statistics.slowest == ""
+    assert "something else held the loop up" in caplog.text
+
+
+def test_a_behavior_that_rests_is_not_blamed_for_what_others_do():
+    class Resting(Behavior):
+        """Takes long, by the clock of the machine, and fails."""
+
+        def compute(self, now, dt):
+            end = perf_counter() + 0.02
+            while perf_counter() < end:
+                pass
+            raise ValueError("no")
+
+    clock = FakeClock()
+    runner = runner_of(clock, 0.02, Resting("resting"), Sluggish("slow one"))
+    run(clock, partial(runner.run, duration=0.3))
+    assert runner.statistics.slowest == "slow one"
+
+
+def test_what_interrupts_a_tick_leaves_a_network_that_can_be_stopped():
+    class Interrupted(Behavior):
+        """Ctrl-C comes while it computes."""
+
+        input = Input[float]("double", "a number")
+
+        def compute(self, now, dt):
+            raise KeyboardInterrupt
+
+    clock = FakeClock()
+    beat, interrupted = Metronome("beat"), Interrupted("interrupted")
+    runner = runner_of(clock, 0.1, interrupted, beat)
+    runner.inject("interrupted", "input", 1.0)
+    with pytest.raises(KeyboardInterrupt):
+        runner.tick(0.0)
+    assert interrupted.input.sources == []
+    runner.stop()
+    assert beat.is_stopped
+
+
+def test_a_stop_from_inside_a_tick_that_is_interrupted_still_stops_all():
+    class Last(Behavior):
+        """Ends the network, and is interrupted."""
+
+        def compute(self, now, dt):
+            runner.stop()
+            raise KeyboardInterrupt
+
+    beat = Metronome("beat")
+    runner = runner_of(FakeClock(), 0.1, beat, Last("last"))
+    with pytest.raises(KeyboardInterrupt):
+        runner.tick(0.0)
+    assert beat.is_stopped
+
+
+def test_a_watch_that_fails_is_told_once(caplog):
+    runner = runner_of(FakeClock(), 0.1, Metronome("beat"))
+    runner.watch("beat", "beat", lambda value, now: 1 / 0)
+    for step in range(5):
+        runner.tick(step * 0.1)
+    assert caplog.text.count("a watch on test failed") == 1
+
+
+class Muddled(Behavior):
+    """Sends a text where it promised a number."""
+
+    number = Output[float]("double", "a number")
+
+    def compute(self, now, dt):
+        self.number.send("five")
+
+
+def test_what_is_not_of_the_datatype_of_its_port_is_not_sent(caplog):
+    runner = runner_of(FakeClock(), 0.1, Muddled("muddled"))
+    runner.tick(0.0)
+    assert runner.network["muddled"].number.value is None
+    assert "'five' is of type str was sent - this output is a double" in caplog.text
+
+
+class Homeless(Behavior):
+    """Needs a device that is not configured."""
+
+    def start(self, context):
+        context.resources.obtain("sonra", Resource)
+
+
+def test_what_a_behavior_lacks_is_told_with_its_name():
+    with pytest.raises(HriError, match=r'^test\.front: no device "sonra"'):
+        runner_of(FakeClock(), 0.1, Homeless("front"))

@@ -1,7 +1,10 @@
 import logging
+import os
 import re
+import signal
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -53,6 +56,11 @@ def test_options_out_of_bounds_are_refused(network, option, capsys):
         main([network, option])
     assert error.value.code == 2
     assert re.search(r"argument --[a-z-]+: .+", capsys.readouterr().err)
+
+
+def test_fake_time_needs_an_end(network, capsys):
+    assert main([str(network), "--fast"]) == 2
+    assert "say --duration S as well" in capsys.readouterr().err
 
 
 def test_a_missing_network_is_one_line(capsys):
@@ -115,17 +123,45 @@ def test_it_imports_nothing_heavy(network):
     assert done.stdout.splitlines()[-1] == "[]"
 
 
+STOPPED = '''
+from hri.behavior.behavior import Behavior
+
+class Stopped(Behavior):
+    """Tells when it is stopped."""
+
+    def compute(self, now, dt):
+        pass
+
+    def stop(self):
+        print("stopped")
+'''
+
+
 @pytest.mark.proves("B08")
-def test_a_signal_ends_it_cleanly(tmp_path):
-    path = tmp_path / "net.xml"
-    path.write_text(NETWORK)
-    command = [sys.executable, "-u", "-m", "hri.cli.behave", str(path), "--without-resources"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_stops_its_behaviors_and_ends_it_cleanly(number, network, tmp_path):
+    folder = tmp_path / "behavior" / "Mine"
+    folder.mkdir(parents=True)
+    (folder / "stopped.py").write_text(STOPPED)
+    schema = '<BehaviorSchema type="Mine.Stopped" driver="Mine.Stopped" library="stopped.py"/>'
+    (folder / "Stopped.xml").write_text(schema)
+    more = '<Behavior id="stopped" type="Mine.Stopped"/></BehaviorNetwork>'
+    Path(network).write_text(NETWORK.replace("</BehaviorNetwork>", more))
+    command = [sys.executable, "-u", "-m", "hri.cli.behave", network, "--without-resources"]
+    with subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "HRI_PATH": str(tmp_path)},
+    ) as process:
         for line in process.stdout:
             if line.startswith("Input"):
                 break
-        process.send_signal(2)
-        assert process.wait(timeout=20) == 0
+        process.send_signal(number)
+        out, err = process.communicate(timeout=20)
+        assert (process.returncode, err) == (0, "")
+        assert out.splitlines()[-1] == "stopped"
 
 
 def test_realtime_runs_and_says_in_a_line_when_it_may_not(tmp_path):

@@ -125,6 +125,11 @@ def test_numbers_have_four_digits(distance, raw, shown):
     assert test_range_sensor.told("IR_tn", RangeReading("IR_tn", distance, 0.0, raw)) == shown
 
 
+def test_sensors_that_are_all_missing_end_in_a_sentence(write, sonar, capsys):
+    assert test_range_sensor.main(["--fast", "--config", write(sonar), "sonar"]) == 1
+    assert capsys.readouterr().err.endswith("none of them is there - see the lines above\n")
+
+
 def test_only_the_named_sensors_are_read(write, capsys):
     arguments = ["--fast", "--config", write(SENSORS), "--read-count", "1", "IR_tn"]
     assert test_range_sensor.main(arguments) == 0
@@ -149,6 +154,9 @@ from hri.hal.range_sensor import RangeSensor
 class Sonar(RangeSensor):
     def _open(self):
         raise self.not_available("cannot open /dev/sonar0", "check permissions")
+
+    def read(self, now):
+        raise AssertionError("it never opened")
 """
 
 
@@ -211,6 +219,9 @@ RELEASED = threading.Event()
 class Hangs(Bumper):
     def _open(self):
         RELEASED.wait()
+
+    def is_pressed(self, now):
+        return False
 """
 
 

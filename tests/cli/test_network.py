@@ -1,6 +1,7 @@
 import pytest
 
 from hri.cli.main import main
+from hri.robot import load_app
 
 NETWORK = """\
 <BehaviorNetwork invocation_interval="0.02"><Link from="a.value" to="b.input"/>
@@ -64,3 +65,9 @@ def test_format_rewrites_once(network, capsys):
     assert main(["network", "format", str(network)]) == 0
     assert network.read_text() == text
     assert "is canonical" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("app", ["companion", "docs/samples/behavior/emotion"])
+def test_the_apps_of_the_house_give_nothing_to_warn_of(app):
+    for network in load_app(app).load_networks():
+        assert [*network.warnings, *network.loose_ends()] == []

@@ -21,8 +21,9 @@ def folder(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_tests_of_what_is_new_pass_at_once(kind, folder, capsys):
+    (folder / "mine").mkdir()
     assert main(["new", kind, f"wave_{kind}", "--to", "mine"]) == 0
-    assert f"cd mine/wave_{kind}\n  pytest\n" in capsys.readouterr().out
+    assert f"cd mine/wave_{kind}\n  python -m pytest " in capsys.readouterr().out
     environment = {name: value for name, value in os.environ.items() if name != "HRI_PATH"}
     done = subprocess.run(
         [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-W", "error"],
@@ -85,7 +86,7 @@ def test_nothing_is_overwritten(folder, capsys):
 
 
 @pytest.mark.parametrize(
-    "name", ["", "Wave", "wave-hand", "../parrot", "1wave", "w" * 41, "class", "random", "numpy"]
+    "name", ["", "Random", "wave-hand", "../parrot", "1wave", "w" * 41, "class", "random", "numpy"]
 )
 def test_a_name_that_cannot_be_a_module_is_refused(name, folder, capsys):
     assert main(["new", "task", name]) == 2
@@ -101,10 +102,17 @@ def test_a_name_that_the_code_itself_uses_is_refused(kind, name, folder, capsys)
     assert f"is a word of the new {kind} itself" in capsys.readouterr().err
 
 
-def test_a_folder_that_cannot_be_written_is_one_line(folder, capsys):
+def test_a_name_may_be_written_as_a_class(folder):
+    assert main(["new", "behavior", "WaveHand"]) == 0
+    assert "class WaveHand(Behavior)" in (folder / "wave_hand" / "wave_hand.py").read_text()
+
+
+@pytest.mark.parametrize("where", ["file", "missing"])
+def test_a_folder_that_is_not_there_is_one_line(where, folder, capsys):
     (folder / "file").write_text("")
-    assert main(["new", "task", "parrot", "--to", "file"]) == 2
-    assert "cannot be written" in capsys.readouterr().err
+    assert main(["new", "task", "parrot", "--to", where]) == 2
+    assert f"{where}: no such folder - make it" in capsys.readouterr().err
+    assert not (folder / "missing").exists()
 
 
 def test_every_kind_has_its_template():

@@ -1,4 +1,6 @@
+import random
 import threading
+import weakref
 from functools import partial
 
 import pytest
@@ -248,3 +250,37 @@ def test_another_thread_may_ask_the_loop_for_a_timer():
 
     trio.run(main)
     assert called == [threading.get_ident()]
+
+
+class Alarm:
+    """A callback that can be counted."""
+
+    def __init__(self, rang, name):
+        self.rang, self.name = rang, name
+
+    def __call__(self):
+        self.rang.append(self.name)
+
+
+def test_timers_that_were_cancelled_are_not_kept_until_they_are_due():
+    clock, rang, kept = FakeClock(), [], weakref.WeakSet()
+    for number in range(20_000):
+        alarm = Alarm(rang, number)
+        kept.add(alarm)
+        clock.call_at(3600.0, alarm).cancel()
+    del alarm
+    assert len(kept) <= 2000
+
+
+def test_clearing_away_what_was_cancelled_changes_no_order():
+    clock, rang, chance = FakeClock(), [], random.Random(1)
+    wanted = []
+    for number in range(10_000):
+        when = chance.randrange(50)
+        timer = clock.call_at(when, Alarm(rang, (when, number)))
+        if chance.random() < 0.8:
+            timer.cancel()
+        else:
+            wanted.append((when, number))
+    clock.advance(60)
+    assert rang == sorted(wanted)

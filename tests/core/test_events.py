@@ -108,3 +108,26 @@ def test_properties_are_typed():
         event.get_property("sharp", float)
     with pytest.raises(HriError, match=r'no property "cuont" - did you mean "count"'):
         event.get_property("cuont", float)
+
+
+def test_a_second_cancel_leaves_an_equal_listener_alone():
+    bus, heard = EventBus(FakeClock()), []
+    first, second = (bus.subscribe("*", heard.append) for _ in range(2))
+    first.cancel()
+    first.cancel()
+    bus.raise_event("door.opened")
+    assert len(heard) == 1
+    second.cancel()
+    bus.raise_event("door.opened")
+    assert len(heard) == 1
+
+
+def test_a_listener_that_fails_keeps_nobody_from_hearing_and_is_told_once(caplog):
+    bus, heard = EventBus(FakeClock()), []
+    bus.subscribe("door.*", lambda event: 1 / 0)
+    bus.subscribe("*", heard.append)
+    for _ in range(3):
+        bus.raise_event("door.opened")
+    assert len(heard) == 3
+    assert caplog.text.count('a listener to "door.*" failed at door.opened') == 1
+    assert "ZeroDivisionError" in caplog.text

@@ -23,6 +23,12 @@ def test_a_missing_thing_says_what_is_near():
         paths.find("grammars", "companoin.jsgf")
 
 
+@pytest.mark.parametrize("name", ["wander.xml", "networks/wandr", "other/wnder"])
+def test_a_missing_thing_may_be_in_a_folder_of_its_kind(name):
+    with pytest.raises(HriError, match=r'did you mean "networks/wander"'):
+        paths.find("config", name)
+
+
 def test_names_of_2003_are_aliases():
     assert registry.canonical("Evolution.LinuxCamera") == "Hri.Webcam"
     assert registry.canonical("Evolution.Constant") == "Hri.Constant"

@@ -60,6 +60,7 @@ class Course:
         self.gate.twist.sources.append(self.asks)
         self.gate.speed.sources.append(self.hurries)
         self.gate.start(self.context)
+        self.sensor_speaks = self.switch_speaks = True
         self.task = TaskContext.of(self.context, {"moving.gate": self.gate})
         self.fastest = 0.0
 
@@ -67,8 +68,9 @@ class Course:
         now = self.clock.now()
         self.base.advance(now)
         ahead = self.wall - self.base.pose.x - RADIUS
-        self.sees.value = RangeReading("front", ahead if ahead <= 0.8 else math.inf, now)
-        self.feels.value = self.base.is_touching
+        reading = RangeReading("front", ahead if ahead <= 0.8 else math.inf, now)
+        self.sees.value = reading if self.sensor_speaks else None
+        self.feels.value = self.base.is_touching if self.switch_speaks else None
         self.gate.compute(now, TICK)
         velocity = self.gate.velocity.value
         assert velocity is not None

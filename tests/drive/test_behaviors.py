@@ -1,10 +1,18 @@
 import math
+from pathlib import Path
 
 import pytest
 
+from hri.behavior.network import load_network
+from hri.behavior.ports import OutputPort
 from hri.core.signals import RangeReading, Twist
 from hri.drive.behaviors import COMMAND
+from hri.drive.tasks import move
+from hri.hal.range_sensor import RangeSensor
+from hri.hal.resource import Description
+from hri.task.context import TaskContext
 from tests.drive.course import TICK, Course
+from tests.task.stage import Stage
 
 
 def ask(course: Course, twist: Twist, seconds: float) -> None:
@@ -85,6 +93,117 @@ def test_a_sensor_that_falls_silent_is_not_trusted() -> None:
         course.gate.compute(course.clock.now(), TICK)
         course.clock.advance(TICK)
     assert not course.gate.is_moving
+
+
+def test_a_sensor_that_says_nothing_any_more_is_an_obstacle() -> None:
+    course = Course()
+    ask(course, Twist(0.3), 2.0)
+    course.sensor_speaks = False
+    ask(course, Twist(0.3), 2.0)
+    assert course.base.velocity == Twist()
+    assert course.reasons() == ["obstacle"]
+    ask(course, Twist(-0.2), 1.0)
+    assert course.base.velocity.linear == pytest.approx(-0.2), "it may still back off"
+    course.sensor_speaks = True
+    ask(course, Twist(0.3), 2.0)
+    assert course.base.velocity.linear == pytest.approx(0.3)
+
+
+def test_a_sensor_that_has_never_said_anything_is_an_obstacle() -> None:
+    course = Course()
+    course.sensor_speaks = False
+    ask(course, Twist(0.3), 2.0)
+    assert course.base.pose.x == 0.0
+
+
+def test_one_sensor_that_speaks_does_not_stand_in_for_another() -> None:
+    course = Course()
+    course.gate.range.sources.append(OutputPort())
+    ask(course, Twist(0.3), 2.0)
+    assert course.base.pose.x == 0.0
+
+
+def test_a_sensor_may_be_slower_than_the_gate() -> None:
+    course = Course(wall=2.0)
+    slot = course.context.board.slot(COMMAND)
+    for tick in range(500):
+        course.sensor_speaks = tick % 20 == 0
+        slot.set(Twist(0.3), course.clock.now())
+        course.tick_for(TICK)
+        if tick == 150:
+            assert course.base.velocity.linear == pytest.approx(0.3)
+    assert course.base.velocity == Twist()
+    assert not course.base.is_touching
+
+
+def test_a_reading_put_in_from_outside_counts_for_its_tick_alone() -> None:
+    course = Course()
+    ask(course, Twist(0.3), 2.0)
+    injected = OutputPort(RangeReading("by hand", 0.0, course.clock.now()))
+    course.gate.range.sources.insert(0, injected)
+    course.tick_for(TICK)
+    assert course.gate.velocity.value is not None
+    assert course.gate.velocity.value.linear < 0.3
+    course.gate.range.sources.remove(injected)
+    ask(course, Twist(0.3), 0.5)
+    assert course.base.velocity.linear == pytest.approx(0.3)
+
+
+def test_a_switch_that_says_nothing_counts_as_pressed() -> None:
+    course = Course()
+    course.asks.value = Twist(0.3)
+    course.tick_for(2.0)
+    course.switch_speaks = False
+    course.tick_for(3.0)
+    assert course.base.velocity == Twist()
+    assert course.reasons() == ["bump"]
+    course.asks.value = None
+    course.tick_for(TICK)
+    course.asks.value = Twist(-0.2)
+    course.tick_for(1.0)
+    assert course.base.velocity.linear == pytest.approx(-0.2)
+
+
+GATED = """<BehaviorNetwork invocation_interval="0.02">
+  <Behavior id="front" type="Hri.RangeSensor">
+    <Parameter name="sensor_id" value="range_front"/>
+  </Behavior>
+  <Behavior id="gate" type="Hri.CommandGate"/>
+  <Behavior id="drive" type="Hri.DriveSystem"/>
+  <Link from="front.reading" to="gate.range"/>
+  <Link from="gate.velocity" to="drive.velocity"/>
+</BehaviorNetwork>
+"""
+
+
+class LooseSensor(RangeSensor):
+    """Sees nothing in range until its cable comes off, after a second."""
+
+    def read(self, now: float) -> RangeReading:
+        if now > 1.0:
+            raise OSError("bus error")
+        return RangeReading(self.id, math.inf, now)
+
+
+def test_a_network_whose_sensor_fails_drives_no_further(tmp_path: Path) -> None:
+    (tmp_path / "gated.xml").write_text(GATED)
+    stage = Stage(
+        Description("world", "Hri.SimulatedWorld", {"voice": "mute"}),
+        Description("mute", "Hri.EspeakVoice"),
+        Description("drive", "Hri.SimulatedDrive"),
+        Description("odometry", "Hri.SimulatedOdometry"),
+    )
+    resources = stage.context.resources
+    sensor = LooseSensor(Description("range_front", "Test.LooseSensor"), resources)
+    resources.substitute("range_front", sensor)
+
+    async def drive(context: TaskContext) -> float:
+        context.networks.start(load_network(tmp_path / "gated.xml"))
+        return await move(context, 1.5)
+
+    gone = stage.run(drive)
+    # A second of driving, half a second of patience, and the way to come to rest.
+    assert 0.1 < gone < 0.5
 
 
 def test_a_bump_ends_the_motion() -> None:

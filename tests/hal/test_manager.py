@@ -400,6 +400,10 @@ def test_a_driver_of_ones_own_is_a_file_beside_its_spec(tmp_path, own):
     [
         ("class Doorbel: pass", 'no class "Doorbell" - did you mean "Doorbel"?'),
         ("class Doorbell: pass", "My.Doorbell is no driver"),
+        (
+            "from hri.hal.bumper import Bumper\nclass Doorbell(Bumper): pass",
+            "My.Doorbell lacks is_pressed - write it",
+        ),
         ("class Doorbell(:", "doorbell.py:1:16: "),
         ("import no_such_package", "No module named 'no_such_package' - install it"),
     ],
@@ -442,3 +446,16 @@ def test_a_configuration_is_loaded_by_name_opened_when_needed_and_closed_at_the_
     assert not screen.is_active
     with pytest.raises(HriError, match='no "simulatde" in config - did you mean "simulated"'):
         ResourceManager.load("simulatde")
+
+
+def test_a_device_that_fails_to_open_as_files_do_is_not_available(tmp_path, own):
+    (own / "doorbell.py").write_text(
+        "from hri.hal.drivers.memory import SilentSpeaker\n"
+        "class Doorbell(SilentSpeaker):\n"
+        "    parameters = ('loudness',)\n"
+        "    def _open(self): raise OSError(2, 'No such file or directory')\n"
+    )
+    configuration = load(tmp_path, '<Device id="bell" type="My.Doorbell"/>')
+    manager = ResourceManager(configuration.devices, FakeClock())
+    with pytest.raises(NotAvailable, match="bell: No such file or directory - see that it is plug"):
+        manager.obtain("bell", Speaker)

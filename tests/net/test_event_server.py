@@ -110,3 +110,26 @@ def test_quotes_are_taken_off_and_what_is_no_event_costs_a_line_in_the_log(capsy
 def test_it_is_found_by_its_names_of_now_and_then():
     for name in ("Hri.EventServer", "Evolution.EventServer", "Examples.EventServer"):
         assert find_task(name) is EventServer
+
+
+@task("Tests.Loss")
+async def loss(context):
+    """The event server, whose network somebody stops, and events meanwhile and afterwards."""
+    server = context.manager.install(EventServer)
+    await context.clock.sleep(0.05)
+    context.networks.stop("Examples.EventServer")
+    context.manager.raise_event("door.opened")
+    server.cancel()
+    await server.wait()
+    context.manager.raise_event("door.closed")
+    return server.status.name
+
+
+def test_it_survives_the_loss_of_its_network(caplog):
+    stage = Stage()
+    assert stage.run(loss) == "CANCELLED"
+    assert [name for name in stage.names() if name.startswith("door")] == [
+        "door.opened",
+        "door.closed",
+    ]
+    assert not [record for record in caplog.records if record.levelname == "ERROR"]

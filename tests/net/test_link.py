@@ -1,8 +1,10 @@
 import random
+import resource
 import socket
 import struct
 import threading
-from contextlib import suppress
+import time
+from contextlib import contextmanager, suppress
 
 import pytest
 
@@ -279,3 +281,72 @@ def test_a_hundred_peers_that_misbehave_disturb_nobody(links):
     assert [m.items[0].text for m in taken.messages] == texts
     assert [m.items[0].text for m in heard.wait_for(500)] == texts
     assert here.wait_for_peers(1, WITHIN)
+
+
+@pytest.fixture
+def without_files():
+    """While its body runs, this process can open no file and no socket."""
+
+    @contextmanager
+    def limited():
+        soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+        resource.setrlimit(resource.RLIMIT_NOFILE, (0, hard))
+        try:
+            yield
+        finally:
+            resource.setrlimit(resource.RLIMIT_NOFILE, (soft, hard))
+
+    return limited
+
+
+def test_a_client_that_gets_no_socket_tries_on(links, without_files):
+    _, client = links
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        there = client(listening.getsockname()[1])
+        first = listening.accept()[0]
+        assert there.wait_for_peers(1, WITHIN)
+        with without_files():
+            first.close()
+            assert there.wait_for_peers(0, WITHIN)
+            assert not there.wait_for_peers(1, 0.4), "longer than the first pause"
+        assert there.wait_for_peers(1, WITHIN)
+
+
+def test_a_server_without_a_file_left_rests_and_takes_those_who_waited(
+    links, without_files, caplog
+):
+    server, _ = links
+    here = server()
+    waiting = [socket.socket() for _ in range(3)]
+    with without_files():
+        for peer in waiting:
+            peer.connect(("127.0.0.1", here.port))
+        before = time.process_time()
+        assert not here.wait_for_peers(3, 0.5)
+        assert time.process_time() - before < 0.25
+    assert here.wait_for_peers(3, WITHIN)
+    assert [r.message for r in caplog.records] == [
+        f"{here.address}: cannot let anybody in: Too many open files"
+    ]
+    for peer in waiting:
+        peer.close()
+
+
+class Clumsy(Server):
+    """Makes a mistake of its own."""
+
+    is_new = True
+
+    def _tend(self, now):
+        if self.is_new:
+            self.is_new = False
+            raise ZeroDivisionError("clumsy")
+        return super()._tend(now)
+
+
+def test_a_mistake_of_ours_does_not_end_the_thread(caplog):
+    here = Clumsy("127.0.0.1", 0)
+    with raw(here.port):
+        assert here.wait_for_peers(1, WITHIN)
+    here.close()
+    assert "clumsy" in caplog.text

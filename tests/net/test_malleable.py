@@ -1,3 +1,4 @@
+import math
 import socket
 
 import pytest
@@ -238,3 +239,66 @@ def test_a_schema_alone_makes_a_behavior(tmp_path, monkeypatch):
     assert list(cls.outputs) == ["velocity"]
     made = cls("s")
     assert (made.tcp_host, made.tcp_port, made.tag_name) == ("192.0.2.21", 25000, "some_numbers")
+
+
+@pytest.fixture
+def pair(start):
+    """A behavior that sends, the runner of it, and the ear of the one that takes."""
+    here, there = Network("here"), Network("there")
+    here.add(Talker("t", tcp_port=0, tag_name="t"))
+    start(here)
+    there.add(Talker("t", tcp_host="localhost", tcp_port=here["t"].port_in_use, tag_name="t"))
+    sender = start(there)
+    assert there["t"]._link.wait_for_peers(1, WITHIN)
+    return sender, Ear(here["t"])
+
+
+def test_what_is_too_much_for_a_line_goes_in_several(pair):
+    sender, ear = pair
+    texts = [f"Some.Longer.Event.Name.Number{number:05d}" for number in range(2000)]
+    for text in texts:
+        sender.inject("t", "said", text)
+    sender.tick(0.0)
+    assert sender.statistics.failures == 0
+    messages = ear.wait_for(3)
+    assert [item.text for m in messages for item in m.items] == [f'"{text}"' for text in texts]
+
+
+def test_a_value_too_long_for_a_line_costs_only_itself(pair, caplog):
+    sender, ear = pair
+    for tick in range(3):
+        for text in ("before", "x" * 70_000, "after"):
+            sender.inject("t", "said", text)
+        sender.tick(tick * 0.1)
+    assert sender.statistics.failures == 0
+    texts = [item.text for message in ear.wait_for(3) for item in message.items]
+    assert texts == ['"before"', '"after"'] * 3
+    assert caplog.text.count("t.said: a value of 70002 characters is not sent") == 1
+
+
+class Gauge(MalleableBehavior):
+    """Sends and takes measurements."""
+
+    measured = Input[float]("double", "to send")
+    row = Input[tuple[float, ...]]("doublearray", "to send")
+    number = Output[float]("double", "taken")
+
+
+def test_no_nan_goes_out_and_costs_the_connection(start, caplog):
+    here, there = Network("here"), Network("there")
+    here.add(Gauge("g", tcp_port=0))
+    start(here)
+    there.add(Gauge("g", tcp_host="localhost", tcp_port=here["g"].port_in_use))
+    sender = start(there)
+    assert there["g"]._link.wait_for_peers(1, WITHIN)
+    ear = Ear(here["g"])
+    sender.inject("g", "measured", math.nan)
+    sender.inject("g", "row", (1.0, math.nan))
+    sender.tick(0.0)
+    for value in (math.nan, math.inf, 1.0):
+        sender.inject("g", "measured", value)
+    sender.inject("g", "row", (1.0, 2.0))
+    sender.tick(0.1)
+    (message,) = ear.wait_for(1)
+    assert [item.text for item in message.items] == ["inf", "1.000000", "1.000000 2.000000"]
+    assert not caplog.records

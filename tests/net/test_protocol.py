@@ -1,3 +1,4 @@
+import itertools
 import time
 import tracemalloc
 from contextlib import suppress
@@ -7,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hri.net import values
-from hri.net.protocol import LONGEST, Item, Message, ProtocolError, decode, encode
+from hri.net.protocol import LONGEST, Item, Message, ProtocolError, decode, encode, split
 
 names = st.from_regex(r"[A-Za-z_][A-Za-z0-9_.-]{0,12}", fullmatch=True)
 texts = st.text(st.characters(exclude_categories=["Cs", "Cc"], exclude_characters="\ufffe\uffff"))
@@ -157,3 +158,23 @@ def test_quotes_come_off_in_pairs():
     assert values.unquoted('"a') == '"a'
     assert values.unquoted('"') == '"'
     assert values.unquoted('""') == ""
+
+
+long_items = st.builds(
+    lambda text, times: Item("text", text * times),
+    st.text(st.characters(codec="utf-8", exclude_categories=("Cc", "Cs")), min_size=1, max_size=9),
+    st.integers(1, 20_000),
+)
+
+
+@given(st.lists(long_items, max_size=12))
+def test_a_message_of_any_length_goes_in_lines_that_each_can_be_read(sent):
+    lines, too_long = split(Message("t", tuple(sent)))
+    arrived = [item for line in lines for item in decode(line).items]
+    assert arrived == [item for item in sent if item not in too_long]
+    for item in too_long:
+        with pytest.raises(ProtocolError):
+            encode(Message("t", (item,)))
+    for line, next_one in itertools.pairwise(lines):
+        with pytest.raises(ProtocolError):
+            encode(Message("t", decode(line).items + decode(next_one).items[:1]))

@@ -1,4 +1,6 @@
 import math
+import signal
+import threading
 
 import pytest
 
@@ -190,3 +192,21 @@ def test_an_app_cannot_name_a_task_that_needs_arguments(tmp_path):
     (tmp_path / "app.toml").write_text('networks = []\ntasks = ["Hri.Say"]\n')
     with pytest.raises(HriError, match=r"app.toml: Hri.Say: missing a required argument: 'text'"):
         load_app(str(tmp_path)).load_tasks()
+
+
+def test_what_a_script_catches_of_ctrl_c_has_stopped_the_base(robot):
+    def interrupt():
+        robot.clock.hold()
+        signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
+
+    robot.clock.call_at(robot.clock.now() + 3.0, interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        robot.move(1.9)
+    robot.clock.release()
+    assert robot.tasks.running == []
+    odometry = robot.resources.obtain("odometry", Odometry)
+    robot.wait(2.0)
+    before = odometry.pose(robot.clock.now()).x
+    robot.wait(3.0)
+    assert odometry.pose(robot.clock.now()).x == pytest.approx(before, abs=0.001)
+    assert 0.1 < before < 1.5

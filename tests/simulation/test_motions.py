@@ -1,6 +1,8 @@
 """Motions of both kinds of base, measured in the simulated world against the closed form."""
 
 import math
+import os
+import threading
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
@@ -18,6 +20,8 @@ from hri.hal.pending import Interrupted, Pending
 from hri.hal.profile import Trapezoid
 from hri.hal.resource import Description
 from hri.simulation.base import WATCHDOG
+from hri.simulation.drivers import SimulatedDrive
+from hri.simulation.motors import SimulatedMotor
 from hri.simulation.world import SimulatedWorld
 
 from .conftest import ToneVoice
@@ -201,8 +205,20 @@ def test_giving_the_drive_back_stops_it(robot: Robot) -> None:
         pending.result()
     robot.clock.advance(1.0)
     assert robot.velocity() == Twist()
-    with pytest.raises(HriError, match="the drive is closed - obtain it"):
-        robot.drive.halt()
+    now = robot.clock.now()
+    commands: list[Callable[[], object]] = [
+        robot.drive.halt,
+        lambda: robot.drive.set_velocity(Twist(0.3), now),
+        lambda: robot.drive.set_idle_power(60),
+        lambda: robot.drive.set_move_power(60),
+    ]
+    for command in commands:
+        with pytest.raises(HriError, match="the drive is closed - obtain it"):
+            command()
+    robot.drive.stop(now)
+    robot.clock.advance(1.0)
+    assert robot.velocity() == Twist()
+    assert not robot.world.is_held
 
 
 def test_less_power_for_motions_speeds_up_more_slowly(robot: Robot) -> None:
@@ -249,6 +265,150 @@ def test_the_next_motion_may_be_asked_for_when_one_is_over(robot: Robot) -> None
     robot.drive.move_delta(0.2, 0.2, 0.4).on_done(back)
     robot.clock.advance(5.0)
     assert ends == [pytest.approx(0.0, abs=0.001)]
+
+
+def test_a_callback_may_answer_another_command_with_the_next_motion(robot: Robot) -> None:
+    answers: list[Pending[None]] = []
+    first = robot.drive.move_delta(0.5, 0.2, 0.4)
+    first.on_done(lambda _: answers.append(robot.drive.turn_delta(1.0, 0.5, 1.0)))
+    robot.clock.advance(0.5)
+    second = robot.drive.move_delta(0.2, 0.2, 0.4)
+    with pytest.raises(Interrupted):
+        second.result()
+    answers[0].wait(10.0)
+    assert robot.pose().heading == pytest.approx(1.0, abs=0.002)
+
+
+STOPS: dict[str, Callable[[Robot], object]] = {
+    "stop": lambda robot: robot.drive.stop(robot.clock.now()),
+    "halt": lambda robot: robot.drive.halt(),
+    "an abrupt halt": lambda robot: robot.drive.halt(Stop.ABRUPT),
+}
+
+
+@pytest.mark.parametrize("how", STOPS)
+def test_no_callback_drives_on_after_a_stop(
+    robot: Robot, how: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    def patrol(_: object = None) -> None:
+        robot.drive.move_delta(1.0, 0.3, 0.5).on_done(patrol)
+
+    patrol()
+    robot.clock.advance(1.0)
+    STOPS[how](robot)
+    robot.clock.advance(2.0)
+    assert robot.velocity() == Twist()
+    assert "the drive is being stopped - move it afterwards" in caplog.text
+    robot.drive.move_delta(0.1, 0.2, 0.4).wait()
+
+
+def test_cancelling_leaves_the_motion_alone_that_its_callback_began(robot: Robot) -> None:
+    answers: list[Pending[None]] = []
+    motion = robot.drive.move_delta(-0.5, 0.2, 0.4)
+    motion.on_done(lambda _: answers.append(robot.drive.turn_delta(1.0, 0.5, 1.0)))
+    robot.clock.advance(0.1)
+    motion.cancel()
+    answers[0].wait(10.0)
+    assert robot.pose().heading == pytest.approx(1.0, abs=0.002)
+
+
+def test_who_is_told_of_an_end_finds_the_drive_free(robot: Robot) -> None:
+    """Even another thread may take it, which a lock that is held would keep out."""
+    outcomes: list[str] = []
+
+    def ask_elsewhere(_: object) -> None:
+        asks = threading.Thread(target=lambda: robot.drive.stop(robot.clock.now()), daemon=True)
+        asks.start()
+        asks.join(5.0)
+        outcomes.append("kept out" if asks.is_alive() else "let in")
+
+    robot.drive.move_delta(0.1, 0.2, 0.4).on_done(ask_elsewhere)
+    robot.clock.advance(2.0)
+    robot.drive.move_delta(2.0, 0.2, 0.4).on_done(ask_elsewhere)
+    robot.clock.advance(1.0)
+    robot.drive.set_velocity(Twist(), robot.clock.now())
+    assert outcomes == ["let in", "let in"]
+
+
+class LooseCable(SimulatedDrive):
+    """A drive whose hardware sometimes cannot be reached."""
+
+    is_loose = brakes_too = False
+
+    def _send(self, twist: Twist, now: float) -> None:
+        if self.is_loose:
+            raise OSError("serial port gone")
+        super()._send(twist, now)
+
+    def _brake(self, now: float) -> None:
+        if self.is_loose and not self.brakes_too:
+            raise OSError("serial port gone")
+        super()._brake(now)
+
+
+@pytest.fixture
+def cable() -> Iterator[tuple[Robot, LooseCable]]:
+    robot = made(WHOLE)
+    robot.manager.release(robot.drive)
+    drive = LooseCable(WHOLE[0], robot.manager)
+    robot.manager.substitute("drive", drive)
+    robot.drive = robot.manager.obtain("drive", DriveSystem)
+    yield robot, drive
+    robot.manager.close()
+
+
+@pytest.mark.parametrize("brakes_too", [False, True])
+def test_a_motion_whose_hardware_fails_ends_alone(
+    cable: tuple[Robot, LooseCable], brakes_too: bool
+) -> None:
+    robot, drive = cable
+    drive.brakes_too = brakes_too
+
+    async def main() -> None:
+        async with trio.open_nursery() as nursery:
+            nursery.start_soon(robot.clock.drive)
+            motion = drive.move_delta(1.0, 0.3, 0.5)
+            await robot.clock.sleep(1.0)
+            drive.is_loose = True
+            with pytest.raises(HriError, match="drive: serial port gone - see that"):
+                await motion
+            at_the_failure = robot.pose().x
+            await robot.clock.sleep(2.0)
+            assert robot.velocity() == Twist()
+            if brakes_too:
+                assert robot.pose().x - at_the_failure < 0.3**2 / 2 / 1.5 + 0.01
+            drive.is_loose = False
+            await drive.move_delta(0.1, 0.2, 0.4)
+            nursery.cancel_scope.cancel()
+
+    trio.run(main)
+
+
+def test_hardware_that_fails_at_once_is_told_to_the_caller(
+    cable: tuple[Robot, LooseCable],
+) -> None:
+    _, drive = cable
+    drive.is_loose = True
+    with pytest.raises(HriError, match="serial port gone"):
+        drive.move_delta(1.0, 0.3, 0.5).result()
+    with pytest.raises(HriError, match="serial port gone"):
+        drive.move_and_turn(0.3, 0.5, 0.0, 1.0)
+
+
+def test_a_velocity_that_cannot_be_sent_leaves_nobody_waiting(
+    cable: tuple[Robot, LooseCable],
+) -> None:
+    robot, drive = cable
+    motion = drive.move_delta(1.0, 0.3, 0.5)
+    robot.clock.advance(0.5)
+    drive.is_loose = True
+    with pytest.raises(OSError, match="serial port gone"):
+        drive.set_velocity(Twist(0.2), robot.clock.now())
+    with pytest.raises(Interrupted):
+        motion.result()
+    drive.move_delta(1.0, 0.3, 0.5)
+    robot.manager.release(drive)
+    assert not drive.is_active
 
 
 @pytest.mark.proves("H27")
@@ -327,8 +487,6 @@ def test_a_group_needs_two_motors_apart() -> None:
 
 @pytest.mark.proves("H06", "H07")
 def test_motors_count_in_their_own_direction() -> None:
-    from hri.simulation.motors import SimulatedMotor
-
     robot = made(TWO_MOTORS)
     left, right = (robot.manager.obtain(id, SimulatedMotor) for id in ("left", "right"))
     robot.drive.move_delta(0.5, 0.2, 0.4).wait()
@@ -370,3 +528,52 @@ def test_a_thread_may_drive_while_the_robot_loop_runs(robot: Robot) -> None:
     assert robot.pose().heading == pytest.approx(1.0, abs=0.002)
     planned = Trapezoid(0.3, 0.2, 0.4).duration + Trapezoid(1.0, 0.5, 1.0).duration
     assert robot.clock.now() == pytest.approx(planned, abs=0.15)
+
+
+class Encoder(SimulatedMotor):
+    """A motor whose encoder can be unplugged."""
+
+    is_unplugged = False
+
+    def position(self, now: float) -> float:
+        if self.is_unplugged:
+            raise OSError("no encoder")
+        return super().position(now)
+
+
+def test_odometry_makes_up_for_polls_that_failed(caplog: pytest.LogCaptureFixture) -> None:
+    clock = FakeClock()
+    world = Description("world", "Hri.SimulatedWorld", {"voice": "voice"})
+    manager = ResourceManager((world, *TWO_MOTORS), clock)
+    manager.substitute("voice", ToneVoice(Description("voice", "Hri.EspeakVoice"), manager))
+    encoder = Encoder(TWO_MOTORS[0], manager)
+    manager.substitute("left", encoder)
+    odometry, drive = manager.obtain("odometry", Odometry), manager.obtain("drive", DriveSystem)
+    drive.set_velocity(Twist(0.2), clock.now())
+    encoder.is_unplugged = True
+    clock.advance(0.4)
+    encoder.is_unplugged = False
+    drive.stop(clock.now())
+    clock.advance(1.0)
+    world_base = manager.obtain("world", SimulatedWorld).base
+    assert odometry.pose(clock.now()).x == pytest.approx(world_base.odometry.x, abs=0.001)
+    assert world_base.odometry.x > 0.01
+    assert caplog.text.count("a motor cannot be read: no encoder\n") == 1
+    manager.close()
+
+
+def test_odometry_that_was_closed_while_a_poll_waited_polls_no_more() -> None:
+    robot = made(TWO_MOTORS)
+    robot.manager.release(robot.drive)
+    polls = threading.Thread(target=robot.clock.advance, args=(0.5,), daemon=True)
+    with robot.odometry._lock:
+        polls.start()
+        while robot.clock.now() == 0.0:  # until the poll is due and waits for the lock
+            os.sched_yield()
+        robot.manager.release(robot.odometry)
+    polls.join(5.0)
+    assert not polls.is_alive()
+    assert not robot.odometry.is_active
+    robot.manager.release(robot.world)
+    with pytest.raises(RuntimeError, match="nothing is left that could happen"):
+        robot.clock.advance_until(lambda: robot.clock.now() > 100.0)

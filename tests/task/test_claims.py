@@ -1,4 +1,5 @@
 import pytest
+import trio
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -167,3 +168,48 @@ def test_there_are_never_two_holders_and_nobody_waits_for_ever(claims):
     assert not any(holders.values())
     if claims and all(claim[4] is None for claim in claims):
         assert served
+
+
+def test_an_interruption_inside_a_nursery_is_one():
+    log = []
+
+    async def nest(context):
+        async with context.claim("drive"), trio.open_nursery() as nursery:
+            nursery.start_soon(holding(log, "first", 5, "drive"), context)
+            await context.clock.sleep(1)
+            nursery.start_soon(holding(log, "second", 1, "drive"), context)
+
+    async def main(context):
+        nested = context.manager.install(nest)
+        await nested.wait()
+        assert nested.status is TaskStatus.CANCELLED
+        assert isinstance(nested.error, Interrupted)
+
+    stage = Stage()
+    stage.run(main)
+    assert (
+        "first",
+        "a newer claim of nest has taken the drive - try again when it is free",
+        1,
+    ) in log
+    assert "task.failed" not in stage.names()
+
+
+def test_what_fails_beside_an_interruption_is_a_failure():
+    async def main(context):
+        async def give_way():
+            raise Interrupted("somebody has taken the drive")
+
+        async def fail():
+            raise ValueError("no")
+
+        async def nest(context):
+            async with trio.open_nursery() as nursery:
+                nursery.start_soon(give_way)
+                nursery.start_soon(fail)
+
+        nested = context.manager.install(nest)
+        await nested.wait()
+        assert nested.status is TaskStatus.FAILURE
+
+    Stage().run(main)

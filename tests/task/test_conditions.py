@@ -3,7 +3,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hri.core.signals import Event
-from hri.task.conditions import Condition, all_of, any_of, raise_when, sequence, when, without
+from hri.task.conditions import (
+    ANYWHERE,
+    Condition,
+    all_of,
+    any_of,
+    raise_when,
+    sequence,
+    when,
+    without,
+)
 from tests.task.stage import Stage
 
 pytestmark = pytest.mark.proves("T18")
@@ -11,8 +20,9 @@ pytestmark = pytest.mark.proves("T18")
 
 def met(condition: Condition, text: str) -> int | None:
     """`text`: the names of events, a letter each, a second apart; a dot is a second of nothing."""
-    events = [Event(name, at) for at, name in enumerate(text) if name != "."]
-    return condition.met(events)
+    events = [Event(name, float(at)) for at, name in enumerate(text) if name != "."]
+    match = condition.match()
+    return next((int(event.time) for event in events if match(event, ANYWHERE)), None)
 
 
 @pytest.mark.parametrize(
@@ -27,10 +37,14 @@ def met(condition: Condition, text: str) -> int | None:
         (without(sequence("a", "c"), "b"), "abc", None),
         (without(sequence("a", "c"), "b"), "abcac", 4),
         (all_of("a", "b", within=2), "a..b", None),
-        (all_of("a", "b", within=2), "a..b.a", 2),
+        (all_of("a", "b", within=2), "a..b.a", 5),
         (sequence("a", all_of("b", "c"), within=3), "acb", 2),
         (any_of(sequence("a", "b"), "c"), "ac", 1),
         (all_of("*", "a"), "a", 0),
+        (without(sequence("a", "c"), sequence("b", "d")), "badcac", 5),
+        (sequence("a", without("b", "c"), "d", within=3), "abad", 3),
+        (sequence("a", without("b", "c"), "d", within=3), "abacd", None),
+        (sequence(all_of("a", "b", within=1), "c", within=3), "a.babc", 5),
     ],
 )
 def test_when_conditions_are_met(condition, text, expected):
@@ -94,3 +108,66 @@ def test_mistakes():
         all_of()
     with pytest.raises(ValueError, match="part of its own condition"):
         Stage().run(raise_when, "a*", "again")
+
+
+NAMES = st.sampled_from("abc*")
+TIMES = st.sampled_from([float("inf"), 0.0, 1.0, 2.0, 5.0])
+PARTS = st.recursive(
+    NAMES,
+    lambda parts: st.one_of(
+        st.tuples(st.just(all_of), st.lists(parts, min_size=1, max_size=3), TIMES),
+        st.tuples(st.just(any_of), st.lists(parts, min_size=1, max_size=3), st.none()),
+        st.tuples(st.just(sequence), st.lists(parts, min_size=1, max_size=3), TIMES),
+    ),
+    max_leaves=6,
+)
+
+
+def built(part):
+    if isinstance(part, str):
+        return part
+    kind, parts, within = part
+    limit = {} if within is None else {"within": within}
+    return kind(*map(built, parts), **limit)
+
+
+def met_from(part, events, start):
+    """What the words say, spelt out over all events: the index of the one that completes it."""
+    if isinstance(part, str):
+        fit = (at for at in range(start, len(events)) if part in (events[at].name, "*"))
+        return next(fit, None)
+    kind, parts, within = part
+    if within not in (None, float("inf")):
+        ends = []
+        for begin in range(start, len(events)):
+            end = met_from((kind, parts, None), events, begin)
+            if end is not None and events[end].time - events[begin].time <= within:
+                ends.append(end)
+        return min(ends, default=None)
+    if kind is sequence:
+        end = start - 1
+        for each in parts:
+            if (end := met_from(each, events, end + 1)) is None:
+                return None
+        return end
+    ends = [end for each in parts if (end := met_from(each, events, start)) is not None]
+    if kind is all_of and len(ends) < len(parts):
+        return None
+    return (max if kind is all_of else min)(ends, default=None)
+
+
+@given(PARTS.filter(lambda part: not isinstance(part, str)), TEXTS)
+def test_looking_at_each_event_once_finds_what_looking_at_all_finds(part, text):
+    events = [Event(name, float(at)) for at, name in enumerate(text) if name != "."]
+    end = met_from(part, events, 0)
+    assert met(built(part), text) == (None if end is None else int(events[end].time))
+
+
+def test_it_does_not_matter_how_long_ago_a_part_came():
+    assert met(all_of("s", sequence("x", "e")), "s" + 5000 * "x" + "e") == 5001
+
+
+def test_times_within_times_take_no_longer_the_more_events_came():
+    once = sequence("a", "b", within=5)
+    thrice = sequence(sequence(once, "b", within=5), "b", within=5)
+    assert met(thrice, 5000 * "a" + "bbb") == 5002

@@ -1,6 +1,8 @@
 import pytest
 
+from hri.behavior.network import Network
 from hri.core.errors import HriError
+from hri.hal.pending import Interrupted
 from hri.task.context import TaskFailed
 from hri.task.parallel import Parallel
 from hri.task.primitive import Primitive, primitive
@@ -131,3 +133,36 @@ def test_mistakes():
         Stage().run(Adder, 1, 2)
     with pytest.raises(ValueError, match="SUCCESS or FAILURE"):
         Primitive(Stage().context).set_status(TaskStatus.RUNNING)
+
+
+@pytest.mark.parametrize("how", ["stop", "swap"])
+def test_it_ends_when_somebody_else_ends_its_network(how):
+    async def main(context):
+        running = context.manager.install(Adder, 1e9)
+        await context.clock.sleep(1.0)
+        if how == "stop":
+            context.networks.stop("Test.Adder")
+        else:
+            context.networks.swap("Test.Adder", Network("Test.Adder", 0.1, []))
+        await context.clock.sleep(1.0)
+        assert running.status is TaskStatus.CANCELLED
+        assert isinstance(running.error, Interrupted)
+        assert len(context.networks.runners) == (how == "swap")
+
+    stage = Stage()
+    stage.run(main)
+    assert log.count("finish") == 1
+    assert "task.failed" not in stage.names()
+
+
+def test_a_task_whose_network_is_gone_can_be_cancelled():
+    async def main(context):
+        running = context.manager.install(Adder, 1e9)
+        await context.clock.sleep(1.0)
+        context.networks.stop("Test.Adder")
+        running.cancel()
+        await running.wait()
+        assert running.status is TaskStatus.CANCELLED
+
+    Stage().run(main)
+    assert log[-1] == "finish"

@@ -1,13 +1,18 @@
 """Tasks as plain functions, in a script without a robot."""
 
+import signal
 import subprocess
 import sys
+import threading
+from functools import partial
 
 import pytest
+import trio
 
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.core.signals import Frame
+from hri.hal.camera import Camera
 from hri.hal.drive import Odometry
 from hri.robot import Robot
 from hri.task import (
@@ -18,6 +23,7 @@ from hri.task import (
     find_task,
     get_task_manager,
     navigation,
+    net,
     resource,
     set_default_units,
     speech,
@@ -25,7 +31,7 @@ from hri.task import (
     util,
     vision,
 )
-from hri.task.task import task
+from hri.task.task import TaskType, task
 
 
 @pytest.fixture
@@ -83,6 +89,9 @@ def test_the_first_camera_is_found_and_takes_a_picture(clock):
 
 @pytest.mark.proves("T05")
 def test_a_category_knows_its_tasks():
+    for category in (navigation, net, resource, speech, util, vision):
+        for name in category.__all__:
+            assert isinstance(getattr(category, name), TaskType), name
     with pytest.raises(AttributeError, match=r'no task "Speek" - did you mean "Speak"\?'):
         speech.Speek  # noqa: B018
 
@@ -163,3 +172,70 @@ def test_a_script_that_forgets_the_shutdown_still_ends():
         [sys.executable, "-c", script], capture_output=True, text=True, timeout=60
     )
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "done\n", "")
+
+
+def test_a_picture_leaves_no_camera_reserved(clock):
+    resources = get_task_manager().context.resources
+    camera = resources.obtain("camera", Camera)
+    for _ in range(3):
+        vision.GetImage("camera")
+    resources.release(camera)
+    assert not camera.is_active
+
+
+def interrupt_at(clock, when):
+    """Ctrl-C in the script at a time of the clock, which then stands still until it is released."""
+
+    def interrupt():
+        clock.hold()
+        signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
+
+    clock.call_at(when, interrupt)
+
+
+def drive_together():
+    both = Parallel()
+    both.add_task(navigation.DriveMoveDelta, [1000, 20, 20])
+    both.add_task(util.Wait, [1e9])
+    both.wait_for_all_tasks()
+
+
+@pytest.mark.parametrize(
+    "drive", [partial(navigation.DriveMoveDelta, 1000, 20, 20), drive_together]
+)
+def test_what_a_script_catches_of_ctrl_c_has_ended_its_task(clock, drive):
+    manager = get_task_manager()
+    interrupt_at(clock, 3.0)
+    with pytest.raises(KeyboardInterrupt):
+        drive()
+    clock.release()
+    assert manager.running == []
+    util.Wait(2000)  # it brakes
+    before = pose().x
+    assert 0.4 < before < 0.9
+    util.Wait(5000)
+    assert pose().x == pytest.approx(before, abs=0.001)
+
+
+def test_a_script_that_waits_in_a_thread_is_told_of_the_shutdown(clock):
+    manager, begun, told = get_task_manager(), threading.Event(), []
+
+    async def wait_for_ever(context):
+        begun.set()
+        await trio.sleep_forever()
+
+    def wait():
+        both = Parallel()
+        for _ in range(2):
+            both.add_task(wait_for_ever)
+        try:
+            both.wait_for_all_tasks()
+        except RuntimeError as error:
+            told.append(str(error))
+
+    thread = threading.Thread(target=wait)
+    thread.start()
+    assert begun.wait(10)
+    manager.shutdown()
+    thread.join(10)
+    assert told == ["the task manager has ended"]

@@ -201,3 +201,45 @@ def test_waiting_for_one_event_keeps_the_others_that_are_enabled():
         assert (await task.wait_for_event("a.*")).name == "a.first"
 
     Stage().run(main)
+
+
+def test_two_parts_of_a_task_wait_for_events_at_once():
+    came = []
+
+    async def main(context):
+        async def wait_for(pattern):
+            event = await context.task.wait_for_event(pattern, timeout=10.0)
+            came.append((pattern, event and event.name, context.clock.now()))
+
+        async with trio.open_nursery() as nursery:
+            for pattern in ("a", "b", "*"):
+                nursery.start_soon(wait_for, pattern)
+                await context.clock.sleep(0)
+            for at, name in enumerate("cba", start=1):
+                context.clock.call_at(float(at), lambda name=name: context.events.raise_event(name))
+
+    Stage().run(main)
+    assert came == [("*", "c", 1.0), ("b", "b", 2.0), ("a", "a", 3.0)]
+
+
+def test_a_listener_that_fails_is_no_failure_of_the_task_that_raises():
+    async def main(context):
+        context.events.subscribe("*", lambda event: 1 / 0)
+        failing = context.manager.install(fail)
+        await failing.wait()
+        assert failing.status is TaskStatus.FAILURE
+
+    stage = Stage()
+    stage.run(main)
+    assert "task.failed" in stage.names()
+
+
+def test_waiting_needs_a_time():
+    for never in (float("nan"), float("inf")):
+        with pytest.raises(HriError, match=f"{never} is no time - "):
+            Stage().run(find_task("Hri.Wait"), never)
+    with pytest.raises(HriError, match="nan is no time"):
+        Stage().run(find_task("Hri.WaitForEvent"), "door.*", float("nan"))
+    stage = Stage()
+    stage.run(find_task("Hri.Wait"), -5)
+    assert stage.clock.now() == 0

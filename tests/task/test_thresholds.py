@@ -5,6 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hri.behavior.behavior import Behavior
+from hri.behavior.library.constant import Constant
 from hri.behavior.network import Network
 from hri.behavior.ports import Output
 from hri.core.errors import AuthoringError, HriError
@@ -139,3 +140,53 @@ def test_any_text_is_read_or_told(text):
     except AuthoringError as error:
         told = str(error)
     assert len(told) < 200
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("front.name < 3", "front.name sends a str - compare a number of it"),
+        ("front.reading < 3", "front.reading sends a RangeReading - compare a number of it"),
+        ("front.reading.sensor < 3", "front.reading sends a str"),
+        ("front.reading.distanc < 3", 'no field "distanc" - did you mean "distance"'),
+        ("front.distance.distance < 3", 'no field "distance"'),
+        ("said.value < 3", "said.value sends a str"),
+    ],
+)
+def test_what_a_port_declares_is_looked_at_before_it_is_watched(text, message, caplog):
+    stage = Stage()
+
+    async def main(context):
+        behaviors = [Approach("front"), Constant("said", parsed_value="hello")]
+        context.networks.start(Network("sensors", 0.1, behaviors))
+        with pytest.raises(HriError, match=message), raising(context, text, "person.near"):
+            await context.clock.sleep(1.0)
+        assert context.clock.now() == 0
+        await context.clock.sleep(1.0)
+
+    stage.run(main)
+    assert not caplog.records
+
+
+def test_a_field_that_may_be_none_is_compared_when_it_is_a_number():
+    async def main(context):
+        context.networks.start(Network("sensors", 0.1, [Approach("front")]))
+        with raising(context, "front.reading.raw < 3", "person.near"):
+            await context.clock.sleep(1.0)
+
+    Stage().run(main)
+
+
+def test_a_swap_that_ends_a_watch_is_told(caplog):
+    stage = Stage()
+
+    async def main(context):
+        networks = context.networks
+        networks.start(Network("sensors", 0.1, [Approach("front")]))
+        with raising(context, "front.distance < 30", "person.near"):
+            networks.swap("sensors", Network("sensors", 0.1, [Approach("front")]))
+            await context.clock.sleep(9.0)
+
+    stage.run(main)
+    assert "person.near" not in stage.names()
+    assert "sensors was swapped, and those who watched it see no more" in caplog.text

@@ -1,4 +1,6 @@
+import hri.testing.soak as soak_module
 from hri.cli.main import main
+from hri.core.clock import FakeClock
 from hri.core.events import EventBus
 from hri.testing.soak import Soak
 
@@ -36,3 +38,34 @@ def test_a_lost_event_and_a_leak_are_found():
     assert "crier1: event 4 came out of turn" in faults
     assert "1 of" in faults
     assert "memory grew" in faults
+
+
+def test_bases_drive_and_numbers_cross_bridges_meanwhile():
+    verdict = Soak(0.03, 10, lambda line: None).run()
+    assert verdict.faults == []
+    assert verdict.drives >= 2
+    assert verdict.crossings >= 2
+
+
+def test_timers_that_are_kept_until_they_would_be_due_are_found():
+    class Hoarder(FakeClock):
+        """Forgets no timer of the far future, though it was cancelled."""
+
+        kept = []
+
+        def call_at(self, when, callback):
+            timer = super().call_at(when, callback)
+            if when - self.now() > 1000:
+                self.kept.append(timer)
+            return timer
+
+    soak = Soak(0.2, 10, lambda line: None)
+    soak.clock.__class__ = Hoarder
+    assert [fault.split(" by ")[0] for fault in soak.run().faults] == ["memory grew"]
+
+
+def test_a_bridge_that_is_down_is_found(monkeypatch):
+    monkeypatch.setattr(soak_module, "CROSSING_PATIENCE", 0.0)
+    verdict = Soak(0.01, 10, lambda line: None).run()
+    assert verdict.crossings == 0
+    assert "a number did not cross the bridge" in verdict.faults

@@ -21,7 +21,7 @@ class Addition(Behavior):
 
     def compute(self, now: float, dt: float) -> None:
         if values := self.input.values:
-            _send(self.sum, sum(values))
+            send_number(self.sum, sum(values))
 
 
 class Subtraction(Behavior):
@@ -34,7 +34,7 @@ class Subtraction(Behavior):
 
     def compute(self, now: float, dt: float) -> None:
         if values := self.input_positive.values:
-            _send(self.difference, sum(values) - sum(self.input_negative.values))
+            send_number(self.difference, sum(values) - sum(self.input_negative.values))
 
 
 class Multiplication(Behavior):
@@ -46,7 +46,7 @@ class Multiplication(Behavior):
 
     def compute(self, now: float, dt: float) -> None:
         if values := self.input.values:
-            _send(self.product, math.prod(values))
+            send_number(self.product, math.prod(values))
 
 
 class Division(Behavior):
@@ -60,7 +60,7 @@ class Division(Behavior):
     def compute(self, now: float, dt: float) -> None:
         dividend, divisor = self.dividend.value, self.divisor.value
         if dividend is not None and divisor:
-            _send(self.quotient, dividend / divisor)
+            send_number(self.quotient, dividend / divisor)
 
 
 class Minimum(Behavior):
@@ -72,7 +72,7 @@ class Minimum(Behavior):
 
     def compute(self, now: float, dt: float) -> None:
         if values := self.input.values:
-            _send(self.minimum, min(values))
+            send_number(self.minimum, min(values))
 
 
 class Maximum(Behavior):
@@ -84,7 +84,7 @@ class Maximum(Behavior):
 
     def compute(self, now: float, dt: float) -> None:
         if values := self.input.values:
-            _send(self.maximum, max(values))
+            send_number(self.maximum, max(values))
 
 
 class Absolute(Behavior):
@@ -96,9 +96,10 @@ class Absolute(Behavior):
 
     def compute(self, now: float, dt: float) -> None:
         if (value := self.input.value) is not None:
-            _send(self.magnitude, abs(value))
+            send_number(self.magnitude, abs(value))
 
 
-def _send(port: OutputPort[float], value: float) -> None:
+def send_number(port: OutputPort[float], value: float) -> None:
+    """Send a result, unless it is no number."""
     if not math.isnan(value):
         port.send(value)

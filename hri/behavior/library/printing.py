@@ -55,7 +55,8 @@ def worded(value: object) -> str:
         case bool():
             return str(value).lower()
         case int() | float():
-            return f"{max(-DBL_MAX, min(DBL_MAX, value)):g}"
+            # In this order, what is no number stays none.
+            return f"{max(min(value, DBL_MAX), -DBL_MAX):g}"
         case tuple():
             return f"({', '.join(map(worded, value))})"
         case Frame():

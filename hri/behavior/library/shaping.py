@@ -1,11 +1,16 @@
-"""A number made fit for use: limited, scaled, smoothed. Nothing comes out when nothing comes in."""
+"""A number made fit for use: limited, scaled, smoothed. Nothing comes out when nothing comes in.
+
+What is no number does not count as one. The largest number there is stands for infinity: it is how
+a port of 2003 says that nothing is in range.
+"""
 
 from __future__ import annotations
 
 import math
 
 from hri.behavior.behavior import Behavior
-from hri.behavior.ports import Input, Output, Param
+from hri.behavior.library.arithmetic import send_number
+from hri.behavior.ports import DBL_MAX, Input, InputPort, Output, Param
 from hri.core.errors import HriError
 
 
@@ -24,7 +29,7 @@ class Clamp(Behavior):
             raise HriError(f"{what} - swap them")
 
     def compute(self, now: float, dt: float) -> None:
-        if (value := self.input.value) is not None:
+        if (value := _number(self.input)) is not None:
             self.clamped.send(min(self.maximum, max(self.minimum, value)))
 
 
@@ -38,8 +43,9 @@ class Scale(Behavior):
     scaled = Output[float]("double", "input * factor + offset")
 
     def compute(self, now: float, dt: float) -> None:
-        if (value := self.input.value) is not None:
-            self.scaled.send(value * self.factor + self.offset)
+        if (value := _number(self.input)) is not None:
+            value = math.copysign(math.inf, value) if _is_unbounded(value) else value
+            send_number(self.scaled, value * self.factor + self.offset)
 
 
 class Deadband(Behavior):
@@ -51,7 +57,7 @@ class Deadband(Behavior):
     output = Output[float]("double", "without a jump: zero at the edge of the band")
 
     def compute(self, now: float, dt: float) -> None:
-        if (value := self.input.value) is not None:
+        if (value := _number(self.input)) is not None:
             self.output.send(deadband(value, self.width))
 
 
@@ -64,8 +70,8 @@ class Smooth(Behavior):
     """Follows a number slowly: after one time constant 63 % of a step are done.
 
     y += (x - y) (1 - exp(-dt / time_constant)), the closed form of a first-order low pass for a
-    step: how often it ticks makes no difference. The first number passes as it is. What is not
-    finite passes too, and smoothing begins anew.
+    step: how often it ticks makes no difference. The first number passes as it is. Infinity passes
+    too, and smoothing begins anew, so that it hides no obstacle that comes into range.
     """
 
     category = "operators"
@@ -74,13 +80,13 @@ class Smooth(Behavior):
     smoothed = Output[float]("double", "the number, without haste")
 
     def compute(self, now: float, dt: float) -> None:
-        value = self.input.value
+        value = _number(self.input)
         if value is None:
             return
-        if self._last is not None and math.isfinite(value) and self.time_constant > 0:
+        if self._last is not None and not _is_unbounded(value) and self.time_constant > 0:
             share = -math.expm1((self._time - now) / self.time_constant)
-            value = self._last + (value - self._last) * share
-        self._last = value if math.isfinite(value) else None
+            value = self._last * (1 - share) + value * share
+        self._last = None if _is_unbounded(value) else value
         self._time = now
         self.smoothed.send(value)
 
@@ -89,7 +95,10 @@ class Smooth(Behavior):
 
 
 class RateLimit(Behavior):
-    """Lets a number change no faster than allowed; after a tick without one it starts anew."""
+    """Lets a number change no faster than allowed; after a tick without one it starts anew.
+
+    So it does with infinity, which passes as it is: it hides no obstacle that comes into range.
+    """
 
     category = "operators"
     rising = Param(1.0, "most that is added in a second", minimum=0)
@@ -98,11 +107,25 @@ class RateLimit(Behavior):
     limited = Output[float]("double", "the number, on its way")
 
     def compute(self, now: float, dt: float) -> None:
-        value, last = self.input.value, self._last
-        if value is not None:
+        value, last = _number(self.input), self._last
+        self._last = None
+        if value is None:
+            return
+        if not _is_unbounded(value):
             if last is not None:
-                value = min(last + self.rising * dt, max(last - self.falling * dt, value))
-            self.limited.send(value)
-        self._last = value
+                # The value first: infinity times a dt of 0 then limits nothing.
+                value = min(max(value, last - self.falling * dt), last + self.rising * dt)
+            self._last = value
+        self.limited.send(value)
 
     _last: float | None = None
+
+
+def _number(port: InputPort[float]) -> float | None:
+    """What comes in, None when that is nothing or no number."""
+    value = port.value
+    return None if value is None or math.isnan(value) else value
+
+
+def _is_unbounded(value: float) -> bool:
+    return abs(value) >= DBL_MAX

@@ -6,13 +6,24 @@ from typing import Any
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
+from hri.core.errors import HriError
 from hri.core.latest import Latest
 
 
-class Share(Behavior):
-    """Puts what comes in on the robot's board, for other networks and tasks."""
+class _OnBoard(Behavior):
+    """Uses a slot of the robot's board."""
 
     slot = Param("", "name of the slot on the board")
+
+    def check(self) -> None:
+        """Raises HriError when it has no slot."""
+        if not self.slot:
+            raise HriError(f"{self.id} has no slot on the board - set its parameter slot")
+
+
+class Share(_OnBoard):
+    """Puts what comes in on the robot's board, for other networks and tasks."""
+
     emotion = Input[Any]("emotion", "an emotion state")
     expression = Input[Any]("expression", "an expression")
     prosody = Input[Any]("prosody", "how to say things")
@@ -37,10 +48,9 @@ class Share(Behavior):
                     self._slot.set(port.value, now)
 
 
-class Shared(Behavior):
-    """Takes the newest value of a slot of the robot's board; link the port of its type."""
+class Shared(_OnBoard):
+    """Takes the newest value of a slot of the robot's board; the port of its type sends it."""
 
-    slot = Param("", "name of the slot on the board")
     emotion = Output[Any]("emotion", "an emotion state")
     expression = Output[Any]("expression", "an expression")
     prosody = Output[Any]("prosody", "how to say things")
@@ -60,4 +70,5 @@ class Shared(Behavior):
         value, _ = self._slot.get()
         if value is not None:
             for port in self._outputs:
-                port.send(value)
+                if port.takes(value):
+                    port.send(value)

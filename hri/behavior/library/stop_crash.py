@@ -1,9 +1,13 @@
 """Velocities that end before an obstacle: the custom behavior of the guide and its exercise.
 
-Lengths in centimeters and velocities in cm/s, as the files of 2003 have them.
+Lengths in centimeters and velocities in cm/s, as the files of 2003 have them. A sensor that sends
+nothing is ignored, as in 2003, by the exercise too: where that could hurt, put `Hri.CommandGate`
+behind them, for which such a sensor sees an obstacle. A reading that is no number counts as near.
 """
 
 from __future__ import annotations
+
+import math
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.ports import LINEAR_VELOCITY, Input, InputPort, Output, Param
@@ -20,8 +24,7 @@ class StopCrash(Behavior):
 
     def compute(self, now: float, dt: float) -> None:
         velocity = _of_first_link(self.forward_velocity)
-        is_near = any(reading < self.stop_limit for reading in self.range_sensor.values)
-        self.velocity.send(0.0 if is_near else velocity)
+        self.velocity.send(velocity if _is_free(self.range_sensor, self.stop_limit) else 0.0)
 
 
 class StopCrashSelective(Behavior):
@@ -37,10 +40,15 @@ class StopCrashSelective(Behavior):
     def compute(self, now: float, dt: float) -> None:
         velocity = _of_first_link(self.forward_velocity)
         sensors = self.front_sensor if velocity > 0 else self.rear_sensor
-        is_near = any(reading < self.stop_limit for reading in sensors.values)
-        self.velocity.send(0.0 if is_near else velocity)
+        self.velocity.send(velocity if _is_free(sensors, self.stop_limit) else 0.0)
 
 
 def _of_first_link(port: InputPort[float]) -> float:
-    """What the first link carries, 0 when that is nothing; the others do not count."""
-    return (port.sources[0].value or 0.0) if port.sources else 0.0
+    """What the first link carries, 0 when that is nothing or no number; the others do not count."""
+    value = port.sources[0].value if port.sources else None
+    return 0.0 if value is None or math.isnan(value) else value
+
+
+def _is_free(sensors: InputPort[float], limit: float) -> bool:
+    # Asked this way around, a reading that is no number does not pass.
+    return all(reading >= limit for reading in sensors.values)

@@ -9,6 +9,7 @@ The track comes from the y of the motors.
 
 from __future__ import annotations
 
+import logging
 from typing import ClassVar
 
 from hri.core.clock import Timer
@@ -20,6 +21,8 @@ from hri.hal.motor import Motor
 from hri.hal.moving_base import MovingBase
 from hri.hal.resource import Description, Resource
 from hri.hal.wheels import WheelPair
+
+log = logging.getLogger("hri.resources")
 
 POLLING_MS = (50.0, 1.0, 10_000.0)
 """Default, least and most of the odometry's `polling_interval`, milliseconds."""
@@ -85,7 +88,7 @@ class Diff2Drive(TwoMotors, MovingBase):
 class Diff2Odometry(TwoMotors, Odometry):
     """Adds up what two motors roll; `polling_interval` is in milliseconds.
 
-    Between two polls the way counts as one arc.
+    Between two polls the way counts as one arc. A poll that fails is made up for by the next.
     """
 
     parameters: ClassVar[tuple[str, ...]] = ("polling_interval",)
@@ -101,12 +104,11 @@ class Diff2Odometry(TwoMotors, Odometry):
         self._interval = interval_ms / 1000
         now = self.manager.clock.now()
         self._pose, self._way = Pose2D(), self._rolled(now)
-        self._timer: Timer | None = None
-        self._poll()
+        self._has_failed = False
+        self._timer = self._next_poll(now)
 
     def _close(self) -> None:
-        if self._timer is not None:
-            self._timer.cancel()
+        self._timer.cancel()
 
     def pose(self, now: float) -> Pose2D:
         with self._lock:
@@ -115,12 +117,29 @@ class Diff2Odometry(TwoMotors, Odometry):
     def velocity(self, now: float) -> Twist:
         return self._velocity(now)
 
+    def _next_poll(self, now: float) -> Timer:
+        return self.manager.clock.call_at(now + self._interval, self._poll)
+
     def _poll(self) -> None:
-        clock = self.manager.clock
         with self._lock:
-            way = self._rolled(clock.now())
-            self._pose, self._way = self._pose_at(way), way
-            self._timer = clock.call_at(clock.now() + self._interval, self._poll)
+            if not self.is_active:
+                return  # it was closed while this call waited
+            now = self.manager.clock.now()
+            try:
+                way = self._rolled(now)
+                self._pose, self._way = self._pose_at(way), way
+                self._has_failed = False
+            except Exception as error:
+                self._report(error)
+            # One that waited while it was closed and opened again must not poll beside the new one.
+            self._timer.cancel()
+            self._timer = self._next_poll(now)
+
+    def _report(self, error: Exception) -> None:
+        """Tell of a poll that failed, once until one succeeds."""
+        if not self._has_failed:
+            log.error("%s: a motor cannot be read: %s", self.id, error, exc_info=error)
+        self._has_failed = True
 
     def _pose_at(self, way: Way) -> Pose2D:
         linear, angular = way.linear - self._way.linear, way.angular - self._way.angular

@@ -22,6 +22,7 @@ pytestmark = pytest.mark.proves("B10", "B11", "B19")
         (math.inf, "double: 1.79769e+308"),
         (-math.inf, "double: -1.79769e+308"),
         ((1.0, 2.5, math.inf), "DoubleArray.\n0: 1\n1: 2.5\n2: 1.79769e+308"),
+        (math.nan, "double: nan"),
         ((), "DoubleArray."),
         (True, "boolean: true"),
         (Twist(0.25, -1.0), "twist: linear 0.25, angular -1"),

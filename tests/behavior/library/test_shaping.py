@@ -5,9 +5,29 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hri.behavior.behavior import Behavior
+from hri.behavior.drivers import RangeSensorReading
 from hri.behavior.library.shaping import Clamp, Deadband, RateLimit, Scale, Smooth
+from hri.behavior.ports import DBL_MAX, Input
 from hri.core.errors import HriError
+from hri.core.signals import RangeReading
+from hri.hal.range_sensor import RangeSensor
+from hri.hal.resource import Description
+from hri.testing import context, run_for
 from tests.behavior.library.ticking import tick
+
+
+class Recorder(Behavior):
+    """Keeps what comes in."""
+
+    input = Input[float]("double", "a number")
+
+    def start(self, context):
+        self.at = {}
+
+    def compute(self, now, dt):
+        self.at[round(now, 3)] = self.input.value
+
 
 REASONABLE = st.floats(-1e6, 1e6)
 
@@ -97,6 +117,60 @@ def test_what_is_not_finite_passes_and_smoothing_begins_anew():
     tick(smooth, now=0.0, input=5.0)
     assert tick(smooth, now=0.1, input=math.inf) == {"smoothed": math.inf}
     assert tick(smooth, now=0.2, input=7.0) == {"smoothed": 7.0}
+
+
+SHAPING = [
+    *(Clamp(), Deadband(), RateLimit(rising=math.inf), Smooth()),
+    *(Scale(factor=0.0), Scale(factor=-1e308, offset=math.inf)),
+]
+
+
+@given(st.lists(st.tuples(st.none() | st.floats(), st.floats(0, 1)), min_size=1))
+def test_what_is_no_number_is_never_sent(ticks):
+    for behavior in SHAPING:
+        now = 0.0
+        for value, dt in ticks:
+            now += dt
+            for sent in tick(behavior, now=now, dt=dt, input=value).values():
+                assert not math.isnan(sent)
+
+
+@pytest.mark.parametrize("cls", [Clamp, Scale, Deadband, Smooth, RateLimit])
+def test_what_is_no_number_counts_as_nothing(cls):
+    behavior = cls()
+    assert tick(behavior, input=math.nan) == {}
+    assert tick(behavior, input=0.5)
+
+
+@pytest.mark.parametrize("far", [DBL_MAX, -DBL_MAX, math.inf, -math.inf])
+@pytest.mark.parametrize("cls", [Smooth, RateLimit])
+def test_what_stands_for_infinity_passes_and_shaping_begins_anew(cls, far):
+    shaping = cls()
+    (port,) = shaping.outputs
+    assert tick(shaping, now=0.0, input=20.0) == {port: 20.0}
+    assert tick(shaping, now=0.1, input=far) == {port: far}
+    assert tick(shaping, now=0.2, input=30.0) == {port: 30.0}
+
+
+class Approach(RangeSensor):
+    """Sees nothing in range for a second, then something 20 cm away."""
+
+    def read(self, now):
+        return RangeReading(self.id, math.inf if now < 1.0 else 0.2, now)
+
+
+@pytest.mark.parametrize("cls", [Smooth, RateLimit])
+@pytest.mark.parametrize("factor", [1.0, 0.01])
+def test_shaping_hides_no_obstacle_that_comes_into_range(cls, factor):
+    lent = context()
+    lent.resources.substitute("range", Approach(Description("range", "Test.Range"), lent.resources))
+    sensor, scale, shaping, seen = RangeSensorReading(), Scale(factor=factor), cls(), Recorder()
+    scale.input.sources.append(sensor.distance)
+    shaping.input.sources.append(scale.scaled)
+    seen.input.sources.append(getattr(shaping, *shaping.outputs))
+    run_for(1.2, [sensor, scale, shaping, seen], lent)
+    assert seen.at[0.5] >= DBL_MAX
+    assert seen.at[1.0] == pytest.approx(20.0 * factor)
 
 
 def test_a_time_constant_of_zero_smooths_nothing():

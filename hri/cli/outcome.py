@@ -1,0 +1,49 @@
+"""How a program ends: errors of its user in one line, and an exit status.
+
+0 when all went well, 1 when a check found fault or a device failed, 2 when the command line or a
+file is wrong, 130 after Ctrl-C. Light to import, so that it holds while the rest is loaded.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable
+
+from hri.core.errors import HriError
+
+
+def status_of(program: Callable[[], int]) -> int:
+    """Run a program; its exit status. What is nobody's fault but ours keeps its traceback."""
+    try:
+        return program()
+    except (HriError, OSError, KeyboardInterrupt, BaseExceptionGroup) as error:
+        alone = _alone(error)
+        match alone:
+            case HriError() as refused:
+                print(refused, file=sys.stderr)
+                return 2
+            case KeyboardInterrupt():
+                return 130
+            case BrokenPipeError():
+                _let_go()
+                return 0
+            case OSError(filename=str() | os.PathLike() as path, strerror=reason):
+                print(f"{path}: {reason} - check the path", file=sys.stderr)
+                return 2
+        # Without the groups, which would bury the line that is wrong.
+        raise alone from None
+
+
+def _alone(error: BaseException) -> BaseException:
+    """An exception without the groups that the robot loop puts around it."""
+    while isinstance(error, BaseExceptionGroup) and len(error.exceptions) == 1:
+        error = error.exceptions[0]
+    return error
+
+
+def _let_go() -> None:
+    """Forget what could not be written: our reader has gone, as in `hri grammar expand | head`."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, sys.stdout.fileno())
+    os.close(nowhere)

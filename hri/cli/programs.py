@@ -1,0 +1,21 @@
+"""The programs with names of their own; while one is still being loaded Ctrl-C ends it quietly."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable, Sequence
+
+from hri.cli.outcome import status_of
+
+
+def _program(name: str) -> Callable[..., int]:
+    def main(arguments: Sequence[str] | None = None) -> int:
+        return status_of(lambda: int(importlib.import_module(f"hri.cli.{name}").main(arguments)))
+
+    return main
+
+
+behave = _program("behave")
+test_camera = _program("test_camera")
+test_drive_system = _program("test_drive_system")
+test_range_sensor = _program("test_range_sensor")
