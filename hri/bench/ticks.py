@@ -72,8 +72,8 @@ def figures(stopwatch: Stopwatch) -> dict[str, Any]:
     }
 
 
-def _rise(clock: Clock, priority: str) -> str:
-    return become_realtime(clock) if priority == "realtime" else ""
+def _rise(priority: str) -> str:
+    return become_realtime() if priority == "realtime" else ""
 
 
 def _alone(clock: Clock, network: Network, priority: str, seconds: float) -> str:
@@ -87,7 +87,7 @@ def _alone(clock: Clock, network: Network, priority: str, seconds: float) -> str
             nursery.cancel_scope.cancel()
 
     context.networks.start(network)
-    refusal = _rise(clock, priority)
+    refusal = _rise(priority)
     trio.run(live)
     context.networks.close()
     return refusal
@@ -109,7 +109,7 @@ def _beside_companion(clock: Clock, network: Network, priority: str, seconds: fl
         visit = load_visit(robot.app.folder / "demo.toml")
         visit.start(world, context.clock, context.events)
         await context.clock.sleep(SETTLING)
-        refusals.append(_rise(clock, priority))
+        refusals.append(_rise(priority))
         robot.networks.start(network)
         await context.clock.sleep(seconds)
         robot.finish()

@@ -116,7 +116,7 @@ def _behave(options: argparse.Namespace) -> int:
             for id in resources.ids(Resource):
                 resources.obtain(id, Resource)
         runner.start()
-        if options.realtime and (refusal := become_realtime(clock)):
+        if options.realtime and (refusal := become_realtime()):
             log.warning(refusal)
         log.info(f"Running network with an interval of {network.interval:.2f} sec.")
         trio.run(partial(_run, runner, clock, options))

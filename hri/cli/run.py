@@ -170,7 +170,7 @@ class Session:
 
     async def run_ahead(self, context: TaskContext) -> None:
         """Ask for real-time priority; networks and devices have started by now."""
-        if refusal := become_realtime(context.clock):
+        if refusal := become_realtime():
             self.narrator.tell(refusal)
 
     async def prepare(self, context: TaskContext) -> None:

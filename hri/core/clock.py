@@ -11,6 +11,7 @@ from __future__ import annotations
 import heapq
 import itertools
 import math
+import sys
 import threading
 import time
 from abc import ABC, abstractmethod
@@ -29,6 +30,8 @@ NAP = 0.005
 """Seconds; how often a program without a robot loop looks whether what it waits for is there."""
 POLL = 0.001
 """Seconds; the step in which the system counts the time that a program waits for anything."""
+SWITCH_INTERVAL = 0.0005
+"""Seconds that a busy thread may keep the robot loop waiting; Python's own is 5 ms."""
 CLUTTER = 100
 """Timers that may wait before those that were cancelled are cleared away."""
 FAKE_MORNING = datetime(2003, 6, 18, 10, 0)
@@ -215,8 +218,8 @@ class RealClock(Clock):
         super().__init__()
         self._source = source
         self._origin = source()
-        self.is_exact = False
-        """Wake to the microsecond; otherwise it is the millisecond that the system polls with."""
+        # Only the time that passes by itself can be slept through.
+        self._is_exact = source is time.perf_counter
 
     def now(self) -> float:
         return self._source() - self._origin
@@ -246,6 +249,14 @@ class RealClock(Clock):
         return True
 
     async def _drive(self) -> None:
+        before = sys.getswitchinterval()
+        sys.setswitchinterval(min(before, SWITCH_INTERVAL))
+        try:
+            await self._run_timers()
+        finally:
+            sys.setswitchinterval(before)
+
+    async def _run_timers(self) -> None:
         while True:
             self._changed = trio.Event()
             timer = self._pop_timer()
@@ -258,7 +269,7 @@ class RealClock(Clock):
                 await trio.lowlevel.checkpoint()
                 continue
             self._push(timer)
-            if not self.is_exact:
+            if not self._is_exact:
                 with trio.move_on_after(wait):
                     await self._changed.wait()
             elif wait > POLL:

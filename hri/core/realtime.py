@@ -4,26 +4,18 @@ from __future__ import annotations
 
 import gc
 import os
-import sys
-
-from hri.core.clock import Clock, RealClock
 
 PRIORITY = 50
 """Of 1 to 99, among programs with SCHED_FIFO."""
-SWITCH_INTERVAL = 0.0005
-"""Seconds that a busy thread of this program may keep the loop waiting."""
 
 
-def become_realtime(clock: Clock) -> str:
-    """Run the calling thread ahead of all that is not real time, and wake it to the microsecond.
+def become_realtime() -> str:
+    """Run the calling thread ahead of all that is not real time.
 
     What is loaded so far is left out of garbage collection, whose pauses grow with it. Processes
     and threads that are started by this one run as usual. Returns a sentence when the system does
     not allow the priority, else an empty text.
     """
-    if isinstance(clock, RealClock):
-        clock.is_exact = True
-    sys.setswitchinterval(SWITCH_INTERVAL)
     gc.collect()
     gc.freeze()
     if not hasattr(os, "sched_setscheduler"):
