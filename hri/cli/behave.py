@@ -16,11 +16,9 @@ from hri.behavior.behavior import Context
 from hri.behavior.network import load_network
 from hri.behavior.runner import Runner
 from hri.cli.outcome import status_of
-from hri.core import paths
 from hri.core.clock import Clock, FakeClock, RealClock
 from hri.core.events import EventBus
 from hri.core.realtime import become_realtime
-from hri.hal.configuration import load_configuration
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Resource
 
@@ -146,10 +144,7 @@ def _tell_timings(runner: Runner) -> None:
 def _resources(options: argparse.Namespace, clock: Clock) -> ResourceManager:
     if options.without_resources:
         return ResourceManager((), clock)
-    configuration = load_configuration(paths.find("config", options.config))
-    resources = ResourceManager(configuration.devices, clock, shapes=configuration.shapes)
-    resources.check()
-    return resources
+    return ResourceManager.load(options.config, clock)
 
 
 async def _run(runner: Runner, clock: Clock, options: argparse.Namespace) -> None:

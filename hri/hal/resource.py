@@ -72,11 +72,11 @@ class Description:
             remedy = "write a number, such as 0.5 or -pi/4"
             raise self.error(name, f"{name}: {error}", remedy) from error
 
-    def count(self, name: str, default: int, lowest: int, highest: int) -> int:
+    def count(self, name: str, default: int, least: int, most: int) -> int:
         """A whole number within limits. Raises AuthoringError with its place."""
         value = self.number(name, default)
-        if value != int(value) or not lowest <= value <= highest:
-            remedy = f"write a whole number from {lowest} to {highest}"
+        if value != int(value) or not least <= value <= most:
+            remedy = f"write a whole number from {least} to {most}"
             raise self.error(name, f"{name}: {value:g}", remedy)
         return int(value)
 

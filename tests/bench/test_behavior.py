@@ -35,5 +35,6 @@ def test_lateness_and_period_are_told_against_the_deadlines():
 
 
 def test_busy_processes_end():
-    with busy_processes(1):
-        pass
+    with busy_processes(2) as processes:
+        assert [process.poll() for process in processes] == [None, None]
+    assert all(process.poll() is not None for process in processes)
