@@ -7,7 +7,7 @@ from collections.abc import Collection
 from hri.core.signals import Rejection, Utterance
 from hri.hal.recognizer import Hypothesis, Segment
 from hri.speech.grammar import Grammar
-from hri.speech.matching import parse
+from hri.speech.grammar.matching import parse
 
 
 def judge(

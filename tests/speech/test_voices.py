@@ -8,9 +8,9 @@ import pytest
 from hri.core.errors import AuthoringError, HriError
 from hri.core.signals import Prosody
 from hri.hal.resource import Description
+from hri.speech.pronunciation.letter_to_sound import pronounce
 from hri.speech.recognizers.pocketsphinx import dictionary
 from hri.speech.synthesizers.espeak import EspeakVoice
-from hri.speech.synthesizers.letter_to_sound import pronounce
 from hri.speech.synthesizers.pyttsx3 import Pyttsx3Voice
 
 TEXT = "Hello, I am your robot."
@@ -92,7 +92,7 @@ def test_words_are_pronounced_like_the_dictionary_says():
 
 
 def test_all_phones_of_the_table_are_the_engine_s():
-    from hri.speech.synthesizers.letter_to_sound import PHONES
+    from hri.speech.pronunciation.letter_to_sound import PHONES
 
     inventory = {phone for phones in dictionary().values() for phone in phones}
     assert {phone for phones in PHONES.values() for phone in phones.split()} <= inventory

@@ -20,8 +20,8 @@ from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, Hypothesis, Recognizer, Segment
 from hri.speech.confidence import FRAME, PathFigures, confidence
 from hri.speech.endpoint import Endpointer
+from hri.speech.pronunciation.letter_to_sound import pronounce
 from hri.speech.recognizers.voice_activity import VoiceActivityEndpointer
-from hri.speech.synthesizers.letter_to_sound import pronounce
 
 NOISE_FLOOR = 20.0
 """Standard deviation of the noise laid under all sound, of 32767."""

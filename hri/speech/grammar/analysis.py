@@ -8,7 +8,7 @@ from graphlib import CycleError, TopologicalSorter
 from typing import TYPE_CHECKING, TypeVar
 
 from hri.core.errors import AuthoringError, Place, did_you_mean
-from hri.speech.expressions import (
+from hri.speech.grammar.expressions import (
     Alternative,
     Expression,
     Repeat,
@@ -21,7 +21,7 @@ from hri.speech.expressions import (
 )
 
 if TYPE_CHECKING:
-    from hri.speech.grammar import Grammar, Rule
+    from hri.speech.grammar.rules import Grammar, Rule
 
 Rules = Mapping[str, "Rule"]
 V = TypeVar("V")

@@ -7,9 +7,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hri.core.errors import AuthoringError, HriError
-from hri.speech.grammar import LARGEST_FILE, load_grammar, read_grammar
-from hri.speech.jsgf import read_jsgf
-from hri.speech.matching import parse
+from hri.speech.grammar import load_grammar, read_grammar
+from hri.speech.grammar.jsgf import read_jsgf
+from hri.speech.grammar.matching import parse
+from hri.speech.grammar.rules import LARGEST_FILE
 
 FEATURES = """#JSGF V1.0 UTF-8 en;
 // A line.

@@ -7,8 +7,8 @@ import random
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from hri.speech.analysis import height
-from hri.speech.expressions import (
+from hri.speech.grammar.analysis import height
+from hri.speech.grammar.expressions import (
     Alternative,
     Expression,
     Optional,
@@ -20,7 +20,7 @@ from hri.speech.expressions import (
 )
 
 if TYPE_CHECKING:
-    from hri.speech.grammar import Grammar
+    from hri.speech.grammar.rules import Grammar
 
 Words = tuple[str, ...]
 

@@ -11,9 +11,9 @@ from pathlib import Path
 
 from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean, read_text
-from hri.speech import analysis, expansion
-from hri.speech.expressions import Expression, Span, Tagged, Token, rename, spell, walk
-from hri.speech.jsgf import Document, Import, read_jsgf
+from hri.speech.grammar import analysis, expansion
+from hri.speech.grammar.expressions import Expression, Span, Tagged, Token, rename, spell, walk
+from hri.speech.grammar.jsgf import Document, Import, read_jsgf
 
 LARGEST_FILE = 4_000_000
 """Bytes of a grammar file."""
@@ -114,7 +114,7 @@ def load_grammar(path: Path) -> Grammar:
 def read_grammar(path: Path) -> tuple[Grammar, list[AuthoringError]]:
     """The grammar as far as it can be read, and the mistakes in its writing.
 
-    What the rules say is not looked at yet: see `hri.speech.check`.
+    What the rules say is not looked at yet: see `hri.speech.grammar.check`.
     Raises HriError when the file itself cannot be read.
     """
     return _Loader().load(path)

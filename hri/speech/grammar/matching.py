@@ -11,7 +11,7 @@ import re
 from collections.abc import Generator, Mapping
 from dataclasses import dataclass, field
 
-from hri.speech.expressions import (
+from hri.speech.grammar.expressions import (
     Alternative,
     Expression,
     Optional,
@@ -21,8 +21,8 @@ from hri.speech.expressions import (
     Tagged,
     Token,
 )
-from hri.speech.grammar import Grammar
-from hri.speech.tags import TagEntry, Value, evaluate
+from hri.speech.grammar.rules import Grammar
+from hri.speech.grammar.tags import TagEntry, Value, evaluate
 
 MOST_WORDS = 200
 """A longer text is no command."""

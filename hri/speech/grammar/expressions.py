@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
-from hri.speech.tags import TagEntry
+from hri.speech.grammar.tags import TagEntry
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from hri.speech.tags import evaluate, read_entries
+from hri.speech.grammar.tags import evaluate, read_entries
 
 
 @pytest.mark.parametrize(

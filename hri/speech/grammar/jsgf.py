@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from hri.core.errors import AuthoringError, Place, did_you_mean
-from hri.speech.expressions import (
+from hri.speech.grammar.expressions import (
     Alternative,
     Expression,
     Optional,
@@ -25,7 +25,7 @@ from hri.speech.expressions import (
     Tagged,
     Token,
 )
-from hri.speech.tags import read_entries
+from hri.speech.grammar.tags import read_entries
 
 DEEPEST = 50
 """Brackets within brackets; deeper is a mistake or an attack."""

@@ -4,8 +4,8 @@ import time
 
 import pytest
 
-from hri.speech.check import check
 from hri.speech.grammar import load_grammar, read_grammar
+from hri.speech.grammar.check import check
 
 DICTIONARY = {
     "go": ("G", "OW"),

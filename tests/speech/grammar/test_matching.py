@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hri.speech.expansion import random_sentence
 from hri.speech.grammar import load_grammar, read_grammar
-from hri.speech.matching import parse
+from hri.speech.grammar.expansion import random_sentence
+from hri.speech.grammar.matching import parse
 
 
 @pytest.mark.parametrize(

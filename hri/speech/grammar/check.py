@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 from hri.core.errors import Place
-from hri.speech import analysis
-from hri.speech.expressions import Alternative, Expression, Token, spell, walk
-from hri.speech.grammar import Grammar
+from hri.speech.grammar import analysis
+from hri.speech.grammar.expressions import Alternative, Expression, Token, spell, walk
+from hri.speech.grammar.rules import Grammar
 
 Dictionary = Mapping[str, Sequence[str]]
 """Phones of the words an engine knows: {"go": ("G", "OW")}."""

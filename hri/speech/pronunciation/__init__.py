@@ -1,0 +1,1 @@
+"""How words sound: phones, dictionaries, and rules for what no dictionary knows."""
