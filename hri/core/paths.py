@@ -86,3 +86,15 @@ def settings_folder() -> Path:
     """Where the user's choices are kept (XDG base directory specification)."""
     base = os.environ.get("XDG_CONFIG_HOME") or "~/.config"
     return Path(base).expanduser() / "hri"
+
+
+def cache_folder() -> Path:
+    """Where what can be made again is kept (XDG base directory specification)."""
+    base = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
+    return Path(base).expanduser() / "hri"
+
+
+def data_folder() -> Path:
+    """Where what the user fetched is kept (XDG base directory specification)."""
+    base = os.environ.get("XDG_DATA_HOME") or "~/.local/share"
+    return Path(base).expanduser() / "hri"

@@ -1,6 +1,7 @@
 """`hri grammar`: write grammars, check what was written, try it in words and in sound.
 
-Each subcommand is a module with `add_arguments(parser)` and `run(options) -> exit status`.
+Each subcommand is a module with `EXAMPLES`, `add_arguments(parser)` and
+`run(options) -> exit status`.
 """
 
 from __future__ import annotations
@@ -12,18 +13,35 @@ COMMANDS = {
     "check": "say what is wrong and what is heard badly",
     "parse": "say what a sentence means",
     "expand": "list, draw or count the sentences that are understood",
+    "test": "try a file of sentences, or recordings, that should be understood",
+    "listen": "hear with a grammar: a microphone, recordings or typed lines",
+    "confuse": "find sentences of different meaning that sound alike",
+    "pronounce": "tell and mend how words are said",
+    "lexicon": "list how the words of a grammar are said",
+    "calibrate": "choose the strictness from recordings or synthetic speech",
 }
+
+FILE_HELP = "grammar file, or the name of one in grammars/"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    commands = parser.add_subparsers(metavar="COMMAND", required=True)
-    for name, about in COMMANDS.items():
-        module = importlib.import_module(f"hri.cli.grammar.{name}")
-        command = commands.add_parser(name, help=about, description=about)
-        command.set_defaults(run_grammar=module.run)
-        module.add_arguments(command)
+    width = max(map(len, COMMANDS))
+    about = "\n".join(f"  {name:<{width}}  {about}" for name, about in COMMANDS.items())
+    parser.epilog = f"commands:\n{about}\n\nhri grammar COMMAND --help tells the options."
+    parser.formatter_class = argparse.RawDescriptionHelpFormatter
+    parser.add_argument("command", metavar="COMMAND", choices=COMMANDS, help="one of those below")
+    parser.add_argument("words", nargs=argparse.REMAINDER, help=argparse.SUPPRESS)
 
 
 def run(options: argparse.Namespace) -> int:
-    status: int = options.run_grammar(options)
+    """Only the module of the command that is wanted is loaded: some take their time."""
+    module = importlib.import_module(f"hri.cli.grammar.{options.command}")
+    parser = argparse.ArgumentParser(
+        prog=f"hri grammar {options.command}",
+        description=COMMANDS[options.command],
+        epilog=getattr(module, "EXAMPLES", None),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    module.add_arguments(parser)
+    status: int = module.run(parser.parse_args(options.words))
     return status

@@ -3,41 +3,109 @@
 from __future__ import annotations
 
 import argparse
+import json
 import sys
-from pathlib import Path
+from collections import Counter
+from typing import TextIO
 
+from hri.cli.grammar import FILE_HELP
+from hri.cli.grammar.excerpt import Excerpts
 from hri.core import paths
-from hri.speech.grammar import read_grammar
-from hri.speech.grammar.check import Finding, check
-from hri.speech.recognizers.pocketsphinx import dictionary
+from hri.core.errors import NotAvailable
+from hri.speech.grammar import Grammar, read_grammar
+from hri.speech.grammar.check import check
+from hri.speech.grammar.finding import SEVERITIES, Finding
+from hri.speech.pronunciation.lexicon import Lexicon, load_lexicon
 
-FILE_HELP = "grammar file, or the name of one in grammars/"
+EXAMPLES = """\
+examples:
+  hri grammar check companion            errors, warnings and hints, each with its place
+  hri grammar check my.jsgf --strict     warnings count as errors: for a build
+  hri grammar check my.jsgf --json       for other programs
+
+Status 0: fine. 1: with --strict, there are warnings. 2: there are errors.
+A rule whose comment has @answer may be short: it counts only while a question is open."""
+
 MOST_SHOWN = 3
 """Errors that are shown at once; mending the first often mends the rest."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help=FILE_HELP)
+    parser.add_argument("--strict", action="store_true", help="fail for warnings, too")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    parser.add_argument("--all", action="store_true", help=f"more than {MOST_SHOWN} errors")
 
 
 def run(options: argparse.Namespace) -> int:
-    path = paths.find("grammars", options.file)
-    grammar, mistakes = read_grammar(path)
+    grammar, mistakes = read_grammar(paths.find("grammars", options.file))
     findings = [Finding("error", error.place, error.what, error.remedy) for error in mistakes]
-    findings = findings or check(grammar, dictionary())
-    errors = [finding for finding in findings if finding.severity == "error"]
-    if errors:
-        _show(path, errors)
+    findings = findings or check(grammar, _lexicon())
+    if options.json:
+        print(json.dumps(_as_json(grammar, findings), indent=2))
+    else:
+        _show(grammar, findings, len(findings) if options.all else MOST_SHOWN)
+    severities = {finding.severity for finding in findings}
+    if "error" in severities:
         return 2
-    for finding in findings:
-        print(finding)
-    counts = f"{len(grammar.public_rules)} commands, {len(grammar.words())} words"
-    print(f"{path}: fine, {counts}" + (f", {len(findings)} warnings" if findings else ""))
-    return 0
+    return 1 if options.strict and "warning" in severities else 0
 
 
-def _show(path: Path, errors: list[Finding]) -> None:
-    for error in errors[:MOST_SHOWN]:
-        print(error, file=sys.stderr)
-    if len(errors) > MOST_SHOWN:
-        print(f"{path}: {len(errors) - MOST_SHOWN} more errors - mend these", file=sys.stderr)
+def _lexicon() -> Lexicon | None:
+    try:
+        return load_lexicon()
+    except NotAvailable as error:
+        print(f"how the words sound is not checked: {error}", file=sys.stderr)
+        return None
+
+
+def _as_json(grammar: Grammar, findings: list[Finding]) -> dict[str, object]:
+    return {
+        "file": str(grammar.path),
+        "commands": len(grammar.public_rules),
+        "words": len(grammar.words()),
+        "findings": [
+            {
+                "severity": finding.severity,
+                "file": str(finding.place.path),
+                "line": finding.place.line,
+                "column": finding.place.column,
+                "what": finding.what,
+                "remedy": finding.remedy,
+            }
+            for finding in findings
+        ],
+    }
+
+
+def _show(grammar: Grammar, findings: list[Finding], most_errors: int) -> None:
+    excerpts = Excerpts()
+    errors = [finding for finding in findings if finding.severity == "error"]
+    others = [finding for finding in findings if finding.severity != "error"]
+    for finding in errors[:most_errors]:
+        _print(finding, excerpts, sys.stderr)
+    if len(errors) > most_errors:
+        more = len(errors) - most_errors
+        print(f"{grammar.path}: {more} more errors - mend these, or see --all", file=sys.stderr)
+    for finding in others:
+        _print(finding, excerpts, sys.stdout)
+    if not errors:
+        print(f"{grammar.path}: fine, {_summary(grammar, others)}")
+
+
+def _print(finding: Finding, excerpts: Excerpts, stream: TextIO) -> None:
+    print(finding, file=stream)
+    excerpt = excerpts.of(finding.place)
+    if excerpt:
+        print(excerpt, file=stream)
+
+
+def _summary(grammar: Grammar, findings: list[Finding]) -> str:
+    parts = [_counted(len(grammar.public_rules), "command"), _counted(len(grammar.words()), "word")]
+    counts = Counter(finding.severity for finding in findings)
+    parts += [_counted(counts[severity], severity) for severity in SEVERITIES if counts[severity]]
+    return ", ".join(parts)
+
+
+def _counted(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

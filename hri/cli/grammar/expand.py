@@ -3,24 +3,93 @@
 from __future__ import annotations
 
 import argparse
+import random
+from collections.abc import Iterator
 
-from hri.cli.grammar.check import FILE_HELP
+from hri.cli.grammar import FILE_HELP
+from hri.cli.grammar.arguments import count
 from hri.core import paths
-from hri.speech.grammar import load_grammar
+from hri.core.errors import HriError, did_you_mean
+from hri.speech.grammar import Grammar, load_grammar
+from hri.speech.grammar.expansion import (
+    count_sentences,
+    count_ways,
+    random_sentence,
+    sentences,
+)
+from hri.speech.grammar.expectations import meaning_of
+from hri.speech.grammar.matching import parse
+
+EXAMPLES = """\
+examples:
+  hri grammar expand companion -n 40               the first forty, the commands taking turns
+  hri grammar expand companion --rule move --tags  of one command, with what they mean
+  hri grammar expand companion --random 20 --seed 7
+  hri grammar expand companion --count"""
+
+MOST_STALE = 1000
+"""Sentences drawn in a row that were drawn before, after which there are no more."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help=FILE_HELP)
-    parser.add_argument("-n", type=_count, default=20, metavar="N", help="how many (20)")
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument("-n", type=count, default=20, metavar="N", help="list so many (20)")
+    how.add_argument(
+        "--random", type=count, metavar="N", help="draw so many different ones by the weights"
+    )
+    how.add_argument("--count", action="store_true", help="tell how many there are")
+    parser.add_argument(
+        "--seed", type=int, default=0, metavar="S", help="another one draws others (0)"
+    )
+    parser.add_argument("--rule", metavar="RULE", help="sentences of this rule only")
+    parser.add_argument("--tags", action="store_true", help="tell what each one means, too")
 
 
 def run(options: argparse.Namespace) -> int:
-    for sentence in load_grammar(paths.find("grammars", options.file)).sentences(options.n):
-        print(sentence)
+    grammar = load_grammar(paths.find("grammars", options.file))
+    rules = _rules(grammar, options.rule)
+    if options.count:
+        print(_count(grammar, rules))
+        return 0
+    said = _drawn(grammar, rules, options) if options.random is not None else None
+    for sentence in said or sentences(grammar, rules, options.n):
+        print(_with_meaning(grammar, sentence) if options.tags else sentence)
     return 0
 
 
-def _count(text: str) -> int:
-    if not text.isdigit():
-        raise argparse.ArgumentTypeError(f"{text} is no number of sentences")
-    return int(text)
+def _rules(grammar: Grammar, rule: str | None) -> tuple[str, ...]:
+    if rule is None:
+        return grammar.public_rules
+    name = rule.strip("<>")
+    if name not in grammar.rules:
+        raise HriError(f"no rule <{name}> - {did_you_mean(name, grammar.rules)}")
+    return (name,)
+
+
+def _drawn(grammar: Grammar, rules: tuple[str, ...], options: argparse.Namespace) -> Iterator[str]:
+    chance = random.Random(options.seed)
+    seen: set[str] = {""}
+    stale = 0
+    while len(seen) <= options.random and stale < MOST_STALE:
+        sentence = random_sentence(grammar, chance, rules)
+        stale = stale + 1 if sentence in seen else 0
+        if not stale:
+            seen.add(sentence)
+            yield sentence
+
+
+def _count(grammar: Grammar, rules: tuple[str, ...]) -> str:
+    ways = count_ways(grammar, rules)
+    if ways == float("inf"):
+        return "no end of sentences: there are repeats or recursion"
+    different = count_sentences(grammar, rules)
+    if different is None:
+        return f"{ways:,} ways to say something"
+    return f"{different:,} sentences, {ways:,} ways to say them"
+
+
+def _with_meaning(grammar: Grammar, sentence: str) -> str:
+    """As a line of a file of expectations, fit for `hri grammar test`."""
+    found = parse(grammar, sentence)
+    return sentence if found is None else f"+ {sentence} => {meaning_of(found)}"

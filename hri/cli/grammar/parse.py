@@ -1,32 +1,181 @@
-"""`hri grammar parse`: what a sentence means."""
+"""`hri grammar parse`: what a sentence means, or how far it went."""
 
 from __future__ import annotations
 
 import argparse
+import io
 import json
+import sys
+from collections.abc import Iterator
 
-from hri.cli.grammar.check import FILE_HELP
+from hri.cli.grammar import FILE_HELP
+from hri.cli.grammar.arguments import legible
 from hri.core import paths
 from hri.speech.grammar import load_grammar
-from hri.speech.grammar.matching import parse
+from hri.speech.grammar.matching import Parse, Refusal, Tree, parses, refusal
+from hri.speech.grammar.tags import spell_tags
+from hri.speech.grammar.tolerance import Tolerant, nearest
+
+MOST_SHOWN = 12
+"""Words that are named of those that could follow."""
+DEEPEST = 200
+"""Rules within rules that are printed; the words of what is deeper stand in their place."""
+LONGEST_RULES = 60
+"""Characters of rules that are put into one line."""
+LONGEST_LINE = 20_000
+"""Characters of a line that are read; more than a sentence may have."""
+
+EXAMPLES = """\
+examples:
+  hri grammar parse companion "turn left a little"
+  hri grammar parse companion "um go go forward" --tolerant
+  hri grammar parse companion - --json < sentences.txt
+
+The exit status is 0 when all are accepted, 1 when one is not.
+"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help=FILE_HELP)
-    parser.add_argument("text", help="the sentence, in quotes")
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    parser.add_argument(
+        "texts",
+        type=legible,
+        metavar="TEXT",
+        nargs="+",
+        help='sentences, each in quotes; "-" reads lines',
+    )
+    parser.add_argument(
+        "--tolerant",
+        action="store_true",
+        help="forgive little words that are missing, too much or said twice; shows the cost",
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON object a sentence")
 
 
 def run(options: argparse.Namespace) -> int:
-    found = parse(load_grammar(paths.find("grammars", options.file)), options.text)
-    if options.json:
-        answer: dict[str, object] = {"accepted": found is not None}
-        if found is not None:
-            answer |= {"text": found.text, "rule": found.rule, "tags": dict(found.tags)}
-        print(json.dumps(answer))
-    elif found is None:
-        print(f'"{options.text}" is not in the grammar - see `hri grammar expand`')
-    else:
-        tags = " ".join(f"{name}={value}" for name, value in found.tags.items())
-        print(f"{found.rule}: {found.text}" + (f" {{{tags}}}" if tags else ""))
-    return 0 if found is not None else 1
+    grammar = load_grammar(paths.find("grammars", options.file))
+    status = 0
+    for text in _sentences(options.texts):
+        found = parses(grammar, text)
+        near = nearest(grammar, text) if options.tolerant else None
+        if near is not None and not found:
+            found = parses(grammar, near.parse.text)
+        refused = None if found else refusal(grammar, text)
+        if options.json:
+            print(json.dumps(_object(text, found, near, refused)), flush=True)
+        elif refused is not None:
+            print(_refused(text, refused, None if options.tolerant else nearest(grammar, text)))
+        else:
+            print(_accepted(found, near))
+        status = status or (0 if found else 1)
+    return status
+
+
+def _sentences(texts: list[str]) -> Iterator[str]:
+    for text in texts:
+        if text == "-":
+            yield from _lines()
+        else:
+            yield text
+
+
+def _lines() -> Iterator[str]:
+    if isinstance(sys.stdin, io.TextIOWrapper):
+        sys.stdin.reconfigure(errors="replace")
+    while line := sys.stdin.readline(LONGEST_LINE):
+        rest = line
+        while rest and not rest.endswith("\n"):
+            rest = sys.stdin.readline(LONGEST_LINE)
+        if line.strip():
+            yield line.strip()
+
+
+def _object(
+    text: str, found: tuple[Parse, ...], near: Tolerant | None, refused: Refusal | None
+) -> dict[str, object]:
+    answer: dict[str, object] = {"text": text, "accepted": bool(found)}
+    if found:
+        answer |= {"text": found[0].text, **_meaning(found[0])}
+        answer["parses"] = [_meaning(reading) for reading in found]
+    if near is not None:
+        answer |= {"cost": near.cost, "edits": [str(edit) for edit in near.edits]}
+    if refused is not None:
+        answer |= {
+            "understood": refused.understood,
+            "word": refused.word,
+            "expected": list(refused.expected),
+            "remedy": refused.remedy,
+        }
+    return answer
+
+
+def _meaning(reading: Parse) -> dict[str, object]:
+    words = reading.text.split()
+    return {
+        "rule": reading.rule,
+        "tags": dict(reading.tags),
+        "tree": _branch(reading.tree, words, DEEPEST),
+    }
+
+
+def _branch(tree: Tree, words: list[str], levels: int) -> dict[str, object]:
+    children = tree.children if levels else tuple(words[tree.start : tree.end])
+    return {
+        "rule": tree.rule,
+        "start": tree.start,
+        "end": tree.end,
+        "children": [
+            child if isinstance(child, str) else _branch(child, words, levels - 1)
+            for child in children
+        ],
+    }
+
+
+def _accepted(found: tuple[Parse, ...], near: Tolerant | None) -> str:
+    lines = [_forgiven(near) if near is not None and near.edits else found[0].text]
+    shown: list[Parse] = []
+    for reading in found:
+        if not any(reading.means_the_same(other) for other in shown):
+            shown.append(reading)
+    if len(shown) > 1:
+        lines.append(f"ambiguous, {len(shown)} meanings; the first counts")
+    for reading in shown:
+        tags = f" {{{spell_tags(reading.tags)}}}" if reading.tags else ""
+        lines.append(reading.rule + tags)
+        lines += _drawn(reading)
+    return "\n".join(lines)
+
+
+def _forgiven(near: Tolerant) -> str:
+    return f"{near.parse.text}   ({' '.join(map(str, near.edits))}, cost {near.cost:g})"
+
+
+def _drawn(reading: Parse) -> Iterator[str]:
+    """The rules of a tree with their words, each below and right of the one that uses it.
+
+    Rules that are all there is of another stand in its line.
+    """
+    words = reading.text.split()
+    rules, indent = "", 0
+    for depth, tree in reading.tree.walk():
+        indent, rules = (indent, rules) if rules else (depth, "")
+        rules += f"<{tree.rule}> "
+        is_all = len(tree.children) == 1 and isinstance(tree.children[0], Tree)
+        if not is_all or len(rules) > LONGEST_RULES:
+            if indent < DEEPEST:
+                said = " ".join(words[tree.start : tree.end])
+                yield f"{'  ' * (indent + 1)}{rules}{said}".rstrip()
+            rules = ""
+
+
+def _refused(text: str, refused: Refusal, near: Tolerant | None) -> str:
+    after = f'after "{refused.understood}"' if refused.understood else "at the beginning"
+    what = f'"{refused.word}" does not fit' if refused.word else "more words are expected"
+    line = f'"{text}" is not in the grammar: {what} {after} - {refused.remedy}'
+    if near is not None:
+        line += f"\n  with --tolerant: {_forgiven(near)}"
+    if not refused.expected:
+        return f"{line}\n  the sentence ends there"
+    shown = ", ".join(refused.expected[:MOST_SHOWN])
+    rest = len(refused.expected) - MOST_SHOWN
+    return f"{line}\n  {after}: {shown}" + (f" and {rest} more" if rest > 0 else "")

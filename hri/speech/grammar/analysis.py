@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from graphlib import CycleError, TopologicalSorter
+from itertools import islice
 from typing import TYPE_CHECKING, TypeVar
 
 from hri.core.errors import AuthoringError, Place, did_you_mean
@@ -17,7 +18,7 @@ from hri.speech.grammar.expressions import (
     Tagged,
     Token,
     children,
-    walk,
+    heard_choices,
 )
 
 if TYPE_CHECKING:
@@ -26,10 +27,10 @@ if TYPE_CHECKING:
 Rules = Mapping[str, "Rule"]
 V = TypeVar("V")
 
-
-def references(node: Expression) -> Iterator[RuleReference]:
-    """All references below a node."""
-    return (below for below in walk(node) if isinstance(below, RuleReference))
+MOST_TOLD = 100
+"""Undefined names that are told."""
+MOST_CIRCLES = 10
+"""Circles of left recursion that are told, and rules of one that are named."""
 
 
 def reachable(rules: Rules, keys: Iterable[str]) -> list[str]:
@@ -40,28 +41,43 @@ def reachable(rules: Rules, keys: Iterable[str]) -> list[str]:
         key = pending.pop()
         if key not in found and key in rules:
             found[key] = None
-            pending += reversed([node.name for node in references(rules[key].expression)])
+            pending += reversed([node.name for node in rules[key].references])
     return list(found)
 
 
 def height(node: Expression, heights: Mapping[str, float]) -> float:
-    """How many rules deep the shortest way through a node goes; infinite when there is none."""
+    """How many recursive rules the shortest way through a node enters within each other.
+
+    Infinite when there is no way.
+    """
     match node:
+        case Token():
+            return 0
         case RuleReference(name=name):
-            return heights.get(name, math.inf) + 1
+            return heights.get(name, math.inf)
         case Sequence(items=items):
-            return max((height(item, heights) for item in items), default=0)
-        case Alternative(choices=choices):
-            return min((height(choice, heights) for choice in choices), default=math.inf)
+            return max([height(item, heights) for item in items], default=0)
+        case Alternative():
+            least = math.inf
+            for choice in heard_choices(node):
+                least = min(least, height(choice, heights))
+                if least == 0:
+                    break
+            return least
         case Repeat(item=item, minimum=1) | Tagged(item=item):
             return height(item, heights)
         case _:
             return 0
 
 
-def heights(rules: Rules) -> dict[str, float]:
-    """The height of every rule."""
-    return _settle(rules, math.inf, height)
+def heights(grammar: Grammar) -> dict[str, float]:
+    """The height of every rule, itself included when it is recursive."""
+    recursive = grammar.recursive_rules
+    return _settle(
+        grammar,
+        math.inf,
+        lambda rule, known: height(rule.expression, known) + (rule.key in recursive),
+    )
 
 
 def is_silent(node: Expression, silent: Mapping[str, bool]) -> bool:
@@ -71,8 +87,8 @@ def is_silent(node: Expression, silent: Mapping[str, bool]) -> bool:
             return silent.get(name, False)
         case Sequence(items=items):
             return all(is_silent(item, silent) for item in items)
-        case Alternative(choices=choices):
-            return any(is_silent(choice, silent) for choice in choices)
+        case Alternative():
+            return any(is_silent(choice, silent) for choice in heard_choices(node))
         case Repeat(item=item, minimum=1) | Tagged(item=item):
             return is_silent(item, silent)
         case Token():
@@ -81,28 +97,86 @@ def is_silent(node: Expression, silent: Mapping[str, bool]) -> bool:
             return True
 
 
-def silent_rules(rules: Rules) -> dict[str, bool]:
+def silent_rules(grammar: Grammar) -> dict[str, bool]:
     """Whether each rule can be passed without a word."""
-    return _settle(rules, False, is_silent)
+    return _settle(grammar, False, lambda rule, known: is_silent(rule.expression, known))
 
 
 def _settle(
-    rules: Rules, start: V, measure: Callable[[Expression, Mapping[str, V]], V]
+    grammar: Grammar, start: V, measure: Callable[[Rule, Mapping[str, V]], V]
 ) -> dict[str, V]:
-    """Measure all rules again and again until nothing changes; users of a change come next."""
+    """Measure all rules, those they use before them, and those in circles until nothing changes."""
+    rules, order = grammar.rules, grammar.used_first
     users: dict[str, list[str]] = {}
-    for key, rule in rules.items():
-        for node in references(rule.expression):
-            users.setdefault(node.name, []).append(key)
+    for key, names in _uses(rules).items():
+        for name in names:
+            users.setdefault(name, []).append(key)
     values = dict.fromkeys(rules, start)
-    pending: dict[str, None] = dict.fromkeys(reversed(list(rules)))
-    while pending:
-        key, _ = pending.popitem()
-        value = measure(rules[key].expression, values)
-        if value != values[key]:
-            values[key] = value
-            pending.update(dict.fromkeys(users.get(key, ())))
+    changed = set(order)
+    while changed:
+        for key in order:
+            if key in changed:
+                changed.discard(key)
+                value = measure(rules[key], values)
+                if value != values[key]:
+                    values[key] = value
+                    changed.update(users.get(key, ()))
     return values
+
+
+def _uses(rules: Rules) -> dict[str, set[str]]:
+    """The rules that each refers to."""
+    return {
+        key: {node.name for node in rule.references} & rules.keys() for key, rule in rules.items()
+    }
+
+
+def used_first(rules: Rules) -> list[str]:
+    """All keys, each behind those it refers to; in a circle one of them comes too early."""
+    order: list[str] = []
+    met: set[str] = set()
+    for first in rules:
+        stack = [] if first in met else [(first, iter(rules[first].references))]
+        met.add(first)
+        while stack:
+            key, uses = stack[-1]
+            names = (node.name for node in uses)
+            below = next((name for name in names if name in rules and name not in met), None)
+            if below is None:
+                order.append(key)
+                stack.pop()
+            else:
+                met.add(below)
+                stack.append((below, iter(rules[below].references)))
+    return order
+
+
+def recursive_rules(rules: Rules) -> frozenset[str]:
+    """The rules that lead to themselves, and those between two such."""
+    uses = _uses(rules)
+    users: dict[str, set[str]] = {key: set() for key in uses}
+    for key, names in uses.items():
+        for name in names:
+            users[name].add(key)
+    return without_ends(uses) & without_ends(users)
+
+
+def without_ends(leads_to: Mapping[str, Collection[str]]) -> frozenset[str]:
+    """The keys that lead into a circle: what is left when those that end are taken out."""
+    left = {key: len(names) for key, names in leads_to.items()}
+    back: dict[str, list[str]] = {}
+    for key, names in leads_to.items():
+        for name in names:
+            back.setdefault(name, []).append(key)
+    pending = [key for key, count in left.items() if not count]
+    while pending:
+        key = pending.pop()
+        del left[key]
+        for user in back.get(key, ()):
+            left[user] -= 1
+            if not left[user]:
+                pending.append(user)
+    return frozenset(left)
 
 
 def left_corners(node: Expression, silent: Mapping[str, bool]) -> Iterator[RuleReference]:
@@ -116,44 +190,59 @@ def left_corners(node: Expression, silent: Mapping[str, bool]) -> Iterator[RuleR
             return
 
 
-def left_recursion(rules: Rules) -> list[str]:
-    """The keys of a circle of rules that lead to each other before a word is said; else none."""
-    silent = silent_rules(rules)
+def left_recursion(grammar: Grammar) -> Iterator[AuthoringError]:
+    """Circles of rules that lead to each other before a word is said; no two share a rule."""
+    for circle in _circles(grammar):
+        what = f"<{circle[0]}> leads back to itself before a word is said"
+        if len(circle) > 2:
+            what += f" (through {', '.join(f'<{key}>' for key in circle[1:-1][:MOST_CIRCLES])})"
+        remedy = "put the recursion at the end of the rule, or use * or +"
+        yield AuthoringError(grammar.rules[circle[0]].place(), what, remedy)
+
+
+def _circles(grammar: Grammar) -> Iterator[list[str]]:
     leads_to = {
-        key: [node.name for node in left_corners(rule.expression, silent)]
-        for key, rule in rules.items()
+        key: {
+            node.name for node in left_corners(grammar.rules[key].expression, grammar.silent_rules)
+        }
+        for key in grammar.rules
+        if key in grammar.recursive_rules
     }
-    try:
-        TopologicalSorter(leads_to).prepare()
-    except CycleError as error:
-        circle: list[str] = error.args[1]
-        return circle[::-1]
-    return []
+    while True:
+        try:
+            TopologicalSorter(leads_to).prepare()
+        except CycleError as error:
+            circle: list[str] = error.args[1][::-1]
+            yield circle
+            for key in circle:
+                leads_to.pop(key, None)
+        else:
+            return
 
 
 def errors(grammar: Grammar) -> list[AuthoringError]:
-    """What makes a well-written grammar useless: each with its place and what to do."""
-    found = [*_undefined(grammar), *_recursive(grammar), *_without_public(grammar)]
-    return found or [*_never_said(grammar), *_without_words(grammar)]
+    """What makes a grammar useless: each with its place and what to do, in the order of places.
+
+    What follows only from a rule that could not be read is not told.
+    """
+    found = [*_undefined(grammar), *islice(left_recursion(grammar), MOST_CIRCLES)]
+    if not found and not grammar.broken:
+        found = [*_without_public(grammar), *_never_said(grammar)] or [*_without_words(grammar)]
+    return sorted(found, key=lambda error: (error.place.line, error.place.column))
 
 
 def _undefined(grammar: Grammar) -> Iterator[AuthoringError]:
+    told: set[str] = set()
     for rule in grammar.rules.values():
-        for node in references(rule.expression):
-            if node.name not in grammar.rules:
+        for node in rule.references:
+            known = node.name in grammar.rules or node.name in grammar.broken
+            if not known and node.name not in told:
+                told.add(node.name)
                 what = f"no rule <{node.name}>"
                 remedy = did_you_mean(node.name, grammar.rules, f"write <{node.name}> = words;")
                 yield AuthoringError(rule.place(node.span), what, remedy)
-
-
-def _recursive(grammar: Grammar) -> Iterator[AuthoringError]:
-    circle = left_recursion(grammar.rules)
-    if circle:
-        what = f"<{circle[0]}> leads back to itself before a word is said"
-        if len(circle) > 2:
-            what += f" (through {', '.join(f'<{key}>' for key in circle[1:-1])})"
-        remedy = "put the recursion at the end of the rule, or use * or +"
-        yield AuthoringError(grammar.rules[circle[0]].place(), what, remedy)
+                if len(told) >= MOST_TOLD:
+                    return
 
 
 def _never_said(grammar: Grammar) -> Iterator[AuthoringError]:
@@ -171,7 +260,7 @@ def _without_public(grammar: Grammar) -> Iterator[AuthoringError]:
 
 
 def _without_words(grammar: Grammar) -> Iterator[AuthoringError]:
-    if not grammar.words():
+    if not grammar.has_words():
         place = grammar.rules[grammar.public_rules[0]].place()
         what = "the public rules hold no word"
         yield AuthoringError(place, what, "write the words of a command")

@@ -1,138 +1,216 @@
-"""Tells an author what is wrong with a grammar, and what will be heard badly."""
+"""Tells an author what is wrong with a grammar, and what will not be heard or heard wrongly."""
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Literal
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from itertools import islice
 
-from hri.core.errors import Place
+from hri.core.errors import AuthoringError, did_you_mean
 from hri.speech.grammar import analysis
-from hri.speech.grammar.expressions import Alternative, Expression, Token, spell, walk
-from hri.speech.grammar.rules import Grammar
+from hri.speech.grammar.ambiguity import ambiguities, sample
+from hri.speech.grammar.audibility import heard_badly
+from hri.speech.grammar.confusion import sound_alikes
+from hri.speech.grammar.doc_comments import KNOWN_TAGS, MARKS
+from hri.speech.grammar.expressions import (
+    Alternative,
+    Expression,
+    Tagged,
+    children,
+    heard_choices,
+    spell,
+    walk,
+)
+from hri.speech.grammar.finding import SEVERITIES, Finding, hint, warning
+from hri.speech.grammar.matching import Parse, parse, parses
+from hri.speech.grammar.phrases import Phrases, Words, phrases, phrases_of_rules
+from hri.speech.grammar.rules import Grammar, Rule
+from hri.speech.grammar.tags import spell_tags
+from hri.speech.pronunciation.lexicon import Lexicon
 
-Dictionary = Mapping[str, Sequence[str]]
-"""Phones of the words an engine knows: {"go": ("G", "OW")}."""
+__all__ = ["Finding", "check"]
 
-FEWEST_PHONES = 4
-"""Commands with fewer phones are heard in other people's talk (measured: "banana" as "no")."""
-MOST_COMMANDS = 2000
-"""Sentences that are looked at for shortness."""
-
-
-@dataclass(frozen=True, slots=True)
-class Finding:
-    """Something about a grammar that its author should know."""
-
-    severity: Literal["error", "warning"]
-    place: Place
-    what: str
-    remedy: str
-
-    def __str__(self) -> str:
-        return f"{self.place}: {self.severity}: {self.what} - {self.remedy}"
+MOST_SENTENCES = 200
+"""Sentences whose sounds are compared."""
+MOST_AMBIGUITIES = 10
+MOST_ALIKE = 10
+MOST_LIKE = 0.2
+"""Distance up to which a careful rule sounds like another one."""
+LONGEST_PHRASE = 3
+"""Words of the alternatives that are compared with each other."""
 
 
-def check(grammar: Grammar, dictionary: Dictionary | None = None) -> list[Finding]:
-    """Errors if there are any, else warnings; without a dictionary words are not looked up."""
+def check(grammar: Grammar, lexicon: Lexicon | None = None) -> list[Finding]:
+    """Errors if there are any, else warnings and hints, the worst first.
+
+    Without a lexicon nothing is said about how words sound.
+    """
     errors = [Finding("error", e.place, e.what, e.remedy) for e in analysis.errors(grammar)]
     if errors:
         return errors
-    warnings = [*_unused(grammar), *_duplicates(grammar), *_never(grammar), *_silent(grammar)]
-    if dictionary is not None:
-        warnings += [*_unknown_words(grammar, dictionary), *_short(grammar, dictionary)]
-    return warnings
+    try:
+        return sorted(
+            _opinions(grammar, lexicon), key=lambda found: SEVERITIES.index(found.severity)
+        )
+    except AuthoringError as error:  # It has more sentences than can be written out.
+        return [Finding("error", error.place, error.what, error.remedy)]
 
 
-def _warning(place: Place, what: str, remedy: str) -> Finding:
-    return Finding("warning", place, what, remedy)
+def _opinions(grammar: Grammar, lexicon: Lexicon | None) -> list[Finding]:
+    """What there is to say about a grammar that can be used."""
+    said = phrases_of_rules(grammar, LONGEST_PHRASE)
+    findings = [
+        *_broken_examples(grammar),
+        *_unknown_marks(grammar),
+        *_idle_marks(grammar),
+        *_unused(grammar),
+        *_never_said(grammar),
+        *_silent(grammar, said),
+        *_said_twice(grammar, said),
+        *_ambiguous(grammar),
+    ]
+    if lexicon is not None:
+        sounding = heard_badly(grammar, said, lexicon)
+        findings += sounding
+        if not any(finding.severity == "error" for finding in sounding):
+            findings += _careful(grammar, lexicon)
+    return findings
+
+
+def _own_rules(grammar: Grammar) -> Iterator[Rule]:
+    """Without those of imported files, which have authors of their own."""
+    return (rule for rule in grammar.rules.values() if rule.path == grammar.path)
+
+
+def _broken_examples(grammar: Grammar) -> Iterator[Finding]:
+    for rule in _own_rules(grammar):
+        for tag in rule.doc_tags:
+            if tag.name == "example" and not _allows(grammar, rule, tag.text):
+                what = f'<{rule.key}> does not allow its example "{tag.text}"'
+                yield Finding("error", rule.place(tag.span), what, "mend the rule or the example")
+
+
+def _allows(grammar: Grammar, rule: Rule, text: str) -> bool:
+    if rule.is_public and any(found.rule == rule.key for found in parses(grammar, text)):
+        return True
+    alone = {key: replace(other, is_public=key == rule.key) for key, other in grammar.rules.items()}
+    return parse(Grammar(grammar.name, grammar.path, alone), text) is not None
+
+
+def _unknown_marks(grammar: Grammar) -> Iterator[Finding]:
+    for rule in _own_rules(grammar):
+        for tag in rule.doc_tags:
+            if tag.name not in KNOWN_TAGS:
+                what = f"@{tag.name} is no mark that means anything"
+                yield warning(rule.place(tag.span), what, did_you_mean(tag.name, KNOWN_TAGS))
+
+
+def _idle_marks(grammar: Grammar) -> Iterator[Finding]:
+    for rule in _own_rules(grammar):
+        for tag in rule.doc_tags:
+            if tag.name in MARKS and not rule.is_public:
+                what = f"@{tag.name} says nothing here, for <{rule.key}> is not public"
+                yield warning(rule.place(tag.span), what, "mark the public rules that use it")
 
 
 def _unused(grammar: Grammar) -> Iterator[Finding]:
     used = set(analysis.reachable(grammar.rules, grammar.public_rules))
-    for key, rule in grammar.rules.items():
-        if key not in used and rule.path == grammar.path:
-            what = f"<{key}> is not used by any public rule"
-            yield _warning(rule.place(), what, "use it, make it public, or take it out")
+    for rule in _own_rules(grammar):
+        if rule.key not in used:
+            what = f"<{rule.key}> is not used by any public rule"
+            yield warning(rule.place(), what, "use it, make it public, or take it out")
 
 
-def _duplicates(grammar: Grammar) -> Iterator[Finding]:
-    for rule in grammar.rules.values():
-        for node in walk(rule.expression):
-            if isinstance(node, Alternative):
-                seen: set[str] = set()
-                for choice in node.choices:
-                    said = spell(choice)
-                    if said in seen:
-                        what = f'"{said}" stands twice among these alternatives'
-                        yield _warning(rule.place(choice.span), what, "take the second one out")
-                    seen.add(said)
+def _never_said(grammar: Grammar) -> Iterator[Finding]:
+    for rule in _own_rules(grammar):
+        alternatives = list(_alternatives(rule))
+        if not all(map(heard_choices, alternatives)):
+            for node in _unsayable(grammar, rule.expression):
+                what = f'"{spell(node)}" can never be said, for <VOID> stands in it'
+                yield warning(rule.place(node.span), what, "take it out")
+        for node in alternatives:
+            if 0.0 not in node.weights:
+                continue
+            for choice, weight in zip(node.choices, node.weights, strict=True):
+                if weight == 0.0:
+                    what = f'"{spell(choice)}" has the weight 0 and will not be heard'
+                    yield warning(rule.place(choice.span), what, "raise its weight, or take it out")
 
 
-def _never(grammar: Grammar) -> Iterator[Finding]:
-    for rule in grammar.rules.values():
-        for node in walk(rule.expression):
-            if isinstance(node, Alternative):
-                for choice, weight in zip(node.choices, node.weights, strict=True):
-                    if weight == 0.0:
-                        what = f'"{spell(choice)}" has the weight 0 and will not be heard'
-                        yield _warning(rule.place(choice.span), what, "raise its weight")
+def _unsayable(grammar: Grammar, node: Expression) -> Iterator[Expression]:
+    """The largest parts of a node that have no sentence, where what is around them has one."""
+    for child in children(node):
+        if math.isinf(analysis.height(child, grammar.heights)):
+            yield child
+        else:
+            yield from _unsayable(grammar, child)
 
 
-def _silent(grammar: Grammar) -> Iterator[Finding]:
-    silent = analysis.silent_rules(grammar.rules)
+def _alternatives(rule: Rule) -> Iterator[Alternative]:
+    return (node for node in rule.nodes if isinstance(node, Alternative))
+
+
+def _silent(grammar: Grammar, said: Mapping[str, Phrases]) -> Iterator[Finding]:
     for key in grammar.public_rules:
-        if silent[key]:
+        if () in said[key].said:
             what = f"<{key}> allows silence, which is never heard"
-            yield _warning(
+            yield warning(
                 grammar.rules[key].place(), what, "leave at least one word outside of [ ] and *"
             )
 
 
-def _unknown_words(grammar: Grammar, dictionary: Dictionary) -> Iterator[Finding]:
-    told: set[str] = set()
-    for rule in grammar.rules.values():
-        for node in walk(rule.expression):
-            if isinstance(node, Token) and node.text not in dictionary and node.text not in told:
-                told.add(node.text)
-                what = f'"{node.text}" is not in the dictionary, its sound is guessed'
-                yield _warning(rule.place(node.span), what, _respelling(node.text, dictionary))
+def _said_twice(grammar: Grammar, known: Mapping[str, Phrases]) -> Iterator[Finding]:
+    """Alternatives that say nothing which one before them does not say already."""
+    for rule in _own_rules(grammar):
+        for node in _alternatives(rule):
+            yield from _said_before(rule, node, known)
 
 
-def _respelling(word: str, dictionary: Dictionary) -> str:
-    if word.isdigit():
-        return 'write numbers as words, "ten"'
-    for cut in range(2, len(word) - 1):
-        if word[:cut] in dictionary and word[cut:] in dictionary:
-            return f'write "{word[:cut]} {word[cut:]}"?'
-    near = difflib.get_close_matches(
-        word, (known for known in dictionary if known[:1] == word[:1]), n=1, cutoff=0.75
-    )
-    return f'did you mean "{near[0]}"?' if near else "check how it is heard, or use another word"
+def _said_before(rule: Rule, node: Alternative, known: Mapping[str, Phrases]) -> Iterator[Finding]:
+    spelt: set[str] = set()
+    said: set[Words] = set()
+    for choice in node.choices:
+        text = spell(choice)
+        found = phrases(choice, known, LONGEST_PHRASE)
+        if text in spelt or (found.is_all and found.said and found.said <= said):
+            again = "stands twice among" if text in spelt else "is said already by others of"
+            what = f'"{text}" {again} these alternatives'
+            if _has_tags(choice):
+                what += ", and its tags will not count"
+            yield warning(rule.place(choice.span), what, "take the second one out")
+        spelt.add(text)
+        said |= found.said
 
 
-def _short(grammar: Grammar, dictionary: Dictionary) -> Iterator[Finding]:
-    told: set[str] = set()
-    for sentence in grammar.sentences(MOST_COMMANDS):
-        words = sentence.split()
-        phones = sum(len(dictionary.get(word, ())) or FEWEST_PHONES for word in words)
-        if phones < FEWEST_PHONES and sentence not in told:
-            told.add(sentence)
-            place = _place_of(grammar, words[0])
-            what = f'"{sentence}" is very short and will be heard in other talk'
-            yield _warning(place, what, "add a longer way to say it, or guard it with a name")
+def _has_tags(node: Expression) -> bool:
+    return any(isinstance(below, Tagged) for below in walk(node))
 
 
-def _place_of(grammar: Grammar, word: str) -> Place:
-    """Where a word is first written."""
-    for key in analysis.reachable(grammar.rules, grammar.public_rules):
-        rule = grammar.rules[key]
-        for node in walk(rule.expression):
-            if _is_word(node, word):
-                return rule.place(node.span)
-    return Place(grammar.path)
+def _ambiguous(grammar: Grammar) -> Iterator[Finding]:
+    for two in islice(ambiguities(grammar), MOST_AMBIGUITIES):
+        what = f'"{two.sentence}" means {_meaning(two.first)}, and also {_meaning(two.second)}'
+        place = grammar.rules[two.first.rule].place()
+        yield warning(place, what, "only the first counts: say one of them in other words")
 
 
-def _is_word(node: Expression, word: str) -> bool:
-    return isinstance(node, Token) and node.text == word
+def _meaning(reading: Parse) -> str:
+    tags = spell_tags(reading.tags)
+    return f"<{reading.rule}>" + (f" {{{tags}}}" if tags else "")
+
+
+def _careful(grammar: Grammar, lexicon: Lexicon) -> Iterator[Finding]:
+    """Rules that move the robot and sound like others."""
+    careful = grammar.marked("careful")
+    if not careful:
+        return
+    sentences = sample(grammar, MOST_SENTENCES)
+    readings = [found for text in sentences if (found := parse(grammar, text)) is not None]
+    told = 0
+    for pair in sound_alikes(readings, lexicon, MOST_LIKE):
+        first, second = sorted((pair.first, pair.second), key=lambda said: said.rule not in careful)
+        if first.rule in careful and first.rule != second.rule and told < MOST_ALIKE:
+            told += 1
+            what = f'"{first.text}" sounds much like "{second.text}" <{second.rule}>'
+            remedy = f"<{first.rule}> is @careful: say one of them in other words"
+            yield hint(grammar.rules[first.rule].place(), what, remedy)

@@ -1,12 +1,19 @@
-"""Sentences of a grammar: all in turn, or one by chance."""
+"""Sentences of a grammar: all in turn, one by chance, and how many there are.
+
+Repeats are said at most twice here, and recursion goes a few rules deep. Choices of weight 0 are
+never said. The same arguments give the same sentences in the same order.
+"""
 
 from __future__ import annotations
 
-import itertools
+import math
 import random
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import accumulate, islice
 from typing import TYPE_CHECKING
 
+from hri.core.errors import AuthoringError
+from hri.speech.grammar import analysis
 from hri.speech.grammar.analysis import height
 from hri.speech.grammar.expressions import (
     Alternative,
@@ -17,6 +24,8 @@ from hri.speech.grammar.expressions import (
     Sequence,
     Tagged,
     Token,
+    children,
+    heard_choices,
 )
 
 if TYPE_CHECKING:
@@ -25,25 +34,34 @@ if TYPE_CHECKING:
 Words = tuple[str, ...]
 
 SPARE_DEPTH = 4
-"""Rules that may be entered beyond the shortest way; bounds what recursion brings."""
-DEEPEST = 60
-"""Rules within rules; what is deeper is left out."""
+"""Recursive rules that may be entered beyond the shortest way."""
 MOST_REPEATS = 2
+MOST_STALE = 20_000
+"""Ways that may give no new sentence before a rule counts as told to its end."""
+MOST_STEPS = 200_000
+"""Parts of one sentence, silent ones included."""
+MOST_BITS = 4096
+"""Of a number of ways; more count as infinite."""
+MOST_COUNTED = 100_000
+"""Ways up to which different sentences are counted."""
+
+_Todo = tuple[Expression, int, "_Todo"] | None
+"""What is still to be said: a node, how many rules may be entered, and what follows."""
+_Said = tuple[str, "_Said"] | None
+"""The words so far, the last one first."""
 
 
 def sentences(grammar: Grammar, rules: Iterable[str], limit: int) -> Iterator[str]:
     """Different sentences, at most `limit`, the rules taking turns.
 
-    Repeats are said at most twice, and recursion goes a few rules deep.
+    A rule of which MOST_STALE ways in a row bring nothing new gives no more.
     """
-    ways = [
-        _ways(grammar, RuleReference(key, grammar.rules[key].span), _depth(grammar, key))
-        for key in rules
-    ]
+    ways = [grammar.ways.all(key) for key in rules]
     seen: set[Words] = {()}
     while ways and limit > 0:
         for way in tuple(ways):
-            words = next((words for words in way if words not in seen), None)
+            tried = islice(way, MOST_STALE)
+            words = next((words for words in tried if words not in seen), None)
             if words is None:
                 ways.remove(way)
             elif limit > 0:
@@ -52,81 +70,214 @@ def sentences(grammar: Grammar, rules: Iterable[str], limit: int) -> Iterator[st
                 yield " ".join(words)
 
 
-def _depth(grammar: Grammar, key: str) -> int:
-    return min(int(min(grammar.heights[key], DEEPEST)) + 1 + SPARE_DEPTH, DEEPEST)
+def random_sentence(
+    grammar: Grammar, chance: random.Random, rules: Iterable[str] | None = None
+) -> str:
+    """A sentence of one of the rules, all public ones without; drawn by the weights.
+
+    Optional parts are said half of the time. May be empty when the grammar allows silence.
+    Raises AuthoringError when the sentences of the rule are too long to be drawn.
+    """
+    return next(random_sentences(grammar, chance, rules))
 
 
-def _ways(grammar: Grammar, node: Expression, depth: int) -> Iterator[Words]:
-    """All ways through a node that enter at most `depth` rules; none is a dead end."""
-    if height(node, grammar.heights) > depth:
-        return
+def random_sentences(
+    grammar: Grammar, chance: random.Random, rules: Iterable[str] | None = None
+) -> Iterator[str]:
+    """Sentences as `random_sentence` draws them, without end; faster than one by one."""
+    keys, ways = tuple(rules or grammar.public_rules), grammar.ways
+    while True:
+        yield " ".join(ways.draw(chance.choice(keys), chance))
+
+
+def count_ways(grammar: Grammar, rules: Iterable[str] | None = None) -> float:
+    """In how many ways the rules, all public ones without, can be said; exact as an int.
+
+    A sentence that can be read in two ways counts twice, silence counts as one. `math.inf` with
+    repeats, with recursion, and beyond 2 ** MOST_BITS.
+    """
+    counts = _count_rules(grammar)
+    return _bounded(sum(counts[key] for key in rules or grammar.public_rules))
+
+
+def count_sentences(grammar: Grammar, rules: Iterable[str] | None = None) -> int | None:
+    """How many different sentences the rules have; None with more than MOST_COUNTED ways."""
+    keys = tuple(rules or grammar.public_rules)
+    if count_ways(grammar, keys) > MOST_COUNTED:
+        return None
+    return len({words for key in keys for words in grammar.ways.all(key)} - {()})
+
+
+class Ways:
+    """The ways through the rules of a grammar, on stacks of its own: no depth is too much."""
+
+    def __init__(self, grammar: Grammar) -> None:
+        self._grammar = grammar
+        self._heights: dict[int, float] = {}
+        self._odds: dict[tuple[int, float], tuple[list[Expression], list[float]]] = {}
+        self._recursive = grammar.recursive_rules
+
+    def all(self, key: str) -> Iterator[Words]:
+        """The words of every way through a rule, in the order of writing; none is a dead end."""
+        stack: list[tuple[_Todo, _Said]] = []
+        self._push(stack, self._start(key), None)
+        steps = 0
+        while stack and steps < MOST_STEPS:
+            todo, said = stack.pop()
+            steps += 1
+            if todo is None:
+                steps = 0
+                yield _words(said)
+                continue
+            node, depth, rest = todo
+            match node:
+                case Token(text=text):
+                    stack.append((rest, (text, said)))
+                case Alternative():
+                    for choice in reversed(heard_choices(node)):
+                        self._push(stack, (choice, depth, rest), said)
+                case Optional(item=item):
+                    self._push(stack, (item, depth, rest), said)
+                    stack.append((rest, said))
+                case Repeat(item=item, minimum=minimum):
+                    for count in range(MOST_REPEATS, minimum - 1, -1):
+                        if count == 0 or self.height(item) <= depth:
+                            stack.append((_row((item,) * count, depth, rest), said))
+                case _:
+                    stack.append((self._inside(node, depth, rest), said))
+
+    def draw(self, key: str, chance: random.Random) -> Words:
+        """The words of one way through a rule."""
+        todo = self._start(key)
+        said: list[str] = []
+        for _ in range(MOST_STEPS):
+            if todo is None:
+                return tuple(said)
+            node, depth, rest = todo
+            match node:
+                case Token(text=text):
+                    said.append(text)
+                    todo = rest
+                case Alternative():
+                    todo = (self._drawn(node, depth, chance), depth, rest)
+                case Optional(item=item):
+                    is_said = self.height(item) <= depth and chance.random() >= 0.5
+                    todo = (item, depth, rest) if is_said else rest
+                case Repeat(item=item, minimum=minimum):
+                    most = MOST_REPEATS if self.height(item) <= depth else minimum
+                    todo = _row((item,) * chance.randint(minimum, most), depth, rest)
+                case _:
+                    todo = self._inside(node, depth, rest)
+        rule = self._grammar.rules[key]
+        what = f"<{key}> has sentences of more than {MOST_STEPS} parts"
+        raise AuthoringError(rule.place(), what, "split it into shorter commands")
+
+    def height(self, node: Expression) -> float:
+        """`height`, looked up where it was asked for before."""
+        known = self._heights.get(id(node))
+        if known is None:
+            known = self._heights[id(node)] = height(node, self._grammar.heights)
+        return known
+
+    def _start(self, key: str) -> _Todo:
+        rule = self._grammar.rules[key]
+        depth = self._grammar.heights[key] + SPARE_DEPTH
+        return None if math.isinf(depth) else (RuleReference(key, rule.span), int(depth), None)
+
+    def _push(self, stack: list[tuple[_Todo, _Said]], todo: _Todo, said: _Said) -> None:
+        """Unless it is a dead end."""
+        if todo is not None and self.height(todo[0]) <= todo[1]:
+            stack.append((todo, said))
+
+    def _inside(self, node: Expression, depth: int, rest: _Todo) -> _Todo:
+        match node:
+            case RuleReference(name=name):
+                return (
+                    self._grammar.rules[name].expression,
+                    depth - (name in self._recursive),
+                    rest,
+                )
+            case Tagged(item=item):
+                return (item, depth, rest)
+            case Sequence(items=items):
+                return _row(items, depth, rest)
+        raise TypeError(node)
+
+    def _drawn(self, node: Alternative, depth: int, chance: random.Random) -> Expression:
+        """One of the choices, by their weights."""
+        least = max(depth, self.height(node))
+        known = self._odds.get((id(node), least))
+        if known is None:
+            pairs = zip(node.choices, node.weights, strict=True)
+            fit = [(one, odds) for one, odds in pairs if odds > 0.0 and self.height(one) <= least]
+            odds = list(accumulate(odds for _, odds in fit))
+            known = self._odds[id(node), least] = [one for one, _ in fit], odds
+        choices, odds = known
+        return chance.choices(choices, cum_weights=odds)[0]
+
+
+def _row(items: tuple[Expression, ...], depth: int, rest: _Todo) -> _Todo:
+    for item in reversed(items):
+        rest = (item, depth, rest)
+    return rest
+
+
+def _words(said: _Said) -> Words:
+    words: list[str] = []
+    while said is not None:
+        word, said = said
+        words.append(word)
+    return tuple(reversed(words))
+
+
+def _count_rules(grammar: Grammar) -> Mapping[str, float]:
+    """The ways of each rule, those it uses before it; none of those that lead into a circle."""
+    heights, rules = grammar.heights, grammar.rules
+    live = {key: set(_live_references(rule.expression, heights)) for key, rule in rules.items()}
+    endless = analysis.without_ends(live)
+    counts: dict[str, float] = dict.fromkeys(endless, math.inf)
+    for key in grammar.used_first:
+        if key not in endless:
+            counts[key] = _count(rules[key].expression, counts)
+    return counts
+
+
+def _live_references(node: Expression, heights: Mapping[str, float]) -> Iterator[str]:
+    """The rules that can be said below a node."""
+    pending = [node]
+    while pending:
+        node = pending.pop()
+        if isinstance(node, RuleReference):
+            yield node.name
+        pending += [below for below in children(node) if not math.isinf(height(below, heights))]
+
+
+def _count(node: Expression, counts: Mapping[str, float]) -> float:
     match node:
-        case Token(text=text):
-            yield (text,)
+        case Token():
+            return 1
         case RuleReference(name=name):
-            yield from _ways(grammar, grammar.rules[name].expression, depth - 1)
+            return counts.get(name, 0)
         case Sequence(items=items):
-            yield from _in_turn(grammar, items, depth)
-        case Alternative(choices=choices):
-            for choice in choices:
-                yield from _ways(grammar, choice, depth)
+            return _product([_count(item, counts) for item in items])
+        case Alternative():
+            return _bounded(sum([_count(choice, counts) for choice in heard_choices(node)]))
         case Optional(item=item):
-            yield ()
-            yield from _ways(grammar, item, depth)
+            return 1 + _count(item, counts)
         case Repeat(item=item, minimum=minimum):
-            for count in range(minimum, MOST_REPEATS + 1):
-                yield from _in_turn(grammar, (item,) * count, depth)
+            return math.inf if _count(item, counts) else 1 - minimum
         case Tagged(item=item):
-            yield from _ways(grammar, item, depth)
+            return _count(item, counts)
 
 
-def _in_turn(grammar: Grammar, items: tuple[Expression, ...], depth: int) -> Iterator[Words]:
-    if not items:
-        yield ()
-        return
-    for first in _ways(grammar, items[0], depth):
-        for rest in _in_turn(grammar, items[1:], depth):
-            yield first + rest
+def _product(factors: list[float]) -> float:
+    if 0 in factors:
+        return 0
+    product: float = 1
+    for factor in factors:
+        product = _bounded(product * factor)
+    return product
 
 
-def random_sentence(grammar: Grammar, chance: random.Random) -> str:
-    """A sentence drawn by the weights; may be empty when the grammar allows silence."""
-    key = chance.choice(grammar.public_rules)
-    reference = RuleReference(key, grammar.rules[key].span)
-    return " ".join(_draw(grammar, reference, _depth(grammar, key), chance))
-
-
-def _draw(grammar: Grammar, node: Expression, depth: int, chance: random.Random) -> Words:
-    match node:
-        case Token(text=text):
-            return (text,)
-        case RuleReference(name=name):
-            return _draw(grammar, grammar.rules[name].expression, depth - 1, chance)
-        case Sequence(items=items):
-            return _draw_all(grammar, items, depth, chance)
-        case Alternative(choices=choices, weights=weights):
-            open_ways = [
-                (choice, weight)
-                for choice, weight in zip(choices, weights, strict=True)
-                if height(choice, grammar.heights) <= max(depth, height(node, grammar.heights))
-            ]
-            ways, odds = zip(*open_ways, strict=True)
-            odds = odds if sum(odds) > 0 else (1.0,) * len(odds)
-            return _draw(grammar, chance.choices(ways, odds)[0], depth, chance)
-        case Optional(item=item):
-            if height(item, grammar.heights) > depth or chance.random() < 0.5:
-                return ()
-            return _draw(grammar, item, depth, chance)
-        case Repeat(item=item, minimum=minimum):
-            most = MOST_REPEATS if height(item, grammar.heights) <= depth else minimum
-            count = chance.randint(minimum, most)
-            return _draw_all(grammar, (item,) * count, depth, chance)
-        case Tagged(item=item):
-            return _draw(grammar, item, depth, chance)
-
-
-def _draw_all(
-    grammar: Grammar, items: tuple[Expression, ...], depth: int, chance: random.Random
-) -> Words:
-    drawn = (_draw(grammar, item, depth, chance) for item in items)
-    return tuple(itertools.chain.from_iterable(drawn))
+def _bounded(count: float) -> float:
+    return math.inf if isinstance(count, int) and count.bit_length() > MOST_BITS else count

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from decimal import Decimal
+from operator import is_
+from typing import NamedTuple
 
-from hri.speech.grammar.tags import TagEntry
+from hri.speech.grammar.tags import TagEntry, spell_entries
+
+_PLAIN = re.compile(r"""[^\s=;|*+<>()\[\]{}/"\\]+(?:/[^\s=;|*+<>()\[\]{}/"\\]+)*""")
 
 
-@dataclass(frozen=True, slots=True)
-class Span:
+class Span(NamedTuple):
     """Where something stands in its file; line and column count from 1, the end is past it."""
 
     line: int
@@ -85,12 +90,12 @@ Expression = Token | RuleReference | Sequence | Alternative | Optional | Repeat 
 def children(node: Expression) -> tuple[Expression, ...]:
     """The nodes directly below."""
     match node:
+        case Token() | RuleReference():
+            return ()
         case Sequence(items=below) | Alternative(choices=below):
             return below
         case Optional(item=item) | Repeat(item=item) | Tagged(item=item):
             return (item,)
-        case _:
-            return ()
 
 
 def walk(node: Expression) -> Iterator[Expression]:
@@ -102,26 +107,68 @@ def walk(node: Expression) -> Iterator[Expression]:
         pending.extend(reversed(children(node)))
 
 
-def rename(node: Expression, key_of: Callable[[RuleReference], str]) -> Expression:
-    """The same tree with another name in each reference."""
+def depth(node: Expression) -> int:
+    """How many nodes stand below each other, the node itself included."""
+    level, nodes = 0, [node]
+    while nodes:
+        level += 1
+        nodes = [below for node in nodes for below in children(node)]
+    return level
+
+
+def heard_choices(node: Alternative) -> tuple[Expression, ...]:
+    """The choices that can be heard: a weight of 0 is as good as none (JSGF 1.0)."""
+    if 0.0 not in node.weights:
+        return node.choices
+    return tuple(
+        choice for choice, weight in zip(node.choices, node.weights, strict=True) if weight > 0.0
+    )
+
+
+def rename(node: Expression, resolve: Callable[[RuleReference], RuleReference]) -> Expression:
+    """The same tree with other references; what stays the same is shared."""
     match node:
         case RuleReference():
-            return replace(node, name=key_of(node))
+            return resolve(node)
         case Sequence(items=items):
-            return replace(node, items=tuple(rename(item, key_of) for item in items))
+            renamed = _rename_all(items, resolve)
+            return node if renamed is items else replace(node, items=renamed)
         case Alternative(choices=choices):
-            return replace(node, choices=tuple(rename(choice, key_of) for choice in choices))
+            renamed = _rename_all(choices, resolve)
+            return node if renamed is choices else replace(node, choices=renamed)
         case Optional(item=item) | Repeat(item=item) | Tagged(item=item):
-            return replace(node, item=rename(item, key_of))
+            inside = rename(item, resolve)
+            return node if inside is item else replace(node, item=inside)
         case _:
             return node
 
 
+def _rename_all(
+    nodes: tuple[Expression, ...], resolve: Callable[[RuleReference], RuleReference]
+) -> tuple[Expression, ...]:
+    renamed = [node if type(node) is Token else rename(node, resolve) for node in nodes]
+    return nodes if all(map(is_, renamed, nodes)) else tuple(renamed)
+
+
 def spell(node: Expression) -> str:
-    """The expression as JSGF without tags, each part in brackets where it needs them."""
+    """The expression as JSGF without tags, with brackets where they are needed."""
+    return _spell(node, _CHOICE, lambda tagged: "")
+
+
+def spell_tagged(node: Expression) -> str:
+    """The expression as JSGF with its tags; `read_jsgf` makes the same tree of it."""
+    return _spell(node, _CHOICE, lambda tagged: " {" + _escape(spell_entries(tagged.entries)) + "}")
+
+
+_CHOICE, _ROW, _ITEM = range(3)
+"""How tightly a thing holds together: alternatives least, then sequences (JSGF 1.0, 4.7)."""
+
+
+def _spell(node: Expression, least: int, tags: Callable[[Tagged], str]) -> str:
+    """The node in brackets when it holds together less tightly than it must."""
     match node:
         case Token(text=text):
-            return text
+            return text if _is_plain(text) else _quoted(text)
         case RuleReference(name=name):
             return f"<{name}>"
         case Sequence(items=()):
@@ -129,16 +176,33 @@ def spell(node: Expression) -> str:
         case Alternative(choices=()):
             return "<VOID>"
         case Sequence(items=items):
-            return "(" + " ".join(spell(item) for item in items) + ")"
+            spelled = " ".join([_spell(item, _ITEM, tags) for item in items])
+            return f"({spelled})" if least > _ROW else spelled
         case Alternative(choices=choices, weights=weights):
-            return "(" + " | ".join(map(_weighted, choices, weights)) + ")"
+            rows = [_spell(choice, _ROW, tags) for choice in choices]
+            spelled = " | ".join(map(_weighted, rows, weights))
+            return f"({spelled})" if least > _CHOICE else spelled
         case Optional(item=item):
-            return f"[{spell(item)}]"
+            return f"[{_spell(item, _CHOICE, tags)}]"
         case Repeat(item=item, minimum=minimum):
-            return f"({spell(item)}){'+' if minimum else '*'}"
+            return _spell(item, _ITEM, tags) + "*+"[minimum]
         case Tagged(item=item):
-            return spell(item)
+            return _spell(item, _ITEM, tags) + tags(node)
 
 
-def _weighted(choice: Expression, weight: float) -> str:
-    return spell(choice) if weight == 1.0 else f"/{weight:.6f}/ {spell(choice)}"
+def _is_plain(word: str) -> bool:
+    """Whether a word is read as one without quotes."""
+    return bool(_PLAIN.fullmatch(word)) and word not in ("public", "import")
+
+
+def _quoted(word: str) -> str:
+    return '"' + word.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+def _weighted(spelled: str, weight: float) -> str:
+    # Without an exponent, which not every reader knows.
+    return spelled if weight == 1.0 else f"/{Decimal(repr(weight)):f}/ {spelled}"
+
+
+def _escape(text: str) -> str:
+    return text.replace("\\", "\\\\").replace("{", "\\{").replace("}", "\\}")

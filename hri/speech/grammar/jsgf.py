@@ -3,17 +3,23 @@
 A hand-written tokenizer and recursive-descent parser. Every node knows where it stands, every
 mistake says what was expected, and after a mistake reading goes on at the next rule, so that an
 author sees all of them at once.
+
+Two things go beyond the standard: marks in doc comments (`hri.speech.grammar.doc_comments`), and
+lists of names from a text file: `import "friends.txt" as <friend>;`. What stands in tags, which
+the standard leaves open, is told in `hri.speech.grammar.tags`.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from bisect import bisect_left
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from hri.core.errors import AuthoringError, Place, did_you_mean
+from hri.speech.grammar.doc_comments import NO_DOC, DocComment, read_doc_comment
 from hri.speech.grammar.expressions import (
     Alternative,
     Expression,
@@ -24,26 +30,26 @@ from hri.speech.grammar.expressions import (
     Span,
     Tagged,
     Token,
+    depth,
+    spell_tagged,
 )
-from hri.speech.grammar.tags import read_entries
+from hri.speech.grammar.lexemes import MOST_LEXEMES, TOO_MUCH, Lexeme, Lines, split
+from hri.speech.grammar.tags import TagError, read_entries
+from hri.speech.grammar.words import normalize
 
 DEEPEST = 50
 """Brackets within brackets; deeper is a mistake or an attack."""
+DEEPEST_TREE = 120
+"""Nodes below each other in one rule, repeats and tags included."""
+MOST_ERRORS = 100
+"""Mistakes that are told of one file."""
 
-_HEADER = re.compile(r"#JSGF\s+V1\.0(\s+[\w.:-]+)?(\s+[\w-]+)?\s*;")
-
-_LEXICON = re.compile(
-    r"""(?P<space>\s+)
-    |(?P<comment>//[^\n]*|/\*.*?\*/)
-    |(?P<weight>/\s*[^/\n|;]*/)
-    |(?P<rule><[^<>;|(){}\[\]\n]*>)
-    |(?P<tag>\{(?:[^\\{}]|\\.)*\})
-    |(?P<quoted>"(?:[^"\\\n]|\\.)*")
-    |(?P<sign>[=;|*+()\[\]])
-    |(?P<word>[^\s=;|*+<>()\[\]{}/"]+)
-    |(?P<stray>.)""",
-    re.VERBOSE | re.DOTALL,
+_HEADER = re.compile(
+    r"#JSGF[ \t]+V1\.0(?:[ \t]+(?P<encoding>[\w.:-]+))?(?:[ \t]+(?P<locale>[\w-]+))?[ \t]*;"
 )
+_WEIGHT = re.compile(r"/\s*([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?[fF]?\s*/")
+_PART = r"""[^\s.<>{}"*+|;=/\\()\[\]]+"""
+_GRAMMAR_NAME = re.compile(rf"{_PART}(\.{_PART})*")
 
 _STRAY = {
     "<": ("this rule name has no end", 'write ">" after the name'),
@@ -56,16 +62,6 @@ _STRAY = {
 
 
 @dataclass(frozen=True, slots=True)
-class Lexeme:
-    """A piece of the text; `kind` is a group of the lexicon, or "end"."""
-
-    kind: str
-    text: str
-    start: int
-    end: int
-
-
-@dataclass(frozen=True, slots=True)
 class RuleDefinition:
     """`public <name> = expression;` as it was written."""
 
@@ -73,8 +69,9 @@ class RuleDefinition:
     expression: Expression
     is_public: bool
     span: Span
-    doc: str = ""
-    """The text of the /** */ comment before it."""
+    """From its first word to its name."""
+    doc: DocComment = NO_DOC
+    """The /** */ comment before it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,19 +84,29 @@ class Import:
     span: Span
 
 
+@dataclass(frozen=True, slots=True)
+class NameListImport:
+    """`import "file.txt" as <name>;`: a rule made of the lines of a file."""
+
+    file: str
+    name: str
+    span: Span
+
+
 @dataclass(slots=True)
 class Document:
     """One grammar file as it was written, with all its mistakes."""
 
     path: Path
     name: str = ""
+    encoding: str = ""
+    locale: str = ""
     imports: list[Import] = field(default_factory=list)
+    name_lists: list[NameListImport] = field(default_factory=list)
     rules: list[RuleDefinition] = field(default_factory=list)
+    broken: set[str] = field(default_factory=set)
+    """Names of rules that could not be read; the mistakes in them are told."""
     errors: list[AuthoringError] = field(default_factory=list)
-
-
-class _Mistake(Exception):
-    """Leads from the mistake to the place where reading goes on."""
 
 
 def read_jsgf(text: str, path: Path) -> Document:
@@ -107,173 +114,233 @@ def read_jsgf(text: str, path: Path) -> Document:
     return _Reader(text, path).read()
 
 
+def write_jsgf(document: Document) -> str:
+    """The text of a document, without its comments; `read_jsgf` makes the same rules of it."""
+    header = " ".join(filter(None, ("#JSGF V1.0", document.encoding, document.locale)))
+    lines = [f"{header};", f"grammar {document.name};"]
+    lines += [f"import <{use.grammar}.{use.rule}>;" for use in document.imports]
+    lines += [f'import "{use.file}" as <{use.name}>;' for use in document.name_lists]
+    for rule in document.rules:
+        public = "public " if rule.is_public else ""
+        lines.append(f"{public}<{rule.name}> = {spell_tagged(rule.expression)};")
+    return "\n".join(lines) + "\n"
+
+
+class _Mistake(Exception):
+    """Leads from the mistake to the place where reading goes on."""
+
+
 class _Reader:
     def __init__(self, text: str, path: Path) -> None:
         self.text = text
         self.document = Document(path)
-        self._line_starts = [0, *(match.end() for match in re.finditer("\n", text))]
-        self._docs: dict[int, str] = {}
+        self._lines = Lines(text)
         self._position = 0
-        self._depth = 0
+        self._brackets = 0
 
-    # Places
+    # Places and mistakes
 
-    def _line_and_column(self, offset: int) -> tuple[int, int]:
-        low, high = 0, len(self._line_starts)
-        while high - low > 1:
-            middle = (low + high) // 2
-            low, high = (middle, high) if self._line_starts[middle] <= offset else (low, middle)
-        return low + 1, offset - self._line_starts[low] + 1
-
-    def _span(self, start: int, end: int) -> Span:
-        return Span(*self._line_and_column(start), *self._line_and_column(end))
+    def _span(self, lexeme: Lexeme) -> Span:
+        return self._lines.span(lexeme.start, lexeme.end)
 
     def _span_from(self, start: int) -> Span:
-        return self._span(start, self._lexemes[max(self._position - 1, 0)].end)
+        return self._lines.span(start, self._lexemes[max(self._position - 1, 0)].end)
 
     def _report(self, offset: int, what: str, remedy: str) -> _Mistake:
-        place = Place(self.document.path, *self._line_and_column(offset))
+        place = Place(self.document.path, *self._lines.place(offset))
         self.document.errors.append(AuthoringError(place, what, remedy))
         return _Mistake()
 
+    def _unexpected(self, expected: str, remedy: str) -> _Mistake:
+        lexeme = self._next
+        if lexeme.text == TOO_MUCH:
+            return _Mistake()  # Told once, by `read`.
+        if lexeme.kind == "stray" and lexeme.text in _STRAY:
+            return self._report(lexeme.start, *_STRAY[lexeme.text])
+        if lexeme.text in (")", "]") and not self._brackets:
+            opening = "(" if lexeme.text == ")" else "["
+            what = f'this "{lexeme.text}" has no "{opening}"'
+            return self._report(lexeme.start, what, "take it out, or open the group")
+        shown = lexeme.text if lexeme.kind == "end" else f'"{lexeme.text[:40]}"'
+        return self._report(lexeme.start, f"expected {expected}, found {shown}", remedy)
+
     # Lexemes
-
-    def _split(self, start: int) -> Iterator[Lexeme]:
-        for match in _LEXICON.finditer(self.text, start):
-            kind = match.lastgroup or "stray"
-            if kind == "comment":
-                self._keep_doc(match)
-            elif kind != "space":
-                yield Lexeme(kind, match.group(), match.start(), match.end())
-        yield Lexeme("end", "the end of the file", len(self.text), len(self.text))
-
-    def _keep_doc(self, match: re.Match[str]) -> None:
-        if match.group().startswith("/**"):
-            lines = [line.strip(" \t*") for line in match.group()[3:-2].splitlines()]
-            # Kept under the offset of what follows the comment and the white space behind it.
-            rest = re.compile(r"\s*").match(self.text, match.end())
-            self._docs[rest.end() if rest else match.end()] = " ".join(filter(None, lines))
 
     @property
     def _next(self) -> Lexeme:
         return self._lexemes[self._position]
 
-    def _take(self, *signs: str) -> Lexeme | None:
-        """The next lexeme if it is one of these signs or words; else None, and it stays."""
-        lexeme = self._next
-        if lexeme.kind in ("sign", "word") and lexeme.text in signs:
-            self._position += 1
-            return lexeme
-        return None
+    def _take(self, sign: str) -> bool:
+        """Whether the next lexeme is this sign or word; then it is passed."""
+        lexeme = self._lexemes[self._position]
+        is_there = lexeme.text == sign and lexeme.kind in ("sign", "word")
+        self._position += is_there
+        return is_there
 
-    def _expect(self, sign: str, remedy: str) -> Lexeme:
-        found = self._take(sign)
-        if found is None:
+    def _expect(self, sign: str, remedy: str) -> None:
+        if not self._take(sign):
             raise self._unexpected(f'"{sign}"', remedy)
-        return found
-
-    def _unexpected(self, expected: str, remedy: str) -> _Mistake:
-        lexeme = self._next
-        if lexeme.kind == "stray" and lexeme.text in _STRAY:
-            return self._report(lexeme.start, *_STRAY[lexeme.text])
-        shown = lexeme.text if lexeme.kind == "end" else f'"{lexeme.text[:40]}"'
-        return self._report(lexeme.start, f"expected {expected}, found {shown}", remedy)
 
     # The grammar of grammars
 
     def read(self) -> Document:
-        self._lexemes = list(self._split(self._header()))
+        self._lexemes, comments = split(self.text, self._header())
         self._last = len(self._lexemes) - 1
-        try:
-            self._name()
-        except _Mistake:
-            self._recover()
-        while self._next.kind != "end":
-            try:
-                self._definition()
-            except _Mistake:
-                self._recover()
+        self._docs = dict(self._doc_comments(comments))
+        self._attempt(self._name)
+        while self._next.kind != "end" and len(self.document.errors) < MOST_ERRORS:
+            self._attempt(self._statement)
+        if self._next.kind != "end":
+            self._report(self._next.start, "too many mistakes", "mend those above first")
+        elif self._next.text == TOO_MUCH:
+            what = f"more than {MOST_LEXEMES} words and signs"
+            self._report(self._next.start, what, "split the grammar, or import a list of names")
+        self.document.errors.sort(key=lambda error: (error.place.line, error.place.column))
         return self.document
 
+    def _attempt(self, read: Callable[[], None]) -> None:
+        """Read a part; after a mistake in it go on behind the next ";" or at the next rule."""
+        try:
+            read()
+        except _Mistake:
+            self._brackets = 0
+            while self._next.kind != "end" and not self._begins_statement():
+                if self._take(";"):
+                    return
+                self._position += 1
+
+    def _doc_comments(self, comments: list[Lexeme]) -> Iterator[tuple[int, DocComment]]:
+        """Doc comments by the offset of the lexeme behind them; ends are checked of all."""
+        starts = [lexeme.start for lexeme in self._lexemes]
+        for comment in comments:
+            if comment.text.startswith("//"):
+                continue
+            if not comment.text.endswith("*/") or len(comment.text) < 4:
+                self._report(comment.start, "this comment has no end", 'write "*/" after it')
+            elif comment.text.startswith("/**") and len(comment.text) > 4:
+                behind = starts[bisect_left(starts, comment.end)]
+                yield behind, read_doc_comment(comment.text, comment.start, self._lines)
+
     def _header(self) -> int:
-        """Check the first line; the offset behind it."""
+        """Read the first line; the offset behind it."""
         start = len(self.text) - len(self.text.lstrip("\ufeff \t\r\n"))
         match = _HEADER.match(self.text, start)
         if match is not None:
+            self.document.encoding = match["encoding"] or ""
+            self.document.locale = match["locale"] or ""
             return match.end()
-        self._report(start, "the header is missing", 'write "#JSGF V1.0;" as the first line')
         if not self.text.startswith("#", start):
+            self._report(start, "the header is missing", 'write "#JSGF V1.0;" as the first line')
             return start
         line_end = self.text.find("\n", start)
-        return line_end if line_end >= 0 else len(self.text)
+        line_end = line_end if line_end >= 0 else len(self.text)
+        what = f'the header "{self.text[start:line_end].strip()[:40]}" is not understood'
+        self._report(start, what, 'write "#JSGF V1.0;" or "#JSGF V1.0 UTF-8 en;"')
+        return line_end
 
     def _name(self) -> None:
         remedy = 'write "grammar name;" after the header'
-        if self._take("grammar") is None:
-            self._unexpected('"grammar"', remedy)
+        if not self._take("grammar"):
+            self._unexpected('"grammar"', self._spelling("grammar", remedy))
+            if not self._begins_statement():
+                raise _Mistake
             return
         lexeme = self._next
-        if lexeme.kind != "word":
+        if lexeme.kind != "word" or not _GRAMMAR_NAME.fullmatch(lexeme.text):
             raise self._unexpected("the grammar's name", remedy)
         self._position += 1
         self.document.name = lexeme.text
         self._expect(";", 'end it with ";"')
 
-    def _recover(self) -> None:
-        """Go on behind the next ";" or before what looks like the next rule."""
-        while self._next.kind != "end" and not self._begins_definition():
-            if self._take(";"):
-                return
-            self._position += 1
+    def _spelling(self, keyword: str, otherwise: str) -> str:
+        """The remedy for a misspelt keyword."""
+        lexeme = self._next
+        return did_you_mean(lexeme.text, [keyword], otherwise)
 
-    def _begins_definition(self) -> bool:
-        """Whether a new rule starts here: its "<name> =", or "public" or "import" before it."""
+    def _begins_statement(self) -> bool:
+        """Whether a new rule or import starts here: `<name> =`, `public <name> =`, `import`."""
         one, two, three = (
             self._lexemes[min(self._position + ahead, self._last)] for ahead in range(3)
         )
         if one.kind == "word" and one.text == "public":
             one, two = two, three
         if one.kind == "word" and one.text == "import":
-            return two.kind == "rule" and three.text == ";"
+            return two.kind in ("rule", "quoted") and three.text in (";", "as")
         return one.kind == "rule" and two.text == "="
 
-    def _definition(self) -> None:
+    def _statement(self) -> None:
         start = self._next.start
         if self._take("import"):
             self._import(start)
-            return
-        is_public = self._take("public") is not None
-        lexeme = self._next
-        if lexeme.kind != "rule":
-            remedy = "write a rule as <name> = words;"
-            if lexeme.kind == "word":
-                remedy = did_you_mean(lexeme.text, ("public", "import"), remedy)
-            raise self._unexpected("a rule", remedy)
-        self._position += 1
-        name = self._rule_name(lexeme)
-        self._expect("=", f'write "=" after <{name}>')
-        expression = self._alternatives()
-        self._expect(";", 'end the rule with ";", or mend what stands here')
-        span = self._span(start, lexeme.end)
-        definition = RuleDefinition(name, expression, is_public, span, self._docs.get(start, ""))
-        self.document.rules.append(definition)
+        else:
+            self._rule(start)
 
     def _import(self, start: int) -> None:
         lexeme = self._next
+        if lexeme.kind == "quoted":
+            self._position += 1
+            self._name_list(start, lexeme)
+            return
         grammar, _, rule = lexeme.text.strip("<> \t").rpartition(".")
-        if lexeme.kind != "rule" or not grammar or not rule:
-            remedy = "write import <grammar.rule>; or import <grammar.*>;"
+        if lexeme.kind != "rule" or not rule or not _GRAMMAR_NAME.fullmatch(grammar):
+            remedy = (
+                'write import <grammar.rule>; or import <grammar.*>; or import "file" as <rule>;'
+            )
             raise self._unexpected("a rule of another grammar", remedy)
         self._position += 1
-        self.document.imports.append(Import(grammar, rule, self._span(start, lexeme.end)))
+        self.document.imports.append(Import(grammar, rule, self._span_from(start)))
         self._expect(";", 'end it with ";"')
+
+    def _name_list(self, start: int, file: Lexeme) -> None:
+        remedy = 'write import "file.txt" as <name>;'
+        if not self._take("as"):
+            raise self._unexpected('"as"', remedy)
+        name = self._defined_name(remedy)
+        text = re.sub(r"\\(.)", r"\1", file.text[1:-1])
+        self.document.name_lists.append(NameListImport(text, name, self._span_from(start)))
+        self._expect(";", 'end it with ";"')
+
+    def _rule(self, start: int) -> None:
+        is_public = self._take("public")
+        remedy = "write a rule as <name> = words;"
+        if not is_public and self._next.kind == "word":
+            remedy = did_you_mean(self._next.text, ("public", "import"), remedy)
+        name = self._defined_name(remedy)
+        span = self._span_from(start)
+        try:
+            self._expect("=", f'write "=" after <{name}>')
+            expression = self._alternatives()
+            self._expect(";", 'end the rule with ";", or mend what stands here')
+            if depth(expression) > DEEPEST_TREE:
+                what = f"<{name}> holds more than {DEEPEST_TREE} things within each other"
+                raise self._report(start, what, "use rules of their own")
+        except _Mistake:
+            self.document.broken.add(name)
+            raise
+        doc = self._docs.get(start, NO_DOC)
+        self.document.rules.append(RuleDefinition(name, expression, is_public, span, doc))
+
+    def _defined_name(self, remedy: str) -> str:
+        lexeme = self._next
+        if lexeme.kind != "rule":
+            raise self._unexpected("a rule", remedy)
+        name = self._rule_name(lexeme)
+        if name in ("NULL", "VOID"):
+            raise self._report(lexeme.start, f"<{name}> is defined by JSGF", "take another name")
+        if "." in name:
+            what = f"<{name}> is a name for a rule of another grammar"
+            raise self._report(lexeme.start, what, "define a name without a dot")
+        self._position += 1
+        return name
 
     def _rule_name(self, lexeme: Lexeme) -> str:
         name = lexeme.text[1:-1].strip()
-        if not name or re.search(r'[\s=*+/"]', name):
-            what = f"{lexeme.text} is no rule name"
+        if not name or re.search(r'[\s*"]', name) or not all(name.split(".")):
+            what = f"{lexeme.text[:40]} is no rule name"
             raise self._report(lexeme.start, what, "write letters, digits, _ and . between < and >")
         return name
+
+    # What may be said
 
     def _alternatives(self) -> Expression:
         start = self._next.start
@@ -293,37 +360,47 @@ class _Reader:
         if lexeme.kind != "weight":
             return 1.0
         self._position += 1
-        try:
-            weight = float(lexeme.text[1:-1])
-        except ValueError:
-            weight = math.nan
+        match = _WEIGHT.fullmatch(lexeme.text)
+        weight = float(lexeme.text.strip("/ \t\r\nfF")) if match else math.nan
         if not 0.0 <= weight < math.inf:
             raise self._report(
-                lexeme.start, f"{lexeme.text} is no weight", "write a number such as /2.5/"
+                lexeme.start, f"{lexeme.text[:40]} is no weight", "write a number such as /2.5/"
             )
         return weight
 
     def _sequence(self) -> Expression:
         start = self._next.start
         items: list[Expression] = []
-        while (item := self._repeated()) is not None:
+        while (item := self._marked()) is not None:
             items.append(item)
         if not items:
-            raise self._unexpected("words", 'write words, or <NULL> for "nothing"')
+            remedy = 'write words, or <NULL> for "nothing"'
+            if self._next.kind == "tag" or self._next.text in ("*", "+"):
+                remedy = "it stands behind the words it belongs to"
+            raise self._unexpected("words", remedy)
         return items[0] if len(items) == 1 else Sequence(tuple(items), self._span_from(start))
 
-    def _repeated(self) -> Expression | None:
+    def _marked(self) -> Expression | None:
         """A word, rule or group with the repeats and tags behind it."""
         start = self._next.start
         item = self._item()
         while item is not None:
-            if sign := self._take("*", "+"):
-                item = Repeat(item, int(sign.text == "+"), self._span_from(start))
-            elif self._next.kind == "tag":
+            lexeme = self._next
+            if lexeme.kind == "tag":
                 item = self._tagged(item, start)
+            elif lexeme.kind == "sign" and lexeme.text in "*+":
+                self._position += 1
+                item = self._repeat(item, int(lexeme.text == "+"), start)
             else:
                 break
         return item
+
+    def _repeat(self, item: Expression, minimum: int, start: int) -> Repeat:
+        """A repeat of a repeat is one."""
+        span = self._span_from(start)
+        if isinstance(item, Repeat):
+            return Repeat(item.item, min(minimum, item.minimum), span)
+        return Repeat(item, minimum, span)
 
     def _tagged(self, item: Expression, start: int) -> Expression:
         lexeme = self._next
@@ -331,62 +408,68 @@ class _Reader:
         content = re.sub(r"\\(.)", r"\1", lexeme.text[1:-1], flags=re.DOTALL)
         try:
             return Tagged(item, read_entries(content), self._span_from(start))
-        except ValueError as error:
+        except TagError as error:
+            # What is behind a backslash stands further on than it counts.
+            offset = error.offset + lexeme.text[1 : max(error.offset, 0) + 1].count("\\")
             remedy = "write {name=value}, more of them with spaces between"
-            self._report(lexeme.start, str(error), remedy)
+            self._report(lexeme.start + 1 + offset, str(error), remedy)
             return item
 
     def _item(self) -> Expression | None:
-        lexeme = self._next
-        if self._begins_definition():
-            return None
-        if lexeme.kind == "word":
+        lexeme = self._lexemes[self._position]
+        kind = lexeme.kind
+        if kind == "word":
+            if lexeme.text in ("public", "import") and self._begins_statement():
+                return None
             self._position += 1
-            return Token(lexeme.text.lower(), self._span(lexeme.start, lexeme.end))
-        if lexeme.kind == "quoted":
-            self._position += 1
-            return self._quoted(lexeme)
-        if lexeme.kind == "rule":
+            return self._words(lexeme, lexeme.text)
+        if kind == "rule":
+            if self._begins_statement():
+                return None
             self._position += 1
             return self._reference(lexeme)
-        if self._take("("):
+        if kind == "quoted":
+            self._position += 1
+            return self._words(lexeme, re.sub(r"\\(.)", r"\1", lexeme.text[1:-1]))
+        if lexeme.text == "(":
             return self._group(lexeme, ")")
-        if self._take("["):
+        if lexeme.text == "[":
             inside = self._group(lexeme, "]")
             return Optional(inside, self._span_from(lexeme.start))
-        if lexeme.kind == "weight":
+        if kind == "weight":
             what = "a weight in the middle of words"
             raise self._report(lexeme.start, what, "weights stand first in an alternative")
         return None
 
+    def _words(self, lexeme: Lexeme, text: str) -> Expression:
+        """One token as the words that are spoken; several for one in quotes."""
+        span = self._span(lexeme)
+        words = normalize(text)
+        if not words:
+            what = f"{lexeme.text[:40]} holds nothing that can be said"
+            raise self._report(lexeme.start, what, 'take it out, or write <NULL> for "nothing"')
+        tokens = tuple([Token(word, span) for word in words])
+        return tokens[0] if len(tokens) == 1 else Sequence(tokens, span)
+
     def _reference(self, lexeme: Lexeme) -> Expression:
         name = self._rule_name(lexeme)
-        span = self._span(lexeme.start, lexeme.end)
+        span = self._span(lexeme)
         if name == "NULL":
             return Sequence((), span)
         if name == "VOID":
             return Alternative((), (), span)
         return RuleReference(name, span)
 
-    def _quoted(self, lexeme: Lexeme) -> Expression:
-        span = self._span(lexeme.start, lexeme.end)
-        words = lexeme.text[1:-1].replace("\\", "").lower().split()
-        if not words:
-            raise self._report(lexeme.start, "an empty quote", 'write <NULL> for "nothing"')
-        tokens = tuple(Token(word, span) for word in words)
-        return tokens[0] if len(tokens) == 1 else Sequence(tokens, span)
-
     def _group(self, opening: Lexeme, closing: str) -> Expression:
-        self._depth += 1
-        try:
-            if self._depth > DEEPEST:
-                what = f"brackets nested deeper than {DEEPEST}"
-                raise self._report(opening.start, what, "use rules of their own")
-            inside = self._alternatives()
-        finally:
-            self._depth -= 1
+        self._position += 1
+        self._brackets += 1
+        if self._brackets > DEEPEST:
+            what = f"brackets nested deeper than {DEEPEST}"
+            raise self._report(opening.start, what, "use rules of their own")
+        inside = self._alternatives()
         if not self._take(closing):
-            line, column = self._line_and_column(opening.start)
+            line, column = self._lines.place(opening.start)
             remedy = f'close the "{opening.text}" of line {line}, column {column}'
             raise self._unexpected(f'"{closing}"', remedy)
+        self._brackets -= 1
         return inside

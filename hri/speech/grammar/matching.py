@@ -1,38 +1,70 @@
-"""Text to meaning: whether a grammar allows a sentence, and the tags of its words.
+"""Text to meaning: whether a grammar allows a sentence, its parse trees, and the tags of its words.
 
-Every node of the grammar is tried at most once at each word, and what it can reach is kept, so
-the work grows with nodes x words x words and never explodes. Where a sentence can be read in two
-ways, the alternative that was written first wins.
+The sentence is followed through the grammar's automaton, all ways at once. What a set of ways
+leads to is worked out when it is first needed and kept, so that a word of a known sentence costs
+one look into a dictionary. Then the ways that did not reach the end are dropped, and the readings
+are taken from what is left, so that none is a dead end. The work grows with words x arcs, however
+many readings there are.
+
+Readings come in the order they were written: of two alternatives the first, an optional part
+rather than none, one more round of a repeat rather than its end. Weights have no say in it; only
+what has the weight 0 is not there at all.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Generator, Mapping
+import itertools
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple
 
-from hri.speech.grammar.expressions import (
-    Alternative,
-    Expression,
-    Optional,
-    Repeat,
-    RuleReference,
-    Sequence,
-    Tagged,
-    Token,
+from hri.core.errors import did_you_mean
+from hri.speech.grammar.automaton import (
+    FINAL,
+    START,
+    Actions,
+    Apply,
+    Automaton,
+    Defer,
+    Enter,
+    Leave,
 )
-from hri.speech.grammar.rules import Grammar
 from hri.speech.grammar.tags import TagEntry, Value, evaluate
+from hri.speech.grammar.words import normalize
+
+if TYPE_CHECKING:
+    from hri.speech.grammar.rules import Grammar
 
 MOST_WORDS = 200
 """A longer text is no command."""
+MOST_PARSES = 20
+"""Readings of one sentence that are listed."""
+MOST_NODES = 400_000
+"""Nodes in all states that are kept, about 50 MB; beyond it they are worked out anew."""
 
 Groups = tuple[tuple[TagEntry, ...], ...]
-Reached = dict[int, Groups]
-"""Number of words behind a node, by the first way that led there: its tags in order."""
-Steps = Generator[tuple[Expression, int], Reached, Reached]
 
-_EDGES = re.compile(r"^[^\w']+|[^\w']+$")
+
+@dataclass(frozen=True, slots=True)
+class Tree:
+    """A rule of the grammar and what was said of it."""
+
+    rule: str
+    start: int
+    """The number of its first word in the sentence, from 0."""
+    end: int
+    """The number behind its last word; `start` when it was passed in silence."""
+    children: tuple[Tree | str, ...]
+    """Words and rules, in order."""
+
+    def walk(self) -> Iterator[tuple[int, Tree]]:
+        """This rule and all below it as they were said, each with its depth, this one with 0."""
+        pending = [(0, self)]
+        while pending:
+            depth, tree = pending.pop()
+            yield depth, tree
+            below = [child for child in tree.children if isinstance(child, Tree)]
+            pending += [(depth + 1, child) for child in reversed(below)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,109 +76,329 @@ class Parse:
     rule: str
     """The public rule that allows it."""
     tags: Mapping[str, Value] = field(default_factory=dict)
+    tree: Tree = field(default_factory=lambda: Tree("", 0, 0, ()))
+
+    def means_the_same(self, other: Parse) -> bool:
+        """Whether both have the same rule and tags."""
+        return self.rule == other.rule and self.tags == other.tags
 
 
-def normalize(text: str) -> list[str]:
-    """The words of a text: lower case, without the punctuation around them."""
-    words = (
-        _EDGES.sub("", word)
-        for word in text.lower().replace("\N{RIGHT SINGLE QUOTATION MARK}", "'").split()
-    )
-    return [word for word in words if word]
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """How far a sentence went before it left the grammar."""
+
+    understood: str
+    """The words that begin a sentence of the grammar."""
+    word: str
+    """The word that does not fit behind them; empty when the sentence ended too soon."""
+    expected: tuple[str, ...]
+    """The words that fit there, in order of the alphabet; none where a sentence must end."""
+    remedy: str
+    """What to do."""
 
 
-def parse(grammar: Grammar, text: str) -> Parse | None:
-    """What a sentence means; None when no public rule allows all of it."""
-    words = normalize(text)
-    if not words or len(words) > MOST_WORDS:
-        return None
-    matcher = _Matcher(grammar, words)
-    for key in grammar.public_rules:
-        groups = matcher.reach(grammar.rules[key].expression).get(len(words))
-        if groups is not None:
-            return Parse(" ".join(words), key, evaluate(groups))
-    return None
+def parse(grammar: Grammar, text: str, rules: Collection[str] | None = None) -> Parse | None:
+    """What a sentence means, by its first reading; None when no public rule allows all of it.
 
-
-class _Matcher:
-    """Finds where nodes can end in one list of words.
-
-    The methods are generators that ask for the ends of other nodes by yielding them; `reach`
-    answers from its own stack, so that no depth of rules can exhaust Python's.
+    `rules` are the public rules that count; None is all. Raises AuthoringError where
+    `Grammar.automaton` does.
     """
+    return next(grammar.matcher.readings(normalize(text), rules), None)
 
-    def __init__(self, grammar: Grammar, words: list[str]) -> None:
-        self._grammar = grammar
-        self._words = words
-        self._known: dict[tuple[int, int], Reached] = {}
 
-    def reach(self, node: Expression) -> Reached:
-        stack: list[tuple[tuple[int, int], Steps]] = []
-        answer = self._enter(node, 0, stack)
-        while stack:
-            key, steps = stack[-1]
-            try:
-                asked, position = steps.send(answer)  # type: ignore[arg-type]
-            except StopIteration as end:
-                stack.pop()
-                answer = self._known[key] = end.value
-            else:
-                answer = self._enter(asked, position, stack)
-        return self._known[id(node), 0]
+def parses(
+    grammar: Grammar, text: str, limit: int = MOST_PARSES, rules: Collection[str] | None = None
+) -> tuple[Parse, ...]:
+    """All readings of a sentence with different trees or tags, at most `limit`, the best first.
 
-    def _enter(
-        self, node: Expression, position: int, stack: list[tuple[tuple[int, int], Steps]]
-    ) -> Reached | None:
-        """What is known of a node; else None, and its steps are on the stack."""
-        key = (id(node), position)
-        known = self._known.get(key)
+    A sentence is ambiguous when two of them differ in rule or tags. `rules` are the public rules
+    that count; None is all. Raises AuthoringError where `Grammar.automaton` does.
+    """
+    found: dict[object, Parse] = {}
+    for reading in itertools.islice(grammar.matcher.readings(normalize(text), rules), 10 * limit):
+        rules_said = tuple((depth, t.rule, t.start, t.end) for depth, t in reading.tree.walk())
+        found.setdefault((rules_said, tuple(sorted(reading.tags.items()))), reading)
+        if len(found) == limit:
+            break
+    return tuple(found.values())
+
+
+def refusal(grammar: Grammar, text: str) -> Refusal | None:
+    """Where a sentence leaves the grammar; None when it does not.
+
+    Raises AuthoringError where `Grammar.automaton` does.
+    """
+    words = normalize(text)[: MOST_WORDS + 1]
+    state, position = grammar.matcher.begin(), 0
+    for word in words:
+        step = state.step(word)
+        if step is None:
+            break
+        state, position = step.state, position + 1
+    if position == len(words) <= MOST_WORDS and state.is_final and words:
+        return None
+    word = words[position] if position < len(words) else ""
+    expected = state.expected()
+    return Refusal(" ".join(words[:position]), word, expected, _remedy(word, expected, grammar))
+
+
+def _remedy(word: str, expected: Collection[str], grammar: Grammar) -> str:
+    otherwise = "see `hri grammar expand`"
+    asked = (expected, grammar.matcher.words) if word else ()
+    remedies = (did_you_mean(word, known, otherwise) for known in asked if word not in known)
+    return next((remedy for remedy in remedies if remedy != otherwise), otherwise)
+
+
+class Step(NamedTuple):
+    """One word further."""
+
+    state: State
+    moves: tuple[tuple[int, int], ...]
+    """The nodes that the word leaves, and by which arcs."""
+
+
+class State:
+    """All nodes of the automaton that the same words lead to."""
+
+    __slots__ = ("_matcher", "_steps", "_tables", "is_final", "silent_into", "size")
+
+    def __init__(self, matcher: Matcher, nodes: tuple[int, ...]) -> None:
+        self._matcher = matcher
+        self._steps: dict[str, Step] = {}
+        self.silent_into: dict[int, list[tuple[int, int]]] = {}
+        """The nodes before each one, and the arcs that lead there without a word."""
+        self._tables: list[tuple[int, Mapping[str, list[int]]]] = []
+        seen, pending = set(nodes), list(nodes)
+        targets = matcher.automaton.targets
+        while pending:
+            node = pending.pop()
+            silent, table = matcher.leaving(node)
+            if table:
+                self._tables.append((node, table))
+            for arc in silent:
+                target = targets[arc]
+                self.silent_into.setdefault(target, []).append((node, arc))
+                if target not in seen:
+                    seen.add(target)
+                    pending.append(target)
+        self.is_final = FINAL in seen
+        """Whether a sentence may end here."""
+        self.size = len(seen)
+
+    def step(self, word: str) -> Step | None:
+        """Where a word leads; None when it does not fit."""
+        step = self._steps.get(word)
+        if step is None:
+            moves = tuple(
+                (node, arc) for node, table in self._tables for arc in table.get(word, ())
+            )
+            if moves:
+                targets = self._matcher.automaton.targets
+                nodes = tuple(sorted({targets[arc] for _, arc in moves}))
+                step = self._steps[word] = Step(self._matcher.state(nodes), moves)
+        return step
+
+    def expected(self) -> tuple[str, ...]:
+        """The words that fit here, in order of the alphabet."""
+        return tuple(sorted({word for _, table in self._tables for word in table}))
+
+
+_Ways = dict[int, list[int]]
+"""The arcs that leave each node and lead to the end of the sentence."""
+_History = tuple["_History | None", bool, Actions]
+"""The steps so far, the last one first: whether it was a word, and what it did."""
+
+
+class Matcher:
+    """Follows sentences through an automaton; remembers what it has worked out."""
+
+    def __init__(self, automaton: Automaton) -> None:
+        self.automaton = automaton
+        self.words = frozenset(word for word in automaton.words if word is not None)
+        """All words that can be said."""
+        self._leaving: dict[int, tuple[list[int], Mapping[str, list[int]]]] = {}
+        self._states: dict[tuple[int, ...], State] = {}
+        self._room = MOST_NODES
+
+    def begin(self) -> State:
+        """Before the first word."""
+        return self.state((START,))
+
+    def state(self, nodes: tuple[int, ...]) -> State:
+        """The state of these nodes and of those behind them that need no word."""
+        state = self._states.get(nodes)
+        if state is None:
+            state = State(self, nodes)
+            self._room -= state.size
+            if self._room < 0:
+                # Whoever is on the way keeps the old states until he is through.
+                self._states, self._room = {}, MOST_NODES - state.size
+            self._states[nodes] = state
+        return state
+
+    def leaving(self, node: int) -> tuple[list[int], Mapping[str, list[int]]]:
+        """The silent arcs of a node, and the others by their words."""
+        known = self._leaving.get(node)
         if known is None:
-            # Left recursion meets this empty answer and goes no further.
-            self._known[key] = {}
-            stack.append((key, self._steps(node, position)))
+            silent: list[int] = []
+            table: dict[str, list[int]] = {}
+            first, words = self.automaton.first, self.automaton.words
+            for arc in range(first[node], first[node + 1]):
+                word = words[arc]
+                if word is None:
+                    silent.append(arc)
+                else:
+                    table.setdefault(word, []).append(arc)
+            known = self._leaving[node] = (silent, table)
         return known
 
-    def _steps(self, node: Expression, position: int) -> Steps:
-        match node:
-            case Token(text=text):
-                is_here = position < len(self._words) and self._words[position] == text
-                return {position + 1: ()} if is_here else {}
-            case RuleReference(name=name):
-                return (yield self._grammar.rules[name].expression, position)
-            case Sequence(items=items):
-                return (yield from self._sequence(items, position))
-            case Alternative(choices=choices):
-                reached: Reached = {}
-                for choice in choices:
-                    for end, groups in (yield choice, position).items():
-                        reached.setdefault(end, groups)
-                return reached
-            case Optional(item=item):
-                return {**(yield item, position), position: ()}
-            case Repeat(item=item, minimum=minimum):
-                return (yield from self._repeat(item, minimum, position))
-            case Tagged(item=item, entries=entries):
-                reached = yield item, position
-                return {end: (*groups, entries) for end, groups in reached.items()}
+    def readings(self, words: list[str], rules: Collection[str] | None = None) -> Iterator[Parse]:
+        """What a sentence means, reading by reading; each way of taking tags and rules once."""
+        ways = self._ways(words)
+        if ways is None:
+            return
+        text = " ".join(words)
+        for history in self._histories(ways, rules):
+            tree, groups = _reading(words, history)
+            yield Parse(text, tree.rule, evaluate(groups), tree)
 
-    def _sequence(self, items: tuple[Expression, ...], position: int) -> Steps:
-        reached: Reached = {position: ()}
-        for item in items:
-            further: Reached = {}
-            for middle, before in reached.items():
-                for end, groups in (yield item, middle).items():
-                    further.setdefault(end, before + groups)
-            reached = further
-        return reached
+    def _ways(self, words: list[str]) -> list[_Ways] | None:
+        """The ways through a sentence, before each word and at its end; None without any."""
+        if not 0 < len(words) <= MOST_WORDS:
+            return None
+        state = self.begin()
+        passed: list[tuple[State, tuple[tuple[int, int], ...]]] = []
+        for word in words:
+            step = state.step(word)
+            if step is None:
+                return None
+            passed.append((state, step.moves))
+            state = step.state
+        if not state.is_final:
+            return None
+        alive = {FINAL}
+        ways: _Ways = {}
+        found = [ways]
+        _add_silent_ways(state, alive, ways)
+        targets = self.automaton.targets
+        for state, moves in reversed(passed):
+            before: set[int] = set()
+            ways = {}
+            for node, arc in moves:
+                if targets[arc] in alive:
+                    before.add(node)
+                    ways.setdefault(node, []).append(arc)
+            _add_silent_ways(state, before, ways)
+            found.append(ways)
+            alive = before
+        return found[::-1]
 
-    def _repeat(self, item: Expression, minimum: int, position: int) -> Steps:
-        reached: Reached = {} if minimum else {position: ()}
-        edge: Reached = {position: ()}
-        while edge:
-            further: Reached = {}
-            for middle, before in edge.items():
-                for end, groups in (yield item, middle).items():
-                    if end not in reached:
-                        reached[end] = further[end] = before + groups
-            edge = further
-        return reached
+    def _histories(
+        self, ways: list[_Ways], rules: Collection[str] | None
+    ) -> Iterator[_History | None]:
+        """What the ways do, in the order they were written.
+
+        Ways that have done the same so far are followed together: thousands of them are one
+        history when they differ in nothing that shows.
+        """
+        automaton = self.automaton
+        stack: list[tuple[int, list[int], _History | None]] = [(0, [START], None)]
+        while stack:
+            position, nodes, history = stack.pop()
+            further: dict[tuple[bool, Actions], list[int]] = {}
+            here, pending, seen = ways[position], nodes[::-1], set(nodes)
+            while pending:
+                node = pending.pop()
+                arcs = here.get(node, ())
+                if node == FINAL and position == len(ways) - 1:
+                    yield history
+                quiet: list[int] = []
+                for arc in sorted(arcs) if len(arcs) > 1 else arcs:
+                    is_word = automaton.words[arc] is not None
+                    actions, target = automaton.actions[arc], automaton.targets[arc]
+                    if is_word or actions:
+                        further.setdefault((is_word, actions), []).append(target)
+                    elif target not in seen:
+                        seen.add(target)
+                        quiet.append(target)
+                pending += reversed(quiet)
+            for (is_word, actions), targets in reversed(further.items()):
+                if history is None and rules is not None:
+                    enter = actions[0]
+                    if isinstance(enter, Enter) and enter.rule not in rules:
+                        continue
+                stack.append((position + is_word, targets, (history, is_word, actions)))
+
+
+def _add_silent_ways(state: State, alive: set[int], ways: _Ways) -> None:
+    """Add the nodes and arcs that lead to those alive without a word."""
+    pending = list(alive)
+    while pending:
+        for node, arc in state.silent_into.get(pending.pop(), ()):
+            ways.setdefault(node, []).append(arc)
+            if node not in alive:
+                alive.add(node)
+                pending.append(node)
+
+
+class _Open(NamedTuple):
+    """A rule whose end has not come yet, or tags that wait for it."""
+
+    children: list[Tree | str]
+    """Of the rule; for tags, those of the rule around them."""
+    start: int
+    rule: str | None
+    entries: tuple[TagEntry, ...]
+    is_last: bool
+
+
+def _reading(words: list[str], history: _History | None) -> tuple[Tree, Groups]:
+    """The tree and the tags, in order, of one way through a sentence."""
+    steps: list[tuple[bool, Actions]] = []
+    while history is not None:
+        history, is_word, actions = history
+        steps.append((is_word, actions))
+    groups: list[tuple[TagEntry, ...]] = []
+    top: list[Tree | str] = []
+    children, position = top, 0
+    open_rules: list[_Open] = []
+
+    def close() -> _Open:
+        nonlocal children
+        ended = open_rules.pop()
+        if ended.rule is None:
+            groups.append(ended.entries)
+        else:
+            children = open_rules[-1].children if open_rules else top
+            tree = Tree(ended.rule, ended.start, position, tuple(ended.children))
+            children.append(tree)
+        return ended
+
+    for is_word, actions in reversed(steps):
+        is_said = not is_word
+        for action in actions:
+            if isinstance(action, Enter):
+                children = []
+                open_rules.append(_Open(children, position, action.rule, (), action.is_last))
+            elif isinstance(action, Defer):
+                open_rules.append(_Open(children, position, None, action.entries, True))
+            else:
+                # What begins comes before the word of an arc, what ends behind it.
+                if not is_said:
+                    children.append(words[position])
+                    position += 1
+                    is_said = True
+                if isinstance(action, Apply):
+                    groups.append(action.entries)
+                else:
+                    assert isinstance(action, Leave)
+                    while close().is_last:
+                        pass
+        if not is_said:
+            children.append(words[position])
+            position += 1
+    while open_rules:
+        close()
+    tree = top[0]
+    assert isinstance(tree, Tree)
+    return tree, tuple(groups)

@@ -2,26 +2,32 @@
 
 from __future__ import annotations
 
-import codecs
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
-from hri.core import paths
-from hri.core.errors import AuthoringError, HriError, Place, did_you_mean, read_text
+from hri.core.errors import Place
+from hri.hal.word_graph import WordGraph
 from hri.speech.grammar import analysis, expansion
-from hri.speech.grammar.expressions import Expression, Span, Tagged, Token, rename, spell, walk
-from hri.speech.grammar.jsgf import Document, Import, read_jsgf
+from hri.speech.grammar.automaton import Automaton, build
+from hri.speech.grammar.doc_comments import MARKS, DocTag
+from hri.speech.grammar.expressions import (
+    Expression,
+    RuleReference,
+    Span,
+    Tagged,
+    Token,
+    rename,
+    spell,
+    walk,
+)
+from hri.speech.grammar.graph import word_graph
+from hri.speech.grammar.matching import Matcher
 
-LARGEST_FILE = 4_000_000
-"""Bytes of a grammar file."""
-MOST_FILES = 100
-"""Files that one grammar may import, directly or not."""
 
-
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Rule:
     """One rule of a grammar, with where it came from."""
 
@@ -32,6 +38,29 @@ class Rule:
     span: Span
     path: Path
     doc: str = ""
+    """The words of the doc comment before it."""
+    doc_tags: tuple[DocTag, ...] = ()
+    """The `@name text` of that comment."""
+
+    @cached_property
+    def nodes(self) -> tuple[Expression, ...]:
+        """Its expression and all below it, in the order of writing."""
+        return tuple(walk(self.expression))
+
+    @cached_property
+    def references(self) -> tuple[RuleReference, ...]:
+        """All that its expression holds, in the order of writing."""
+        return tuple(node for node in self.nodes if isinstance(node, RuleReference))
+
+    @property
+    def marks(self) -> frozenset[str]:
+        """Those of `hri.speech.grammar.doc_comments.MARKS` that its comment sets."""
+        return frozenset(tag.name for tag in self.doc_tags if tag.name in MARKS)
+
+    @property
+    def examples(self) -> tuple[str, ...]:
+        """Sentences that its comment promises to be understood."""
+        return tuple(tag.text for tag in self.doc_tags if tag.name == "example")
 
     def place(self, span: Span | None = None) -> Place:
         """The spot of a node of this rule; without one, of the rule itself."""
@@ -46,29 +75,41 @@ class Grammar:
     name: str
     path: Path
     rules: dict[str, Rule]
+    broken: frozenset[str] = frozenset()
+    """Keys of rules that are there but could not be read; empty in a grammar that is used."""
+    locale: str = ""
+    """The language its header names, such as "en" or "en-US"."""
 
     @cached_property
     def public_rules(self) -> tuple[str, ...]:
         """Names of the public rules of the main file, in its order; imported ones only help."""
         return tuple(key for key, rule in self.rules.items() if rule.is_public)
 
+    def marked(self, mark: str) -> frozenset[str]:
+        """The public rules with a mark, which is one of `doc_comments.MARKS`."""
+        return frozenset(key for key in self.public_rules if mark in self.rules[key].marks)
+
     def words(self) -> frozenset[str]:
         """All words that can be said, lower case."""
         return frozenset(node.text for node in self._nodes() if isinstance(node, Token))
+
+    def has_words(self) -> bool:
+        """Whether any word can be said."""
+        return any(isinstance(node, Token) for node in self._nodes())
 
     def tag_names(self) -> frozenset[str]:
         """Names of all tags that an understood sentence may have."""
         tagged = [node for node in self._nodes() if isinstance(node, Tagged)]
         entries = [entry for node in tagged for entry in node.entries]
-        used_up = {str(entry.value) for entry in entries if entry.is_reference}
+        used_up = {name for entry in entries for name in entry.takes if name != entry.name}
         return frozenset({entry.name for entry in entries} - used_up)
 
     def _nodes(self) -> Iterator[Expression]:
         for key in analysis.reachable(self.rules, self.public_rules):
-            yield from walk(self.rules[key].expression)
+            yield from self.rules[key].nodes
 
     def flat_jsgf(self) -> str:
-        """The same sentences as JSGF with a single public rule, without tags, imports, quotes."""
+        """The same sentences as JSGF with a single public rule, without tags and imports."""
         return flat_jsgf(self)
 
     def sentences(self, limit: int) -> Iterable[str]:
@@ -80,9 +121,47 @@ class Grammar:
         return expansion.sentences(self, (rule,), limit)
 
     @cached_property
+    def automaton(self) -> Automaton:
+        """The public rules written out as arcs; raises AuthoringError when they are too many."""
+        return build(self)
+
+    @cached_property
+    def matcher(self) -> Matcher:
+        """Follows sentences; see `hri.speech.grammar.matching`."""
+        return Matcher(self.automaton)
+
+    @cached_property
+    def _graph(self) -> WordGraph:
+        return word_graph(self.automaton)
+
+    def graph(self) -> WordGraph:
+        """Which word may follow which; made once. Raises what `automaton` raises."""
+        return self._graph
+
+    @cached_property
+    def ways(self) -> expansion.Ways:
+        """What walks through the rules to make sentences."""
+        return expansion.Ways(self)
+
+    @cached_property
     def heights(self) -> dict[str, float]:
-        """How many rules deep the shortest sentence of each rule is; infinite without any."""
-        return analysis.heights(self.rules)
+        """How deep into recursive rules the shortest sentence of each goes; infinite without."""
+        return analysis.heights(self)
+
+    @cached_property
+    def recursive_rules(self) -> frozenset[str]:
+        """Keys of the rules that lead back to themselves."""
+        return analysis.recursive_rules(self.rules)
+
+    @cached_property
+    def silent_rules(self) -> dict[str, bool]:
+        """Whether each rule can be passed without a word."""
+        return analysis.silent_rules(self)
+
+    @cached_property
+    def used_first(self) -> list[str]:
+        """All keys, each behind those it refers to; in a circle one of them comes too early."""
+        return analysis.used_first(self.rules)
 
 
 def flat_jsgf(grammar: Grammar) -> str:
@@ -94,138 +173,8 @@ def flat_jsgf(grammar: Grammar) -> str:
     top = " | ".join(f"<{names[key]}>" for key in grammar.public_rules)
     lines = ["#JSGF V1.0;", "grammar flat;", f"public <sentence> = {top};"]
     for key in keys:
-        expression = rename(grammar.rules[key].expression, lambda node: names[node.name])
+        expression = rename(
+            grammar.rules[key].expression, lambda node: replace(node, name=names[node.name])
+        )
         lines.append(f"<{names[key]}> = {spell(expression)};")
     return "\n".join(lines) + "\n"
-
-
-def load_grammar(path: Path) -> Grammar:
-    """The grammar of a file and of all it imports, ready to be used.
-
-    Raises AuthoringError for the first mistake in it, HriError when it cannot be read.
-    """
-    grammar, errors = read_grammar(path)
-    errors = errors or analysis.errors(grammar)
-    if errors:
-        raise errors[0]
-    return grammar
-
-
-def read_grammar(path: Path) -> tuple[Grammar, list[AuthoringError]]:
-    """The grammar as far as it can be read, and the mistakes in its writing.
-
-    What the rules say is not looked at yet: see `hri.speech.grammar.check`.
-    Raises HriError when the file itself cannot be read.
-    """
-    return _Loader().load(path)
-
-
-def read_source(path: Path) -> str:
-    """The text of a grammar file in the encoding its header names, UTF-8 without one."""
-    if not path.is_file():
-        raise HriError(f"{path}: no such grammar file - check the path")
-    size = path.stat().st_size
-    if size > LARGEST_FILE:
-        raise HriError(f"{path}: {size} bytes are too many for a grammar - split it")
-    match = re.match(rb"\s*#JSGF\s+V1\.0\s+([\w.:-]+)[^\n;]*;", path.read_bytes())
-    encoding = match[1].decode() if match else "utf-8"
-    try:
-        if codecs.lookup(encoding).name in ("utf-8", "ascii"):
-            return read_text(path, "grammar")
-        return path.read_text(encoding)
-    except LookupError as error:
-        remedy = 'save it as UTF-8 and write "#JSGF V1.0 UTF-8 en;"'
-        raise AuthoringError(Place(path), f'unknown encoding "{encoding}"', remedy) from error
-    except UnicodeError as error:
-        remedy = "save it as UTF-8 and say so in the header"
-        raise AuthoringError(Place(path), f"this is no {encoding} text", remedy) from error
-
-
-class _Loader:
-    """Reads a file and all it imports, then gives every rule its key and resolves references."""
-
-    def __init__(self) -> None:
-        self.errors: list[AuthoringError] = []
-        self.rules: dict[str, Rule] = {}
-        self._files: dict[Path, _File] = {}
-
-    def load(self, path: Path) -> tuple[Grammar, list[AuthoringError]]:
-        main = self._read(path, prefix="")
-        pending = [main]
-        while pending:
-            file = pending.pop()
-            for use in file.document.imports:
-                pending.extend(self._follow(file, use))
-        for file in self._files.values():
-            self._define(file)
-        name = main.document.name.rpartition(".")[2] or path.stem
-        return Grammar(name, path, self.rules), self.errors
-
-    def _read(self, path: Path, prefix: str) -> _File:
-        document = read_jsgf(read_source(path), path)
-        self.errors += document.errors
-        file = self._files[path.resolve()] = _File(document, prefix)
-        return file
-
-    def _follow(self, file: _File, use: Import) -> list[_File]:
-        """Make the rules of an import visible; the file it names when that is a new one."""
-        place = file.place(use.span)
-        path = _find_import(file.document.path, use.grammar)
-        if path is None:
-            remedy = f"put {use.grammar.rpartition('.')[2]}.jsgf into the same folder"
-            self.errors.append(AuthoringError(place, f'no grammar "{use.grammar}"', remedy))
-            return []
-        known = self._files.get(path.resolve())
-        if known is None and len(self._files) >= MOST_FILES:
-            raise AuthoringError(place, f"more than {MOST_FILES} grammar files", "import fewer")
-        other = known or self._read(path, prefix=f"{use.grammar}.")
-        public = [rule.name for rule in other.document.rules if rule.is_public]
-        if use.rule not in ("*", *public):
-            what = f'"{use.grammar}" has no public rule <{use.rule}>'
-            self.errors.append(AuthoringError(place, what, did_you_mean(use.rule, public)))
-        for name in public if use.rule == "*" else [use.rule]:
-            file.visible[name] = file.visible[f"{use.grammar}.{name}"] = other.prefix + name
-        return [] if known else [other]
-
-    def _define(self, file: _File) -> None:
-        document, visible = file.document, file.visible
-        for definition in document.rules:
-            key = file.prefix + definition.name
-            visible[definition.name] = visible[f"{document.name}.{definition.name}"] = key
-        for definition in document.rules:
-            rule = Rule(
-                key=file.prefix + definition.name,
-                expression=rename(definition.expression, lambda n: visible.get(n.name, n.name)),
-                is_public=definition.is_public and not file.prefix,
-                span=definition.span,
-                path=document.path,
-                doc=definition.doc,
-            )
-            first = self.rules.setdefault(rule.key, rule)
-            if first is not rule:
-                what = f"<{definition.name}> is already defined in line {first.span.line}"
-                self.errors.append(AuthoringError(rule.place(), what, "rename one of the two"))
-
-
-@dataclass(frozen=True)
-class _File:
-    document: Document
-    prefix: str
-    """Stands before the names of its rules in their keys; empty for the main file."""
-    visible: dict[str, str] = field(default_factory=dict)
-    """Keys of rules by the names this file may call them."""
-
-    def place(self, span: Span) -> Place:
-        return Place(self.document.path, span.line, span.column)
-
-
-def _find_import(importer: Path, grammar: str) -> Path | None:
-    """The file of a grammar: beside the importing one, in its package, or in `grammars/`."""
-    inside = Path(*grammar.split(".")).with_suffix(".jsgf")
-    for candidate in (importer.parent / inside.name, importer.parent / inside):
-        if candidate.is_file():
-            return candidate
-    try:
-        return paths.find("grammars", str(inside))
-    except HriError:
-        return None

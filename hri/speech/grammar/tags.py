@@ -9,23 +9,28 @@ Between `{` and `}` stand entries, with spaces or semicolons between them:
     {number+=20}          adds to what is there; to 0 when nothing is
     {number*=100}         multiplies what is there; does nothing when nothing is
     {distance=$number}    takes the value of another tag, which is used up by it; nothing
-                          happens when that tag was not set
+                          happens when that tag was not set; also with += and *=
+    {time="$hour:$minute"}  puts the values of other tags into a text and uses them up; nothing
+                          happens when one of them was not set; "$$" is a "$"
 
 Entries take effect in the order their words are said, those behind a group after those inside.
-That is enough for compound numbers: "twenty" {number+=20}, "five" {number+=5}.
+That is enough for compound numbers: "twenty" {number+=20}, "five" {number+=5}. Nothing is ever
+run: a tag is data, whoever wrote the grammar.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 Value = str | float | bool
 
 LONGEST_TAG = 1000
 """Characters between the braces."""
+LONGEST_VALUE = 1000
+"""Characters of a text that is put together; what is longer is not set."""
 
 _ENTRY = re.compile(
     r"""[\s;]*
@@ -36,8 +41,37 @@ _ENTRY = re.compile(
     (?=[\s;]|$)[\s;]*""",
     re.VERBOSE,
 )
-_NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?")
+_NAME = re.compile(r"[A-Za-z_][\w.-]*")
+_NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
+_PLAIN = re.compile(r"[^\s;\"={}\\$]+")
+_HOLE = re.compile(r"\$(?:\$|([A-Za-z_]\w*))")
 _WORDS: dict[str, Value] = {"true": True, "false": False}
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """`$name`: the value of another tag."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Template:
+    """A text in quotes with `$name` in it."""
+
+    text: str
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The tags whose values it takes."""
+        return tuple(match[1] for match in _HOLE.finditer(self.text) if match[1])
+
+    def fill(self, tags: Mapping[str, Value]) -> str | None:
+        """The text with the values in it; None when one is missing or it grows too long."""
+        if any(name not in tags for name in self.names):
+            return None
+        text = _HOLE.sub(lambda hole: written(tags[hole[1]]) if hole[1] else "$", self.text)
+        return text if len(text) <= LONGEST_VALUE else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,53 +81,114 @@ class TagEntry:
     name: str
     operation: str
     """"=", "+=" or "*="."""
-    value: Value
-    is_reference: bool = False
-    """True when the value is the name of the tag to take the value from."""
+    value: Value | Reference | Template
+
+    @property
+    def takes(self) -> tuple[str, ...]:
+        """The tags whose values it uses up."""
+        match self.value:
+            case Reference(name):
+                return (name,)
+            case Template() as template:
+                return template.names
+            case _:
+                return ()
+
+
+class TagError(ValueError):
+    """What is wrong with the text between the braces, and how far into it; -1: with all of it."""
+
+    def __init__(self, what: str, offset: int) -> None:
+        super().__init__(what)
+        self.offset = offset
 
 
 def read_entries(text: str) -> tuple[TagEntry, ...]:
-    """The entries between the braces. Raises ValueError with what is wrong."""
+    """The entries between the braces. Raises TagError."""
     if len(text) > LONGEST_TAG:
-        raise ValueError(f"a tag of {len(text)} characters is too long")
+        raise TagError(f"a tag of {len(text)} characters is too long", -1)
     entries: list[TagEntry] = []
-    position = 0
-    while position < len(text.rstrip()):
+    position, end = 0, len(text.rstrip(" \t\r\n;"))
+    while position < end:
         match = _ENTRY.match(text, position)
         if match is None:
-            raise ValueError(f'cannot read the tag at "{text[position:].strip()[:30]}"')
+            offset = position + len(text[position:]) - len(text[position:].lstrip(" \t\r\n;"))
+            raise TagError(f'cannot read the tag at "{text[offset:].strip()[:30]}"', offset)
         entries.append(_entry(match))
         position = match.end()
     if not entries:
-        raise ValueError("the tag is empty")
+        raise TagError("the tag is empty", -1)
     return tuple(entries)
 
 
 def _entry(match: re.Match[str]) -> TagEntry:
     name, operation = match["name"], match["operation"] or "="
-    if match["plain"] is not None and match["plain"].startswith("$"):
-        return TagEntry(name, operation, match["plain"][1:], is_reference=True)
-    value: Value = True
-    if match["quoted"] is not None:
-        value = match["quoted"]
-    elif match["plain"] is not None:
-        value = _value(match["plain"])
-    if operation != "=" and not _is_number(value):
-        raise ValueError(f"{name}{operation} needs a number")
+    value = _value(match)
+    if operation != "=" and not isinstance(value, float | Reference):
+        raise TagError(f"{name}{operation} needs a number", match.start("name"))
     return TagEntry(name, operation, value)
 
 
-def _value(text: str) -> Value:
+def _value(match: re.Match[str]) -> Value | Reference | Template:
+    quoted, plain = match["quoted"], match["plain"]
+    if quoted is not None:
+        template = Template(quoted)
+        return template if template.names else quoted.replace("$$", "$")
+    if plain is None:
+        return True
+    if not plain.startswith("$"):
+        return read_value(plain, match.start("plain"))
+    if not _NAME.fullmatch(plain, 1):
+        raise TagError(f"{plain} names no tag", match.start("plain"))
+    return Reference(plain[1:])
+
+
+def read_value(text: str, offset: int = -1) -> Value:
+    """A plain value: a number, true or false, or a text, which may stand in quotes.
+
+    Raises TagError with the offset for a number that is too large.
+    """
     if _NUMBER.fullmatch(text):
         number = float(text)
         if not math.isfinite(number):
-            raise ValueError(f"{text} is too large")
+            raise TagError(f"{text} is too large", offset)
         return number
-    return _WORDS.get(text, text)
+    return _WORDS.get(text, text.strip('"'))
 
 
-def _is_number(value: object) -> bool:
-    return isinstance(value, float)
+def written(value: Value) -> str:
+    """A value as text: whole numbers without a point, yes and no as true and false."""
+    match value:
+        case bool():
+            return "true" if value else "false"
+        case float():
+            return str(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)
+        case _:
+            return value
+
+
+def spell_entries(entries: Iterable[TagEntry]) -> str:
+    """The entries as they are written between the braces; the inverse of `read_entries`."""
+    return " ".join(map(_spell, entries))
+
+
+def spell_tags(tags: Mapping[str, Value]) -> str:
+    """What a sentence means, as the entries that say so."""
+    return spell_entries(TagEntry(name, "=", value) for name, value in tags.items())
+
+
+def _spell(entry: TagEntry) -> str:
+    match entry.value:
+        case Reference(name):
+            value = f"${name}"
+        case Template(text):
+            value = f'"{text}"'
+        case str() as text:
+            is_plain = _PLAIN.fullmatch(text) and text not in _WORDS and not _NUMBER.fullmatch(text)
+            value = text if is_plain else '"' + text.replace("$", "$$") + '"'
+        case other:
+            value = written(other)
+    return f"{entry.name}{entry.operation}{value}"
 
 
 def evaluate(groups: Iterable[tuple[TagEntry, ...]]) -> dict[str, Value]:
@@ -102,15 +197,23 @@ def evaluate(groups: Iterable[tuple[TagEntry, ...]]) -> dict[str, Value]:
     for entries in groups:
         used: set[str] = set()
         for entry in entries:
-            value: Value | None = entry.value
-            if entry.is_reference:
-                used.add(str(entry.value))
-                value = tags.get(str(entry.value))
+            value = _current(entry, tags)
             if value is not None:
+                used.update(entry.takes)
                 _apply(tags, entry, value)
         for name in used - {entry.name for entry in entries}:
             tags.pop(name, None)
     return tags
+
+
+def _current(entry: TagEntry, tags: Mapping[str, Value]) -> Value | None:
+    match entry.value:
+        case Reference(name):
+            return tags.get(name)
+        case Template() as template:
+            return template.fill(tags)
+        case value:
+            return value
 
 
 def _apply(tags: dict[str, Value], entry: TagEntry, value: Value) -> None:
@@ -120,5 +223,6 @@ def _apply(tags: dict[str, Value], entry: TagEntry, value: Value) -> None:
     before = tags.get(entry.name, 0.0 if entry.operation == "+=" else None)
     if isinstance(before, float) and isinstance(value, float):
         result = before + value if entry.operation == "+=" else before * value
-        # Ten times 0.3 is to read 3, not 3.0000000000000004.
-        tags[entry.name] = round(result, 9)
+        if math.isfinite(result):
+            # Ten times 0.3 is to read 3, not 3.0000000000000004; and there is no -0.
+            tags[entry.name] = round(result, 9) + 0.0

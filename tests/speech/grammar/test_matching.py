@@ -1,15 +1,19 @@
 from __future__ import annotations
 
 import random
+import statistics
 import time
+from itertools import product
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from hri.speech.grammar import load_grammar, read_grammar
+from hri.core.errors import AuthoringError
+from hri.speech.grammar import load_grammar, matching, read_grammar
 from hri.speech.grammar.expansion import random_sentence
-from hri.speech.grammar.matching import parse
+from hri.speech.grammar.matching import Refusal, Tree, parse, parses, refusal
+from tests.speech.grammar.oracle import WORDS, assume_written_out, grammars, meanings
 
 
 @pytest.mark.parametrize(
@@ -92,10 +96,11 @@ def test_what_explodes_elsewhere_takes_no_time_here(write):
     assert time.perf_counter() - start < 2.0
 
 
-def test_left_recursion_does_not_hang_the_matcher(write):
+def test_left_recursion_is_refused_and_does_not_hang(write):
     grammar, _ = read_grammar(write("public <a> = <a> x | y;"))
 
-    assert parse(grammar, "y").rule == "a"
+    with pytest.raises(AuthoringError, match="leads back to itself"):
+        parse(grammar, "y")
 
 
 def test_right_recursion_of_two_hundred_words(write):
@@ -105,16 +110,170 @@ def test_right_recursion_of_two_hundred_words(write):
     assert parse(grammar, "x " * 200 + "y") is None
 
 
-def test_the_first_written_reading_wins(write):
-    grammar = load_grammar(write("public <a> = hi {n=1} | hi {n=2};\npublic <b> = hi;"))
+def test_the_tags_around_a_recursion_take_effect_from_the_inside(write):
+    grammar = load_grammar(write("public <a> = (x <a>) {n*=2} | (y <b> {n+=1});\n<b> = z {n=3};"))
 
-    assert (parse(grammar, "hi").rule, parse(grammar, "hi").tags) == ("a", {"n": 1.0})
+    assert parse(grammar, "x x y z").tags == {"n": 16.0}
+
+
+def test_the_first_written_reading_wins(write):
+    grammar = load_grammar(write("public <a> = hi {n=1} | /9/ hi {n=2};\npublic <b> = hi;"))
+
+    readings = parses(grammar, "hi")
+
+    assert parse(grammar, "hi") == readings[0]
+    assert [(reading.rule, reading.tags) for reading in readings] == [
+        ("a", {"n": 1.0}),
+        ("a", {"n": 2.0}),
+        ("b", {}),
+    ]
+    assert not readings[0].means_the_same(readings[1])
+
+
+def test_only_the_rules_that_are_asked_for_count(write):
+    grammar = load_grammar(write("public <a> = hi [you];\npublic <b> = hi;"))
+
+    assert parse(grammar, "hi", rules={"b"}).rule == "b"
+    assert parse(grammar, "hi you", rules={"b"}) is None
+    assert [reading.rule for reading in parses(grammar, "hi", rules=("a", "b"))] == ["a", "b"]
+    assert parses(grammar, "hi", rules=()) == ()
+
+
+def test_the_tree_tells_rules_words_and_where_they_stand(write):
+    rules = "public <go> = go <where> [now];\n<where> = to [the] <place>;\n<place> = sea | lake;"
+
+    (reading,) = parses(load_grammar(write(rules)), "go to the sea now")
+
+    place = Tree("place", 3, 4, ("sea",))
+    assert reading.tree == Tree(
+        "go", 0, 5, ("go", Tree("where", 1, 4, ("to", "the", place)), "now")
+    )
+    assert [(depth, tree.rule) for depth, tree in reading.tree.walk()] == [
+        (0, "go"),
+        (1, "where"),
+        (2, "place"),
+    ]
+
+
+@given(grammars())
+@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
+def test_all_readings_are_those_of_the_plain_matcher(grammar):
+    assume_written_out(grammar)
+
+    for length in (1, 2, 3):
+        for words in product(WORDS, repeat=length):
+            found = parses(grammar, " ".join(words), limit=1000)
+            quick = {
+                (plain(reading.tree), tuple(sorted(reading.tags.items()))) for reading in found
+            }
+            assert quick == meanings(grammar, words)
+
+
+def plain(tree):
+    children = tuple(child if isinstance(child, str) else plain(child) for child in tree.children)
+    return (tree.rule, tree.start, tree.end, children)
+
+
+def test_readings_without_number_are_listed_up_to_a_limit(write):
+    grammar = load_grammar(write("public <a> = (x {n+=1} | x {m+=1})+;"))
+
+    start = time.perf_counter()
+    readings = parses(grammar, "x " * 150, limit=10)
+    assert time.perf_counter() - start < 2.0
+    assert 1 < len(readings) <= 10
+    assert len({tuple(reading.tags.items()) for reading in readings}) > 1
+
+
+def test_loops_that_mean_nothing_do_not_hide_two_meanings(write):
+    grammar = load_grammar(write("public <a> = (y {n=1} | y {n=2}) (x*)* (x*)*;"))
+
+    assert [reading.tags for reading in parses(grammar, "y" + " x" * 40)] == [
+        {"n": 1.0},
+        {"n": 2.0},
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "understood", "word", "expected", "remedy"),
+    [
+        ("go forwrd", "go", "forwrd", ("back", "forward"), 'did you mean "forward"?'),
+        ("go", "go", "", ("back", "forward"), "see `hri grammar expand`"),
+        ("fly", "", "fly", ("go", "stop"), "see `hri grammar expand`"),
+        ("go back home", "go back", "home", (), "see `hri grammar expand`"),
+        ("", "", "", ("go", "stop"), "see `hri grammar expand`"),
+    ],
+)
+def test_a_refusal_tells_how_far_it_went(write, text, understood, word, expected, remedy):
+    grammar = load_grammar(write("public <a> = go (forward | back) | stop;"))
+
+    assert refusal(grammar, text) == Refusal(understood, word, expected, remedy)
+
+
+def test_what_is_accepted_is_not_refused(companion):
+    assert refusal(companion, "Turn left!") is None
+
+
+def test_what_was_worked_out_is_bounded(write, monkeypatch):
+    monkeypatch.setattr(matching, "MOST_NODES", 10)
+    grammar = load_grammar(write("public <a> = (a | b | c | a b | b c | c a)*;"))
+
+    for words in product("abc", repeat=5):
+        assert parse(grammar, " ".join(words)) is not None
+    assert len(grammar.matcher._states) <= 10
+
+
+@pytest.mark.parametrize(
+    ("said", "rule"),
+    [
+        ("\u0915\u093e \u0939\u093e\u0901", "ka"),  # Hindi: vowel signs tell words apart
+        ("\u0915\u0940 \u0939\u093e\u0901", "ki"),
+        ("\u00ab\u0915\u0940\u00bb, \u0939\u093e\u0901!", "ki"),
+        ("\u0915 \u0939\u093e\u0901", None),
+        ("CAFE\u0301, s'il vous pla\u00eet\u2026", "french"),
+        ("caf\u00e9\u2764\ufe0f s\u2019il vous pla\u00eet", "french"),
+    ],
+)
+def test_accents_and_vowel_signs_belong_to_their_words(write, said, rule):
+    rules = (
+        "public <ka> = \u0915\u093e \u0939\u093e\u0901;\n"
+        "public <ki> = \u0915\u0940 \u0939\u093e\u0901;\n"
+        "public <french> = caf\u00e9 s'il vous pla\u00eet;"
+    )
+    found = parse(load_grammar(write(rules)), said)
+    assert (found and found.rule) == rule
+
+
+def test_words_with_a_dot_are_found(write):
+    grammar = load_grammar(write('public <a> = call "mr." smith;'))
+
+    assert parse(grammar, "Call Mr. Smith!").rule == "a"
+
+
+def test_a_hundred_thousand_sentences_are_parsed_in_no_time(write):
+    digits = " | ".join(f"d{n} {{n*=10 n+={n}}}" for n in range(10))
+    grammar = load_grammar(write(f"public <a> = dial <d> <d> <d> <d> <d>;\n<d> = {digits};"))
+    sentences = [f"dial d{n} d{n} d7 d{n} d3" for n in range(10)] * 5
+
+    took = []
+    for sentence in sentences:
+        start = time.process_time()
+        assert parse(grammar, sentence).tags
+        took.append(time.process_time() - start)
+    assert statistics.median(took) < 500e-6
 
 
 def test_the_vocabulary_is_told(companion):
     assert {"distance", "angle", "emotion"} == companion.tag_names()
     assert {"forward", "ninety"} <= companion.words()
     assert list(companion.sentences_of("turn", 2)) == ["turn left", "turn left a little"]
+
+
+def test_signs_in_quoted_words_stay_signs_in_the_flat_form(write, tmp_path):
+    quoted = 'public <a> = "at|t" now | "a\\"b" c | "import" x;'
+    path = tmp_path / "flat.jsgf"
+    path.write_text(load_grammar(write(quoted)).flat_jsgf())
+
+    assert sorted(load_grammar(path).sentences(10)) == ['a"b c', "at|t now", "import x"]
 
 
 def test_the_flat_form_has_one_public_rule_and_no_tags(companion):

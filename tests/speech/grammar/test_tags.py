@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from hri.speech.grammar.tags import evaluate, read_entries
+from hri.speech.grammar.tags import LONGEST_VALUE, evaluate, read_entries
 
 
 @pytest.mark.parametrize(
@@ -20,6 +20,13 @@ from hri.speech.grammar.tags import evaluate, read_entries
         ("n=3 d=$n", {"d": 3.0}),
         ("n=3 a=$n b=$n", {"a": 3.0, "b": 3.0}),
         ("n=5 x=red x+=1", {"n": 5.0, "x": "red"}),
+        ('h="07" m=5 t="$h:$m"', {"t": "07:5"}),
+        ('h="07" t="$h:$m"', {"h": "07"}),
+        ('t="" d=1 t="$t$d" d=2 t="$t$d"', {"t": "12"}),
+        ('t="$5 or $$x"', {"t": "$5 or $x"}),
+        ("n=3 a=2 a*=$n", {"a": 6.0}),
+        ("n=0 n*=-1", {"n": 0.0}),
+        ("n=1e308 n*=1e308", {"n": 1e308}),
     ],
 )
 def test_entries_mean_plain_data(text, tags):
@@ -31,7 +38,21 @@ def test_entries_mean_plain_data(text, tags):
     assert evaluate(groups) == tags
 
 
-@pytest.mark.parametrize("text", ["", " ; ", "=3", "a==3", 'a="b c', "1x=3", "a+=red", "a=1e999"])
+@pytest.mark.parametrize(
+    "text",
+    ["", " ; ", "=3", "a==3", 'a="b c', "1x=3", "a+=red", "a=1e999", "a=$", "a=$1", "a=$b=c"],
+)
 def test_what_is_no_tag_is_refused(text):
     with pytest.raises(ValueError, match=r"\w"):
         read_entries(text)
+
+
+def test_a_text_that_doubles_for_ever_stops_growing():
+    (double,) = read_entries('t="$t$t"')
+    tags = evaluate([read_entries("t=xx"), *[(double,)] * 200])
+
+    assert len(tags["t"]) <= LONGEST_VALUE
+
+
+def test_no_tag_ends_in_minus_zero():
+    assert str(evaluate([read_entries("n=0"), read_entries("n*=-1")])["n"]) == "0.0"

@@ -1,0 +1,46 @@
+"""The recogniser that a command line asks for."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from hri.core import registry
+from hri.core.clock import RealClock
+from hri.hal.manager import ResourceManager
+from hri.hal.recognizer import Recognizer
+from hri.hal.resource import Description
+from hri.speech.grammar import Grammar
+
+ENGINES = {
+    "automatic": "Hri.Recognizer",
+    "ctc": "Hri.Ctc",
+    "pocketsphinx": "Hri.PocketSphinx",
+    "vosk": "Hri.Vosk",
+}
+"""Recognisers that hear sound, by the names of `--engine`."""
+
+
+def add_engine_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--engine", choices=ENGINES, default="automatic", help="the recognizer")
+    parser.add_argument("--model", default="", metavar="DIR", help="model directory of Vosk")
+
+
+@contextmanager
+def started_engine(options: argparse.Namespace, grammar: Grammar) -> Iterator[Recognizer]:
+    """The recogniser of `options`, listening for a grammar; closed at the end."""
+    kind = ENGINES[options.engine]
+    parameters = {"model": options.model} if options.model else {}
+    complain = lambda what: print(what, file=sys.stderr)  # noqa: E731
+    with ResourceManager((), RealClock(), notice=complain) as manager:
+        driver: Any = registry.find("hri.resources", kind)
+        engine: Recognizer = driver(Description("recognizer", kind, parameters), manager)
+        engine.activate()
+        try:
+            engine.start(grammar)
+            yield engine
+        finally:
+            engine.deactivate()

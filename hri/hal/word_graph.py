@@ -1,0 +1,38 @@
+"""What an engine gets of a grammar: a graph whose paths are the sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+SILENT = -1
+"""The label of an arc that is passed without a word."""
+
+
+@dataclass(frozen=True, eq=False)
+class WordGraph:
+    """Which word may follow which: paths from `start` to `final` are the sentences.
+
+    Nodes are the numbers 0 to `size` - 1. Silent arcs never form a circle, every node lies on a
+    way from `start` to `final`, and nothing leads to `start`.
+    """
+
+    size: int
+    start: int
+    final: int
+    """The one node where sentences end; nothing leaves it."""
+    sources: NDArray[np.int32]
+    """The node that each arc leaves, in ascending order. [arcs]"""
+    targets: NDArray[np.int32]
+    """The node that each arc leads to. [arcs]"""
+    labels: NDArray[np.int32]
+    """The word of each arc, an index into `words`; SILENT for none. [arcs]"""
+    weights: NDArray[np.float32]
+    """Natural logarithm of how likely each arc is among those of its source; <= 0. [arcs]"""
+    words: tuple[str, ...]
+    """All words, lower case, each once."""
+    entries: Mapping[str, int]
+    """Public rule: the node its sentences begin at; one silent arc leads there from `start`."""

@@ -1,0 +1,132 @@
+"""Sentences that mean two things, found by walking all sentences at once."""
+
+from __future__ import annotations
+
+import random
+from collections import deque
+from collections.abc import Generator, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import islice
+
+from hri.speech.grammar.automaton import FINAL, START
+from hri.speech.grammar.expansion import random_sentences
+from hri.speech.grammar.matching import Matcher, Parse, parses
+from hri.speech.grammar.rules import Grammar
+
+MOST_STEPS = 30_000
+"""Nodes of the automaton that are visited for sentences with two readings."""
+MOST_TRIED = 200
+"""Sentences whose readings are compared."""
+_SEED = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Ambiguity:
+    """A sentence with two meanings; the first is what it counts as."""
+
+    sentence: str
+    first: Parse
+    second: Parse
+
+
+def ambiguities(grammar: Grammar) -> Iterator[Ambiguity]:
+    """Sentences of two meanings, the shortest first.
+
+    One for each two rules and names of tags, since one example shows where they collide. In a
+    grammar that is too large to be walked to its end, some sentences are tried as well.
+    """
+    told: set[object] = set()
+    for sentence in islice(_tried(grammar), MOST_TRIED):
+        found = ambiguity(grammar, sentence)
+        if found is not None:
+            readings = (found.first, found.second)
+            kind = frozenset((reading.rule, frozenset(reading.tags)) for reading in readings)
+            if kind not in told:
+                told.add(kind)
+                yield found
+
+
+def _tried(grammar: Grammar) -> Iterator[str]:
+    is_all = yield from suspects(grammar.matcher)
+    if not is_all:
+        yield from sample(grammar, MOST_TRIED)
+
+
+def ambiguity(grammar: Grammar, sentence: str) -> Ambiguity | None:
+    """The two meanings of a sentence, if it has two.
+
+    Two rules with the mark "part" are not heard side by side, so one sentence may be of both.
+    """
+    readings = parses(grammar, sentence)
+    parts = grammar.marked("part")
+    for other in readings[1:]:
+        first = readings[0]
+        are_apart = first.rule != other.rule and parts.issuperset((first.rule, other.rule))
+        if not are_apart and not other.means_the_same(first):
+            return Ambiguity(sentence, first, other)
+    return None
+
+
+def sample(grammar: Grammar, most: int) -> list[str]:
+    """Different sentences: the first of each rule, and as many by chance, always the same."""
+    found = dict.fromkeys(grammar.sentences(most - most // 2))
+    for sentence in islice(random_sentences(grammar, random.Random(_SEED)), most):
+        if len(found) == most:
+            break
+        found[sentence] = None
+    found.pop("", None)
+    return list(found)
+
+
+Ways = Mapping[int, int]
+"""In how many ways some words lead to each node; 2 stands for more."""
+
+
+def suspects(matcher: Matcher) -> Generator[str, None, bool]:
+    """Sentences with two ways through the automaton, the shortest first.
+
+    Words that lead to the same nodes in as many ways are walked on from only once. After
+    MOST_STEPS nodes the walk ends; returns whether nothing was left then.
+    """
+    pending: deque[tuple[Ways, tuple[str, ...]]] = deque([({START: 1}, ())])
+    visited: set[frozenset[tuple[int, int]]] = set()
+    steps = 0
+    while pending and steps < MOST_STEPS:
+        ways, words = pending.popleft()
+        ways = _silently(matcher, ways)
+        steps += len(ways)
+        if ways.get(FINAL, 0) > 1:
+            yield " ".join(words)
+        for word, further in _after(matcher, ways).items():
+            key = frozenset(further.items())
+            if key not in visited:
+                visited.add(key)
+                pending.append((further, (*words, word)))
+    return not pending
+
+
+def _silently(matcher: Matcher, ways: Ways) -> Ways:
+    """The nodes themselves, and those that are reached from them without a word."""
+    found: dict[int, int] = {}
+    pending = list(ways.items())
+    while pending:
+        node, more = pending.pop()
+        more = min(more, 2 - found.get(node, 0))
+        if more:
+            found[node] = found.get(node, 0) + more
+            targets = matcher.automaton.targets
+            pending += [(targets[arc], more) for arc in matcher.leaving(node)[0]]
+    return found
+
+
+def _after(matcher: Matcher, ways: Ways) -> dict[str, dict[int, int]]:
+    """The nodes behind each word that may follow."""
+    targets = matcher.automaton.targets
+    found: dict[str, dict[int, int]] = {}
+    for node, count in ways.items():
+        for word, arcs in matcher.leaving(node)[1].items():
+            further = found.setdefault(word, {})
+            for arc in arcs:
+                target = targets[arc]
+                further[target] = min(2, further.get(target, 0) + count)
+    return found

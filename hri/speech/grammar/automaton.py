@@ -1,0 +1,380 @@
+"""A grammar as one flat automaton: which word may follow which, and what each step means.
+
+The rules are written out where they are used. A rule that stands at the end of another (right
+recursion is the common case) is written once and jumped to; one that stands in the middle of
+itself, which no finite automaton can follow for ever, is written out NESTED_DEPTH rules deep.
+Arcs carry the actions that build the parse tree: a path from the start to the end is one reading
+of one sentence, and of the arcs that leave a node the first one was written first.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from enum import Enum, auto
+from typing import TYPE_CHECKING, NamedTuple
+
+from hri.core.errors import AuthoringError
+from hri.speech.grammar import analysis
+from hri.speech.grammar.expressions import (
+    Alternative,
+    Expression,
+    Optional,
+    Repeat,
+    RuleReference,
+    Sequence,
+    Span,
+    Tagged,
+    Token,
+)
+from hri.speech.grammar.tags import TagEntry
+
+if TYPE_CHECKING:
+    from hri.speech.grammar.rules import Grammar
+
+MOST_ARCS = 1_000_000
+"""Together with the rules that are written out, about 300 MB while they are built; a list of
+10,000 names of two words has 20,000."""
+NESTED_DEPTH = 5
+"""How often a rule may stand inside itself, other than at its end; more than `expansion` goes."""
+
+START, FINAL = 0, 1
+_NOWHERE = Span(1, 1, 1, 1)
+_SILENCE = Sequence((), _NOWHERE)
+_HALF = math.log(0.5)
+"""JSGF gives no odds for what is optional or repeated: both ways are equally likely."""
+
+
+@dataclass(frozen=True, slots=True)
+class Enter:
+    """A rule begins."""
+
+    rule: str
+    is_last: bool
+    """True at the end of another rule: it then ends where that one ends, without a Leave."""
+
+
+@dataclass(frozen=True, slots=True)
+class Leave:
+    """The innermost rule that was entered with `is_last` false ends, and all that began in it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Apply:
+    """Tags take effect."""
+
+    entries: tuple[TagEntry, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Defer:
+    """Tags take effect when the rule around them ends, before those that were deferred earlier."""
+
+    entries: tuple[TagEntry, ...]
+
+
+Action = Enter | Leave | Apply | Defer
+Actions = tuple[Action, ...]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Automaton:
+    """Nodes 0 to `size` - 1 and the arcs between them, sorted by the node they leave.
+
+    No path without a word leads from a node back to it, none from START to FINAL, and every node
+    lies on a way between the two.
+    """
+
+    size: int
+    first: list[int]
+    """The number of the first arc of each node, and behind it the number of arcs. [size + 1]"""
+    targets: list[int]
+    words: list[str | None]
+    """None: passed without a word."""
+    weights: list[float]
+    """Natural logarithms; those of one node add up to one."""
+    actions: list[Actions]
+    entries: Mapping[str, int]
+    """The node behind the only arc from START for each public rule that can be said."""
+
+
+class _Speaking(Enum):
+    """Which ways through a node are wanted."""
+
+    ANY = auto()
+    SPOKEN = auto()
+    """Those with a word: a repeat made of them never goes round in silence."""
+    SILENT = auto()
+
+
+@dataclass(frozen=True, slots=True)
+class _Context:
+    """One place where a rule is written out, and what is done where it ends."""
+
+    number: int
+    after: Actions
+    inside: Mapping[str, int]
+    """How often it lies inside each recursive rule."""
+
+
+class _Job(NamedTuple):
+    """Write the ways through `node` between two nodes of the automaton."""
+
+    node: Expression
+    start: int
+    end: int
+    speaking: _Speaking
+    context: _Context
+    is_last: bool = False
+    """Whether nothing follows in the rule: `end` and `after` are those of the context."""
+    before: Actions = ()
+    after: Actions = ()
+    weight: float = 0.0
+
+
+@dataclass(slots=True)
+class _Arcs:
+    sources: list[int] = field(default_factory=list)
+    targets: list[int] = field(default_factory=list)
+    words: list[str | None] = field(default_factory=list)
+    weights: list[float] = field(default_factory=list)
+    actions: list[Actions] = field(default_factory=list)
+
+    def add(self, job: _Job, target: int, word: str | None, actions: Actions) -> None:
+        self.sources.append(job.start)
+        self.targets.append(target)
+        self.words.append(word)
+        self.weights.append(job.weight)
+        self.actions.append(actions)
+
+
+def build(grammar: Grammar) -> Automaton:
+    """The automaton of all public rules; a choice of the weight 0 is left out.
+
+    Raises AuthoringError for left recursion, and when there are more than MOST_ARCS arcs.
+    """
+    return _Builder(grammar).build()
+
+
+class _Builder:
+    """Works off jobs from a stack, so that no depth of rules can exhaust Python's.
+
+    What was written first is worked off first, which keeps the arcs of a node in that order.
+    """
+
+    def __init__(self, grammar: Grammar) -> None:
+        self._grammar = grammar
+        self._recursive = grammar.recursive_rules
+        for error in analysis.left_recursion(grammar):
+            raise error
+        self._arcs = _Arcs()
+        self._size = 2
+        self._written: dict[tuple[str, int, _Speaking], int] = {}
+        """Where the rules at the end of others begin, by name and context."""
+        self._contexts = 0
+        self._jobs: list[_Job] = []
+
+    def build(self) -> Automaton:
+        rules = self._grammar.public_rules
+        top = self._context((), {})
+        for key in rules:
+            self._jobs = [
+                _Job(
+                    RuleReference(key, self._grammar.rules[key].span),
+                    START,
+                    FINAL,
+                    _Speaking.SPOKEN,
+                    top,
+                    is_last=True,
+                    weight=-math.log(len(rules)),
+                )
+            ]
+            while self._jobs:
+                self._work(self._jobs.pop())
+                if len(self._arcs.sources) + self._contexts > MOST_ARCS:
+                    raise AuthoringError(
+                        self._grammar.rules[key].place(),
+                        f"<{key}> written out takes more than {MOST_ARCS:,} steps",
+                        "use large rules in fewer places, best at the end of other rules",
+                    )
+        written = {key: self._written[key, top.number, _Speaking.SPOKEN] for key in rules}
+        return _trimmed(self._size, self._arcs, written)
+
+    def _context(self, after: Actions, inside: Mapping[str, int]) -> _Context:
+        self._contexts += 1
+        return _Context(self._contexts, after, inside)
+
+    def _new_node(self) -> int:
+        self._size += 1
+        return self._size - 1
+
+    def _work(self, job: _Job) -> None:
+        match job.node:
+            case Token(text=text):
+                if job.speaking is not _Speaking.SILENT:
+                    self._arcs.add(job, job.end, text, job.before + job.after)
+            case Tagged(item=item, entries=entries):
+                self._jobs.append(self._tagged(job, item, entries))
+            case Sequence(items=()):
+                if job.speaking is not _Speaking.SPOKEN:
+                    self._arcs.add(job, job.end, None, job.before + job.after)
+            case RuleReference(name=name):
+                if name in self._grammar.rules:
+                    self._reference(job, name)
+            case Sequence(items=items):
+                self._later(self._sequence(job, items))
+            case Alternative(choices=choices, weights=weights):
+                self._later(
+                    job._replace(node=choice, weight=job.weight + share)
+                    for choice, share in zip(choices, _shares(weights), strict=True)
+                    if share > -math.inf
+                )
+            case Optional(item=item):
+                weight = job.weight + _HALF
+                self._later(job._replace(node=way, weight=weight) for way in (item, _SILENCE))
+            case Repeat(item=item, minimum=minimum):
+                self._later(self._repeat(job, item, minimum))
+
+    def _later(self, jobs: Iterator[_Job]) -> None:
+        self._jobs += reversed(list(jobs))
+
+    def _tagged(self, job: _Job, item: Expression, entries: tuple[TagEntry, ...]) -> _Job:
+        if job.is_last and self._recursive and self._ends_in_recursion(item):
+            return job._replace(node=item, before=(*job.before, Defer(entries)))
+        return job._replace(node=item, is_last=False, after=(Apply(entries), *job.after))
+
+    def _ends_in_recursion(self, node: Expression) -> bool:
+        match node:
+            case RuleReference(name=name):
+                return name in self._recursive
+            case Sequence(items=(*_, last)):
+                return self._ends_in_recursion(last)
+            case Alternative(choices=choices):
+                return any(map(self._ends_in_recursion, choices))
+            case Optional(item=item) | Tagged(item=item):
+                return self._ends_in_recursion(item)
+            case _:
+                return False
+
+    def _reference(self, job: _Job, name: str) -> None:
+        """Let a rule follow: written out here, or jumped to when it ends where this one ends."""
+        body, context = self._grammar.rules[name].expression, job.context
+        is_recursive = name in self._recursive
+        if not job.is_last:
+            inside = context.inside
+            if is_recursive:
+                inside = {**inside, name: inside.get(name, 0) + 1}
+                if inside[name] > NESTED_DEPTH:
+                    return
+            context = self._context((Leave(), *job.after), inside)
+        inner = job._replace(node=body, context=context, is_last=True, after=context.after)
+        enter = (*job.before, Enter(name, job.is_last))
+        if not (job.is_last or is_recursive):
+            self._jobs.append(inner._replace(before=enter))
+            return
+        place = (name, context.number, job.speaking)
+        entry = self._written.get(place)
+        if entry is None:
+            entry = self._written[place] = self._new_node()
+            self._jobs.append(inner._replace(start=entry, before=(), weight=0.0))
+        self._arcs.add(job, entry, None, enter)
+
+    def _sequence(self, job: _Job, items: tuple[Expression, ...]) -> Iterator[_Job]:
+        if job.speaking is not _Speaking.SPOKEN:
+            yield from self._chain(job, items, job.speaking)
+        elif all(analysis.is_silent(item, self._grammar.silent_rules) for item in items):
+            yield from self._spoken_chain(job, items)
+        else:
+            yield from self._chain(job, items, _Speaking.ANY)
+
+    def _chain(
+        self, job: _Job, items: tuple[Expression, ...], speaking: _Speaking
+    ) -> Iterator[_Job]:
+        """One item after the other."""
+        at = job._replace(speaking=speaking)
+        for item in items[:-1]:
+            middle = self._new_node()
+            yield at._replace(node=item, end=middle, is_last=False, after=())
+            at = at._replace(start=middle, before=(), weight=0.0)
+        yield at._replace(node=items[-1])
+
+    def _spoken_chain(self, job: _Job, items: tuple[Expression, ...]) -> Iterator[_Job]:
+        """The same when each item may be silent but not all: two chains, before a word and after.
+
+        The spoken ways through an item lead from the first chain to the second.
+        """
+        silent, spoken = job, None
+        for item in items[:-1]:
+            inner = silent._replace(node=item, is_last=False, after=())
+            before, behind = self._new_node(), self._new_node()
+            yield inner._replace(end=behind)
+            yield inner._replace(end=before, speaking=_Speaking.SILENT)
+            if spoken is not None:
+                yield spoken._replace(node=item, end=behind, is_last=False, after=())
+            silent = job._replace(start=before, before=(), weight=0.0)
+            spoken = silent._replace(start=behind, speaking=_Speaking.ANY)
+        yield silent._replace(node=items[-1])
+        if spoken is not None:
+            yield spoken._replace(node=items[-1])
+
+    def _repeat(self, job: _Job, item: Expression, minimum: int) -> Iterator[_Job]:
+        may_be_silent = job.speaking is not _Speaking.SPOKEN
+        if minimum == 1 and may_be_silent and analysis.is_silent(item, self._grammar.silent_rules):
+            yield job._replace(node=item, speaking=_Speaking.SILENT)
+        if job.speaking is _Speaking.SILENT:
+            if minimum == 0:
+                yield job._replace(node=_SILENCE)
+            return
+        head = self._new_node()
+        needs_one = minimum == 1 or job.speaking is _Speaking.SPOKEN
+        behind = self._new_node() if needs_one else head
+        silence = job._replace(node=_SILENCE, speaking=_Speaking.ANY, is_last=False)
+        yield silence._replace(end=head, after=())
+        inside = silence._replace(start=head, end=behind, before=(), after=(), weight=_HALF)
+        yield inside._replace(node=item, speaking=_Speaking.SPOKEN)
+        if needs_one:
+            yield inside._replace(start=behind, end=head)
+        yield inside._replace(start=behind, end=job.end, after=job.after)
+
+
+def _shares(weights: tuple[float, ...]) -> list[float]:
+    """The logarithms of weights made to add up to one, however large or small they are."""
+    largest = max(weights, default=0.0) or 1.0
+    total = math.log(sum(weight / largest for weight in weights) or 1.0) + math.log(largest)
+    return [math.log(weight) - total if weight > 0.0 else -math.inf for weight in weights]
+
+
+def _trimmed(size: int, arcs: _Arcs, written: Mapping[str, int]) -> Automaton:
+    """The arcs that lie on a way from START to FINAL, sorted, their weights adding up to one."""
+    into: list[list[int]] = [[] for _ in range(size)]
+    out_of: list[list[int]] = [[] for _ in range(size)]
+    for number, (source, target) in enumerate(zip(arcs.sources, arcs.targets, strict=True)):
+        into[target].append(number)
+        out_of[source].append(number)
+    alive = _reached(START, out_of, arcs.targets) & _reached(FINAL, into, arcs.sources)
+    names = {node: number for number, node in enumerate(sorted(alive | {START, FINAL}))}
+    automaton = Automaton(
+        len(names), [0], [], [], [], [], {k: names[n] for k, n in written.items() if n in names}
+    )
+    for node in names:
+        leaving = [number for number in out_of[node] if arcs.targets[number] in alive]
+        total = math.log(sum(math.exp(arcs.weights[number]) for number in leaving) or 1.0)
+        for number in leaving:
+            automaton.targets.append(names[arcs.targets[number]])
+            automaton.words.append(arcs.words[number])
+            automaton.weights.append(min(arcs.weights[number] - total, 0.0))
+            automaton.actions.append(arcs.actions[number])
+        automaton.first.append(len(automaton.targets))
+    return automaton
+
+
+def _reached(node: int, arcs_at: list[list[int]], ends: list[int]) -> set[int]:
+    found, pending = {node}, [node]
+    while pending:
+        for number in arcs_at[pending.pop()]:
+            end = ends[number]
+            if end not in found:
+                found.add(end)
+                pending.append(end)
+    return found

@@ -1,0 +1,80 @@
+"""What `/** */` comments say about a rule: words for people, and marks for the listener.
+
+    /** Toward whoever speaks.
+     *  @careful
+     *  @example come closer
+     */
+    public <come> = come (here | closer);
+
+The marks are ours; `@example`, `@see`, `@author` and `@version` are of JSGF 1.0.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from hri.speech.grammar.expressions import Span
+from hri.speech.grammar.lexemes import Lines
+
+MARKS = MappingProxyType(
+    {
+        "careful": "it moves the robot, so it must be heard without doubt",
+        "answer": "it is only heard while a question is open",
+        "interrupts": "it is heard while the robot speaks, too",
+        "wake": "other rules are heard only after it, and for a while after what was heard last",
+        "part": "commands of other grammars are made with it, it is none itself",
+    }
+)
+"""The marks of a rule and what they mean."""
+
+STANDARD_TAGS = ("example", "see", "author", "version")
+"""Doc tags of JSGF 1.0 that are no marks."""
+
+KNOWN_TAGS = (*MARKS, *STANDARD_TAGS)
+
+_TAG = re.compile(r"(?<![^\s*])@([A-Za-z_]\w*)")
+_STARS = re.compile(r"^[ \t]*\*+", re.MULTILINE)
+
+
+@dataclass(frozen=True, slots=True)
+class DocTag:
+    """`@name text` in a doc comment."""
+
+    name: str
+    text: str
+    """What follows up to the next tag, in one line."""
+    span: Span
+    """Of the "@" and the name."""
+
+
+@dataclass(frozen=True, slots=True)
+class DocComment:
+    """A doc comment: its words in one line, then its tags."""
+
+    text: str = ""
+    tags: tuple[DocTag, ...] = ()
+
+
+NO_DOC = DocComment()
+
+
+def read_doc_comment(comment: str, start: int, lines: Lines) -> DocComment:
+    """The meaning of a comment, from its `/**` to its `*/`, that begins at an offset of a text."""
+    inside = comment.removesuffix("*/")
+    found = list(_TAG.finditer(inside, 3))
+    ends = [*(match.start() for match in found), len(inside)]
+    tags = (
+        DocTag(
+            match[1],
+            _one_line(inside[match.end() : end]),
+            lines.span(start + match.start(), start + match.end()),
+        )
+        for match, end in zip(found, ends[1:], strict=True)
+    )
+    return DocComment(_one_line(inside[3 : ends[0]]), tuple(tags))
+
+
+def _one_line(text: str) -> str:
+    return " ".join(_STARS.sub("", text).split())

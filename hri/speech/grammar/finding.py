@@ -1,0 +1,36 @@
+"""Something about a grammar that its author should know."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from hri.core.errors import Place
+
+Severity = Literal["error", "warning", "hint"]
+SEVERITIES: tuple[Severity, ...] = ("error", "warning", "hint")
+"""Worst first. Errors stop a grammar from being used, warnings cost sentences or bring wrong ones,
+hints cost nothing yet."""
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """What was found, where, and what to do."""
+
+    severity: Severity
+    place: Place
+    what: str
+    remedy: str
+
+    def __str__(self) -> str:
+        return f"{self.place}: {self.severity}: {self.what} - {self.remedy}"
+
+
+def warning(place: Place, what: str, remedy: str) -> Finding:
+    """Something that costs sentences or brings wrong ones."""
+    return Finding("warning", place, what, remedy)
+
+
+def hint(place: Place, what: str, remedy: str) -> Finding:
+    """Something that costs nothing yet."""
+    return Finding("hint", place, what, remedy)

@@ -1,0 +1,305 @@
+"""Reads a grammar file and all it imports, and finds the rule behind every name.
+
+A grammar `com.acme.colors` is looked for as `colors.jsgf` and as `com/acme/colors.jsgf`: beside
+the file that imports it, then in the folders above it as far as its own package goes, then in
+`grammars/` of the folders of HRI_PATH and of the house.
+
+A rule is called by its name alone, by `<colors.red>`, or by `<com.acme.colors.red>`; the last
+needs no import (JSGF 1.0, 3.3). A grammar's own rules hide imported ones of the same name.
+"""
+
+from __future__ import annotations
+
+import codecs
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+
+from hri.core import paths
+from hri.core.errors import AuthoringError, HriError, Place, did_you_mean, read_bytes, read_text
+from hri.speech.grammar import analysis
+from hri.speech.grammar.expressions import RuleReference, Span, rename
+from hri.speech.grammar.jsgf import Document, Import, NameListImport, read_jsgf
+from hri.speech.grammar.name_lists import read_names
+from hri.speech.grammar.rules import Grammar, Rule
+
+MOST_FILES = 100
+"""Files that one grammar may import, directly or not."""
+
+_ENCODING = re.compile(rb"\s*#JSGF[ \t]+V1\.0[ \t]+([\w.:-]+)[^\n;]*;")
+_KNOWN_ENCODINGS = re.compile(
+    r"ascii|utf-(8|16|32).*|iso8859.*|iso2022.*|cp\d+|koi8.*|mac.*|euc.*|shift.*|gb.*|big5.*"
+)
+"""Python's names of encodings of text; others are transformations, and some take for ever."""
+
+
+def load_grammar(path: Path) -> Grammar:
+    """The grammar of a file and of all it imports, ready to be used.
+
+    Raises AuthoringError for the first mistake in it, HriError when it cannot be read.
+    """
+    grammar, errors = read_grammar(path)
+    errors = errors or analysis.errors(grammar)
+    if errors:
+        raise errors[0]
+    return grammar
+
+
+def read_grammar(path: Path) -> tuple[Grammar, list[AuthoringError]]:
+    """The grammar as far as it can be read, and the mistakes in its writing.
+
+    What the rules say is not looked at yet: see `hri.speech.grammar.check`.
+    Raises HriError when the file, or one that it imports, cannot be read at all.
+    """
+    return _Loader().load(path)
+
+
+def read_source(path: Path) -> str:
+    """The text of a grammar file in the encoding its header names, UTF-8 without one.
+
+    Raises HriError when it cannot be read, AuthoringError when it is no text in that encoding.
+    """
+    if not path.is_file():
+        raise HriError(f"{path}: no such grammar file - check the path")
+    raw = read_bytes(path, "grammar")
+    match = _ENCODING.match(raw)
+    encoding = match[1].decode(errors="replace") if match else "utf-8"
+    if raw.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        encoding = "utf-16"
+    remedy = 'save it as UTF-8 and write "#JSGF V1.0 UTF-8 en;"'
+    try:
+        name = codecs.lookup(encoding).name
+        if name in ("utf-8", "ascii"):
+            return read_text(path, "grammar")
+        if _KNOWN_ENCODINGS.fullmatch(name):
+            return raw.decode(encoding)
+        raise LookupError
+    except LookupError as error:
+        raise AuthoringError(Place(path), f'unknown encoding "{encoding}"', remedy) from error
+    except UnicodeError as error:
+        raise AuthoringError(Place(path), f"this is no {encoding} text", remedy) from error
+
+
+@dataclass(frozen=True)
+class _File:
+    """One grammar file and what the names in it mean."""
+
+    document: Document
+    prefix: str
+    """Stands before the names of its rules in their keys; empty for the main file."""
+    own: dict[str, str] = field(default_factory=dict)
+    """Keys of the rules it defines, by name."""
+    imported: dict[str, list[str]] = field(default_factory=dict)
+    """Keys of imported rules by the names this file may call them; two are one too many."""
+    lost: list[str] = field(default_factory=list)
+    """Imported grammars that are missing; any name may be theirs."""
+
+    def place(self, span: Span) -> Place:
+        return Place(self.document.path, span.line, span.column)
+
+    def public_names(self) -> dict[str, str]:
+        """Keys of the rules that others may use, by name."""
+        names = [rule.name for rule in self.document.rules if rule.is_public]
+        return {name: self.prefix + name for name in (*names, *self.document.broken)}
+
+
+class _Loader:
+    """Opens files one after the other, then gives every rule its key and its references keys."""
+
+    def __init__(self) -> None:
+        self._errors: list[AuthoringError] = []
+        self._rules: dict[str, Rule] = {}
+        self._broken: set[str] = set()
+        self._files: dict[Path, _File] = {}
+        self._pending: list[_File] = []
+
+    def load(self, path: Path) -> tuple[Grammar, list[AuthoringError]]:
+        main = self._read(path, prefix="")
+        while self._pending:
+            file = self._pending.pop(0)
+            for use in file.document.imports:
+                self._import(file, use)
+            self._define(file)
+        name = main.document.name.rpartition(".")[2] or path.stem
+        broken = frozenset(self._broken)
+        return Grammar(name, path, self._rules, broken, main.document.locale), self._errors
+
+    def _read(self, path: Path, prefix: str) -> _File:
+        document = read_jsgf(read_source(path), path)
+        self._errors += document.errors
+        file = self._files[path.resolve()] = _File(document, prefix)
+        self._pending.append(file)
+        names = [rule.name for rule in document.rules] + [use.name for use in document.name_lists]
+        file.own.update((name, prefix + name) for name in (*names, *document.broken))
+        self._broken.update(prefix + name for name in document.broken)
+        return file
+
+    def _report(self, file: _File, span: Span, what: str, remedy: str) -> None:
+        self._errors.append(AuthoringError(file.place(span), what, remedy))
+
+    # Other grammars
+
+    def _import(self, file: _File, use: Import) -> None:
+        """Make the rules of an import visible in a file."""
+        other = self._open(file, use.grammar)
+        if other is None:
+            near = did_you_mean(use.grammar, _grammars_near(file), "")
+            where = f"put {use.grammar.rpartition('.')[2]}.jsgf into the same folder"
+            remedy = near if near.startswith("did you mean") else where
+            self._report(file, use.span, f'no grammar "{use.grammar}"', remedy)
+            file.lost.append(use.grammar)
+            return
+        public = other.public_names()
+        if use.rule != "*" and use.rule not in public:
+            self._report(file, use.span, *_not_public(other, use.grammar, use.rule))
+            public[use.rule] = other.prefix + use.rule
+            self._broken.add(public[use.rule])
+        for name in public if use.rule == "*" else [use.rule]:
+            short = use.grammar.rpartition(".")[2]
+            for called in {name, f"{short}.{name}", f"{use.grammar}.{name}"}:
+                keys = file.imported.setdefault(called, [])
+                if public[name] not in keys:
+                    keys.append(public[name])
+
+    def _open(self, file: _File, grammar: str) -> _File | None:
+        """The file of a grammar, read when it is a new one; None when there is none."""
+        path = _find_grammar(file.document, grammar)
+        if path is None:
+            return None
+        known = self._files.get(path.resolve())
+        if known is not None:
+            return known
+        if len(self._files) >= MOST_FILES:
+            what = f"more than {MOST_FILES} grammar files"
+            raise AuthoringError(Place(file.document.path), what, "import fewer")
+        prefix = f"{grammar}."
+        while any(other.prefix == prefix for other in self._files.values()):
+            prefix = f"{prefix[:-1]}'."
+        return self._read(path, prefix)
+
+    # Rules
+
+    def _define(self, file: _File) -> None:
+        document = file.document
+        for use in document.name_lists:
+            self._add(file, use.span, self._list_rule(file, use))
+        resolve = partial(self._resolve, file)
+        for definition in document.rules:
+            rule = Rule(
+                key=file.own[definition.name],
+                expression=rename(definition.expression, resolve),
+                is_public=definition.is_public and not file.prefix,
+                span=definition.span,
+                path=document.path,
+                doc=definition.doc.text,
+                doc_tags=definition.doc.tags,
+            )
+            self._add(file, definition.span, rule)
+
+    def _add(self, file: _File, span: Span, rule: Rule | None) -> None:
+        if rule is None:
+            return
+        first = self._rules.setdefault(rule.key, rule)
+        if first is not rule:
+            name = rule.key.removeprefix(file.prefix)
+            line = first.span.line
+            self._report(
+                file, span, f"<{name}> is already defined in line {line}", "rename one of the two"
+            )
+
+    def _list_rule(self, file: _File, use: NameListImport) -> Rule | None:
+        """The rule of a list of names; None, and its key is broken, when it cannot be read."""
+        key = file.own[use.name]
+        path = next((path for path in _places_of(file.document.path, use.file)), None)
+        if path is None:
+            near = [entry.name for entry in sorted(file.document.path.parent.glob("*.txt"))[:100]]
+            remedy = did_you_mean(use.file, near, "put it beside the grammar")
+            self._report(file, use.span, f'no list of names "{use.file}"', remedy)
+        else:
+            try:
+                names, errors = read_names(path, use.name)
+                self._errors += errors
+                return Rule(key, names, is_public=False, span=use.span, path=path)
+            except AuthoringError as error:
+                self._errors.append(error)
+            except HriError as error:
+                self._report(file, use.span, str(error), "mend the file, or take the import out")
+        self._broken.add(key)
+        return None
+
+    def _resolve(self, file: _File, node: RuleReference) -> RuleReference:
+        """The reference with the key of the rule it means; unknown ones get a key nobody has."""
+        key = self._key(file, node)
+        return node if key == node.name else replace(node, name=key)
+
+    def _key(self, file: _File, node: RuleReference) -> str:
+        name = node.name
+        if name in file.own:
+            return file.own[name]
+        keys = file.imported.get(name) or self._qualified(file, node)
+        if len(keys) > 1:
+            what = f"<{name}> is imported twice"
+            remedy = f"say which: {' or '.join(f'<{key}>' for key in keys)}"
+            self._report(file, node.span, what, remedy)
+        if keys:
+            return keys[0]
+        if file.lost:
+            self._broken.add(file.prefix + name)
+        return file.prefix + name
+
+    def _qualified(self, file: _File, node: RuleReference) -> list[str]:
+        """The keys behind `grammar.rule`: of this file, or of one that was not imported."""
+        grammar, _, name = node.name.rpartition(".")
+        full = file.document.name
+        if grammar in (full, full.rpartition(".")[2]) and name in file.own:
+            return [file.own[name]]
+        if not grammar or grammar in file.lost:
+            return []
+        other = self._open(file, grammar)
+        if other is None:
+            return []
+        public = other.public_names()
+        if name not in public:
+            self._report(file, node.span, *_not_public(other, grammar, name))
+            self._broken.add(other.prefix + name)
+        return [other.prefix + name]
+
+
+def _not_public(other: _File, grammar: str, name: str) -> tuple[str, str]:
+    """What is wrong with the use of a rule, and what to do."""
+    if name in other.own:
+        remedy = f'write "public" before it in {other.document.path.name}'
+        return f'<{name}> of "{grammar}" is not public', remedy
+    return f'"{grammar}" has no public rule <{name}>', did_you_mean(name, other.public_names())
+
+
+def _find_grammar(importer: Document, grammar: str) -> Path | None:
+    """The file of a grammar that another one names."""
+    inside = Path(*grammar.split("."))
+    inside = inside.with_name(f"{inside.name}.jsgf")
+    beside = importer.path.parent / inside.name
+    if beside.is_file():
+        return beside
+    levels = importer.name.count(".") + 1
+    for folder in list(importer.path.resolve().parents)[:levels]:
+        if (folder / inside).is_file():
+            return folder / inside
+    return next(_places_of(importer.path, str(inside)), None)
+
+
+def _places_of(importer: Path, file: str) -> Iterator[Path]:
+    """Where a file is: beside a grammar, or in a search folder, or in `grammars/` there."""
+    folders = (
+        below for folder in paths.search_folders() for below in (folder / "grammars", folder)
+    )
+    for folder in (importer.parent, *folders):
+        if (folder / file).is_file():
+            yield folder / file
+
+
+def _grammars_near(file: _File) -> list[str]:
+    """Names of the grammars that could be meant."""
+    beside = [entry.stem for entry in sorted(file.document.path.parent.glob("*.jsgf"))[:100]]
+    return beside + [Path(name).stem for name in paths.names("grammars")]

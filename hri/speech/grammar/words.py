@@ -1,0 +1,26 @@
+"""The words of a text as they are compared: grammars, lists of names and what is heard alike."""
+
+from __future__ import annotations
+
+import unicodedata
+
+_CURLY = "\N{RIGHT SINGLE QUOTATION MARK}"
+
+
+def normalize(text: str) -> list[str]:
+    """The words of a text: lower case, composed (NFC), without the punctuation around them."""
+    if not text.isascii():
+        text = unicodedata.normalize("NFC", text).replace(_CURLY, "'")
+    return [bare for word in text.lower().split() if (bare := _bare(word))]
+
+
+def _bare(word: str) -> str:
+    if word.isalnum():
+        return word
+    letters = [place for place, sign in enumerate(word) if sign.isalnum() or sign in "_'"]
+    if not letters:
+        return ""
+    end = letters[-1] + 1
+    while end < len(word) and unicodedata.category(word[end]).startswith("M"):
+        end += 1  # Accents and vowel signs belong to the letter before them.
+    return word[letters[0] : end]

@@ -1,0 +1,109 @@
+from __future__ import annotations
+
+import random
+import time
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hri.speech.grammar import load_grammar
+from hri.speech.grammar.expansion import random_sentence
+from hri.speech.grammar.matching import parse
+from hri.speech.grammar.tolerance import LITTLE_WORDS, MOST_COST, nearest
+
+RULES = """
+public <go> = go (forward | back) [<count> meters] | take me to the (kitchen | garden);
+public <stop> = stop [now];
+public <answer> = yes please | not now;
+<count> = one {n=1} | two {n=2} | twenty {n=20} | twenty two {n=22};
+"""
+
+
+@pytest.fixture
+def robot(write):
+    return load_grammar(write(RULES))
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence", "edits", "cost"),
+    [
+        ("go forward", "go forward", "", 0.0),
+        ("um go forward please", "go forward", "+um +please", 0.4),
+        ("go go forward", "go forward", "+go", 0.5),
+        ("go uh go forward", "go forward", "+uh +go", 0.6),
+        ("take me to kitchen", "take me to the kitchen", "-the", 0.4),
+        ("take me the garden", "take me to the garden", "-to", 0.6),
+        ("well take me to garden", "take me to the garden", "+well -the", 0.8),
+        ("Hey, stop now now!", "stop now", "+hey +now", 0.8),
+        ("go forward twenty and two meters", "go forward twenty two meters", "+and", 0.6),
+        ("yes", "yes please", "-please", 0.5),
+    ],
+)
+def test_little_words_come_and_go_at_a_cost(robot, text, sentence, edits, cost):
+    found = nearest(robot, text)
+
+    assert found.parse.text == sentence
+    assert " ".join(map(str, found.edits)) == edits
+    assert found.cost == pytest.approx(cost)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "um",
+        "please",
+        "the the the",
+        "now",
+        "not",
+        "forward",
+        "go",
+        "go forward meters",
+        "go forward home",
+        "take me to",
+        "um uh well hey so okay now then go forward",
+    ],
+)
+def test_words_that_carry_meaning_are_never_forgiven(robot, text):
+    assert nearest(robot, text) is None
+
+
+def test_the_cheapest_edits_win(write):
+    grammar = load_grammar(write("public <a> = show the face;\npublic <b> = show some face;"))
+
+    assert nearest(grammar, "show face").parse.rule == "a"
+
+
+def test_only_the_rules_that_are_asked_for_count(robot):
+    assert nearest(robot, "um stop", rules={"stop"}).parse.rule == "stop"
+    assert nearest(robot, "um stop", rules={"go"}) is None
+
+
+def test_no_answer_no_number_and_no_direction_is_a_little_word(robot):
+    telling = "yes no not never one two ten left right forward back up down stop go off on"
+
+    assert not LITTLE_WORDS.keys() & set(telling.split())
+
+
+@given(st.integers(0, 10**9), st.data())
+@settings(max_examples=100, deadline=None)
+def test_a_hesitation_anywhere_changes_nothing(companion, seed, data):
+    words = random_sentence(companion, random.Random(seed)).split()
+    words.insert(data.draw(st.integers(0, len(words))), "um")
+
+    found = nearest(companion, " ".join(words))
+
+    assert [str(edit) for edit in found.edits] == ["+um"]
+    assert found.parse.tags == parse(companion, found.parse.text).tags
+    assert found.cost <= MOST_COST
+
+
+@given(st.lists(st.sampled_from([*list(LITTLE_WORDS)[::4], "go", "turn", "left"]), max_size=60))
+@settings(max_examples=100, deadline=None)
+def test_any_heap_of_words_is_answered_in_time(companion, words):
+    start = time.process_time()
+    found = nearest(companion, " ".join(words))
+    assert time.process_time() - start < 1.0
+    if found is not None:
+        assert parse(companion, found.parse.text) is not None
