@@ -3,39 +3,67 @@
 from __future__ import annotations
 
 import argparse
+import json
 import sys
+from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 import trio
 
 from hri.core.clock import RealClock
-from hri.core.errors import HriError
-from hri.core.signals import Speech
+from hri.core.errors import LARGEST_FILE, AuthoringError, HriError, did_you_mean
+from hri.core.signals import EmotionState, Prosody, Speech
+from hri.emotion.display import felt_now, load_display
+from hri.emotion.emotions import NAMES
 from hri.hal.drivers.wav_file import write_wav
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
 from hri.speech.synthesizers.espeak import EspeakVoice
+from hri.speech.synthesizers.espeak_library import Setting
 
 PATIENCE = 2.0
 """Seconds beyond the length of the speech after which a speaker is given up."""
+DECIMALS = 4
+"""Of the seconds in JSON."""
+
+HELP = """\
+--phonemes writes one JSON object: "text", "rate" (samples a second), "duration" (seconds),
+"phonemes" (each with the "name" that espeak-ng gives it, "start" and "duration" in seconds, and
+whether it is "stressed"; names that begin with "_" are pauses), "words" and "sentences" (each with
+"text", "position" in characters, "start" and "end" in seconds).
+
+  hri say "Hello there."
+  hri say "I have found it!" --emotion joy --wav found.wav --phonemes found.json
+  echo "One text from a pipe." | hri say -"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("text", help="what to say, in quotes")
-    parser.add_argument("--wav", type=Path, metavar="FILE", help="write it there, play nothing")
-    parser.add_argument("--voice", default="en-us", help="a voice such as en-gb or en-us+f3")
+    parser.formatter_class = argparse.RawDescriptionHelpFormatter
+    parser.epilog = HELP
+    add = parser.add_argument
+    add("text", help='what to say, in quotes; "-" reads it from standard input')
+    add("--voice", default=Setting().voice, help="a voice such as en-gb or en-us+f3 (%(default)s)")
+    add("--rate", type=int, metavar="WPM", help=f"words a minute, 80 to 450 ({Setting().rate})")
+    add("--emotion", metavar="E", help=f"how it sounds: {', '.join(NAMES)}")
+    add("--intensity", type=float, default=1.0, metavar="X", help="of the emotion, 0 to 1")
+    add("--wav", type=Path, metavar="FILE", help="write the sound there, play nothing")
+    add("--phonemes", type=Path, metavar="FILE", help="write the times there as JSON")
 
 
 def run(options: argparse.Namespace) -> int:
+    """Exit status 2 when something of it cannot be done."""
     resources = ResourceManager((), RealClock())
     try:
         speech = _synthesize(resources, options)
+        if options.phonemes is not None:
+            _write(options.phonemes, json.dumps(times_of(speech), indent=1) + "\n")
         if options.wav is not None:
             write_wav(options.wav, speech.samples, speech.rate)
         else:
             trio.run(_play, resources, speech)
-    except HriError as error:
-        print(error, file=sys.stderr)
+    except AuthoringError as error:
+        print(f"hri say: {error.what} - {error.remedy}", file=sys.stderr)
         return 2
     finally:
         resources.close()
@@ -43,11 +71,58 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _synthesize(resources: ResourceManager, options: argparse.Namespace) -> Speech:
+    prosody = prosody_of(options.emotion, options.intensity) if options.emotion else Prosody()
+    text = sys.stdin.read(LARGEST_FILE) if options.text == "-" else options.text
     parameters = {"voice": options.voice}
+    if options.rate is not None:
+        parameters["rate_wpm"] = str(options.rate)
     voice = EspeakVoice(Description("voice", "Hri.EspeakVoice", parameters), resources)
     resources.substitute("voice", voice)
     voice.activate()
-    return voice.synthesize(options.text)
+    return voice.synthesize(text, prosody)
+
+
+def prosody_of(feeling: str, intensity: float) -> Prosody:
+    """How the voice of a robot in a neutral mood shows an emotion ("joy" or "happy"), 0 to 1.
+
+    Raises HriError when there is no such emotion, or the intensity is out of range.
+    """
+    display = load_display()
+    names = {name: name for name in NAMES}
+    emotion = (names | {display.looks[name].words: name for name in NAMES}).get(feeling)
+    if emotion is None:
+        raise HriError(f'no emotion "{feeling}" - {did_you_mean(feeling, NAMES)}')
+    if not 0 <= intensity <= 1:
+        raise HriError(f"the intensity is {intensity:g} - give one from 0 to 1")
+    state = EmotionState(emotion, intensity, 0.0, 0.0, 0.0, {emotion: intensity})
+    return display.prosody(felt_now(state))
+
+
+def times_of(speech: Speech) -> dict[str, Any]:
+    """The speech without its samples, as it is written to JSON; see HELP."""
+    return {
+        "text": speech.text,
+        "rate": speech.rate,
+        "duration": round(speech.duration, DECIMALS),
+        "phonemes": [_rounded(asdict(phoneme)) for phoneme in speech.phonemes],
+        "words": [_rounded(asdict(word)) for word in speech.words],
+        "sentences": [_rounded(asdict(sentence)) for sentence in speech.sentences],
+    }
+
+
+def _rounded(fields: dict[str, Any]) -> dict[str, Any]:
+    return {
+        name: round(value, DECIMALS) if isinstance(value, float) else value
+        for name, value in fields.items()
+    }
+
+
+def _write(path: Path, text: str) -> None:
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise HriError(f"{path}: cannot be written: {reason} - check the folder") from error
 
 
 async def _play(resources: ResourceManager, speech: Speech) -> None:
@@ -61,3 +136,4 @@ async def _play(resources: ResourceManager, speech: Speech) -> None:
     with trio.move_on_after(speech.duration + PATIENCE):
         while speaker.position(now()) is not None:  # noqa: ASYNC110 - it can only be asked
             await trio.sleep(0.02)
+        await trio.sleep(speaker.latency)

@@ -54,6 +54,10 @@ class Rule:
         return min(max(1.0 + float(weights @ felt), self.minimum), self.maximum)
 
 
+STEADY = Rule(0.0, 0.0, 0.0, 1.0, 1.0)
+"""What does not follow the feelings."""
+
+
 @dataclass(frozen=True, slots=True)
 class Display:
     """The whole file: a look for every label, a rule for each thing that follows the feelings."""
@@ -62,6 +66,7 @@ class Display:
     rate: Rule
     pitch: Rule
     volume: Rule
+    range: Rule
     speed: Rule
 
     def expression(self, state: EmotionState, expressiveness: float = 1.0) -> Expression:
@@ -71,8 +76,13 @@ class Display:
         return Expression(look.expression, intensity)
 
     def prosody(self, felt: Vector) -> Prosody:
-        """The voice for pleasure, arousal and dominance."""
-        return Prosody(self.rate.factor(felt), self.pitch.factor(felt), self.volume.factor(felt))
+        """The voice for pleasure, arousal and dominance, each -1 to 1."""
+        return Prosody(
+            rate=self.rate.factor(felt),
+            pitch=self.pitch.factor(felt),
+            volume=self.volume.factor(felt),
+            range=self.range.factor(felt),
+        )
 
 
 def felt_now(state: EmotionState) -> Vector:
@@ -102,6 +112,7 @@ def load_display(path: Path | None = None) -> Display:
         rate=_rule(voice.table("rate")),
         pitch=_rule(voice.table("pitch")),
         volume=_rule(voice.table("volume")),
+        range=_rule(voice.table("range")) if "range" in voice else STEADY,
         speed=_rule(drive.table("speed")),
     )
     for part in (voice, drive, table):

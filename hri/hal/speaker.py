@@ -14,6 +14,10 @@ class Speaker(Resource):
         """Start a sound, in place of one that still plays; returns at once."""
 
     @abstractmethod
+    def extend(self, samples: Samples, now: float) -> None:
+        """More of the sound that was started last; where it ran out meanwhile, it goes on."""
+
+    @abstractmethod
     def position(self, now: float) -> float | None:
         """Seconds of the sound that have been heard; None when nothing plays."""
 

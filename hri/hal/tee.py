@@ -43,6 +43,10 @@ class TeeSpeaker(Speaker):
         self.speaker.play(samples, rate, now)
         self.copy.play(samples, rate, now)
 
+    def extend(self, samples: Samples, now: float) -> None:
+        self.speaker.extend(samples, now)
+        self.copy.extend(samples, now)
+
     def position(self, now: float) -> float | None:
         return self.speaker.position(now)
 

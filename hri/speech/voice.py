@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass
+from enum import IntEnum
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
@@ -12,28 +14,65 @@ from hri.core.signals import Prosody, Speech
 from hri.hal.speaker import Speaker
 from hri.hal.synthesizer import Synthesizer
 
+INTERRUPTED = "speech.interrupted"
+"""The event at which it falls silent: somebody spoke up while it spoke."""
+MOST_QUEUED = 100
+"""Things to say; when there are more, the last of those that matter least is dropped."""
+
+
+class Priority(IntEnum):
+    """What comes first when there are several things to say."""
+
+    NORMAL = 0
+    URGENT = 1
+    """Before all that waits."""
+    ALARM = 2
+    """Cuts what is being said, unless that is an alarm as well."""
+
 
 @dataclass(eq=False)
 class Saying:
     """Something that is to be said, and how far it has come."""
 
     text: str
+    priority: Priority = Priority.NORMAL
     is_done: bool = False
     """True when it was said to its end, or cut."""
     was_cut: bool = False
+    heard: str = ""
+    """The words of it that were heard to their end; known when it is done."""
+
+    def drop(self) -> None:
+        """It is done, and nothing of it was heard."""
+        self.is_done = self.was_cut = True
+
+
+@dataclass
+class _Playing:
+    """What is being said, as far as its sound has been made."""
+
+    saying: Saying
+    speech: Speech
+    is_whole: bool = False
+    position: float = 0.0
+    word: int = -1
+    """Number of the word that was begun last."""
 
 
 class Voice(Behavior):
     """Says one thing after the other, and falls silent at once when it is told to.
 
-    Raises `speech.said` (text) when a sound starts and `speech.finished` (text, cut) when it ends.
+    Raises `speech.said` (text) when a sound starts and `speech.finished` (text, cut, heard) when it
+    ends, `heard` being the words that were said to their end. The sound starts as soon as the
+    first of it is made, and before the next tick.
     """
 
     category = "speech"
 
     prosody = Input[Prosody]("prosody", "how it is said", is_optional=True)
-    speech = Output[Speech]("speech", "what is being said")
+    speech = Output[Speech]("speech", "what is being said, as far as it is made")
     position = Output[float]("double", "seconds of it that have been heard")
+    word = Output[str]("string", "the word that is being said, when it begins")
     is_speaking = Output[bool]("boolean", "whether a sound is going on")
     voice_id = Param("voice", "resource that makes sound of text")
     speaker_id = Param("speaker", "resource that plays it")
@@ -41,84 +80,174 @@ class Voice(Behavior):
 
     def start(self, context: Context) -> None:
         self._events = context.events
+        self._interruption = self._events.subscribe(INTERRUPTED, lambda event: self.hush())
         self._clock = context.clock
         self._synthesizer = context.resources.obtain(self.voice_id, Synthesizer)
         self._speaker = context.resources.obtain(self.speaker_id, Speaker)
         self._worker: Worker[tuple[Saying, Speech]] = context.clock.worker(self.latency_s)
-        self._queue: deque[Saying] = deque()
-        self._playing: tuple[Saying, Speech] | None = None
+        self._made: deque[tuple[Saying, Speech]] = deque()
+        self._failure: Exception | None = None
+        self._prosody = Prosody()
+        self._queue: list[Saying] = []
+        self._making: Saying | None = None
+        self._playing: _Playing | None = None
 
-    def say(self, text: str) -> Saying:
-        """Queue a text; nothing but white space is done at once."""
-        saying = Saying(text, is_done=not text.strip())
-        if not saying.is_done:
-            self._queue.append(saying)
+    def say(self, text: str, priority: Priority = Priority.NORMAL) -> Saying:
+        """Queue a text, behind all that matters as much; blank text is done at once."""
+        saying = Saying(text, priority)
+        if not text.strip():
+            saying.is_done = True
+            return saying
+        waiting = [other.priority >= priority for other in self._queue]
+        self._queue.insert(sum(waiting), saying)
+        if len(self._queue) > MOST_QUEUED:
+            self._queue.pop().drop()
+        current = self._current()
+        if priority == Priority.ALARM and current is not None and current.priority < priority:
+            self.cancel(current)
+        self._make_next()
         return saying
 
     def hush(self) -> None:
         """Forget what is queued and cut what is being said."""
         for saying in self._queue:
-            saying.is_done = saying.was_cut = True
+            saying.drop()
         self._queue.clear()
-        if self._playing is not None:
-            self._speaker.stop(self._clock.now())
-            self._finish(was_cut=True)
+        if (current := self._current()) is not None:
+            self.cancel(current)
 
     def cancel(self, saying: Saying) -> None:
         """Take back one thing: out of the queue, or cut it short; others are still said."""
         if saying.is_done:
             return
-        saying.is_done = saying.was_cut = True
+        if self._playing is not None and self._playing.saying is saying:
+            now = self._clock.now()
+            self._playing.position = self._speaker.position(now) or self._playing.position
+            try:
+                self._speaker.stop(now)
+            finally:
+                self._finish(was_cut=True)
+            return
+        saying.drop()
         if saying in self._queue:
             self._queue.remove(saying)
-        elif self._playing is not None and self._playing[0] is saying:
-            self._speaker.stop(self._clock.now())
-            self._finish(was_cut=True)
 
     @property
     def is_idle(self) -> bool:
         """True when there is nothing to say."""
-        return self._playing is None and not self._queue and not self._worker.is_busy
+        return not self._queue and self._current() is None and not self._worker.is_busy
 
     def compute(self, now: float, dt: float) -> None:
-        if self._playing is not None and self._speaker.position(now) is None:
-            self._finish(was_cut=False)
-        self._take_made(now)
-        if self._queue and self._playing is None and not self._worker.is_busy:
-            self._make(self._queue[0])
-        if self._playing is not None:
-            self.speech.send(self._playing[1])
-            self.position.send(self._speaker.position(now) or 0.0)
-        self.is_speaking.send(self._playing is not None)
+        self._prosody = self.prosody.value or Prosody()
+        self._follow(now)
+        self._take_whole()
+        self._make_next()
+        playing = self._playing
+        if playing is not None:
+            playing.position = self._speaker.position(now) or playing.position
+            self.speech.send(playing.speech)
+            self.position.send(playing.position)
+            self._tell_word(playing)
+        self.is_speaking.send(playing is not None)
 
-    def _take_made(self, now: float) -> None:
-        """Play what has been made; what cannot be made or played counts as cut."""
+    def _current(self) -> Saying | None:
+        """What is being said, else what is being made."""
+        return self._making if self._playing is None else self._playing.saying
+
+    def _make_next(self) -> None:
+        """Have the next thing made, when nothing else is made or said."""
+        if self._playing is not None or self._worker.is_busy or not self._queue:
+            return
+        saying = self._making = self._queue.pop(0)
+        prosody = self.prosody.value or self._prosody
+        take = self._taker(saying)
+
+        def make() -> tuple[Saying, Speech]:
+            stream = self._synthesizer.stream
+            return saying, stream(saying.text, prosody, take, lambda: not saying.is_done)
+
+        self._worker.submit(make)
+
+    def _taker(self, saying: Saying) -> Callable[[Speech], object]:
+        """What takes the parts of a speech in the worker, and has them played in the loop."""
+
+        def take(speech: Speech) -> None:
+            self._made.append((saying, speech))
+            self._clock.soon(self._take_early)
+
+        # In fake time all of it is there at once, when the latency of the worker is over.
+        return (lambda speech: None) if self._clock.is_fake else take
+
+    def _take_early(self) -> None:
+        """Take parts between two ticks; what goes wrong there is told at the next."""
         try:
+            self._take_parts()
+        except Exception as error:
+            self._failure = error
+
+    def _take_parts(self) -> None:
+        while self._made:
+            saying, speech = self._made.popleft()
+            self._hear(saying, speech)
+
+    def _take_whole(self) -> None:
+        """What has been made to its end; what cannot be made or played counts as cut."""
+        try:
+            if (failure := self._failure) is not None:
+                self._failure = None
+                raise failure
+            self._take_parts()
             for saying, speech in self._worker.poll():
-                if not saying.is_done:
-                    self._begin(saying, speech, now)
-                    self._queue.popleft()
+                self._making = None
+                self._hear(saying, speech)
+                if self._playing is not None and self._playing.saying is saying:
+                    self._playing.is_whole = True
         except Exception:
-            if self._queue:
-                failed = self._queue.popleft()
-                failed.is_done = failed.was_cut = True
+            if (current := self._current()) is not None:
+                self.cancel(current)
+            self._making = None
             raise
 
-    def _make(self, saying: Saying) -> None:
-        prosody = self.prosody.value or Prosody()
-        self._worker.submit(lambda: (saying, self._synthesizer.synthesize(saying.text, prosody)))
+    def _hear(self, saying: Saying, speech: Speech) -> None:
+        """Play what there is of a speech now; a part of it may already be playing."""
+        if saying.is_done:
+            return
+        now = self._clock.now()
+        playing = self._playing
+        if playing is None:
+            self._speaker.play(speech.samples, speech.rate, now)
+            self._playing = _Playing(saying, speech)
+            self._events.raise_event("speech.said", text=saying.text)
+        elif len(speech.samples) > len(playing.speech.samples):
+            self._speaker.extend(speech.samples[len(playing.speech.samples) :], now)
+            playing.speech = speech
 
-    def _begin(self, saying: Saying, speech: Speech, now: float) -> None:
-        self._speaker.play(speech.samples, speech.rate, now)
-        self._playing = saying, speech
-        self._events.raise_event("speech.said", text=saying.text)
+    def _follow(self, now: float) -> None:
+        """See whether what is said has been heard to its end."""
+        playing = self._playing
+        if playing is not None and playing.is_whole and self._speaker.position(now) is None:
+            self._finish(was_cut=False)
+
+    def _tell_word(self, playing: _Playing) -> None:
+        words = playing.speech.words
+        begun = playing.word
+        while begun + 1 < len(words) and words[begun + 1].start <= playing.position:
+            begun += 1
+        if begun != playing.word:
+            playing.word = begun
+            self.word.send(words[begun].text)
 
     def _finish(self, was_cut: bool) -> None:
         assert self._playing is not None
-        saying, self._playing = self._playing[0], None
+        playing, self._playing = self._playing, None
+        saying = playing.saying
         saying.is_done, saying.was_cut = True, was_cut
-        self._events.raise_event("speech.finished", text=saying.text, cut=was_cut)
+        saying.heard = playing.speech.heard(playing.position) if was_cut else saying.text
+        self._events.raise_event(
+            "speech.finished", text=saying.text, cut=was_cut, heard=saying.heard
+        )
 
     def stop(self) -> None:
+        self._interruption.cancel()
         self.hush()
         self._worker.close()

@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-import numpy as np
 import trio
 
 from hri.behavior.behavior import Behavior, Context
@@ -21,12 +20,12 @@ from hri.behavior.network import Network
 from hri.behavior.runner import Runner
 from hri.core.clock import FakeClock
 from hri.core.events import EventBus
-from hri.core.signals import Event, Phoneme, Prosody, Speech
+from hri.core.signals import Event
 from hri.hal.drivers.memory import MemoryMicrophone, OffscreenScreen, SilentSpeaker
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
-from hri.hal.synthesizer import PLAIN, Synthesizer
 from hri.robot import Job, Robot
+from hri.speech.synthesizers.silent import SilentVoice
 from hri.task.context import TaskContext
 
 __all__ = [
@@ -39,21 +38,6 @@ __all__ = [
     "live_for",
     "run_for",
 ]
-
-SECONDS_A_LETTER = 0.06
-
-
-class SilentVoice(Synthesizer):
-    """Speech without a sound but with real timing: each letter is a phoneme of 60 ms."""
-
-    rate = 22050
-
-    def synthesize(self, text: str, prosody: Prosody = PLAIN) -> Speech:
-        step = SECONDS_A_LETTER / prosody.rate
-        letters = [letter for letter in text.lower() if letter.isalpha()]
-        phonemes = [Phoneme(letter, i * step, step) for i, letter in enumerate(letters)]
-        silence = np.zeros(round(len(letters) * step * self.rate), np.int16)
-        return Speech(text, silence, self.rate, tuple(phonemes))
 
 
 def context(*devices: Description, seed: int = 0) -> Context:

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hri.core.signals import EmotionState, Expression
-from hri.emotion.display import felt_now, load_display
+from hri.core.signals import EmotionState, Expression, Prosody
+from hri.emotion.display import display_path, felt_now, load_display
 from hri.emotion.emotions import INDEX, PAD
 
 SCHROEDER = (
@@ -29,6 +29,20 @@ def test_the_voice_follows_schroeder() -> None:
     plain = float(rows["volume"]["constant"])
     volume_per_arousal = 100 * float(rows["volume"]["activation"]) / plain
     assert DISPLAY.volume.arousal == pytest.approx(volume_per_arousal)
+    semitones = rows["range"]
+    range_per_arousal = 100 * float(semitones["activation"]) / float(semitones["constant"])
+    assert DISPLAY.range.arousal == pytest.approx(range_per_arousal)
+    for name, rule in (("volume", DISPLAY.volume), ("range", DISPLAY.range)):
+        assert rule.pleasure == float(rows[name]["evaluation"])
+        assert rule.dominance == float(rows[name]["power"])
+
+
+def test_a_file_without_a_range_leaves_the_melody_alone(tmp_path) -> None:
+    lines = display_path().read_text(encoding="utf-8").splitlines(keepends=True)
+    path = tmp_path / "display.toml"
+    path.write_text("".join(line for line in lines if not line.startswith("range")))
+
+    assert load_display(path).prosody(PAD[INDEX["anger"]]).range == 1.0
 
 
 def test_anger_and_sadness_sound_as_published() -> None:
@@ -47,12 +61,14 @@ def test_everything_that_follows_stays_within_limits(p: float, a: float, d: floa
     prosody = DISPLAY.prosody(felt)
     assert 0.75 <= prosody.rate <= 1.25
     assert 0.8 <= prosody.pitch <= 1.2
+    assert 0.7 <= prosody.volume <= 1.3
+    assert 0.5 <= prosody.range <= 1.6
     assert 0.6 <= DISPLAY.speed.factor(felt) <= 1.2
 
 
 def test_nothing_felt_changes_nothing() -> None:
     felt = felt_now(EmotionState("calm", 0.0, 0.0, 0.0, 0.0))
-    assert DISPLAY.prosody(felt).rate == 1.0
+    assert DISPLAY.prosody(felt) == Prosody()
     assert DISPLAY.speed.factor(felt) == 1.0
 
 

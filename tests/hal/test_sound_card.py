@@ -53,8 +53,45 @@ def test_a_sound_is_played_block_by_block_and_cut_by_a_stop(port_audio, open_dri
     assert np.array_equal(pull(speaker, 800), tone(16000, 0.1)[:800])
     assert speaker.position(0.0) == pytest.approx(0.05)
     speaker.stop(0.0)
-    assert not pull(speaker, 800).any()
     assert speaker.position(0.0) is None
+    rest = np.abs(pull(speaker, 800))
+    assert rest[: sound_card.FADE].max() < tone(16000, 0.1).max(), "dies away without a click"
+    assert not rest[sound_card.FADE :].any()
+
+
+def test_a_sound_goes_on_without_a_seam_while_it_is_made(port_audio, open_driver):
+    speaker = open_driver(SoundCardSpeaker, rate=44100)
+    whole = tone(22050, 0.2)
+    speaker.play(whole[:1000], 22050, 0.0)
+    begun = pull(speaker, 1500)
+    speaker.extend(whole[1000:], 0.0)
+
+    heard = np.concatenate([begun, pull(speaker, 7320)])
+
+    expected = tone(44100, 0.2)
+    assert np.abs(heard[500:-500].astype(int) - expected[500:-500]).max() < 0.02 * expected.max()
+    assert speaker.position(0.0) is None
+    speaker.extend(whole, 0.0)
+    assert pull(speaker, 100).any(), "it ran out, and goes on"
+    speaker.stop(0.0)
+    speaker.extend(whole, 0.0)
+    assert not pull(speaker, 5000)[sound_card.FADE :].any(), "what was stopped does not"
+
+
+def test_a_speaker_that_goes_away_keeps_time_in_silence(port_audio, open_driver):
+    speaker = open_driver(SoundCardSpeaker, rate=16000)
+    speaker.play(tone(16000, 1.0), 16000, 5.0)
+    pull(speaker, 1600)
+    speaker._stream.active = False
+
+    assert speaker.position(5.2) == pytest.approx(0.2)
+    speaker.extend(tone(16000, 1.0), 5.5)
+    assert speaker.position(6.9) == pytest.approx(1.9)
+    assert speaker.position(7.1) is None
+    speaker.play(tone(16000, 1.0), 16000, 8.0)
+    assert speaker.position(8.5) == pytest.approx(0.5)
+    assert not pull(speaker, 8000)[sound_card.FADE :].any(), "nothing sounds later"
+    assert speaker.position(9.1) is None
 
 
 def test_what_the_card_hears_is_read_once(port_audio, open_driver):

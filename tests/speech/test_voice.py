@@ -1,19 +1,32 @@
 from __future__ import annotations
 
+import threading
+
+import numpy as np
 import pytest
 import trio
+from hypothesis import settings
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
 from hri.behavior.behavior import Context
 from hri.behavior.ports import OutputPort
+from hri.core.clock import RealClock
 from hri.core.events import EventBus
-from hri.core.signals import Prosody
+from hri.core.signals import Prosody, Speech
+from hri.hal.drivers.memory import SilentSpeaker
+from hri.hal.manager import ResourceManager
+from hri.hal.resource import Description
 from hri.speech.behaviors import Voice
+from hri.speech.synthesizers.silent import SilentVoice
 from hri.speech.tasks import say
+from hri.speech.voice import MOST_QUEUED, Priority, Saying
 from hri.task.context import TaskContext
 
 from .fakes import TICK, Stage
 
 
+@pytest.mark.proves("R01")
 def test_one_thing_is_said_after_the_other():
     stage = Stage(Voice())
     first, second = stage.behavior.say("hello"), stage.behavior.say("you")
@@ -30,9 +43,9 @@ def test_one_thing_is_said_after_the_other():
     assert stage.behavior.is_idle
     assert [(name, properties) for _, name, properties in stage.events] == [
         ("speech.said", {"text": "hello"}),
-        ("speech.finished", {"text": "hello", "cut": False}),
+        ("speech.finished", {"text": "hello", "cut": False, "heard": "hello"}),
         ("speech.said", {"text": "you"}),
-        ("speech.finished", {"text": "you", "cut": False}),
+        ("speech.finished", {"text": "you", "cut": False, "heard": "you"}),
     ]
 
 
@@ -54,7 +67,6 @@ def test_hush_cuts_the_sound_and_empties_the_queue():
 def test_hush_reaches_a_sound_in_the_making():
     stage = Stage(Voice())
     stage.behavior.say("hello")
-    stage.run(TICK)
 
     stage.behavior.hush()
     stage.behavior.say("new")
@@ -115,11 +127,213 @@ def run_task(stage: Stage, seconds: float) -> None:
     trio.run(main)
 
 
+@pytest.mark.proves("R01")
 @pytest.mark.parametrize(("seconds", "was_cut"), [(10.0, False), (0.3, True)])
 def test_the_task_waits_and_its_end_cuts_the_speech(seconds, was_cut):
     stage = Stage(Voice())
 
     run_task(stage, seconds)
 
-    assert stage.events[-1][1:] == ("speech.finished", {"text": "hello", "cut": was_cut})
+    heard = {"text": "hello", "cut": was_cut, "heard": "" if was_cut else "hello"}
+    assert stage.events[-1][1:] == ("speech.finished", heard)
     assert stage.clock.now() == pytest.approx(0.3 if was_cut else 0.65, abs=0.1)
+
+
+def said(stage: Stage) -> list[object]:
+    return [properties["text"] for _, name, properties in stage.events if name == "speech.said"]
+
+
+def test_what_is_urgent_goes_before_all_that_waits():
+    stage = Stage(Voice())
+    for text in ("one", "two", "three"):
+        stage.behavior.say(text)
+    stage.behavior.say("four", Priority.URGENT)
+    stage.behavior.say("five", Priority.URGENT)
+
+    stage.run(3.0)
+
+    assert said(stage) == ["one", "four", "five", "two", "three"]
+
+
+@pytest.mark.proves("T26")
+def test_an_alarm_cuts_what_is_said_but_no_other_alarm():
+    stage = Stage(Voice())
+    long = stage.behavior.say("a long sentence about nothing")
+    stage.behavior.say("later")
+    stage.run(1.0)
+
+    first = stage.behavior.say("fire", Priority.ALARM)
+    second = stage.behavior.say("water", Priority.ALARM)
+    stage.run(3.0)
+
+    assert long.was_cut
+    assert not first.was_cut
+    assert not second.was_cut
+    assert said(stage) == ["a long sentence about nothing", "fire", "water", "later"]
+
+
+@pytest.mark.proves("T26")
+def test_what_was_cut_tells_the_words_that_were_heard():
+    stage = Stage(Voice())
+    speak_silently(stage)
+    saying = stage.behavior.say("go to the kitchen now")  # 2, 4, 7 letters end at 0.12, 0.24, 0.42
+
+    stage.run(0.35)
+    stage.behavior.hush()
+
+    assert saying.heard == "go to"
+    assert stage.events[-1][2] == {"text": saying.text, "cut": True, "heard": "go to"}
+
+
+def test_each_word_is_told_when_it_begins():
+    stage = Stage(Voice())
+    speak_silently(stage)
+    stage.behavior.say("go to it")
+    words = []
+
+    for _ in range(12):
+        stage.run(TICK)
+        words.append(stage.behavior.word.value)
+
+    assert [word for word in words if word] == ["go", "to", "it"]
+
+
+def test_the_queue_is_bounded():
+    stage = Stage(Voice())
+    sayings = [stage.behavior.say("x", Priority.URGENT) for _ in range(MOST_QUEUED + 1)]
+
+    dropped = stage.behavior.say("one too many")
+
+    assert dropped.was_cut
+    assert not any(saying.is_done for saying in sayings)
+
+
+def test_a_voice_that_fails_is_told_once_and_the_next_text_is_said():
+    stage = Stage(Voice())
+    speak_silently(stage)
+    synthesize = stage.behavior._synthesizer.synthesize
+
+    def fail_once(text: str, prosody: Prosody) -> Speech:
+        stage.behavior._synthesizer.synthesize = synthesize
+        raise OSError("no breath")
+
+    stage.behavior._synthesizer.synthesize = fail_once
+    first, second = stage.behavior.say("one"), stage.behavior.say("two")
+    with pytest.raises(OSError, match="no breath"):
+        stage.run(0.2)
+    stage.run(0.5)
+
+    assert first.was_cut
+    assert not second.was_cut
+    assert said(stage) == ["two"]
+    assert stage.behavior.is_idle
+
+
+def speak_silently(stage: Stage) -> None:
+    """Give it a voice that knows the times of its words."""
+    voice = SilentVoice(Description("voice", "Hri.SilentVoice"), stage.resources)
+    voice.activate()
+    stage.behavior._synthesizer = voice
+
+
+class SlowVoice(SilentVoice):
+    """Makes the first half of a sound, and the other when it may."""
+
+    def _open(self) -> None:
+        self.may_go_on = threading.Event()
+
+    def stream(self, text, prosody, take, is_wanted):
+        whole = self.synthesize(text, prosody)
+        half = whole.samples[: len(whole.samples) // 2]
+        take(Speech(text, half, whole.rate, whole.phonemes[: len(text) // 2]))
+        self.may_go_on.wait(10.0)
+        return super().stream(text, prosody, take, is_wanted)
+
+
+class CollectingSpeaker(SilentSpeaker):
+    """Keeps what it was given."""
+
+    def _open(self) -> None:
+        super()._open()
+        self.samples = np.zeros(0, np.int16)
+
+    def play(self, samples, rate, now):
+        super().play(samples, rate, now)
+        self.samples = samples
+
+    def extend(self, samples, now):
+        super().extend(samples, now)
+        self.samples = np.concatenate([self.samples, samples])
+
+
+def test_the_first_of_a_sound_is_played_before_the_last_is_made():
+    clock = RealClock()
+    resources = ResourceManager((), clock)
+    voice = SlowVoice(Description("voice", "Hri.SilentVoice"), resources)
+    speaker = CollectingSpeaker(Description("speaker", "Hri.SilentSpeaker"), resources)
+    for device in (voice, speaker):
+        device.activate()
+        resources.substitute(device.id, device)
+    behavior = Voice()
+    behavior.start(Context(clock, EventBus(clock), resources))
+
+    behavior.say("abcdefgh")
+    assert clock.advance_until(lambda: len(speaker.samples) > 0, 5.0)
+    half = len(speaker.samples)
+    voice.may_go_on.set()
+    # Not a tick has passed yet: what is made finds its way by itself.
+    assert clock.advance_until(lambda: len(speaker.samples) > half, 5.0)
+    behavior.stop()
+
+    assert np.array_equal(speaker.samples, voice.synthesize("abcdefgh").samples)
+
+
+class MouthMachine(RuleBasedStateMachine):
+    """Whatever is asked of a voice in whatever order, each text is said once, or cut."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.stage = Stage(Voice())
+        self.sayings: list[Saying] = []
+
+    @rule(text=st.sampled_from(["a", "abc", "a b c d e", " "]), priority=st.sampled_from(Priority))
+    def say(self, text, priority):
+        self.sayings.append(self.stage.behavior.say(text, priority))
+
+    @rule()
+    def hush(self):
+        self.stage.behavior.hush()
+        assert all(saying.is_done for saying in self.sayings)
+
+    @rule(number=st.integers(0, 20))
+    def cancel(self, number):
+        if number < len(self.sayings):
+            self.stage.behavior.cancel(self.sayings[number])
+            assert self.sayings[number].is_done
+
+    @rule(ticks=st.integers(1, 20))
+    def run(self, ticks):
+        self.stage.run(ticks * TICK)
+
+    @invariant()
+    def sounds_come_one_after_the_other(self):
+        names = self.stage.names()
+        assert names[0::2] == ["speech.said"] * len(names[0::2])
+        assert names[1::2] == ["speech.finished"] * len(names[1::2])
+
+    def teardown(self):
+        self.stage.run(0.3 + 0.7 * len(self.sayings))
+        voice = self.stage.behavior
+        assert voice.is_idle
+        assert not voice.is_speaking.value
+        assert all(saying.is_done for saying in self.sayings)
+        whole = [
+            saying.text for saying in self.sayings if not saying.was_cut and saying.text != " "
+        ]
+        ends = [fields for _, name, fields in self.stage.events if name == "speech.finished"]
+        assert sorted(end["text"] for end in ends if not end["cut"]) == sorted(whole)
+        assert all(end["heard"] == end["text"] for end in ends if not end["cut"])
+
+
+TestMouth = MouthMachine.TestCase
+TestMouth.settings = settings(max_examples=40, stateful_step_count=20, deadline=None)

@@ -11,7 +11,7 @@ from hri.hal.resource import Description
 from hri.speech.pronunciation.letter_to_sound import pronounce
 from hri.speech.recognizers.pocketsphinx import dictionary
 from hri.speech.synthesizers.espeak import EspeakVoice
-from hri.speech.synthesizers.pyttsx3 import Pyttsx3Voice
+from hri.speech.synthesizers.pyttsx3 import Pyttsx3Voice, platform_voices
 
 TEXT = "Hello, I am your robot."
 
@@ -110,3 +110,26 @@ def test_pyttsx3_speaks_one_sentence_after_the_other_in_silence(resources, capfd
     assert first.phonemes == ()
     assert capfd.readouterr().out == ""
     assert not list(Path().glob("*.wav"))
+
+
+def test_a_platform_s_voices_are_listed(monkeypatch):
+    monkeypatch.setattr("hri.speech.synthesizers.pyttsx3.sys.platform", "darwin")
+    try:
+        voices = platform_voices()
+    except HriError as error:
+        pytest.skip(str(error))
+
+    assert all(voice.id and voice.gender in ("male", "female", "") for voice in voices)
+    assert "en-us" in {voice.language for voice in voices}
+
+
+def test_linux_has_no_voices_but_those_of_espeak(monkeypatch):
+    monkeypatch.setattr("hri.speech.synthesizers.pyttsx3.sys.platform", "linux")
+    assert platform_voices() == ()
+
+
+def test_a_platform_without_voices_is_one_line(monkeypatch):
+    monkeypatch.setattr("hri.speech.synthesizers.pyttsx3.sys.platform", "darwin")
+    monkeypatch.setattr("hri.speech.synthesizers.pyttsx3._PROGRAM", Path("no such program.py"))
+    with pytest.raises(HriError, match=r"pyttsx3: .* - use Hri\.EspeakVoice"):
+        platform_voices()

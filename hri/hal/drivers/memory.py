@@ -46,9 +46,15 @@ class SilentSpeaker(Speaker):
     def _open(self) -> None:
         self._begun: float | None = None
         self._duration = 0.0
+        self._rate = 1
 
     def play(self, samples: Samples, rate: int, now: float) -> None:
-        self._begun, self._duration = now, len(samples) / rate
+        self._begun, self._duration, self._rate = now, len(samples) / rate, rate
+
+    def extend(self, samples: Samples, now: float) -> None:
+        if self._begun is not None:
+            self._begun = max(self._begun, now - self._duration)
+            self._duration += len(samples) / self._rate
 
     def position(self, now: float) -> float | None:
         if self._begun is None or now - self._begun >= self._duration:

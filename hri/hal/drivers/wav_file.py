@@ -10,6 +10,7 @@ import numpy as np
 
 from hri.core.errors import HriError
 from hri.core.signals import Samples
+from hri.hal.drivers.channels import CHOICES, OneChannel, channel_of
 from hri.hal.drivers.resampling import resample, resample_blocks
 from hri.hal.microphone import Microphone
 from hri.hal.speaker import Speaker
@@ -22,8 +23,12 @@ TAIL = 1.0
 """Seconds of silence heard after a file, so that its last word is seen to end."""
 
 
-def read_wav(path: Path, wanted: int | None = None) -> tuple[Samples, int]:
+def read_wav(
+    path: Path, wanted: int | None = None, channel: str = CHOICES[0]
+) -> tuple[Samples, int]:
     """The samples of a PCM file as mono int16, and their rate: the file's own, or `wanted`.
+
+    `channel` says what becomes of several: see `hri.hal.drivers.channels`.
 
     Raises HriError when it cannot be read, is empty, no WAV, compressed, or too long.
     """
@@ -35,7 +40,7 @@ def read_wav(path: Path, wanted: int | None = None) -> tuple[Samples, int]:
                     f"{path}: {rate} Hz or its length is out of range - convert it to 16 kHz"
                 )
             # Block by block: the frames of a long file would fill the memory beside its samples.
-            blocks = list(resample_blocks(_mono_blocks(file), rate, wanted or rate))
+            blocks = list(resample_blocks(_mono_blocks(file, channel), rate, wanted or rate))
     except (wave.Error, EOFError, RuntimeError) as error:  # wave seeks wrongly in broken files
         why = str(error) or "it ends too early"
         raise HriError(
@@ -67,12 +72,12 @@ def open_wav(path: Path, rate: int) -> wave.Wave_write:
     return file
 
 
-def _mono_blocks(file: wave.Wave_read) -> Iterator[Samples]:
+def _mono_blocks(file: wave.Wave_read, channel: str) -> Iterator[Samples]:
     channels, width = file.getnchannels(), file.getsampwidth()
+    one_channel = OneChannel(channel)
     while raw := file.readframes(BLOCK):
         whole = len(raw) // (channels * width) * channels * width
-        samples = _as_int16(raw[:whole], width).reshape(-1, channels)
-        yield samples.astype(np.int32).mean(axis=1).astype(np.int16)
+        yield one_channel.take(_as_int16(raw[:whole], width).reshape(-1, channels))
 
 
 def _as_int16(raw: bytes, width: int) -> Samples:
@@ -87,10 +92,11 @@ def _as_int16(raw: bytes, width: int) -> Samples:
 class WavMicrophone(Microphone):
     """Hears a file from the moment it is opened, then silence."""
 
-    parameters = ("file",)
+    parameters = ("file", "channel")
 
     def _open(self) -> None:
-        self._sound, _ = read_wav(Path(self.description.text("file")), self.rate)
+        path = Path(self.description.text("file"))
+        self._sound, _ = read_wav(path, self.rate, channel_of(self.description))
         self._start = self.manager.clock.now()
         self._given = 0
 
@@ -116,12 +122,21 @@ class WavSpeaker(Speaker):
         self._file = open_wav(Path(self.description.text("file")), self.rate)
         self._origin = self.manager.clock.now()
         self._written = 0
-        self._sound: Samples = np.zeros(0, np.int16)
+        self._source, self._source_rate = np.zeros(0, np.int16), self.rate
+        self._sound: Samples = self._source
         self._begun = self._origin
 
     def play(self, samples: Samples, rate: int, now: float) -> None:
         self.stop(now)
+        self._source, self._source_rate = samples, rate
         self._sound, self._begun = resample(samples, rate, self.rate), now
+
+    def extend(self, samples: Samples, now: float) -> None:
+        if len(self._sound):
+            self._begun = max(self._begun, now - len(self._sound) / self.rate)
+            # Made anew as a whole, since a seam would click.
+            self._source = np.concatenate([self._source, samples])
+            self._sound = resample(self._source, self._source_rate, self.rate)
 
     def position(self, now: float) -> float | None:
         elapsed = now - self._begun

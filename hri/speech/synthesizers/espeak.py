@@ -1,12 +1,20 @@
-"""The robot's own voice: espeak-ng, with the time of every phoneme."""
+"""The robot's own voice: espeak-ng, with the time of every phoneme, word and sentence."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+from pathlib import Path
+
 import numpy as np
 
-from hri.core.signals import Phoneme, Prosody, Speech
+from hri.core.errors import did_you_mean
+from hri.core.signals import Prosody, Speech
 from hri.hal.synthesizer import PLAIN, Synthesizer
-from hri.speech.synthesizers.espeak_library import Setting, Sound, load_espeak
+from hri.speech.pronunciation.lexicon import load_lexicon
+from hri.speech.synthesizers.espeak_library import Mark, Setting, load_espeak
+from hri.speech.synthesizers.espeak_marks import timed_speech
+from hri.speech.synthesizers.espeak_text import reading
 
 PLAIN_SETTING = Setting()
 LONGEST_TEXT = 5000
@@ -14,51 +22,90 @@ LONGEST_TEXT = 5000
 
 
 class EspeakVoice(Synthesizer):
-    """Speaks some two hundred times faster than real time; the same text gives the same samples."""
+    """Speaks some two hundred times faster than real time; the same text gives the same samples.
 
-    parameters = ("voice", "rate_wpm", "pitch")
+    An English voice says the words of the user's lexicon, and of the file that `lexicon` names,
+    as they are written there.
+    """
+
+    parameters = ("voice", "rate_wpm", "pitch", "lexicon")
 
     def _open(self) -> None:
         self._library = load_espeak()
         self._plain = Setting(
             voice=self.description.text("voice", PLAIN_SETTING.voice),
-            rate=round(self.description.number("rate_wpm", PLAIN_SETTING.rate)),
-            pitch=round(self.description.number("pitch", PLAIN_SETTING.pitch)),
+            rate=self.description.count("rate_wpm", PLAIN_SETTING.rate, 80, 450),
+            pitch=self.description.count("pitch", PLAIN_SETTING.pitch, 0, 100),
         )
         if not self._library.has_voice(self._plain.voice):
             what = f'espeak-ng has no voice "{self._plain.voice}"'
-            raise self.description.error("voice", what, "write a voice such as en-us or en-us+f3")
+            raise self.description.error("voice", what, self._near(self._plain.voice))
+        own = self.description.text("lexicon")
+        is_english = self._plain.voice.lower().startswith("en")
+        self._lexicon = load_lexicon(*[Path(own)] * bool(own)) if is_english else None
+
+    def _near(self, voice: str) -> str:
+        """The remedy for the name of a voice that is not there."""
+        language, _, variant = voice.partition("+")
+        known = self._library.voices()
+        if self._library.has_voice(language):
+            language, known = variant, self._library.variants()
+        return did_you_mean(language, [voice.id for voice in known], "`hri voices` lists them")
 
     def synthesize(self, text: str, prosody: Prosody = PLAIN) -> Speech:
-        sound = self._library.speak(text[:LONGEST_TEXT], scaled(self._plain, prosody))
-        samples = np.frombuffer(sound.samples, np.int16)
-        duration = len(samples) / self._library.rate
-        return Speech(text, samples, self._library.rate, timed_phonemes(sound, duration))
+        return self.stream(text, prosody, lambda speech: None, lambda: True)
+
+    def stream(
+        self,
+        text: str,
+        prosody: Prosody,
+        take: Callable[[Speech], object],
+        is_wanted: Callable[[], bool],
+    ) -> Speech:
+        read = reading(text[:LONGEST_TEXT], self._lexicon)
+        sound = bytearray()
+        marks: list[Mark] = []
+        handed_over = 0
+
+        def speech() -> Speech:
+            samples = np.frombuffer(bytes(sound), np.int16)
+            return timed_speech(text, read.origins, samples, self._library.rate, marks)
+
+        def hear(block: bytes, begun: list[Mark]) -> bool:
+            nonlocal handed_over
+            sound.extend(block)
+            marks.extend(begun)
+            # Each time twice as much, so that a long text is not copied for every block of it.
+            if len(sound) > 2 * handed_over:
+                handed_over = len(sound)
+                take(speech())
+            return is_wanted()
+
+        setting = scaled(self._plain, prosody)
+        self._library.speak(read.text, setting, hear, has_phonemes=read.has_phonemes)
+        whole = speech()
+        take(whole)
+        return whole
 
     def describe(self) -> str:
         return f"espeak-ng, voice {self._plain.voice}, {self._plain.rate} words a minute"
 
 
 def scaled(plain: Setting, prosody: Prosody) -> Setting:
-    """The setting with the factors of a prosody, within what the library takes."""
+    """The setting with the factors of a prosody, within what the library takes.
+
+    Its pitch is logarithmic, an octave from 50 to 100 (`pitch_adjust_tab` in its wavegen.c); its
+    range counts in hertz, so it has to grow with the pitch to stay the same in semitones.
+    """
+    octaves = math.log2(max(prosody.pitch, 0.01))
     return Setting(
         plain.voice,
         rate=_within(plain.rate * prosody.rate, 80, 450),
-        pitch=_within(plain.pitch * prosody.pitch, 0, 100),
+        pitch=_within(plain.pitch + 50 * octaves, 0, 100),
         volume=_within(plain.volume * prosody.volume, 0, 200),
+        range=_within(plain.range * prosody.range * prosody.pitch, 0, 99),
     )
 
 
 def _within(value: float, low: int, high: int) -> int:
     return round(min(max(value, low), high))
-
-
-def timed_phonemes(sound: Sound, duration: float) -> tuple[Phoneme, ...]:
-    """The phonemes with their durations; each lasts until the next begins, pauses included."""
-    starts = [start for _, start in sound.phonemes]
-    ends = [*starts[1:], duration]
-    return tuple(
-        Phoneme(name.lstrip("',"), start, max(0.0, end - start), name.startswith(("'", ",")))
-        for (name, start), end in zip(sound.phonemes, ends, strict=True)
-        if name.strip("',")
-    )

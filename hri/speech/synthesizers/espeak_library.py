@@ -1,7 +1,7 @@
 """The espeak-ng C library, through ctypes: one text at a time in the whole process.
 
 The library comes inside the `espeakng-loader` wheel; the system's own serves where that is missing.
-Constants and the event structure are those of `speak_lib.h` (espeak-ng 1.51 and 1.52).
+Constants and the structures are those of `speak_lib.h` (espeak-ng 1.51 and 1.52).
 """
 
 from __future__ import annotations
@@ -10,11 +10,12 @@ import _ctypes
 import ctypes
 import ctypes.util
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from enum import IntEnum
 from functools import cache
-from typing import Any
+from typing import Any, Literal
 
 from hri.core.errors import NotAvailable
 
@@ -22,12 +23,24 @@ _SYNCHRONOUS = 2
 _PHONEME_EVENTS = 1
 _NO_EXIT = 0x8000
 _UTF8 = 1
-_EVENT_END = 0
-_EVENT_PHONEME = 7
-_RATE, _VOLUME, _PITCH = 1, 2, 3
+_SPELT_PHONEMES = 0x100
+_RATE, _VOLUME, _PITCH, _RANGE = 1, 2, 3, 4
 _BLOCK_MS = 60
 _LONGEST_NAME = 40
 """Bytes of a voice's name; the library copies it into a small buffer."""
+_MOST_VOICES = 10_000
+
+Gender = Literal["male", "female", ""]
+_GENDERS: dict[int, Gender] = {1: "male", 2: "female"}
+
+
+class Event(IntEnum):
+    """What the library tells of while it speaks."""
+
+    END = 0
+    WORD = 1
+    SENTENCE = 2
+    PHONEME = 7
 
 
 class _Id(ctypes.Union):
@@ -47,6 +60,20 @@ class _Event(ctypes.Structure):
     ]
 
 
+class _Voice(ctypes.Structure):
+    _fields_ = [
+        ("name", ctypes.c_char_p),
+        ("languages", ctypes.c_char_p),
+        ("identifier", ctypes.c_char_p),
+        ("gender", ctypes.c_ubyte),
+        ("age", ctypes.c_ubyte),
+        ("variant", ctypes.c_ubyte),
+        ("unused", ctypes.c_ubyte),
+        ("score", ctypes.c_int),
+        ("spare", ctypes.c_void_p),
+    ]
+
+
 _Callback = ctypes.CFUNCTYPE(
     ctypes.c_int, ctypes.POINTER(ctypes.c_short), ctypes.c_int, ctypes.POINTER(_Event)
 )
@@ -60,27 +87,48 @@ class Setting:
     rate: int = 165
     """Words a minute, 80 to 450."""
     pitch: int = 50
-    """0 to 100."""
+    """0 to 100: from half of the voice's own pitch to double."""
     volume: int = 100
     """Percent, 0 to 200."""
+    range: int = 50
+    """0 to 99: from no melody to twice the voice's own."""
 
 
 @dataclass(frozen=True, slots=True)
-class Sound:
-    """What the library made of a text."""
+class Mark:
+    """Something that begins in the sound."""
 
-    samples: bytes
-    """16 bit, mono."""
-    phonemes: tuple[tuple[str, float], ...]
-    """Mnemonic and start in seconds; `_:` and the like are pauses, the last one ends the text."""
+    kind: Event
+    position: int
+    """Characters of the text before it."""
+    sample: int
+    """Samples of the sound before it."""
+    name: str = ""
+    """Mnemonic of a phoneme; `_:` and the like are pauses, the last one ends the text."""
+
+
+@dataclass(frozen=True, slots=True)
+class VoiceName:
+    """A voice that the library can speak with."""
+
+    id: str
+    """What to ask for: "en-us"; of a variant, what follows the "+": "f3"."""
+    name: str
+    """What people call it: "English (America)"."""
+    gender: Gender
+
+
+Take = Callable[[bytes, list[Mark]], bool]
+"""Gets each block of sound (16 bit, mono) with what begins in it; says whether to go on."""
 
 
 class EspeakLibrary:
     """Speaks; its methods may be called from any thread.
 
-    The library keeps the phase of its vibrato from one sentence to the next, so the same text
-    would sound a little different each time. It is therefore loaded anew for every text, which
-    takes some 5 ms and makes the same text give the same samples.
+    The library keeps the phase of its vibrato from one sentence to the next, and more of a voice
+    than it should when it changes to another, so the same text would be a little different each
+    time. It is therefore loaded anew after every text, which takes some 2 ms that nobody waits
+    for, and before one in another voice: the same text gives the same samples and times.
     """
 
     def __init__(self, path: str, data_path: bytes | None) -> None:
@@ -89,59 +137,121 @@ class EspeakLibrary:
         self._path = path
         self._data_path = data_path
         self._lock = threading.Lock()
-        with self._loaded():
-            pass
+        self._voice: str | None = None
+        self._is_fresh = False
+        self._files: dict[str, str] = {}
+        self._library = self._load()
 
     def has_voice(self, voice: str) -> bool:
         """Whether a voice such as "en-us" or "en-us+f3" is there."""
-        with self._loaded() as library:
-            return bool(library.espeak_SetVoiceByName(voice.encode()[:_LONGEST_NAME]) == 0)
+        # A variant that is not there would be left out without a word.
+        _, plus, variant = voice.partition("+")
+        if plus and variant not in {known.id for known in self.variants()}:
+            return False
+        with self._lock:
+            return self._choose(voice)
 
-    def speak(self, text: str, setting: Setting) -> Sound:
-        """The sound of a text."""
-        blocks: list[bytes] = []
-        phonemes: list[tuple[str, float]] = []
+    def voices(self) -> tuple[VoiceName, ...]:
+        """All voices, by language."""
+        with self._lock:
+            self._is_fresh = False
+            return tuple(voice for _, voice in _voices(self._library, None))
 
-        def take(samples: Any, count: int, events: Any) -> int:
-            if samples and count > 0:
-                blocks.append(ctypes.string_at(samples, count * 2))
-            phonemes.extend(_phonemes(events))
-            return 0
+    def variants(self) -> tuple[VoiceName, ...]:
+        """What can follow the "+" of a voice: other speakers of the same language."""
+        with self._lock:
+            self._is_fresh = False
+            listed = _voices(self._library, _Voice(languages=b"variant"))
+            return tuple(replace(voice, id=file.rpartition("/")[2]) for file, voice in listed)
 
-        callback = _Callback(take)
-        with self._loaded() as library:
+    def speak(self, text: str, setting: Setting, take: Take, *, has_phonemes: bool = False) -> None:
+        """Make the sound of a text, block by block, until `take` wants no more.
+
+        `has_phonemes`: what stands in [[ ]] is mnemonics. Whatever else the text holds must be
+        free of control characters, with which the library takes orders.
+        """
+        failure: list[BaseException] = []
+
+        def block(samples: Any, count: int, events: Any) -> int:
+            try:
+                sound = ctypes.string_at(samples, count * 2) if samples and count > 0 else b""
+                return 0 if take(sound, list(_marks(events))) else 1
+            except BaseException as error:  # must not pass through C
+                failure.append(error)
+                return 1
+
+        callback = _Callback(block)
+        data = text.encode() + b"\0"
+        flags = _UTF8 | (_SPELT_PHONEMES if has_phonemes else 0)
+        with self._fresh(setting.voice) as library:
             library.espeak_SetSynthCallback(callback)
-            library.espeak_SetVoiceByName(setting.voice.encode())
             library.espeak_SetParameter(_RATE, setting.rate, 0)
             library.espeak_SetParameter(_PITCH, setting.pitch, 0)
+            library.espeak_SetParameter(_RANGE, setting.range, 0)
             library.espeak_SetParameter(_VOLUME, setting.volume, 0)
-            data = text.replace("\0", " ").encode() + b"\0"
-            library.espeak_Synth(data, len(data), 0, 1, 0, _UTF8, None, None)
-        return Sound(b"".join(blocks), tuple(phonemes))
+            library.espeak_Synth(data, len(data), 0, 1, 0, flags, None, None)
+        if failure:
+            raise failure[0]
 
     def phonemes_of(self, word: str, voice: str = "en-us") -> list[str]:
         """The mnemonics of a word, stress marks included."""
-        with self._loaded() as library:
-            library.espeak_SetVoiceByName(voice.encode())
-            library.espeak_TextToPhonemes.restype = ctypes.c_char_p
+        with self._lock:
+            self._choose(voice)
+            text_to_phonemes = self._library.espeak_TextToPhonemes
+            text_to_phonemes.restype = ctypes.c_char_p
             rest = ctypes.c_char_p(word.replace("\0", " ").encode())
             # The mode asks for mnemonics with "_" between them.
-            spelt = library.espeak_TextToPhonemes(ctypes.byref(rest), _UTF8, ord("_") << 8)
+            spelt = text_to_phonemes(ctypes.byref(rest), _UTF8, ord("_") << 8)
             return (spelt or b"").decode().replace("_", " ").split()
 
     @contextmanager
-    def _loaded(self) -> Iterator[ctypes.CDLL]:
+    def _fresh(self, voice: str) -> Iterator[ctypes.CDLL]:
+        """The library as if nothing had been said; the next one is made ready afterwards."""
         with self._lock:
-            library = ctypes.CDLL(self._path)
-            options = _PHONEME_EVENTS | _NO_EXIT
-            self.rate = library.espeak_Initialize(_SYNCHRONOUS, _BLOCK_MS, self._data_path, options)
-            if self.rate <= 0:
-                raise NotAvailable("espeak-ng finds no voices - install espeakng-loader anew")
+            if not self._is_fresh or voice != self._voice:
+                self._renew(voice)
             try:
-                yield library
+                yield self._library
             finally:
-                library.espeak_Terminate()
-                _unload(library)
+                self._renew(voice)
+
+    def _renew(self, voice: str) -> None:
+        self._library.espeak_Terminate()
+        _unload(self._library)
+        self._library = self._load()
+        self._voice = None
+        self._choose(voice)
+        self._is_fresh = True
+
+    def _load(self) -> ctypes.CDLL:
+        library = ctypes.CDLL(self._path)
+        options = _PHONEME_EVENTS | _NO_EXIT
+        self.rate = library.espeak_Initialize(_SYNCHRONOUS, _BLOCK_MS, self._data_path, options)
+        if self.rate <= 0:
+            raise NotAvailable("espeak-ng finds no voices - install espeakng-loader anew")
+        return library
+
+    def _choose(self, voice: str) -> bool:
+        """Change to a voice, if there is such a one."""
+        if voice == self._voice:
+            return True
+        self._is_fresh = False
+        name, plus, variant = voice.partition("+")
+        if not self._set(voice):
+            # By name it knows files; some have another name than their language: en-gb is "en".
+            file = self._files_by_language().get(name.lower())
+            if file is None or not self._set(f"{file}{plus}{variant}"):
+                return False
+        self._voice = voice
+        return True
+
+    def _set(self, name: str) -> bool:
+        return bool(self._library.espeak_SetVoiceByName(name.encode()[:_LONGEST_NAME]) == 0)
+
+    def _files_by_language(self) -> dict[str, str]:
+        if not self._files:
+            self._files = {v.id.lower(): file for file, v in _voices(self._library, None)}
+        return self._files
 
 
 def _unload(library: ctypes.CDLL) -> None:
@@ -149,12 +259,32 @@ def _unload(library: ctypes.CDLL) -> None:
     unload(library._handle)
 
 
-def _phonemes(events: Any) -> Iterator[tuple[str, float]]:
+def _marks(events: Any) -> Iterator[Mark]:
     for event in events:
-        if event.type == _EVENT_END:
+        if event.type == Event.END:
             return
-        if event.type == _EVENT_PHONEME:
-            yield event.id.string.decode(errors="replace"), event.audio_position / 1000
+        position = max(event.text_position - 1, 0)
+        if event.type == Event.PHONEME:
+            name = event.id.string.decode(errors="replace")
+            yield Mark(Event.PHONEME, position, event.sample, name)
+        elif event.type in (Event.WORD, Event.SENTENCE):
+            yield Mark(Event(event.type), position, event.sample)
+
+
+def _voices(library: ctypes.CDLL, wanted: _Voice | None) -> Iterator[tuple[str, VoiceName]]:
+    """The file of each voice, and what it is called."""
+    library.espeak_ListVoices.restype = ctypes.POINTER(ctypes.POINTER(_Voice))
+    listed = library.espeak_ListVoices(ctypes.byref(wanted) if wanted else None)
+    for number in range(_MOST_VOICES):
+        if not listed[number]:
+            return
+        voice = listed[number].contents
+        # The first byte of the languages is the voice's rank among those of the first one.
+        language, name, file = (
+            text.decode(errors="replace")
+            for text in (voice.languages[1:], voice.name, voice.identifier)
+        )
+        yield file, VoiceName(language, name, _GENDERS.get(voice.gender, ""))
 
 
 @cache

@@ -1,4 +1,4 @@
-"""The voices of the platform (SAPI5, NSSpeech, espeak) through pyttsx3, one sentence at a time."""
+"""The voices of the platform (SAPI5, NSSpeech, espeak) through pyttsx3, one text at a time."""
 
 from __future__ import annotations
 
@@ -8,15 +8,44 @@ import subprocess
 import sys
 import tempfile
 import threading
+from dataclasses import dataclass
 from pathlib import Path
 
+from hri.core.errors import NotAvailable
 from hri.core.signals import Prosody, Speech
 from hri.hal.drivers.wav_file import read_wav
 from hri.hal.synthesizer import PLAIN, Synthesizer
 
 _PROGRAM = Path(__file__).with_name("pyttsx3_process.py")
 LONGEST_WAIT = 60.0
-"""Seconds until a sentence is given up."""
+"""Seconds until a text is given up."""
+LONGEST_LIST = 5.0
+"""Seconds until a list of voices is given up."""
+REMEDY = "use Hri.EspeakVoice"
+
+
+@dataclass(frozen=True, slots=True)
+class PlatformVoice:
+    """A voice of the operating system."""
+
+    id: str
+    """What to give as the parameter `voice`."""
+    name: str
+    language: str
+    """Such as "en-us"; empty where it is not told."""
+    gender: str
+    """"male", "female", or empty."""
+
+
+def platform_voices() -> tuple[PlatformVoice, ...]:
+    """The voices of Windows or macOS; on Linux pyttsx3 has none but espeak-ng's.
+
+    Raises NotAvailable when they cannot be asked for.
+    """
+    if sys.platform == "linux":
+        return ()
+    lines = _run(["list"], "", LONGEST_LIST).splitlines()
+    return tuple(PlatformVoice(**voice) for voice in json.loads(lines[-1] if lines else "[]"))
 
 
 class Pyttsx3Voice(Synthesizer):
@@ -38,23 +67,30 @@ class Pyttsx3Voice(Synthesizer):
         }
         with self._one, tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "speech.wav"
-            self._run(path, json.dumps(order))
+            try:
+                _run(["save", str(path)], json.dumps(order), LONGEST_WAIT)
+            except NotAvailable as error:
+                raise NotAvailable(f"{self.id}: {error}") from error
+            if not path.is_file():
+                raise self.not_available("pyttsx3: no sound was made", REMEDY)
             samples, rate = read_wav(path)
         return Speech(text, samples, rate)
 
-    def _run(self, path: Path, order: str) -> None:
-        try:
-            done = subprocess.run(
-                [sys.executable, "-P", str(_PROGRAM), str(path)],
-                input=order,
-                text=True,
-                capture_output=True,
-                timeout=LONGEST_WAIT,
-                env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
-            )
-        except subprocess.TimeoutExpired as error:
-            why = f"no speech within {LONGEST_WAIT:g} s"
-            raise self.not_available(why, "use Hri.EspeakVoice") from error
-        if done.returncode != 0 or not path.is_file():
-            last = (done.stderr.strip().splitlines() or ["no sound was made"])[-1]
-            raise self.not_available(f"pyttsx3: {last[:200]}", "use Hri.EspeakVoice")
+
+def _run(arguments: list[str], order: str, patience: float) -> str:
+    """What the process of its own prints. Raises NotAvailable when it fails or hangs."""
+    try:
+        done = subprocess.run(
+            [sys.executable, "-P", str(_PROGRAM), *arguments],
+            input=order,
+            text=True,
+            capture_output=True,
+            timeout=patience,
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+        )
+    except subprocess.TimeoutExpired as error:
+        raise NotAvailable(f"pyttsx3: no answer within {patience:g} s - {REMEDY}") from error
+    if done.returncode != 0:
+        last = (done.stderr.strip().splitlines() or ["it failed"])[-1]
+        raise NotAvailable(f"pyttsx3: {last[:200]} - {REMEDY}")
+    return done.stdout

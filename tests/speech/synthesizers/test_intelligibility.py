@@ -1,0 +1,52 @@
+"""Whatever the robot feels, one must understand what it says."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hri.core.clock import FakeClock
+from hri.core.signals import EmotionState
+from hri.emotion.display import felt_now, load_display
+from hri.hal.drivers.resampling import resample
+from hri.hal.manager import ResourceManager
+from hri.hal.recognizer import Segment
+from hri.hal.resource import Description
+from hri.speech.grammar import load_grammar
+from hri.speech.recognizers.pocketsphinx import PocketSphinxRecognizer
+from hri.speech.synthesizers.espeak import EspeakVoice
+from tests.speech.conftest import HOUSE
+
+COMMANDS = ("go forward ten meters", "turn right", "show me a happy face", "what is your name")
+QUIET = np.zeros(4800, np.int16)
+
+
+@pytest.fixture(scope="module")
+def ears():
+    resources = ResourceManager((), FakeClock())
+    recognizer = PocketSphinxRecognizer(Description("ears", "Hri.PocketSphinx"), resources)
+    recognizer.activate()
+    recognizer.start(load_grammar(HOUSE / "grammars" / "companion.jsgf"))
+    yield recognizer
+    recognizer.deactivate()
+
+
+@pytest.fixture(scope="module")
+def voice():
+    speaker = EspeakVoice(Description("voice", "Hri.EspeakVoice"), ResourceManager((), FakeClock()))
+    speaker.activate()
+    return speaker
+
+
+@pytest.mark.parametrize("name", ["joy", "sadness", "anger", "fear", "surprise"])
+def test_what_is_said_with_an_emotion_is_recognised(voice, ears, name):
+    state = EmotionState(name, 1.0, 0.0, 0.0, 0.0, {name: 1.0})
+    prosody = load_display().prosody(felt_now(state))
+    heard = []
+    for command in COMMANDS:
+        speech = voice.synthesize(command, prosody)
+        sound = 0.4 * resample(speech.samples, speech.rate, ears.rate)
+        samples = np.concatenate([QUIET, sound.astype(np.int16), QUIET])
+        heard.append(ears.decode(Segment(0.0, len(samples) / ears.rate, samples)).text)
+
+    assert heard == list(COMMANDS)

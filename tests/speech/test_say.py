@@ -1,0 +1,87 @@
+from __future__ import annotations
+
+import io
+import json
+import wave
+
+import pytest
+
+from hri.cli.main import main
+
+
+def seconds(path):
+    with wave.open(str(path)) as file:
+        return file.getnframes() / file.getframerate()
+
+
+def test_the_times_are_written_as_json(tmp_path):
+    wav, path = tmp_path / "a.wav", tmp_path / "a.json"
+
+    assert main(["say", "Hello you. Come in!", "--wav", str(wav), "--phonemes", str(path)]) == 0
+
+    times = json.loads(path.read_text())
+    assert list(times) == ["text", "rate", "duration", "phonemes", "words", "sentences"]
+    assert times["duration"] == pytest.approx(seconds(wav), abs=1e-3)
+    assert set(times["phonemes"][0]) == {"name", "start", "duration", "stressed"}
+    assert [word["text"] for word in times["words"]] == ["Hello", "you.", "Come", "in!"]
+    assert [sentence["text"] for sentence in times["sentences"]] == ["Hello you.", "Come in!"]
+    last = times["phonemes"][-1]
+    assert last["start"] + last["duration"] == pytest.approx(times["duration"], abs=1e-3)
+
+
+def test_rate_and_emotion_change_how_it_sounds(tmp_path):
+    lengths = {}
+    for name, options in {
+        "plain": [],
+        "fast": ["--rate", "300"],
+        "sad": ["--emotion", "sadness"],
+        "little": ["--emotion", "sadness", "--intensity", "0.1"],
+    }.items():
+        path = tmp_path / f"{name}.wav"
+        assert main(["say", "I have found the red ball.", "--wav", str(path), *options]) == 0
+        lengths[name] = seconds(path)
+
+    assert lengths["fast"] < 0.7 * lengths["plain"]
+    assert lengths["plain"] < lengths["little"] < lengths["sad"]
+
+
+def test_a_text_comes_from_standard_input(tmp_path, monkeypatch):
+    monkeypatch.setattr("sys.stdin", io.StringIO("Hello there, you.\n"))
+
+    assert main(["say", "-", "--wav", str(tmp_path / "a.wav")]) == 0
+    assert seconds(tmp_path / "a.wav") > 0.6
+
+
+@pytest.mark.parametrize(
+    ("options", "remedy"),
+    [
+        (["--emotion", "joyy"], 'no emotion "joyy" - did you mean "joy"?'),
+        (["--emotion", "joy", "--intensity", "2"], "give one from 0 to 1"),
+        (["--voice", "en-us+f33"], 'no voice "en-us+f33" - did you mean "f3"?'),
+        (["--rate", "9"], "write a whole number from 80 to 450"),
+        (["--phonemes", "/no/such/place.json"], "cannot be written"),
+    ],
+)
+def test_a_mistake_is_one_line(tmp_path, capsys, options, remedy):
+    assert main(["say", "hello", "--wav", str(tmp_path / "a.wav"), *options]) == 2
+    told = capsys.readouterr().err
+    assert remedy in told
+    assert len(told.splitlines()) == 1
+
+
+def test_voices_are_listed_by_language(capsys):
+    assert main(["voices", "--language", "en", "--json"]) == 0
+
+    voices = json.loads(capsys.readouterr().out)
+    found = {voice["voice"]: voice for voice in voices}
+    assert found["en-us"]["name"] == "English (America)"
+    assert found["en-us"]["driver"] == "Hri.EspeakVoice"
+    assert "+f3" in found
+    assert "de" not in found
+    assert main(["voices"]) == 0
+    assert "German" in capsys.readouterr().out
+
+
+def test_a_language_nobody_speaks_is_told(capsys):
+    assert main(["voices", "--language", "klingon-x"]) == 2
+    assert 'no voice speaks "klingon-x"' in capsys.readouterr().err
