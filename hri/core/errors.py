@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
@@ -39,6 +39,17 @@ class AuthoringError(HriError):
         self.place = place
         self.what = what
         self.remedy = remedy
+
+
+class AuthoringErrors(AuthoringError):
+    """Several mistakes, a line each; place, what and remedy are those of the first."""
+
+    def __init__(self, errors: Sequence[AuthoringError]) -> None:
+        super().__init__(errors[0].place, errors[0].what, errors[0].remedy)
+        self.errors = tuple(errors)
+
+    def __str__(self) -> str:
+        return "\n".join(map(str, self.errors))
 
 
 def did_you_mean(word: str, known: Iterable[str], otherwise: str = "") -> str:

@@ -38,7 +38,7 @@ def find(kind: str, name: str) -> Path:
 
     The suffix of the kind may be left out. A path to something that exists is taken as it is. Else
     the first search folder that has `kind/name` (or `name` itself, for folders laid out like
-    `config/`) wins.
+    `config/`) wins, and last the folder that the program was started in.
     Raises HriError when there is none.
     """
     try:
@@ -53,6 +53,9 @@ def find(kind: str, name: str) -> Path:
         for candidate in (below / name for below in (folder / kind, folder) for name in spellings):
             if candidate.exists() and candidate != folder:
                 return candidate
+    beside = Path(name + SUFFIXES.get(kind, ".toml")).expanduser()
+    if beside.is_file():
+        return beside
     if name.startswith((".", os.sep, "~")):
         raise HriError(f"{name}: no such file or folder - check the path")
     raise HriError(f'no "{name}" in {kind} - {_meant(kind, name)}')
@@ -61,7 +64,7 @@ def find(kind: str, name: str) -> Path:
 def _meant(kind: str, name: str) -> str:
     """The remedy for a name that is not found: one like it, also in a folder of its kind."""
     suffix = SUFFIXES.get(kind, ".toml")
-    known = {Path(found).stem: Path(found).stem for found in names(kind)}
+    known = {Path(n).stem: Path(n).stem for n in names(kind) if Path(n).suffix in ("", suffix)}
     for below in [found for found in names(kind) if not Path(found).suffix]:
         for found in names(f"{kind}/{below}"):
             if found.endswith(suffix):

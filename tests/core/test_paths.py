@@ -29,6 +29,17 @@ def test_a_missing_thing_may_be_in_a_folder_of_its_kind(name):
         paths.find("config", name)
 
 
+def test_only_files_of_its_kind_are_offered(tmp_path, monkeypatch):
+    (tmp_path / "grammars").mkdir()
+    for name in ("lamp.jsgf", "lamp_test.txt", "words.txt"):
+        (tmp_path / "grammars" / name).write_text("")
+    monkeypatch.setenv("HRI_PATH", str(tmp_path))
+    with pytest.raises(HriError, match=r"known are: .*lamp, ") as error:
+        paths.find("grammars", "zzzzzz")
+    assert "words" not in str(error.value)
+    assert "lamp_test" not in str(error.value)
+
+
 def test_names_of_2003_are_aliases():
     assert registry.canonical("Evolution.LinuxCamera") == "Hri.Webcam"
     assert registry.canonical("Evolution.Constant") == "Hri.Constant"
@@ -51,3 +62,14 @@ def test_an_unknown_type_is_named_with_what_was_meant():
 def test_did_you_mean_lists_when_nothing_is_near():
     assert did_you_mean("zzz", ["a", "b"]) == "known are: a, b"
     assert did_you_mean("x", []) == "none is known here"
+
+
+def test_the_folder_one_works_in_comes_last(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("lamp.jsgf", "companion.jsgf"):
+        (tmp_path / name).write_text("")
+
+    assert paths.find("grammars", "lamp").resolve() == tmp_path / "lamp.jsgf"
+    assert paths.find("grammars", "companion").parent == paths.house() / "grammars"
+    with pytest.raises(HriError, match='no "lamp" in faces'):
+        paths.find("faces", "lamp")

@@ -34,6 +34,8 @@ into the network."""
 STRICTNESSES = tuple(step / 20 for step in range(2, 20))
 """Tried: 0.1 to 0.95."""
 SHOWN = STRICTNESSES[::2]
+FEWEST = 20
+"""Sentences of each kind; by fewer, one that is lost or accepted by chance moves the result."""
 MOST_SPOKEN = 40
 """Sentences of the grammar that are spoken in every voice."""
 FOREIGN_SHARE = 0.02
@@ -132,7 +134,10 @@ def _show(scores: list[Score], best: Score, heard: list[Attempt]) -> None:
             )
     print(f"\nright and accepted: {told(best.right, best.commands)}")
     print(f"other talk accepted: {told(best.foreign_accepted, best.foreign)}")
-    print("(in brackets: where the true share is, with 95 % certainty)\n")
+    print("(in brackets: where the true share is, with 95 % certainty)")
+    if min(best.commands, best.foreign) < FEWEST:
+        print(f"these are too few to rely on: try {FEWEST} commands and {FEWEST} others, or more")
+    print()
     print("In the network, among the parameters of Hri.Recognizer:")
     print(f'  <Parameter name="strictness" value="{best.strictness:g}"/>')
 

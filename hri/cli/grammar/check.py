@@ -20,6 +20,7 @@ from hri.speech.pronunciation.lexicon import Lexicon, load_lexicon
 EXAMPLES = """\
 examples:
   hri grammar check companion            errors, warnings and hints, each with its place
+  hri grammar check my.jsgf --all        commands of one word as well, which may be meant
   hri grammar check my.jsgf --strict     warnings count as errors: for a build
   hri grammar check my.jsgf --json       for other programs
 
@@ -34,7 +35,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help=FILE_HELP)
     parser.add_argument("--strict", action="store_true", help="fail for warnings, too")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
-    parser.add_argument("--all", action="store_true", help=f"more than {MOST_SHOWN} errors")
+    parser.add_argument(
+        "--all", action="store_true", help=f"more than {MOST_SHOWN} errors, and notes, too"
+    )
 
 
 def run(options: argparse.Namespace) -> int:
@@ -44,7 +47,7 @@ def run(options: argparse.Namespace) -> int:
     if options.json:
         print(json.dumps(_as_json(grammar, findings), indent=2))
     else:
-        _show(grammar, findings, len(findings) if options.all else MOST_SHOWN)
+        _show(grammar, findings, options.all)
     severities = {finding.severity for finding in findings}
     if "error" in severities:
         return 2
@@ -78,8 +81,9 @@ def _as_json(grammar: Grammar, findings: list[Finding]) -> dict[str, object]:
     }
 
 
-def _show(grammar: Grammar, findings: list[Finding], most_errors: int) -> None:
+def _show(grammar: Grammar, findings: list[Finding], is_all: bool) -> None:
     excerpts = Excerpts()
+    most_errors = len(findings) if is_all else MOST_SHOWN
     errors = [finding for finding in findings if finding.severity == "error"]
     others = [finding for finding in findings if finding.severity != "error"]
     for finding in errors[:most_errors]:
@@ -88,9 +92,12 @@ def _show(grammar: Grammar, findings: list[Finding], most_errors: int) -> None:
         more = len(errors) - most_errors
         print(f"{grammar.path}: {more} more errors - mend these, or see --all", file=sys.stderr)
     for finding in others:
-        _print(finding, excerpts, sys.stdout)
+        if is_all or finding.severity != "note":
+            _print(finding, excerpts, sys.stdout)
     if not errors:
-        print(f"{grammar.path}: fine, {_summary(grammar, others)}")
+        is_less = not is_all and any(finding.severity == "note" for finding in others)
+        summary = _summary(grammar, others) + (" (see --all)" if is_less else "")
+        print(f"{grammar.path}: fine, {summary}")
 
 
 def _print(finding: Finding, excerpts: Excerpts, stream: TextIO) -> None:

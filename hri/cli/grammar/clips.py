@@ -23,7 +23,7 @@ import numpy as np
 from hri.core.clock import RealClock
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean, read_text
 from hri.core.signals import Samples
-from hri.hal.drivers.audio_file import load_sound
+from hri.hal.drivers.wav_file import load_sound
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
 from hri.speech.grammar import Grammar
@@ -57,7 +57,8 @@ class Row:
 def read_manifest(path: Path, grammar: Grammar) -> list[Row]:
     """The lines of a manifest.
 
-    Raises AuthoringError for a line that cannot be read, or whose sentence the grammar refuses.
+    Raises AuthoringError for a line that cannot be read, or whose sentence the grammar refuses, and
+    where there is none.
     """
     rows: list[Row] = []
     for number, line in enumerate(read_text(path, "manifest").splitlines(), start=1):
@@ -65,6 +66,8 @@ def read_manifest(path: Path, grammar: Grammar) -> list[Row]:
         is_heading = not rows and columns[0] == "file"
         if columns != [""] and not line.startswith("#") and not is_heading:
             rows.append(_row(columns, Place(path, number), grammar))
+    if not rows:
+        raise AuthoringError(Place(path), "no recording in this manifest", "write one a line")
     return rows
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import random
 from collections.abc import Iterator
+from functools import partial
 
 from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.arguments import count
@@ -19,6 +20,7 @@ from hri.speech.grammar.expansion import (
 )
 from hri.speech.grammar.expectations import meaning_of
 from hri.speech.grammar.matching import parse
+from hri.speech.grammar.tags import spell_tags
 
 EXAMPLES = """\
 examples:
@@ -53,8 +55,10 @@ def run(options: argparse.Namespace) -> int:
         print(_count(grammar, rules))
         return 0
     said = _drawn(grammar, rules, options) if options.random is not None else None
+    is_part = options.rule is not None and rules[0] not in grammar.public_rules
+    tell = partial(_with_tags, grammar.alone(rules[0])) if is_part else partial(_expected, grammar)
     for sentence in said or sentences(grammar, rules, options.n):
-        print(_with_meaning(grammar, sentence) if options.tags else sentence)
+        print(tell(sentence) if options.tags else sentence)
     return 0
 
 
@@ -89,7 +93,13 @@ def _count(grammar: Grammar, rules: tuple[str, ...]) -> str:
     return f"{different:,} sentences, {ways:,} ways to say them"
 
 
-def _with_meaning(grammar: Grammar, sentence: str) -> str:
+def _with_tags(part: Grammar, sentence: str) -> str:
+    """What a rule says that is no command of its own."""
+    found = parse(part, sentence)
+    return sentence if found is None else f"{sentence} {{{spell_tags(found.tags)}}}"
+
+
+def _expected(grammar: Grammar, sentence: str) -> str:
     """As a line of a file of expectations, fit for `hri grammar test`."""
     found = parse(grammar, sentence)
     return sentence if found is None else f"+ {sentence} => {meaning_of(found)}"

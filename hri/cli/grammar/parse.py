@@ -42,7 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=legible,
         metavar="TEXT",
         nargs="+",
-        help='sentences, each in quotes; "-" reads lines',
+        help='sentences, each in quotes (words without any are one); "-" reads lines',
     )
     parser.add_argument(
         "--tolerant",
@@ -72,6 +72,8 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _sentences(texts: list[str]) -> Iterator[str]:
+    if "-" not in texts and all(len(text.split()) == 1 for text in texts):
+        texts = [" ".join(texts)]
     for text in texts:
         if text == "-":
             yield from _lines()

@@ -28,7 +28,13 @@ voice uses and which may be left out."""
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("words", type=legible, nargs="+", metavar="WORD")
-    parser.add_argument("--add", metavar="PHONES", help="write these into your lexicon")
+    parser.add_argument(
+        "--add",
+        action="append",
+        metavar="PHONES",
+        help="write these into your lexicon, in place of what it says of the word; more than once "
+        "for a word that is said in several ways",
+    )
     parser.add_argument("--say", action="store_true", help="speak the words")
     parser.add_argument("--json", action="store_true", help="print one JSON object a word")
 
@@ -48,11 +54,14 @@ def run(options: argparse.Namespace) -> int:
     return _say(words) or status if options.say else status
 
 
-def _add(words: list[str], phones: str) -> None:
+def _add(words: list[str], spelt: list[str]) -> None:
     if len(words) != 1:
-        raise HriError("--add is for one word - leave the others out")
+        each = " and ".join(f'"{word}"' for word in words)
+        raise HriError(f"--add is for one word - add {each} one by one")
     path = user_lexicon()
-    add_to_lexicon(path, words[0], read_phones(phones))
+    before = add_to_lexicon(path, words[0], *map(read_phones, spelt))
+    for phones in before:
+        print(f"no longer {' '.join(phones)}")
     print(f'added to {path} - to undo it, take the line of "{words[0]}" out')
 
 

@@ -9,6 +9,7 @@ from itertools import islice
 from typing import TYPE_CHECKING, TypeVar
 
 from hri.core.errors import AuthoringError, Place, did_you_mean
+from hri.speech.grammar import offers
 from hri.speech.grammar.expressions import (
     Alternative,
     Expression,
@@ -227,22 +228,46 @@ def errors(grammar: Grammar) -> list[AuthoringError]:
     """
     found = [*_undefined(grammar), *islice(left_recursion(grammar), MOST_CIRCLES)]
     if not found and not grammar.broken:
-        found = [*_without_public(grammar), *_never_said(grammar)] or [*_without_words(grammar)]
+        found = [*_without_public(grammar), *_never_said(grammar), *_never_set(grammar)]
+        found = found or [*_without_words(grammar)]
     return sorted(found, key=lambda error: (error.place.line, error.place.column))
 
 
 def _undefined(grammar: Grammar) -> Iterator[AuthoringError]:
     told: set[str] = set()
+    offered: Mapping[str, str] | None = None
     for rule in grammar.rules.values():
         for node in rule.references:
             known = node.name in grammar.rules or node.name in grammar.broken
             if not known and node.name not in told:
                 told.add(node.name)
+                offered = offers.offers() if offered is None else offered
                 what = f"no rule <{node.name}>"
-                remedy = did_you_mean(node.name, grammar.rules, f"write <{node.name}> = words;")
+                remedy = f"write import <{offered.get(node.name)}>; for the one of that grammar"
+                if node.name not in offered:
+                    remedy = did_you_mean(node.name, grammar.rules, f"write <{node.name}> = words;")
                 yield AuthoringError(rule.place(node.span), what, remedy)
                 if len(told) >= MOST_TOLD:
                     return
+
+
+def _never_set(grammar: Grammar) -> Iterator[AuthoringError]:
+    """Values that are taken from tags which nothing sets, one error for each name."""
+    tagged = [
+        (rule, node)
+        for rule in grammar.rules.values()
+        for node in rule.nodes
+        if isinstance(node, Tagged)
+    ]
+    known = {entry.name for _, node in tagged for entry in node.entries}
+    for rule, node in tagged:
+        for entry in node.entries:
+            for name in entry.takes:
+                if name not in known:
+                    known.add(name)
+                    what = f"no tag has the name ${name} that {entry.name} takes its value from"
+                    remedy = did_you_mean(name, known - {name}, f"set it before: {{{name}=...}}")
+                    yield AuthoringError(rule.place(node.span), what, remedy)
 
 
 def _never_said(grammar: Grammar) -> Iterator[AuthoringError]:

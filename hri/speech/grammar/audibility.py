@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from hri.core.errors import HriError, NotAvailable, Place
+from hri.speech.grammar import analysis
 from hri.speech.grammar.expressions import Token
-from hri.speech.grammar.finding import Finding, hint, warning
+from hri.speech.grammar.finding import Finding, hint, note, warning
+from hri.speech.grammar.numerals import in_words
 from hri.speech.grammar.phrases import Phrases, Words
 from hri.speech.grammar.rules import Grammar
 from hri.speech.pronunciation import spelling
@@ -17,7 +20,7 @@ FEWEST_PHONES = 4
 MOST_UNKNOWN = 20
 """Words that are told one by one."""
 MOST_SHORT = 5
-"""Short commands that are told one by one."""
+"""Short commands that are told one by one, and longer ones of one word."""
 EXPECTED_SHORT = frozenset(("answer", "wake", "part"))
 """Marks of rules that may be short: heard in few moments, guards of the rest, or no commands."""
 
@@ -37,21 +40,33 @@ def heard_badly(grammar: Grammar, said: Mapping[str, Phrases], lexicon: Lexicon)
         findings.append(hint(places[unknown[MOST_UNKNOWN]], what, remedy))
     # Those words are not guessed, which could take seconds for a list of names.
     phones = {word: min(map(len, variants)) for word, variants in known.items()}
-    short = list(_short_commands(grammar, said, phones, places))
-    for words, place in short[:MOST_SHORT]:
-        what = f'"{" ".join(words)}" is very short and will be heard in other talk'
-        remedy = "add a longer way to say it, or mark the rule @answer if it answers"
-        findings.append(warning(place, what, remedy))
-    if len(short) > MOST_SHORT:
-        what = f"{len(short) - MOST_SHORT} more commands are as short"
-        findings.append(warning(short[MOST_SHORT][1], what, "do the same with them"))
-    return findings
+    short: list[Finding] = []
+    single: list[Finding] = []
+    remedy = "add a longer way to say it, or mark the rule @answer if it answers"
+    for words, place in _commands(grammar, said, places):
+        if sum(phones.get(word, FEWEST_PHONES) for word in words) < FEWEST_PHONES:
+            what = f'"{" ".join(words)}" is very short and will be heard in other talk'
+            short.append(warning(place, what, remedy))
+        elif len(words) == 1:
+            what = f'"{words[0]}" is one word and easily heard in other talk'
+            single.append(note(place, what, remedy))
+    return [*findings, *_first(short), *_first(single)]
+
+
+def _first(findings: list[Finding]) -> list[Finding]:
+    """At most MOST_SHORT, then how many more there are."""
+    if len(findings) <= MOST_SHORT:
+        return findings
+    what = f"{len(findings) - MOST_SHORT} more commands are as short"
+    rest = replace(findings[MOST_SHORT], what=what, remedy="do the same with them")
+    return [*findings[:MOST_SHORT], rest]
 
 
 def _places(grammar: Grammar) -> dict[str, Place]:
-    """Every word of the grammar and where it is first written."""
+    """Every word that can be heard and where it is first written."""
     places: dict[str, Place] = {}
-    for rule in grammar.rules.values():
+    heard = set(analysis.reachable(grammar.rules, grammar.public_rules))
+    for rule in (rule for key, rule in grammar.rules.items() if key in heard):
         for node in rule.nodes:
             if isinstance(node, Token) and node.text not in places:
                 places[node.text] = rule.place(node.span)
@@ -61,7 +76,7 @@ def _places(grammar: Grammar) -> dict[str, Place]:
 def _unknown(word: str, place: Place, lexicon: Lexicon) -> Finding:
     what = f'"{word}" is in no dictionary, its sound is guessed'
     if any(letter.isdigit() for letter in word):
-        return warning(place, what, 'write numbers as words, "ten"')
+        return warning(place, what, f'write numbers as words, "{in_words(word)}"')
     parts = spelling.split(word, lexicon)
     if parts:
         return warning(place, what, f'write "{parts}"?')
@@ -79,17 +94,13 @@ def _unknown(word: str, place: Place, lexicon: Lexicon) -> Finding:
     return hint(place, what, f'if it is not "{guessed}", {otherwise}')
 
 
-def _short_commands(
-    grammar: Grammar,
-    said: Mapping[str, Phrases],
-    phones: Mapping[str, int],
-    places: Mapping[str, Place],
+def _commands(
+    grammar: Grammar, said: Mapping[str, Phrases], places: Mapping[str, Place]
 ) -> Iterator[tuple[Words, Place]]:
-    """Sentences of fewer than FEWEST_PHONES phones, unless their rules are EXPECTED_SHORT."""
+    """The short sentences of all rules that are not EXPECTED_SHORT, each once."""
     told: set[Words] = {()}
     for key in grammar.public_rules:
         if not EXPECTED_SHORT & grammar.rules[key].marks:
-            for words in sorted(said[key].said - told):
-                if sum(phones.get(word, FEWEST_PHONES) for word in words) < FEWEST_PHONES:
-                    told.add(words)
-                    yield words, places[words[0]]
+            found = said[key].said - told
+            told |= found
+            yield from ((words, places[words[0]]) for words in sorted(found))

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from itertools import islice
 
-from hri.core.errors import AuthoringError, did_you_mean
+from hri.core.errors import AuthoringError, Place, did_you_mean
 from hri.speech.grammar import analysis
 from hri.speech.grammar.ambiguity import ambiguities, sample
 from hri.speech.grammar.audibility import heard_badly
@@ -23,7 +22,9 @@ from hri.speech.grammar.expressions import (
     walk,
 )
 from hri.speech.grammar.finding import SEVERITIES, Finding, hint, warning
+from hri.speech.grammar.jsgf import NameListImport
 from hri.speech.grammar.matching import Parse, parse, parses
+from hri.speech.grammar.overwriting import overwritten
 from hri.speech.grammar.phrases import Phrases, Words, phrases, phrases_of_rules
 from hri.speech.grammar.rules import Grammar, Rule
 from hri.speech.grammar.tags import spell_tags
@@ -65,6 +66,8 @@ def _opinions(grammar: Grammar, lexicon: Lexicon | None) -> list[Finding]:
         *_unknown_marks(grammar),
         *_idle_marks(grammar),
         *_unused(grammar),
+        *_idle_imports(grammar),
+        *overwritten(grammar, _own_rules(grammar)),
         *_never_said(grammar),
         *_silent(grammar, said),
         *_said_twice(grammar, said),
@@ -94,8 +97,7 @@ def _broken_examples(grammar: Grammar) -> Iterator[Finding]:
 def _allows(grammar: Grammar, rule: Rule, text: str) -> bool:
     if rule.is_public and any(found.rule == rule.key for found in parses(grammar, text)):
         return True
-    alone = {key: replace(other, is_public=key == rule.key) for key, other in grammar.rules.items()}
-    return parse(Grammar(grammar.name, grammar.path, alone), text) is not None
+    return parse(grammar.alone(rule.key), text) is not None
 
 
 def _unknown_marks(grammar: Grammar) -> Iterator[Finding]:
@@ -120,6 +122,18 @@ def _unused(grammar: Grammar) -> Iterator[Finding]:
         if rule.key not in used:
             what = f"<{rule.key}> is not used by any public rule"
             yield warning(rule.place(), what, "use it, make it public, or take it out")
+
+
+def _idle_imports(grammar: Grammar) -> Iterator[Finding]:
+    for use in grammar.idle_imports:
+        place = Place(grammar.path, use.span.line, use.span.column)
+        if isinstance(use, NameListImport):
+            yield warning(place, f"<{use.name}> is not used by any rule", "use it, or take it out")
+        else:
+            what = f"no rule uses <{use.grammar}.{use.rule}>, and what is imported is no command"
+            name = "name" if use.rule == "*" else use.rule
+            remedy = f"write public <{name}> = <{use.grammar}.{name}>; or take it out"
+            yield warning(place, what, remedy)
 
 
 def _never_said(grammar: Grammar) -> Iterator[Finding]:

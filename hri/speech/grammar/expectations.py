@@ -131,11 +131,16 @@ def _how_far(grammar: Grammar, sentence: str) -> str:
 def read_expectations(path: Path) -> Expectations:
     """The expectations of a file.
 
-    Raises AuthoringError for the first line that cannot be read, HriError for the file itself.
+    Raises AuthoringError for the first line that cannot be read, for a file without a sentence and
+    for a grammar; HriError when it cannot be read.
     """
     grammar = ""
     lines: list[Expectation] = []
-    for number, raw in enumerate(read_text(path, "file of expectations").splitlines(), start=1):
+    text = read_text(path, "file of expectations")
+    if text.lstrip().startswith("#JSGF"):
+        what, remedy = "this is a grammar", "name a file of sentences, or see `hri grammar check`"
+        raise AuthoringError(Place(path), what, remedy)
+    for number, raw in enumerate(text.splitlines(), start=1):
         line = _COMMENT.sub("", " " + raw).strip()
         place = Place(path, number, len(raw) - len(raw.lstrip()) + 1)
         if line.startswith("//") or not line:
@@ -144,6 +149,8 @@ def read_expectations(path: Path) -> Expectations:
             grammar = _grammar_of(line, place)
         else:
             lines.append(_expectation(line, place))
+    if not lines:
+        raise AuthoringError(Place(path), "no sentence in this file", "write one: + hello robot")
     return Expectations(path, grammar, tuple(lines))
 
 

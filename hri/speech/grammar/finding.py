@@ -7,10 +7,10 @@ from typing import Literal
 
 from hri.core.errors import Place
 
-Severity = Literal["error", "warning", "hint"]
-SEVERITIES: tuple[Severity, ...] = ("error", "warning", "hint")
+Severity = Literal["error", "warning", "hint", "note"]
+SEVERITIES: tuple[Severity, ...] = ("error", "warning", "hint", "note")
 """Worst first. Errors stop a grammar from being used, warnings cost sentences or bring wrong ones,
-hints cost nothing yet."""
+hints cost nothing yet, notes are worth a thought and are shown to those who ask."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +29,11 @@ class Finding:
 def warning(place: Place, what: str, remedy: str) -> Finding:
     """Something that costs sentences or brings wrong ones."""
     return Finding("warning", place, what, remedy)
+
+
+def note(place: Place, what: str, remedy: str) -> Finding:
+    """Something that is fine when it is meant."""
+    return Finding("note", place, what, remedy)
 
 
 def hint(place: Place, what: str, remedy: str) -> Finding:

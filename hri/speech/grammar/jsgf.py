@@ -59,6 +59,11 @@ _STRAY = {
     '"': ("this quote has no end on its line", "write another quote after the words"),
     "/": ('a lone "/"', "write comments as // or /* */ and weights as /2.5/"),
 }
+_NO_WORD = {
+    "#": ('"#" begins no comment here', "write comments as // or /* */"),
+    "$": ('"$" stands in tags only', "write <name> for a rule, {tag=$name} for the value of a tag"),
+}
+"""What is wrong with words that begin with a sign of other languages."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,6 +186,16 @@ class _Reader:
         if not self._take(sign):
             raise self._unexpected(f'"{sign}"', remedy)
 
+    def _expect_end(self, what: str, remedy: str = 'end it with ";"') -> None:
+        """Pass the ";"; one that was forgotten is told where it should stand."""
+        if self._take(";"):
+            return
+        is_at_end = self._next.kind == "end" and self._next.text != TOO_MUCH
+        if is_at_end or self._begins_statement():
+            end = self._lexemes[self._position - 1].end
+            raise self._report(end, f'{what} has no ";" at its end', 'write ";" here')
+        raise self._unexpected('";"', remedy)
+
     # The grammar of grammars
 
     def read(self) -> Document:
@@ -250,7 +265,7 @@ class _Reader:
             raise self._unexpected("the grammar's name", remedy)
         self._position += 1
         self.document.name = lexeme.text
-        self._expect(";", 'end it with ";"')
+        self._expect_end("the grammar's name")
 
     def _spelling(self, keyword: str, otherwise: str) -> str:
         """The remedy for a misspelt keyword."""
@@ -289,7 +304,7 @@ class _Reader:
             raise self._unexpected("a rule of another grammar", remedy)
         self._position += 1
         self.document.imports.append(Import(grammar, rule, self._span_from(start)))
-        self._expect(";", 'end it with ";"')
+        self._expect_end("this import")
 
     def _name_list(self, start: int, file: Lexeme) -> None:
         remedy = 'write import "file.txt" as <name>;'
@@ -298,11 +313,13 @@ class _Reader:
         name = self._defined_name(remedy)
         text = re.sub(r"\\(.)", r"\1", file.text[1:-1])
         self.document.name_lists.append(NameListImport(text, name, self._span_from(start)))
-        self._expect(";", 'end it with ";"')
+        self._expect_end("this import")
 
     def _rule(self, start: int) -> None:
         is_public = self._take("public")
         remedy = "write a rule as <name> = words;"
+        if self._next.text.startswith("#"):
+            raise self._report(start, *_NO_WORD["#"])
         if not is_public and self._next.kind == "word":
             remedy = did_you_mean(self._next.text, ("public", "import"), remedy)
         name = self._defined_name(remedy)
@@ -310,7 +327,7 @@ class _Reader:
         try:
             self._expect("=", f'write "=" after <{name}>')
             expression = self._alternatives()
-            self._expect(";", 'end the rule with ";", or mend what stands here')
+            self._expect_end(f"<{name}>", 'end the rule with ";", or mend what stands here')
             if depth(expression) > DEEPEST_TREE:
                 what = f"<{name}> holds more than {DEEPEST_TREE} things within each other"
                 raise self._report(start, what, "use rules of their own")
@@ -324,20 +341,24 @@ class _Reader:
         lexeme = self._next
         if lexeme.kind != "rule":
             raise self._unexpected("a rule", remedy)
+        self._position += 1  # Whatever is wrong with it: nobody is to find it again.
         name = self._rule_name(lexeme)
         if name in ("NULL", "VOID"):
             raise self._report(lexeme.start, f"<{name}> is defined by JSGF", "take another name")
         if "." in name:
             what = f"<{name}> is a name for a rule of another grammar"
             raise self._report(lexeme.start, what, "define a name without a dot")
-        self._position += 1
         return name
 
     def _rule_name(self, lexeme: Lexeme) -> str:
         name = lexeme.text[1:-1].strip()
         if not name or re.search(r'[\s*"]', name) or not all(name.split(".")):
             what = f"{lexeme.text[:40]} is no rule name"
-            raise self._report(lexeme.start, what, "write letters, digits, _ and . between < and >")
+            remedy = "write letters, digits, _ and . between < and >"
+            joined = "_".join(name.split())
+            if joined != name and _GRAMMAR_NAME.fullmatch(joined):
+                remedy = f"write <{joined}>"
+            raise self._report(lexeme.start, what, remedy)
         return name
 
     # What may be said
@@ -411,8 +432,7 @@ class _Reader:
         except TagError as error:
             # What is behind a backslash stands further on than it counts.
             offset = error.offset + lexeme.text[1 : max(error.offset, 0) + 1].count("\\")
-            remedy = "write {name=value}, more of them with spaces between"
-            self._report(lexeme.start + 1 + offset, str(error), remedy)
+            self._report(lexeme.start + 1 + offset, str(error), error.remedy)
             return item
 
     def _item(self) -> Expression | None:
@@ -422,6 +442,8 @@ class _Reader:
             if lexeme.text in ("public", "import") and self._begins_statement():
                 return None
             self._position += 1
+            if lexeme.text[0] in _NO_WORD:
+                raise self._report(lexeme.start, *_NO_WORD[lexeme.text[0]])
             return self._words(lexeme, lexeme.text)
         if kind == "rule":
             if self._begins_statement():

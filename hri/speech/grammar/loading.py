@@ -61,6 +61,8 @@ def read_source(path: Path) -> str:
 
     Raises HriError when it cannot be read, AuthoringError when it is no text in that encoding.
     """
+    if path.is_dir():
+        raise HriError(f"{path}: this is a folder - name a grammar file in it")
     if not path.is_file():
         raise HriError(f"{path}: no such grammar file - check the path")
     raw = read_bytes(path, "grammar")
@@ -93,11 +95,19 @@ class _File:
     """Keys of the rules it defines, by name."""
     imported: dict[str, list[str]] = field(default_factory=dict)
     """Keys of imported rules by the names this file may call them; two are one too many."""
+    brought: list[tuple[Import | NameListImport, set[str]]] = field(default_factory=list)
+    """Its imports, and the keys of what they bring."""
+    used: set[str] = field(default_factory=set)
+    """Keys of the rules it refers to."""
     lost: list[str] = field(default_factory=list)
     """Imported grammars that are missing; any name may be theirs."""
 
     def place(self, span: Span) -> Place:
         return Place(self.document.path, span.line, span.column)
+
+    def idle_imports(self) -> tuple[Import | NameListImport, ...]:
+        """Those that bring nothing it refers to."""
+        return tuple(use for use, keys in self.brought if self.used.isdisjoint(keys))
 
     def public_names(self) -> dict[str, str]:
         """Keys of the rules that others may use, by name."""
@@ -124,7 +134,8 @@ class _Loader:
             self._define(file)
         name = main.document.name.rpartition(".")[2] or path.stem
         broken = frozenset(self._broken)
-        return Grammar(name, path, self._rules, broken, main.document.locale), self._errors
+        idle = main.idle_imports()
+        return Grammar(name, path, self._rules, broken, main.document.locale, idle), self._errors
 
     def _read(self, path: Path, prefix: str) -> _File:
         document = read_jsgf(read_source(path), path)
@@ -156,7 +167,9 @@ class _Loader:
             self._report(file, use.span, *_not_public(other, use.grammar, use.rule))
             public[use.rule] = other.prefix + use.rule
             self._broken.add(public[use.rule])
-        for name in public if use.rule == "*" else [use.rule]:
+        names = public if use.rule == "*" else [use.rule]
+        file.brought.append((use, {public[name] for name in names}))
+        for name in names:
             short = use.grammar.rpartition(".")[2]
             for called in {name, f"{short}.{name}", f"{use.grammar}.{name}"}:
                 keys = file.imported.setdefault(called, [])
@@ -184,6 +197,7 @@ class _Loader:
     def _define(self, file: _File) -> None:
         document = file.document
         for use in document.name_lists:
+            file.brought.append((use, {file.own[use.name]}))
             self._add(file, use.span, self._list_rule(file, use))
         resolve = partial(self._resolve, file)
         for definition in document.rules:
@@ -232,6 +246,7 @@ class _Loader:
     def _resolve(self, file: _File, node: RuleReference) -> RuleReference:
         """The reference with the key of the rule it means; unknown ones get a key nobody has."""
         key = self._key(file, node)
+        file.used.add(key)
         return node if key == node.name else replace(node, name=key)
 
     def _key(self, file: _File, node: RuleReference) -> str:

@@ -13,12 +13,12 @@ what has the weight 0 is not there at all.
 
 from __future__ import annotations
 
+import difflib
 import itertools
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
-from hri.core.errors import did_you_mean
 from hri.speech.grammar.automaton import (
     FINAL,
     START,
@@ -29,7 +29,8 @@ from hri.speech.grammar.automaton import (
     Enter,
     Leave,
 )
-from hri.speech.grammar.tags import TagEntry, Value, evaluate
+from hri.speech.grammar.numerals import in_words
+from hri.speech.grammar.tags import TagEntry, Value, are_same, evaluate
 from hri.speech.grammar.words import normalize
 
 if TYPE_CHECKING:
@@ -39,6 +40,10 @@ MOST_WORDS = 200
 """A longer text is no command."""
 MOST_PARSES = 20
 """Readings of one sentence that are listed."""
+MOST_COMPARED = 500
+"""Words that may follow; of more, only those much like the wrong one are compared with it."""
+LEAST_ALIKE = 0.75
+"""Share of letters in common with a word that may be meant: "forwrd" is one, "it's" is not "it"."""
 MOST_NODES = 400_000
 """Nodes in all states that are kept, about 50 MB; beyond it they are worked out anew."""
 
@@ -80,7 +85,7 @@ class Parse:
 
     def means_the_same(self, other: Parse) -> bool:
         """Whether both have the same rule and tags."""
-        return self.rule == other.rule and self.tags == other.tags
+        return self.rule == other.rule and are_same(self.tags, other.tags)
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,14 +144,19 @@ def refusal(grammar: Grammar, text: str) -> Refusal | None:
         return None
     word = words[position] if position < len(words) else ""
     expected = state.expected()
-    return Refusal(" ".join(words[:position]), word, expected, _remedy(word, expected, grammar))
+    return Refusal(" ".join(words[:position]), word, expected, _remedy(word, expected))
 
 
-def _remedy(word: str, expected: Collection[str], grammar: Grammar) -> str:
-    otherwise = "see `hri grammar expand`"
-    asked = (expected, grammar.matcher.words) if word else ()
-    remedies = (did_you_mean(word, known, otherwise) for known in asked if word not in known)
-    return next((remedy for remedy in remedies if remedy != otherwise), otherwise)
+def _remedy(word: str, expected: Collection[str]) -> str:
+    """What to do about a word that does not fit; what may be meant are words that fit there."""
+    if any(sign.isdigit() for sign in word):
+        return f'write numbers as words, "{in_words(word)}"'
+    if len(expected) > MOST_COMPARED:
+        # A slip of the fingers leaves the first letter and most of the others.
+        alike = range(len(word) - 1, len(word) + 2)
+        expected = [known for known in expected if known[0] == word[:1] and len(known) in alike]
+    near = difflib.get_close_matches(word, expected, n=1, cutoff=LEAST_ALIKE)
+    return f'did you mean "{near[0]}"?' if near else "see `hri grammar expand`"
 
 
 class Step(NamedTuple):

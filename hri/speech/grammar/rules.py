@@ -24,6 +24,7 @@ from hri.speech.grammar.expressions import (
     walk,
 )
 from hri.speech.grammar.graph import word_graph
+from hri.speech.grammar.jsgf import Import, NameListImport
 from hri.speech.grammar.matching import Matcher
 
 
@@ -79,11 +80,18 @@ class Grammar:
     """Keys of rules that are there but could not be read; empty in a grammar that is used."""
     locale: str = ""
     """The language its header names, such as "en" or "en-US"."""
+    idle_imports: tuple[Import | NameListImport, ...] = ()
+    """Imports of the main file that bring nothing it uses."""
 
     @cached_property
     def public_rules(self) -> tuple[str, ...]:
         """Names of the public rules of the main file, in its order; imported ones only help."""
         return tuple(key for key, rule in self.rules.items() if rule.is_public)
+
+    def alone(self, rule: str) -> Grammar:
+        """The same rules, with one of them, public or not, as the only command."""
+        rules = {key: replace(one, is_public=key == rule) for key, one in self.rules.items()}
+        return replace(self, rules=rules)
 
     def marked(self, mark: str) -> frozenset[str]:
         """The public rules with a mark, which is one of `doc_comments.MARKS`."""

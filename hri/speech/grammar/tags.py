@@ -5,7 +5,8 @@ Between `{` and `}` stand entries, with spaces or semicolons between them:
     {emotion=happy}       the tag `emotion` is the text "happy"
     {distance=10}         a number; {angle=-90}, {scale=0.5}
     {place="the kitchen"} a text with spaces; {loud=true} and {loud=false} are yes and no
-    {polite}              short for {polite=true}
+    {polite}              short for {polite=true}; behind a text without quotes a ";" stands
+                          before it, for it might be the second word of the text
     {number+=20}          adds to what is there; to 0 when nothing is
     {number*=100}         multiplies what is there; does nothing when nothing is
     {distance=$number}    takes the value of another tag, which is used up by it; nothing
@@ -46,6 +47,7 @@ _NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _PLAIN = re.compile(r"[^\s;\"={}\\$]+")
 _HOLE = re.compile(r"\$(?:\$|([A-Za-z_]\w*))")
 _WORDS: dict[str, Value] = {"true": True, "false": False}
+_REMEDY = "write {name=value}, more of them with spaces between"
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,27 +100,43 @@ class TagEntry:
 class TagError(ValueError):
     """What is wrong with the text between the braces, and how far into it; -1: with all of it."""
 
-    def __init__(self, what: str, offset: int) -> None:
+    def __init__(self, what: str, offset: int, remedy: str = _REMEDY) -> None:
         super().__init__(what)
         self.offset = offset
+        self.remedy = remedy
 
 
 def read_entries(text: str) -> tuple[TagEntry, ...]:
-    """The entries between the braces. Raises TagError."""
+    """The entries between the braces. Raises TagError.
+
+    A lone name right behind a text without quotes is refused: it may be the rest of the text.
+    """
     if len(text) > LONGEST_TAG:
         raise TagError(f"a tag of {len(text)} characters is too long", -1)
     entries: list[TagEntry] = []
+    before: re.Match[str] | None = None
     position, end = 0, len(text.rstrip(" \t\r\n;"))
     while position < end:
         match = _ENTRY.match(text, position)
         if match is None:
             offset = position + len(text[position:]) - len(text[position:].lstrip(" \t\r\n;"))
             raise TagError(f'cannot read the tag at "{text[offset:].strip()[:30]}"', offset)
+        if before is not None and match["operation"] is None:
+            _refuse_rest_of_text(before, entries[-1].value, match)
         entries.append(_entry(match))
-        position = match.end()
+        position, before = match.end(), match
     if not entries:
         raise TagError("the tag is empty", -1)
     return tuple(entries)
+
+
+def _refuse_rest_of_text(before: re.Match[str], value: object, match: re.Match[str]) -> None:
+    """Raise TagError for the second word of `{light=very bright}`."""
+    if before["plain"] is not None and isinstance(value, str) and ";" not in before.group():
+        what = f'"{match["name"]}" stands behind a text without quotes'
+        whole = f'{before["name"]}="{value} {match["name"]}"'
+        remedy = f"write {whole} if it belongs to the text, {match['name']}=true if it does not"
+        raise TagError(what, match.start("name"), remedy)
 
 
 def _entry(match: re.Match[str]) -> TagEntry:
@@ -154,6 +172,12 @@ def read_value(text: str, offset: int = -1) -> Value:
             raise TagError(f"{text} is too large", offset)
         return number
     return _WORDS.get(text, text.strip('"'))
+
+
+def are_same(one: Mapping[str, Value], other: Mapping[str, Value]) -> bool:
+    """Whether two sets of tags are equal; to Python, but not here, 1 is true."""
+    kinds = {name: type(value) for name, value in one.items()}
+    return one == other and kinds == {name: type(value) for name, value in other.items()}
 
 
 def written(value: Value) -> str:

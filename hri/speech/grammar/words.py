@@ -5,12 +5,20 @@ from __future__ import annotations
 import unicodedata
 
 _CURLY = "\N{RIGHT SINGLE QUOTATION MARK}"
+_SPOKEN = {"&": " and ", "%": " percent ", "\N{DEGREE SIGN}": " degrees "}
+"""Signs that are said as words wherever they stand."""
+_SIGNS = str.maketrans(_SPOKEN)
 
 
 def normalize(text: str) -> list[str]:
-    """The words of a text: lower case, composed (NFC), without the punctuation around them."""
+    """The words of a text: lower case, composed (NFC), without the punctuation around them.
+
+    "salt & pepper" is "salt and pepper", "50%" is "50 percent".
+    """
     if not text.isascii():
         text = unicodedata.normalize("NFC", text).replace(_CURLY, "'")
+    if not text.isalnum() and not _SPOKEN.keys().isdisjoint(text):
+        text = text.translate(_SIGNS)
     return [bare for word in text.lower().split() if (bare := _bare(word))]
 
 

@@ -38,6 +38,8 @@ class Guesses:
     def _keep(self, word: str, found: tuple[Phones, ...]) -> None:
         line = "\t".join([word, *(" ".join(phones) for phones in found)])
         with suppress(OSError):
+            if self._path.exists() and not self._path.is_file():
+                return  # A pipe would wait for a reader for ever.
             self._path.parent.mkdir(parents=True, exist_ok=True)
             is_full = self._path.exists() and self._path.stat().st_size > LARGEST_CACHE
             with self._path.open("w" if is_full else "a", encoding="utf-8") as file:
@@ -46,6 +48,8 @@ class Guesses:
 
 def _read(path: Path) -> dict[str, tuple[Phones, ...]]:
     """The words of a cache file; lines that make no sense are left out."""
+    if not path.is_file():
+        return {}
     try:
         with path.open("rb") as file:
             lines = file.read(LARGEST_CACHE * 2).decode("utf-8", errors="replace").splitlines()

@@ -155,7 +155,12 @@ def _entry(path: Path, number: int, line: str) -> tuple[str, Phones]:
         wrong = next((phone for phone in spelt if not _is_phone(phone)), word)
         column = line.index(wrong, 0 if wrong == word else line.index(word) + len(word)) + 1
         raise AuthoringError(Place(path, number, column), what, remedy) from error
-    return _folded(word.partition("(")[0] or word), phones
+    return _word(word), phones
+
+
+def _word(written: str) -> str:
+    """The word that a line begins with: "read" for "read(2)"."""
+    return _folded(written.partition("(")[0] or written)
 
 
 def read_phones(text: str) -> Phones:
@@ -177,22 +182,26 @@ def _is_phone(text: str) -> bool:
     return phone in PHONES and stress <= (1 if phone in VOWELS else 0)
 
 
-def add_to_lexicon(path: Path, word: str, phones: Phones) -> None:
-    """Write a line at the end of a lexicon, which is made when it is not there.
+def add_to_lexicon(path: Path, word: str, *variants: Phones) -> tuple[Phones, ...]:
+    """Write the ways to say a word into a lexicon, which is made when it is not there.
 
+    They take the place of what it said of the word before, which is returned. The file is replaced
+    as a whole, so nobody reads half of it.
     Raises AuthoringError when the file has a mistake already, HriError for what is no word or has
-    MOST_VARIANTS pronunciations there, OSError when it cannot be written.
+    more than MOST_VARIANTS pronunciations, OSError when it cannot be written.
     """
     if len(word.split()) != 1 or word.startswith(("#", ";")) or "(" in word:
         raise HriError(f'"{word}" is no single word - add one word at a time')
-    before = ""
-    if path.exists():
-        variants = {*read_lexicon(path).get(_folded(word), ()), phones}
-        if len(variants) > MOST_VARIANTS:
-            what = f'"{word}" has {MOST_VARIANTS} pronunciations already'
-            raise HriError(f"{what} - take one out of {path}")
-        before = read_text(path, "lexicon")
+    if len(variants) > MOST_VARIANTS:
+        raise HriError(f"more than {MOST_VARIANTS} pronunciations - keep the likeliest")
+    word = _folded(word)
+    path = path.resolve()  # What a link leads to is replaced, not the link.
+    before = read_lexicon(path).get(word, ()) if path.exists() else ()
+    lines = read_text(path, "lexicon").splitlines() if path.exists() else []
+    kept = [line for line in lines if not line.strip() or _word(line.split()[0]) != word]
+    kept += [f"{word}  {' '.join(phones)}" for phones in dict.fromkeys(variants)]
     path.parent.mkdir(parents=True, exist_ok=True)
-    with path.open("a", encoding="utf-8") as file:
-        file.write("\n" if before and not before.endswith("\n") else "")
-        file.write(f"{_folded(word)}  {' '.join(phones)}\n")
+    arriving = path.with_name(f"{path.name}.new")
+    arriving.write_text("\n".join(kept) + "\n", encoding="utf-8")
+    arriving.replace(path)
+    return before

@@ -15,7 +15,10 @@ _LETTERS = string.ascii_lowercase + "'"
 
 
 def split(word: str, lexicon: Lexicon) -> str:
-    """Two known words that were written as one: "footpath" as "foot path"; else empty."""
+    """Known words that were written as one: "footpath" as "foot path", "turn_on"; else empty."""
+    parts = [part for part in word[:LONGEST_WORD].split("_") if part]
+    if "_" in word:
+        return " ".join(parts) if parts and all(part in lexicon for part in parts) else ""
     cuts = range(SHORTEST_PART, min(len(word), LONGEST_WORD) - SHORTEST_PART + 1)
     ways = (f"{word[:cut]} {word[cut:]}" for cut in cuts if _are_known(word, cut, lexicon))
     return next(ways, "")

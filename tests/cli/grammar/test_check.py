@@ -93,3 +93,21 @@ def test_every_command_has_examples(grammar, capsys, name):
     with pytest.raises(SystemExit):
         grammar(name, "--help")
     assert f"hri grammar {name}" in capsys.readouterr().out.partition("examples:")[2]
+
+
+def test_notes_are_shown_to_those_who_ask(grammar, write, capsys):
+    path = write("public <a> = stop;")
+    assert grammar("check", path, "--strict") == 0
+    assert capsys.readouterr().out == f"{path}: fine, 1 command, 1 word, 1 note (see --all)\n"
+
+    assert grammar("check", path, "--all") == 0
+    out = capsys.readouterr().out
+    assert f'{path}:3:14: note: "stop" is one word' in out
+    assert out.endswith("1 note\n")
+
+
+def test_a_grammar_in_the_folder_one_works_in_needs_no_suffix(grammar, write, monkeypatch, capsys):
+    monkeypatch.chdir(write("public <a> = go on;", "kitchen").parent)
+
+    assert grammar("check", "kitchen") == 0
+    assert "kitchen.jsgf: fine" in capsys.readouterr().out

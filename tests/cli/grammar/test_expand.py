@@ -38,6 +38,9 @@ def test_one_rule_may_be_expanded_even_a_private_one(grammar, write, capsys):
     path = write(RULES)
     assert grammar("expand", path, "--rule", "c") == 0
     assert capsys.readouterr().out == "fast\n"
+    tagged = write("public <a> = go <c>;\n<c> = fast {n=9};", "tagged")
+    assert grammar("expand", tagged, "--rule", "c", "--tags") == 0
+    assert capsys.readouterr().out == "fast {n=9}\n"
     assert grammar("expand", path, "--rule", "<bb>") == 2
     assert 'no rule <bb> - did you mean "b"?' in capsys.readouterr().err
 

@@ -146,3 +146,11 @@ def test_the_house_grammars_take_little_words_with_patience(capsys):
     assert paths.find("grammars", "companion")
     assert parse("companion", "well turn left please", "--tolerant", "--json") == 0
     assert json.loads(capsys.readouterr().out)["rule"] == "turn"
+
+
+def test_words_without_quotes_are_one_sentence(robot, capsys):
+    assert parse(robot, "go", "to", "the", "garden") == 0
+    assert capsys.readouterr().out.startswith("go to the garden\n")
+
+    assert parse(robot, "hide", "go to garden") == 0
+    assert capsys.readouterr().out.count("\ngo ") == 2

@@ -109,6 +109,7 @@ def test_programs_get_counts_and_recordings(grammar, write, manifest, capsys):
         ("0.wav\tfly to the moon", '1:1: the grammar does not allow "fly to the moon"'),
         ("0.wav\tx\ta: x==", "1:1: cannot read the tag"),
         ("none.wav\tturn left", "no such file"),
+        ("file\tsentence\n# none yet", "1:1: no recording in this manifest"),
     ],
 )
 def test_a_mistake_in_a_manifest_is_told(grammar, write, tmp_path, capsys, line, message):
@@ -200,11 +201,13 @@ def test_sentences_are_spoken_and_heard_again(grammar, write, coded_voices, caps
     assert {missed["said"] for missed in told["missed"]} == {"go to the ball", "go to the wall"}
 
 
+@pytest.mark.proves("R03")
 def test_a_strictness_is_recommended(grammar, write, coded_voices, capsys):
     path = write(RULES)
     assert grammar("calibrate", path, "--voices", "en-us") == 0
     out = capsys.readouterr().out
     assert "<- recommended" in out
+    assert "these are too few to rely on: try 20 commands and 20 others" in out
     assert '<Parameter name="strictness" value="0.9"/>' in out
 
     assert grammar("calibrate", path, "--voices", "en-us", "--json") == 0

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 
+import pytest
+
 from hri.speech.pronunciation.lexicon import user_lexicon
 
 
@@ -24,12 +26,21 @@ def test_programs_get_one_object_a_word(grammar, capsys):
     assert "nobody knows" in unknown["error"]
 
 
+@pytest.mark.proves("R03")
 def test_a_pronunciation_is_added_and_how_to_undo_it_told(grammar, capsys):
     assert grammar("pronounce", "zorblax", "--add", "z ao1 r") == 0
     out = capsys.readouterr().out
     assert f"added to {user_lexicon()} - to undo it" in out
     assert "zorblax  Z AO R  " in out
     assert "(your lexicon" in out
+
+
+def test_a_pronunciation_that_is_replaced_is_told(grammar, capsys):
+    assert grammar("pronounce", "zorblax", "--add", "z ao1 r") == 0
+    assert grammar("pronounce", "zorblax", "--add", "z aa r", "--add", "z ow r") == 0
+    out = capsys.readouterr().out
+    assert "no longer Z AO1 R\n" in out
+    assert out.count("zorblax  Z AA R") == out.count("zorblax  Z OW R") == 1
 
 
 def test_bytes_that_are_no_text_have_no_sound(grammar, capsys):
@@ -40,7 +51,8 @@ def test_bytes_that_are_no_text_have_no_sound(grammar, capsys):
 def test_what_is_added_must_be_phones_of_one_word(grammar, capsys):
     assert grammar("pronounce", "zorblax", "--add", "zorb") == 2
     assert 'no phone "ZORB"' in capsys.readouterr().err
-    assert grammar("pronounce", "two", "words", "--add", "T UW") == 2
+    assert grammar("pronounce", "two words", "--add", "T UW") == 2
+    assert '--add is for one word - add "two" and "words" one by one' in capsys.readouterr().err
     assert not user_lexicon().exists()
 
 

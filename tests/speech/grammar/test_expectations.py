@@ -76,6 +76,9 @@ def test_each_failure_says_what_was_expected_and_what_came(expect, line, came, e
         ("+ hello => x+=1", "1:1: only values can be expected"),
         ("+ hello => x=$y", "1:1: only values can be expected"),
         ("grammar", "1:1: no name of a grammar"),
+        ("", "1:1: no sentence in this file - write one"),
+        ("grammar companion\n# nothing", "1:1: no sentence in this file"),
+        ("#JSGF V1.0;\ngrammar a;\npublic <a> = go on;", "1:1: this is a grammar - name a file"),
         ("+ hello\ngrammar late", "2:1: a line of another kind"),
     ],
 )

@@ -61,14 +61,39 @@ def test_every_feature_is_read():
 @pytest.mark.parametrize(
     ("rules", "place", "what", "remedy"),
     [
-        ("public <a> = hello", "3:19", 'expected ";"', "end the rule"),
+        ("public <a> = hello", "3:19", '<a> has no ";"', 'write ";" here'),
+        ("public <a> = hello {x} )", "3:24", 'this ")" has no "("', "take it out"),
+        ("import <numbers.small>\npublic <a> = hello;", "3:23", 'this import has no ";"', "here"),
+        ("# hello\npublic <a> = hello;", "3:1", '"#" begins no comment', "//"),
+        ("public <a> = hello; # hello", "3:21", '"#" begins no comment', "//"),
+        ("public <a> = hello # or\n | hi;", "3:20", '"#" begins no comment', "//"),
+        ("public <a> = words $foo more;", "3:20", '"$" stands in tags only', "write <name>"),
+        (
+            "public <a> = x {light=very bright};",
+            "3:28",
+            '"bright" stands behind',
+            'light="very bri',
+        ),
+        (
+            "public <a> = wait {s=$dration};",
+            "3:14",
+            "no tag has the name $dration",
+            "set it before",
+        ),
+        (
+            "public <a> = <b> {s=$dration};\n<b> = x {duration=1};",
+            "3:14",
+            "no tag has the name $dration",
+            'did you mean "duration"?',
+        ),
+        ("public <a> = wait <small>;", "3:19", "no rule <small>", "import <numbers.small>;"),
         ("public <a> = (hello;", "3:20", 'expected ")"', 'close the "(" of line 3, column 14'),
         ("public <a> = [hello;", "3:20", 'expected "]"', "column 14"),
         ("public <a> = ;", "3:14", "expected words", "<NULL>"),
         ("public <a> = hello | ;", "3:22", "expected words", "<NULL>"),
         ("pubic <a> = hello;", "3:1", "expected a rule", 'did you mean "public"?'),
         ("public <a> hello;", "3:12", 'expected "="', 'write "="'),
-        ("public <a b> = hello;", "3:8", "<a b> is no rule name", "letters"),
+        ("public <a b> = hello;", "3:8", "<a b> is no rule name", "write <a_b>"),
         ("public <a> = hello {n=;", "3:20", "this tag has no end", '"}"'),
         ("public <a> = hello {n==3};", "3:21", "cannot read the tag", "{name=value}"),
         ("public <a> = hello {};", "3:20", "the tag is empty", "{name=value}"),
@@ -76,7 +101,7 @@ def test_every_feature_is_read():
         ("public <a> = /x/ hello;", "3:14", "/x/ is no weight", "/2.5/"),
         ("public <a> = hello /2/ you;", "3:20", "a weight in the middle", "first"),
         ("public <a> = <b;", "3:14", "this rule name has no end", '">"'),
-        ("public <a> = hello\npublic <b> = hi;", "4:1", 'expected ";"', "end the rule"),
+        ("public <a> = hello\npublic <b> = hi;", "3:19", '<a> has no ";"', 'write ";" here'),
         ("public <a> = <colr>;\n<color> = red;", "3:14", "no rule <colr>", '"color"'),
         ("public <a> = <a> x | x;", "3:1", "<a> leads back to itself", "end of the rule"),
         ("public <a> = [x] <b>;\n<b> = <a> y | y;", "3:1", "leads back", "use * or +"),
@@ -162,9 +187,15 @@ def test_the_header_names_the_encoding(tmp_path):
         load_grammar(path)
 
 
+@pytest.mark.parametrize("name", ["turn on", "NULL", "a.b"])
+def test_a_wrong_name_of_a_rule_is_told_once(write, name):
+    _, errors = read_grammar(write(f"public <{name}> = go on;\npublic <b> = hi;"))
+    assert len(errors) == 1
+
+
 def test_what_is_no_grammar_file_is_refused(tmp_path):
     with pytest.raises(HriError, match="no such grammar"):
-        load_grammar(tmp_path)
+        load_grammar(tmp_path / "none.jsgf")
     path = tmp_path / "large.jsgf"
     path.write_bytes(b" " * (LARGEST_FILE + 1))
     with pytest.raises(HriError, match="too large"):

@@ -197,5 +197,19 @@ def test_a_list_that_is_no_text_is_told(put, tmp_path):
 
 
 def test_a_folder_is_no_grammar(tmp_path):
-    with pytest.raises(HriError, match="no such grammar"):
+    with pytest.raises(HriError, match="this is a folder - name a grammar file in it"):
         load_grammar(tmp_path)
+
+
+def test_a_forgotten_import_of_a_part_is_told(put, tmp_path, monkeypatch):
+    monkeypatch.setenv("HRI_PATH", str(tmp_path / "path"))
+    put("path/grammars/rooms.jsgf", "/** @part */ public <room> = hall;\npublic <go> = go on;")
+    put("path/grammars/broken.jsgf", "(((")
+    path = put("a.jsgf", "public <a> = to <room> | <go> | <small>;\n<smell> = sweet;")
+    grammar, _ = read_grammar(path)
+
+    assert [error.remedy for error in analysis.errors(grammar)] == [
+        "write import <rooms.room>; for the one of that grammar",
+        "write <go> = words;",
+        "write import <numbers.small>; for the one of that grammar",
+    ]

@@ -12,7 +12,9 @@ from hypothesis import strategies as st
 from hri.core.errors import AuthoringError
 from hri.speech.grammar import load_grammar, matching, read_grammar
 from hri.speech.grammar.expansion import random_sentence
-from hri.speech.grammar.matching import Refusal, Tree, parse, parses, refusal
+from hri.speech.grammar.matching import Parse, Refusal, Tree, parse, parses, refusal
+from hri.speech.grammar.numerals import in_words
+from hri.speech.grammar.words import normalize
 from tests.speech.grammar.oracle import WORDS, assume_written_out, grammars, meanings
 
 
@@ -200,6 +202,8 @@ def test_loops_that_mean_nothing_do_not_hide_two_meanings(write):
         ("go", "go", "", ("back", "forward"), "see `hri grammar expand`"),
         ("fly", "", "fly", ("go", "stop"), "see `hri grammar expand`"),
         ("go back home", "go back", "home", (), "see `hri grammar expand`"),
+        ("go stpo", "go", "stpo", ("back", "forward"), "see `hri grammar expand`"),
+        ("go 20", "go", "20", ("back", "forward"), 'write numbers as words, "twenty"'),
         ("", "", "", ("go", "stop"), "see `hri grammar expand`"),
     ],
 )
@@ -207,6 +211,59 @@ def test_a_refusal_tells_how_far_it_went(write, text, understood, word, expected
     grammar = load_grammar(write("public <a> = go (forward | back) | stop;"))
 
     assert refusal(grammar, text) == Refusal(understood, word, expected, remedy)
+
+
+@pytest.mark.parametrize(("word", "others"), [("could", "gold"), ("it's", "it")])
+def test_a_word_that_is_only_a_little_alike_is_not_offered(write, word, others):
+    grammar = load_grammar(write(f"public <a> = {others} now;"))
+
+    assert refusal(grammar, word).remedy == "see `hri grammar expand`"
+
+
+def test_a_word_among_thirty_thousand_is_refused_at_once(write, tmp_path):
+    names = [f"name{number:x}" for number in range(30_000)]
+    (tmp_path / "names.txt").write_text("\n".join(["robin", *names]))
+    grammar = load_grammar(write('import "names.txt" as <who>;\npublic <a> = call <who>;'))
+    refusal(grammar, "call nobody")
+
+    start = time.process_time()
+    assert refusal(grammar, "call robni").remedy == 'did you mean "robin"?'
+    assert time.process_time() - start < 0.05
+
+
+def test_one_is_another_meaning_than_true():
+    assert not Parse("x", "a", {"n": 1.0}).means_the_same(Parse("x", "a", {"n": True}))
+    assert Parse("x", "a", {"n": 1.0}).means_the_same(Parse("x y", "a", {"n": 1.0}))
+
+
+@pytest.mark.parametrize(
+    ("said", "heard"),
+    [
+        ("salt & pepper", "salt and pepper"),
+        ("R&B", "r and b"),
+        ("fifty%", "fifty percent"),
+        ("ten °", "ten degrees"),
+        ("a, b. c!", "a b c"),
+    ],
+)
+def test_signs_that_are_spoken_are_words(said, heard):
+    assert normalize(said) == heard.split()
+
+
+@pytest.mark.parametrize(
+    ("digits", "words"),
+    [
+        ("10", "ten"),
+        ("2.5", "two point five"),
+        ("115", "one hundred fifteen"),
+        ("42000", "forty two thousand"),
+        ("007", "zero zero seven"),
+        ("1234567", "one two three four five six seven"),
+        ("20cm", "twenty cm"),
+    ],
+)
+def test_numbers_are_told_in_words(digits, words):
+    assert in_words(digits) == words
 
 
 def test_what_is_accepted_is_not_refused(companion):

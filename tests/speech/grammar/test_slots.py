@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.dates import WEEKDAYS, resolve
 from hri.speech.grammar.matching import parse
+from hri.speech.grammar.numerals import in_words
 
 GRAMMARS = Path(__file__).resolve().parents[3] / "grammars"
 LIBRARY = ("numbers", "distance", "angle", "duration", "time", "date", "color", "direction")
@@ -154,6 +155,7 @@ def test_lengths_are_meters(number, unit, half):
         ("distance", "two meters and a half", 2.5),
         ("distance", "a kilometer and a quarter", 1250),
         ("distance", "half an inch", 0.0127),
+        ("distance", "a half meter", 0.5),
         ("distance", "five feet six inches", 1.6764),
         ("distance", "two meters fifty centimeters", 2.5),
         ("distance", "meters", None),
@@ -170,6 +172,12 @@ def test_lengths_are_meters(number, unit, half):
         ("duration", "a day two hours and thirty seconds", 93630),
         ("duration", "three quarters of an hour", 2700),
         ("duration", "two weeks", 1209600),
+        ("duration", "two hours and a half", 9000),
+        ("duration", "a half hour", 1800),
+        ("duration", "one minute", 60),
+        ("duration", "ten minute", 600),
+        ("duration", "an hours", None),
+        ("duration", "a minutes", None),
         ("duration", "ten minutes an hour", None),
         ("color", "light blue", "light blue"),
         ("color", "grey", "gray"),
@@ -195,6 +203,19 @@ def test_values_are_said_in_many_ways(name, text, value):
     found = meaning(name, name, text)
 
     assert found == (None if value is None else {name: value})
+
+
+@given(st.integers(0, 999_999))
+def test_numbers_are_told_in_the_words_that_mean_them(number):
+    assert meaning("numbers", "whole", in_words(str(number))) == {"number": number}
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [("a thousand", 1000), ("a thousand and five", 1005), ("one thousand two hundred", 1200)],
+)
+def test_a_thousand_needs_no_one(text, value):
+    assert meaning("numbers", "whole", text) == {"number": value}
 
 
 @given(st.integers(0, 99), st.integers(0, 59), st.integers(1, 59))

@@ -12,6 +12,9 @@ from hri.speech.grammar.tags import LONGEST_VALUE, evaluate, read_entries
         ("a=1; b=-2.5  c=x", {"a": 1.0, "b": -2.5, "c": "x"}),
         ("polite", {"polite": True}),
         ("loud=false", {"loud": False}),
+        ("light=on; loud", {"light": "on", "loud": True}),
+        ("n=3 loud", {"n": 3.0, "loud": True}),
+        ('light="very bright" loud', {"light": "very bright", "loud": True}),
         ('place="the kitchen"', {"place": "the kitchen"}),
         ("n+=20 n+=5", {"n": 25.0}),
         ("n=2 n*=100 n+=6", {"n": 206.0}),
@@ -40,7 +43,20 @@ def test_entries_mean_plain_data(text, tags):
 
 @pytest.mark.parametrize(
     "text",
-    ["", " ; ", "=3", "a==3", 'a="b c', "1x=3", "a+=red", "a=1e999", "a=$", "a=$1", "a=$b=c"],
+    [
+        "",
+        " ; ",
+        "=3",
+        "a==3",
+        'a="b c',
+        "1x=3",
+        "a+=red",
+        "a=1e999",
+        "a=$",
+        "a=$1",
+        "a=$b=c",
+        "a=b c",
+    ],
 )
 def test_what_is_no_tag_is_refused(text):
     with pytest.raises(ValueError, match=r"\w"):

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import os
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -127,9 +129,17 @@ def test_a_lexicon_that_is_named_must_be_there(tmp_path, monkeypatch):
 
 def test_a_word_that_is_added_is_known_from_then_on():
     add_to_lexicon(user_lexicon(), "Zorblax", read_phones("z ao1 r"))
-    add_to_lexicon(user_lexicon(), "zorblax", read_phones("Z AA R"))
+    assert load_lexicon().pronunciations("zorblax") == (("Z", "AO", "R"),)
 
-    assert load_lexicon().pronunciations("zorblax") == (("Z", "AO", "R"), ("Z", "AA", "R"))
+
+def test_what_is_added_takes_the_place_of_what_was_there(tmp_path):
+    path = tmp_path / "mine.txt"
+    path.write_text("# zorb is ours\nzorb Z AO1\ncat K AE T\n\nZorb(2) Z AA # or so\n")
+    before = add_to_lexicon(path, "zorb", ("Z", "OW"), ("Z", "OW1"), ("Z", "OW"))
+
+    assert before == (("Z", "AO1"), ("Z", "AA"))
+    assert path.read_text() == "# zorb is ours\ncat K AE T\n\nzorb  Z OW\nzorb  Z OW1\n"
+    assert [entry.name for entry in tmp_path.iterdir()] == ["mine.txt"]
 
 
 def test_nothing_is_added_to_a_lexicon_with_a_mistake(tmp_path):
@@ -147,11 +157,9 @@ def test_nothing_is_added_to_a_lexicon_with_a_mistake(tmp_path):
 
 def test_a_lexicon_is_not_filled_beyond_what_can_be_read(tmp_path):
     path = tmp_path / "mine.txt"
-    for phone in PHONES[:8]:
-        add_to_lexicon(path, "cat", ("K", "AE", phone))
-    with pytest.raises(HriError, match="8 pronunciations already - take one out"):
-        add_to_lexicon(path, "Cat", ("K", "AE", "Z"))
-    add_to_lexicon(path, "cat", ("K", "AE", PHONES[0]))
+    add_to_lexicon(path, "cat", *(("K", "AE", phone) for phone in PHONES[:8]))
+    with pytest.raises(HriError, match="more than 8 pronunciations"):
+        add_to_lexicon(path, "Cat", *(("K", "AE", phone) for phone in PHONES[:9]))
 
     assert len(read_lexicon(path)["cat"]) == 8
 
@@ -174,6 +182,12 @@ class TestGuesses:
         first, second = Guesses(path), Guesses(path)
         assert first["zorb"] == first["zorb"] == second["zorb"] == (("Z", "AO"), ("Z", "AA"))
         assert asked == ["zorb"]
+
+    def test_a_pipe_in_its_place_keeps_nobody(self, tmp_path):
+        path = tmp_path / "words.txt"
+        os.mkfifo(path)
+
+        assert Guesses(path)["zorb"][0][0] == "Z"
 
     @pytest.mark.parametrize(
         "damage", [b"\xff\xfe\0", b"zorb\n", b"zorb\tXX\n", b"zorb\t\n", b"\t\t\t", b"zor"]

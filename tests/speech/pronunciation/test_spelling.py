@@ -20,7 +20,15 @@ def test_a_slip_of_the_fingers_is_mended(word, meant):
 
 
 @pytest.mark.parametrize(
-    ("word", "parts"), [("robotarm", "robot arm"), ("zorblax", ""), ("a" * 5000, "")]
+    ("word", "parts"),
+    [
+        ("robotarm", "robot arm"),
+        ("turn_on", "turn on"),
+        ("turn_zorblax", ""),
+        ("_", ""),
+        ("zorblax", ""),
+        ("a" * 5000, ""),
+    ],
 )
 def test_words_written_as_one_are_parted(word, parts):
     assert split(word, load_lexicon()) == parts
