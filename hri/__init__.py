@@ -21,12 +21,17 @@ The map, from what you hold in your hand down to what everything stands on:
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from hri.robot import Robot
 
 __all__ = ["Robot"]
+
+# Read when numpy is first imported. The matrices here are small: more threads make their products
+# slower (three times, for the phone network), and take the core that the robot loop runs on.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 
 def __getattr__(name: str) -> object:

@@ -1,0 +1,221 @@
+"""What a search leaves behind: its paths, found by walking back, the best and the nearly best."""
+
+from __future__ import annotations
+
+import heapq
+from dataclasses import dataclass
+from itertools import count
+
+import numpy as np
+
+from hri.speech.recognizers.ctc.phone_graph import NOWHERE, Floats, Indices, PhoneGraph
+
+_MASKS = tuple(128 >> bit for bit in range(8))
+_ROOM = 256
+"""Frames of results that room is made for at once."""
+_ROUNDING = 0.05
+"""By how much scores of one path, summed in different orders, may differ."""
+MOST_STEPS = 2000
+"""Words that are looked at for the sentences that are nearly as good as the best."""
+
+
+class Trellis:
+    """All that happened in a search, frame by frame: enough to walk back along any path."""
+
+    def __init__(self, graph: PhoneGraph, opening: Floats) -> None:
+        self.graph = graph
+        self.opening = opening
+        """[places] Weight of beginning a sentence there."""
+        self.frames = -1
+        self._entered: list[bytes] = []
+        self._resting: list[bytes] = []
+        self._exits = np.empty((_ROOM, len(graph.exit_states)), np.float32)
+        self._silence: list[float] = []
+        self._groups = np.empty(len(graph.exit_groups), np.float32)
+
+    def grow(self, states: Floats, silence: float, entered: bytes, resting: bytes) -> None:
+        """A frame more: best score of each state, score of a blank; bits of states."""
+        self.frames += 1
+        if self.frames == len(self._exits):
+            longer = np.empty((self.frames + _ROOM, self._exits.shape[1]), np.float32)
+            longer[: self.frames] = self._exits
+            self._exits = longer
+        exits = self._exits[self.frames]
+        states.take(self.graph.exit_states, out=exits, mode="clip")
+        exits += self.graph.exit_weights
+        self._silence.append((self._silence[-1] if self._silence else 0.0) + silence)
+        self._entered.append(entered)
+        self._resting.append(resting)
+
+    def arrive(self, frame: int, out: Floats) -> None:
+        """[places] Best score of being there after so many frames: from a word, or to begin."""
+        graph = self.graph
+        np.add(self.opening, self._silence[frame], out=out)
+        np.maximum.reduceat(self._exits[frame], graph.exit_groups, out=self._groups)
+        links = self._groups.take(graph.link_sources)
+        links += graph.link_weights
+        linked = out[: len(graph.link_groups)]
+        np.maximum(linked, np.maximum.reduceat(links, graph.link_groups), out=linked)
+
+    def beginning(self, place: int, frame: int) -> float:
+        """Score of beginning a sentence at a place after so many frames of silence."""
+        return float(self.opening[place]) + self._silence[frame]
+
+    def ways_into(self, place: int, frame: int) -> tuple[Indices, Floats]:
+        """Exits that lead into a place, and the scores of coming by them, after frames."""
+        exits, weights = self.graph.exits_into(place)
+        return exits, self._exits[frame, exits] + weights
+
+    def entered(self, state: int, frame: int) -> bool:
+        """Whether the phone of a state came from outside in the frame that made it `frame`."""
+        return bool(self._entered[frame][state >> 3] & _MASKS[state & 7])
+
+    def rests(self, state: int, frame: int) -> bool:
+        """Whether the best path to a state ends in the blank after so many frames."""
+        return bool(self._resting[frame][state >> 3] & _MASKS[state & 7])
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A word of a path, or a part of it."""
+
+    place: int
+    """Place of the graph where it began."""
+    start: int
+    """Frames before its first phone."""
+    end: int
+    """Frames up to its end, with the blanks after its last phone."""
+    states: tuple[int, ...]
+    """[end - start] The state of each frame; -1 - state for the blank after it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """A sentence: its words in order."""
+
+    score: float
+    words: tuple[str, ...]
+    spans: tuple[Span, ...]
+
+
+class Walk:
+    """Finds the paths of a search, from their ends to their beginnings."""
+
+    def __init__(self, trellis: Trellis) -> None:
+        self._trellis = trellis
+        self._graph = trellis.graph
+        self._doubled = set(trellis.graph.doubled.tolist())
+        self._known: dict[tuple[int, int], Span] = {}
+
+    def span(self, state: int, end: int) -> Span:
+        """The best way to be in a state after `end` frames, back to the beginning of the word."""
+        key = (state, end)
+        known = self._known.get(key)
+        if known is None:
+            known = self._known[key] = self._back(state, end)
+        return known
+
+    def _back(self, state: int, end: int) -> Span:
+        trellis, parents, size = self._trellis, self._graph.parents, self._graph.size
+        visited: list[int] = []
+        frame = end
+        rests = trellis.rests(state, frame)
+        while True:
+            frame -= 1
+            if rests:
+                visited.append(-1 - state)
+                rests = trellis.rests(state, frame)
+                continue
+            visited.append(state)
+            if not trellis.entered(state, frame + 1):
+                continue
+            parent = int(parents[state])
+            if parent >= size:
+                return Span(parent - size, frame, end, tuple(reversed(visited)))
+            rests = state in self._doubled or trellis.rests(parent, frame)
+            state = parent
+
+    def words_before(self, state: int) -> tuple[str, ...]:
+        """The words of the best path to a state now, its own too where one ends there."""
+        graph, frame = self._graph, self._trellis.frames
+        if frame <= 0:
+            return ()
+        ending = np.flatnonzero(graph.exit_states == state)
+        words = [graph.words[graph.exit_words[ending[0]]]] if len(ending) else []
+        span = self.span(state, frame)
+        while True:
+            exits, scores = self._trellis.ways_into(span.place, span.start)
+            begin = self._trellis.beginning(span.place, span.start)
+            if not len(exits) or begin >= scores.max():
+                return tuple(reversed(words))
+            exit = int(exits[scores.argmax()])
+            words.append(graph.words[graph.exit_words[exit]])
+            span = self.span(int(graph.exit_states[exit]), span.start)
+
+    def sentences(self, most: int, beam: float) -> list[Path]:
+        """The best path, and the best of each other sequence of words, best first.
+
+        At most `most`, and none whose score is more than `beam` below the best. Empty when no
+        sentence fits. A best-first search from the end; since the scores of the search itself
+        say what the rest will cost, it hardly looks at anything that it does not return.
+        """
+        trellis, graph = self._trellis, self._graph
+        found: dict[tuple[str, ...], Path] = {}
+        order = count()
+        # (-score, order, exit or None at the beginning, frame, what follows)
+        waiting: list[tuple[float, int, int | None, int, _Rest | None]] = []
+
+        def look(place: int, frame: int, rest_score: float, rest: _Rest | None) -> None:
+            begin = trellis.beginning(place, frame) + rest_score
+            if rest is not None and begin > floor:
+                heapq.heappush(waiting, (-begin, next(order), None, frame, rest))
+            exits, scores = trellis.ways_into(place, frame)
+            scores = scores + np.float32(rest_score)
+            near = np.flatnonzero(scores > floor)
+            if len(near) > most:
+                near = near[np.argpartition(-scores[near], most)[:most]]
+            for exit, score in zip(exits[near].tolist(), scores[near].tolist(), strict=True):
+                heapq.heappush(waiting, (-score, next(order), exit, frame, rest))
+
+        floor = float(NOWHERE) / 2
+        look(graph.final, trellis.frames, 0.0, None)
+        if waiting:
+            floor = max(floor, -waiting[0][0] - beam - _ROUNDING)
+        for _ in range(MOST_STEPS):
+            if not waiting or len(found) == most:
+                break
+            negative, _, exit, frame, rest = heapq.heappop(waiting)
+            score = -negative
+            if exit is None:
+                path = _path(graph, score, rest)
+                found.setdefault(path.words, path)
+                continue
+            span = self.span(int(graph.exit_states[exit]), frame)
+            come = self._score_at(span.place, span.start)
+            look(span.place, span.start, score - come, _Rest(exit, span, rest))
+        return list(found.values())
+
+    def _score_at(self, place: int, frame: int) -> float:
+        begin = self._trellis.beginning(place, frame)
+        if place >= len(self._graph.link_groups):
+            return begin
+        return max(begin, float(self._trellis.ways_into(place, frame)[1].max()))
+
+
+@dataclass(frozen=True, slots=True)
+class _Rest:
+    """A path from some word to the end."""
+
+    exit: int
+    span: Span
+    rest: _Rest | None
+
+
+def _path(graph: PhoneGraph, score: float, rest: _Rest | None) -> Path:
+    words: list[str] = []
+    spans: list[Span] = []
+    while rest is not None:
+        words.append(graph.words[graph.exit_words[rest.exit]])
+        spans.append(rest.span)
+        rest = rest.rest
+    return Path(score, tuple(words), tuple(spans))
