@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import string
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
-from hri.core.errors import did_you_mean
+from hri.core.errors import AuthoringError, AuthoringErrors, did_you_mean
 from hri.core.toml import Table, load_toml
+
+T = TypeVar("T")
 
 ACTIONS = ("move", "turn", "come", "follow", "stop", "quiet", "sleep", "wake")
 FILLED_IN = ("text", "name", "time", "battery", "why", "feeling", "commands")
@@ -60,25 +64,65 @@ UNASKED = ("blocked", "bump", "battery_low", "nobody")
 
 
 def load_replies(path: Path, vocabulary: Vocabulary) -> Replies:
-    """Raises AuthoringError with the place of the first mistake."""
+    """Raises AuthoringError with the place of a mistake; AuthoringErrors when there are several."""
     table = load_toml(path, "file of replies")
-    name = table.string("name")
+    mistakes = Mistakes()
+    name = mistakes.keep(lambda: table.string("name")) or ""
+    entries = dict(mistakes.keep(lambda: list(table.tables("reply"))) or ())
+    missing = [rule for rule in vocabulary.rules if rule not in entries]
     replies = {}
-    for rule, entry in table.tables("reply"):
-        if rule not in vocabulary.rules:
-            known = sorted(vocabulary.rules)
-            raise entry.error(None, f'the grammar has no rule "{rule}"', did_you_mean(rule, known))
-        replies[rule] = _reply(entry, vocabulary)
-    for rule in vocabulary.rules:
-        if rule not in replies:
-            what = f"no reply to the rule <{rule}> of the grammar"
-            raise table.error(None, what, f"add a table [reply.{rule}], an empty one to do nothing")
-    spoken = table.table("unasked")
+    for rule, entry in entries.items():
+        if rule in vocabulary.rules:
+            replies[rule] = mistakes.keep(partial(_reply, entry, vocabulary)) or Reply()
+        else:
+            remedy = did_you_mean(rule, missing, "delete this table, or mend the grammar")
+            mistakes.add(entry.error(None, f'the grammar has no rule "{rule}"', remedy))
+    if missing:
+        mistakes.add(_unanswered(table, missing))
+    unasked = mistakes.keep(lambda: _unasked(table.table("unasked"))) or {}
+    asked = mistakes.keep(lambda: table.array("question")) or ()
+    questions = [mistakes.keep(partial(_question, entry)) for entry in asked]
+    mistakes.keep(table.finish)
+    mistakes.tell()
+    return Replies(name, replies, unasked, tuple(filter(None, questions)))
+
+
+class Mistakes:
+    """All mistakes of a file: what has one is left out, and reading goes on behind it."""
+
+    def __init__(self) -> None:
+        self._errors: list[AuthoringError] = []
+
+    def keep(self, read: Callable[[], T]) -> T | None:
+        """What was read; None when there was a mistake in it."""
+        try:
+            return read()
+        except AuthoringError as error:
+            self.add(error)
+            return None
+
+    def add(self, error: AuthoringError) -> None:
+        self._errors.append(error)
+
+    def tell(self) -> None:
+        """Raise what was found."""
+        if len(self._errors) > 1:
+            raise AuthoringErrors(self._errors)
+        for error in self._errors:
+            raise error
+
+
+def _unanswered(table: Table, missing: Sequence[str]) -> AuthoringError:
+    rules = f"rule{'s' * (len(missing) > 1)} {', '.join(f'<{rule}>' for rule in missing)}"
+    each = " for each" * (len(missing) > 1)
+    remedy = f"add a table [reply.{missing[0]}]{each}, an empty one to do nothing"
+    return table.error(None, f"no reply to the {rules} of the grammar", remedy)
+
+
+def _unasked(spoken: Table) -> dict[str, str]:
     unasked = {key: spoken.string(key) for key in UNASKED}
     spoken.finish()
-    questions = tuple(_question(entry) for entry in table.array("question"))
-    table.finish()
-    return Replies(name, replies, unasked, questions)
+    return unasked
 
 
 def _reply(entry: Table, vocabulary: Vocabulary) -> Reply:

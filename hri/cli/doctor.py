@@ -86,7 +86,7 @@ class Doctor:
             try:
                 finding = check()
             except NotAvailable as error:
-                finding = Finding(False, str(error))
+                finding = Finding(False, str(error).removeprefix(f"{name}: "))
             mark = "ok     " if finding.is_well else "MISSING"
             print(f"{name:<11} {mark}  {finding.says}", flush=True)
             failures += not finding.is_well

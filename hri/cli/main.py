@@ -20,6 +20,8 @@ COMMANDS = {
     "schema": ("hri.cli.schema", "export the schemas of behaviors as XML"),
     "grammar": ("hri.cli.grammar", "check, parse with, and expand grammars"),
     "say": ("hri.cli.say", "say a text, or write it to a WAV file"),
+    "models": ("hri.cli.models", "list and fetch models of recognizers"),
+    "voices": ("hri.cli.voices", "list the voices, by language"),
     "face": ("hri.cli.face", "check, render and show faces"),
     "emotion": ("hri.cli.emotion", "check and try out emotions"),
     "bench": ("hri.cli.bench", "measure, and print JSON"),

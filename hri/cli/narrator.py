@@ -63,7 +63,8 @@ class Narrator:
         while self._renderer is not None and not self._renderer.frames:
             await context.clock.sleep(0.02)
         self._first_frame = context.clock.now()
-        hint = "say hello, or ask what you can say - " if self._can_hear else ""
+        is_new = self._can_hear and not self._counts["speech.heard"]
+        hint = "say hello, or ask what you can say - " if is_new else ""
         self.tell(f"ready: {hint}Ctrl-C ends it")
 
     def _hear(self, event: Event) -> None:
@@ -81,7 +82,7 @@ class Narrator:
         text = template.format_map(_Known(event.properties))
         x, y = self._pose
         where = f"x {x:5.2f} m  y {y:5.2f} m"
-        self.tell(f"{event.time:7.1f} s  {text[:58]:<58}  {self._label:<12} {where}")
+        self.tell(f"{event.time:7.1f} s  {text:<58}  {self._label:<12} {where}")
 
     def summary(self) -> None:
         """What the visit came to, and where its recording is."""

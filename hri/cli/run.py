@@ -19,7 +19,7 @@ from hri.emotion.personality import load_personality
 from hri.face.model import load_face
 from hri.hal.camera import Camera
 from hri.hal.drivers.video_file import check_video
-from hri.hal.drivers.wav_file import read_wav
+from hri.hal.drivers.wav_file import load_sound
 from hri.hal.microphone import Microphone
 from hri.hal.resource import Description, Resource
 from hri.robot import Job, Robot
@@ -28,6 +28,7 @@ from hri.robot.verbs import is_quiet
 from hri.simulation.script import Visit, load_visit
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Voice
+from hri.speech.recognizers.typed import TypedRecognizer
 from hri.task.context import TaskContext
 
 SENSES = ("microphone", "camera", "screen", "speaker")
@@ -44,7 +45,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """The options of every app."""
     add = parser.add_argument
     add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
-    add("--audio", type=Path, metavar="FILE.wav", help="hear this file instead of a microphone")
+    add("--audio", type=Path, metavar="FILE", help="hear this sound file instead of a microphone")
     add("--camera", metavar="FILE|none", help="see this video or image, or nothing")
     add("--record", type=Path, metavar="DIR", help="write events, video, sound, plot there, anew")
     add("--headless", action="store_true", help="draw the face, but show it to nobody")
@@ -117,7 +118,7 @@ def check_files(options: argparse.Namespace) -> None:
     """Refuse bad files before anything starts. Raises HriError."""
     load_app(options.app)
     if options.audio is not None:
-        read_wav(options.audio)
+        load_sound(options.audio)
     if options.camera not in (None, "none"):
         check_video(Path(options.camera))
     load_face(options.face)
@@ -189,13 +190,13 @@ class Session:
             resources.obtain("world", SimulatedWorld).person.starts_present = False
 
     async def end_when_over(self, context: TaskContext) -> None:
-        """End after the duration, after the visit, or when files are spent and all is calm."""
+        """End after the duration, after the visit, or when what it hears and sees is spent."""
         clock = context.clock
         end = self._end_time()
         calm_since = clock.now()
         while clock.now() < end:
             await clock.sleep(min(0.1, end - clock.now()))
-            if not self._are_files_spent() or not self._is_calm(context):
+            if not self._is_spent() or not self._is_calm(context):
                 calm_since = clock.now()
             elif clock.now() - calm_since >= CALM_SECONDS:
                 break
@@ -206,9 +207,12 @@ class Session:
             return float(self.options.duration)
         return self.visit.duration if self.visit is not None else math.inf
 
-    def _are_files_spent(self) -> bool:
-        """Whether there are files and no further sound or picture will come."""
+    def _is_spent(self) -> bool:
+        """Whether there are files, or typed lines, and nothing further will come of them."""
         spent = []
+        typed = self.robot.resources.ids(TypedRecognizer)
+        if typed:
+            spent.append(self.robot.resources.obtain(typed[0], TypedRecognizer).has_ended)
         if self.options.audio is not None:
             spent.append(self.robot.resources.obtain("microphone", Microphone).has_ended)
         if self.options.camera not in (None, "none"):

@@ -19,13 +19,16 @@ from hri.emotion.emotions import NAMES
 from hri.hal.drivers.wav_file import write_wav
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
-from hri.speech.synthesizers.espeak import EspeakVoice
+from hri.speech.synthesizers.espeak import FASTEST, SLOWEST, EspeakVoice
 from hri.speech.synthesizers.espeak_library import Setting
 
 PATIENCE = 2.0
 """Seconds beyond the length of the speech after which a speaker is given up."""
 DECIMALS = 4
 """Of the seconds in JSON."""
+RATES = f"{SLOWEST} to {FASTEST}"
+NO_FILE = Description("", "").place.path
+"""Where mistakes of the command line are."""
 
 HELP = """\
 --phonemes writes one JSON object: "text", "rate" (samples a second), "duration" (seconds),
@@ -44,15 +47,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("text", help='what to say, in quotes; "-" reads it from standard input')
     add("--voice", default=Setting().voice, help="a voice such as en-gb or en-us+f3 (%(default)s)")
-    add("--rate", type=int, metavar="WPM", help=f"words a minute, 80 to 450 ({Setting().rate})")
-    add("--emotion", metavar="E", help=f"how it sounds: {', '.join(NAMES)}")
+    add("--rate", type=int, metavar="WPM", help=f"words a minute, {RATES} ({Setting().rate})")
+    add("--emotion", metavar="E", help=f"how it sounds: neutral, {', '.join(NAMES)}, or happy, ...")
     add("--intensity", type=float, default=1.0, metavar="X", help="of the emotion, 0 to 1")
     add("--wav", type=Path, metavar="FILE", help="write the sound there, play nothing")
-    add("--phonemes", type=Path, metavar="FILE", help="write the times there as JSON")
+    add("--phonemes", type=Path, metavar="FILE", help="write the times there as JSON, likewise")
 
 
 def run(options: argparse.Namespace) -> int:
     """Exit status 2 when something of it cannot be done."""
+    check(options)
     resources = ResourceManager((), RealClock())
     try:
         speech = _synthesize(resources, options)
@@ -60,9 +64,11 @@ def run(options: argparse.Namespace) -> int:
             _write(options.phonemes, json.dumps(times_of(speech), indent=1) + "\n")
         if options.wav is not None:
             write_wav(options.wav, speech.samples, speech.rate)
-        else:
+        if options.wav is None and options.phonemes is None:
             trio.run(_play, resources, speech)
     except AuthoringError as error:
+        if error.place.path != NO_FILE:
+            raise
         print(f"hri say: {error.what} - {error.remedy}", file=sys.stderr)
         return 2
     finally:
@@ -70,9 +76,22 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
+def check(options: argparse.Namespace) -> None:
+    """Refuse what cannot be meant. Raises HriError."""
+    if options.rate is not None and not SLOWEST <= options.rate <= FASTEST:
+        raise HriError(f"--rate {options.rate} - give words a minute, {RATES}")
+    if not 0 <= options.intensity <= 1:
+        raise HriError(f"--intensity {options.intensity:g} - give one from 0 to 1")
+    if options.wav is not None and options.wav.suffix.lower() not in ("", ".wav"):
+        remedy = f"name it {options.wav.with_suffix('.wav').name}"
+        raise HriError(f"{options.wav}: only WAV is written - {remedy}")
+
+
 def _synthesize(resources: ResourceManager, options: argparse.Namespace) -> Speech:
     prosody = prosody_of(options.emotion, options.intensity) if options.emotion else Prosody()
     text = sys.stdin.read(LARGEST_FILE) if options.text == "-" else options.text
+    if not text.strip():
+        raise HriError("there is nothing to say - give some words")
     parameters = {"voice": options.voice}
     if options.rate is not None:
         parameters["rate_wpm"] = str(options.rate)
@@ -85,15 +104,15 @@ def _synthesize(resources: ResourceManager, options: argparse.Namespace) -> Spee
 def prosody_of(feeling: str, intensity: float) -> Prosody:
     """How the voice of a robot in a neutral mood shows an emotion ("joy" or "happy"), 0 to 1.
 
-    Raises HriError when there is no such emotion, or the intensity is out of range.
+    Raises HriError when there is no such emotion.
     """
+    if feeling == "neutral":
+        return Prosody()
     display = load_display()
-    names = {name: name for name in NAMES}
-    emotion = (names | {display.looks[name].words: name for name in NAMES}).get(feeling)
+    names = {display.looks[name].words: name for name in NAMES} | {name: name for name in NAMES}
+    emotion = names.get(feeling)
     if emotion is None:
-        raise HriError(f'no emotion "{feeling}" - {did_you_mean(feeling, NAMES)}')
-    if not 0 <= intensity <= 1:
-        raise HriError(f"the intensity is {intensity:g} - give one from 0 to 1")
+        raise HriError(f'no emotion "{feeling}" - {did_you_mean(feeling, names)}')
     state = EmotionState(emotion, intensity, 0.0, 0.0, 0.0, {emotion: intensity})
     return display.prosody(felt_now(state))
 

@@ -5,12 +5,18 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+import textwrap
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 
 from hri.core.errors import HriError, did_you_mean
 from hri.speech.synthesizers.espeak_library import load_espeak
 from hri.speech.synthesizers.pyttsx3 import platform_voices
+
+VARIANT = "+"
+"""Stands for the language of a variant, which speaks any."""
+WIDTH = 96
+"""Characters of a line of variants."""
 
 
 @dataclass(frozen=True)
@@ -30,10 +36,11 @@ class Listed:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = (
         "A voice of Hri.EspeakVoice can be given a variant, another speaker of the same language:"
-        " en-us+f3. Those are listed last, with the language +."
+        " en-us+f3. The variants are listed last; in JSON their language is +."
     )
-    parser.add_argument("--language", metavar="L", help="only voices of a language, such as en")
-    parser.add_argument("--json", action="store_true", help="print JSON")
+    add = parser.add_argument
+    add("--language", metavar="L", help="only voices of a language, such as en or english")
+    add("--json", action="store_true", help="print JSON")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -44,7 +51,7 @@ def run(options: argparse.Namespace) -> int:
     if options.json:
         print(json.dumps([asdict(voice) for voice in voices], indent=1))
     else:
-        print(_table(voices))
+        print(_told(voices))
     return 0
 
 
@@ -59,19 +66,42 @@ def all_voices() -> list[Listed]:
         platform = ()
     found += [Listed(v.id, v.name, v.language, v.gender, "Hri.Pyttsx3Voice") for v in platform]
     variants = sorted(library.variants(), key=lambda variant: variant.id.casefold())
-    return found + [Listed(f"+{v.id}", v.name, "+", v.gender, "Hri.EspeakVoice") for v in variants]
+    return found + [
+        Listed(f"+{v.id}", v.name, VARIANT, v.gender, "Hri.EspeakVoice") for v in variants
+    ]
 
 
 def of_language(voices: Iterable[Listed], language: str) -> list[Listed]:
-    """The voices of "en", en-us among them, and the variants. Raises HriError without any."""
-    wanted = language.lower().replace("_", "-")
+    """The voices of "en" or "English", en-us among them, and the variants.
+
+    Raises HriError without any.
+    """
+    wanted = language.casefold().replace("_", "-")
     voices = list(voices)
-    fitting = [v for v in voices if f"{v.language.lower()}-".startswith(f"{wanted}-")]
+    fitting = [
+        voice
+        for voice in voices
+        if f"{voice.language.casefold()}-".startswith(f"{wanted}-") or wanted == _tongue(voice)
+    ]
     if not fitting:
-        known = {voice.language for voice in voices} - {"+"}
+        known = {_tongue(voice) for voice in voices if voice.language != VARIANT}
         remedy = did_you_mean(wanted, known, "`hri voices` lists all")
         raise HriError(f'no voice speaks "{language}" - {remedy}')
-    return fitting + [voice for voice in voices if voice.language == "+"]
+    return fitting + [voice for voice in voices if voice.language == VARIANT]
+
+
+def _tongue(voice: Listed) -> str:
+    """The language in words: "english" of English (America)."""
+    return voice.name.casefold().partition(" (")[0]
+
+
+def _told(voices: Iterable[Listed]) -> str:
+    """The voices as a table, and the variants, which are many, behind one another."""
+    voices = list(voices)
+    variants = [voice.voice for voice in voices if voice.language == VARIANT]
+    table = _table(voice for voice in voices if voice.language != VARIANT)
+    behind = textwrap.fill(" ".join(variants), WIDTH, break_on_hyphens=False)
+    return f"{table}\n\nvariants, to be written behind a voice, such as en-us+f3:\n{behind}"
 
 
 def _table(voices: Iterable[Listed]) -> str:

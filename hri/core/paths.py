@@ -64,7 +64,9 @@ def find(kind: str, name: str) -> Path:
 def _meant(kind: str, name: str) -> str:
     """The remedy for a name that is not found: one like it, also in a folder of its kind."""
     suffix = SUFFIXES.get(kind, ".toml")
-    known = {Path(n).stem: Path(n).stem for n in names(kind) if Path(n).suffix in ("", suffix)}
+    # Beside grammars lie lists of names, which are none of their kind.
+    fitting = [n for n in names(kind) if kind not in SUFFIXES or Path(n).suffix in ("", suffix)]
+    known = {Path(n).stem: Path(n).stem for n in fitting}
     for below in [found for found in names(kind) if not Path(found).suffix]:
         for found in names(f"{kind}/{below}"):
             if found.endswith(suffix):

@@ -41,6 +41,9 @@ ALIASES = {
     "Evolution.WmmeAudioRecord": "Hri.Microphone",
     "Evolution.WmmeFileAudioPlay": "Hri.AudioFilePlayer",
     "Evolution.WmmeFileAudioRecord": "Hri.AudioFileRecorder",
+    # Two names for one thing.
+    "Hri.Listener": "Hri.Recognizer",
+    "Hri.SpeechLevel": "Hri.MicrophoneLevel",
 }
 
 

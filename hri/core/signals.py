@@ -21,6 +21,25 @@ Image = NDArray[np.uint8]
 
 
 @dataclass(frozen=True, slots=True)
+class HeardWord:
+    """A word and when it was said."""
+
+    text: str
+    start: float
+    """Seconds."""
+    end: float
+
+
+@dataclass(frozen=True, slots=True)
+class Alternative:
+    """Something else that may have been said."""
+
+    text: str
+    share: float
+    """How likely it was said in place of the best, 0 to 1; all shares and the best's make 1."""
+
+
+@dataclass(frozen=True, slots=True)
 class Utterance:
     """Something the grammar allows was heard."""
 
@@ -36,6 +55,12 @@ class Utterance:
     """Seconds, when the voice began."""
     end: float = 0.0
     """Seconds, when the voice ended."""
+    words: tuple[HeardWord, ...] = ()
+    """Each word with its time; empty when the engine gives none."""
+    alternatives: tuple[Alternative, ...] = ()
+    """What else it may have been, likeliest first."""
+    latency: float = 0.0
+    """Seconds from where the pause was long enough to the result."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,9 +70,14 @@ class Rejection:
     reason: str
     """One of: "no speech", "not in grammar", "low confidence", "robot speaking"."""
     text: str = ""
+    """The grammar's words that come closest."""
     confidence: float = 0.0
     start: float = 0.0
     end: float = 0.0
+    detail: str = ""
+    """More of the reason, for people: 'as likely: "turn around"'."""
+    latency: float = 0.0
+    """Seconds from where the pause was long enough to the result."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +93,20 @@ class Phoneme:
 
 
 @dataclass(frozen=True, slots=True)
+class Span:
+    """A word or a sentence of a text that is spoken."""
+
+    text: str
+    """As it is written, punctuation included."""
+    position: int
+    """Characters of the whole text before it."""
+    start: float
+    """Seconds from the start of the speech."""
+    end: float
+    """Seconds; the pause after it is left out."""
+
+
+@dataclass(frozen=True, slots=True)
 class Speech:
     """Synthesised speech: what the speaker plays and the lips follow."""
 
@@ -72,11 +116,28 @@ class Speech:
     """Samples a second."""
     phonemes: tuple[Phoneme, ...] = ()
     """In order; empty when the voice gives no times."""
+    words: tuple[Span, ...] = ()
+    """In order; empty when the voice gives no times. Words that melt together, such as "I am", may
+    be one."""
+    sentences: tuple[Span, ...] = ()
+    """In order; empty when the voice gives no times."""
 
     @property
     def duration(self) -> float:
         """Seconds."""
         return len(self.samples) / self.rate
+
+    def heard(self, position: float) -> str:
+        """The words that have been heard to their end after so many seconds.
+
+        For a voice that gives no times: as many of the words as there are seconds of the whole.
+        """
+        if position >= self.duration:
+            return self.text
+        if self.words:
+            return " ".join(word.text for word in self.words if word.end <= position)
+        words = self.text.split()
+        return " ".join(words[: int(len(words) * position / self.duration)])
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,8 +145,13 @@ class Prosody:
     """How something is said; every field is a factor, 1 is the plain voice."""
 
     rate: float = 1.0
+    """Of the words a minute."""
     pitch: float = 1.0
+    """Of the frequency of the voice."""
     volume: float = 1.0
+    """Of the amplitude."""
+    range: float = 1.0
+    """Of how far the pitch moves up and down, in semitones; 0 is monotonous."""
 
 
 @dataclass(frozen=True, slots=True)

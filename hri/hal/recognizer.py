@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
-from hri.core.signals import Samples
+from hri.core.signals import Alternative, HeardWord, Samples
 from hri.hal.resource import Resource
+
+if TYPE_CHECKING:
+    from hri.hal.word_graph import WordGraph
+
+__all__ = ["Alternative", "Grammar", "HeardWord", "Hypothesis", "Recognizer", "Segment"]
 
 
 class Grammar(Protocol):
@@ -26,16 +31,26 @@ class Grammar(Protocol):
     def sentences(self, limit: int) -> Iterable[str]:
         """Sentences of the grammar, at most `limit`."""
 
+    def graph(self) -> WordGraph:
+        """Which word may follow which; made once."""
+
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """A finished piece of speech: sound, or typed text in its place."""
+    """A piece of speech: sound, or typed text in its place."""
 
     start: float
-    """Seconds."""
+    """Seconds of the clock, of the first sample: a little before the voice."""
     end: float
+    """Seconds, of the last sample; a finished piece has the pause that ended it inside."""
     samples: Samples | None = None
     text: str = ""
+    number: int = 0
+    """The same for all snapshots of one piece, of which each one begins the next."""
+    quiet: float = 0.0
+    """Seconds at its end in which no voice was found any more."""
+    noise_db: float | None = None
+    """Level of the noise before it, dB against full scale; None when nothing is known of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +60,12 @@ class Hypothesis:
     text: str
     """Lower case words; empty when the engine found none."""
     confidence: float
-    """0 to 1; 0.5 is the calibrated point of acceptance."""
+    """0 to 1: the chance that a sentence of the grammar, this one or one that sounds like it, was
+    said; 0.5 is the calibrated point of acceptance."""
+    words: tuple[HeardWord, ...] = ()
+    """In order, their times from the start of the segment; empty when the engine gives none."""
+    alternatives: tuple[Alternative, ...] = ()
+    """Likeliest first; empty when the engine gives none."""
 
 
 class Recognizer(Resource):
@@ -56,7 +76,12 @@ class Recognizer(Resource):
 
     @abstractmethod
     def start(self, grammar: Grammar) -> None:
-        """Load the models and take a grammar; may take a second, so call it from a worker."""
+        """Load the models and take a grammar; may take a second, so call it from a worker.
+
+        Called again, the new grammar takes the place of the old one, which stays in force when the
+        new one is refused. Raises NotAvailable without a model, HriError for a grammar that the
+        engine cannot take.
+        """
 
     @abstractmethod
     def listen(self, samples: Samples, end: float) -> list[Segment]:
@@ -67,10 +92,26 @@ class Recognizer(Resource):
         """The piece of speech that is still open, at the end of all sound."""
 
     @abstractmethod
-    def decode(self, segment: Segment) -> Hypothesis:
-        """The words of a piece of speech; called from one worker at a time."""
+    def decode(self, segment: Segment, rules: Collection[str] | None = None) -> Hypothesis:
+        """The words of a finished piece; called from one worker at a time.
+
+        Uses what `advance` has done for the same piece. `rules` are the public rules that may be
+        heard now, where the engine can tell them apart; None is all.
+        """
+
+    def advance(self, segment: Segment, rules: Collection[str] | None = None) -> str:
+        """Work through an open piece as far as it goes; the words so far, "" when there are none.
+
+        For the worker that decodes. Engines that decode at the end do nothing here.
+        """
+        return ""
 
     @property
     def is_hearing(self) -> bool:
         """True while a voice is going on."""
         return False
+
+    @property
+    def open_segment(self) -> Segment | None:
+        """A snapshot of the piece that is still going on; None while there is none."""
+        return None

@@ -203,9 +203,14 @@ class Robot:
         """Say something and wait until it is said."""
         self.run(verbs.say, text)
 
-    def ask(self, question: str, timeout: float = 6.0) -> bool | None:
-        """Ask a yes/no question; yes, no, a nod and a shake count. None without an answer."""
-        answer: bool | None = self.run(verbs.ask, question, timeout)
+    def ask(
+        self, question: str, timeout: float = 6.0, grammar: str = "", retries: int = 0
+    ) -> bool | Utterance | None:
+        """Ask a yes/no question; yes, no, a nod and a shake count. None without an answer.
+
+        With a `grammar`, what is heard by it is the answer. Asked again up to `retries` times.
+        """
+        answer: bool | Utterance | None = self.run(verbs.ask, question, timeout, grammar, retries)
         return answer
 
     def listen(self, timeout: float = float("inf")) -> Utterance | None:

@@ -2,26 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TypeVar
+
 from hri.behavior.behavior import Behavior
 from hri.core.errors import HriError, did_you_mean
-from hri.core.signals import Expression, Utterance
+from hri.core.signals import Event, Expression, Utterance
 from hri.drive.tasks import move, turn
 from hri.emotion.behaviors import EmotionModel
 from hri.face.behaviors import Face
 from hri.face.model import load_face
 from hri.speech.behaviors import Listener
-from hri.speech.tasks import listener_of, say
+from hri.speech.tasks import answers_of, listener_of, next_heard, say, wait_for_speech
+from hri.speech.turn import QUESTION
 from hri.task.context import TaskContext
 
-__all__ = ["ask", "feel", "listen", "move", "say", "show", "turn"]
+__all__ = ["ask", "feel", "listen", "move", "say", "show", "turn", "wait_for_speech"]
+
+T = TypeVar("T")
 
 ANSWERS = {"yes": True, "no": False, "head.nodded": True, "head.shaken": False}
 """What counts as an answer: rules of the grammar and head gestures."""
 
 SHOWN = "expression.override"
 """Slot of the board with the expression that is shown in place of the felt one."""
-QUESTION = "question.open"
-"""Slot of the board that is true while an answer is awaited."""
 
 
 async def show(context: TaskContext, label: str, seconds: float = 4.0) -> None:
@@ -48,46 +52,81 @@ async def feel(context: TaskContext, stimulus: str, intensity: float = 1.0) -> N
 
 async def listen(context: TaskContext, timeout: float = float("inf")) -> Utterance | None:
     """The next thing heard; None when nothing is heard in time."""
-    listener_of(context)
-    event = await context.wait_for("speech.heard", timeout=timeout)
-    if event is None:
-        return None
-    heard = event.properties
-    return Utterance(heard["text"], heard["rule"], heard["tags"], heard["confidence"])
+    return await wait_for_speech(context, "", timeout)
 
 
-async def ask(context: TaskContext, question: str, timeout: float = 6.0) -> bool | None:
-    """Ask a yes/no question; a nod, a shake, "yes" and "no" are answers. None without one.
+async def ask(
+    context: TaskContext,
+    question: str,
+    timeout: float = 6.0,
+    grammar: str = "",
+    retries: int = 0,
+) -> bool | Utterance | None:
+    """Ask a question; the answer, or None without one.
 
-    `timeout` seconds count from the end of the question. Raises `question.asked` when it has been
-    spoken and `question.answered` with the answer.
+    Without a grammar it is a yes/no question: a nod, a shake, "yes" and "no" are answers, and
+    anything else that is heard changes the subject. With the name or path of a `grammar`, that one
+    is in force while the question is open, and the first thing heard is the answer. `timeout`
+    seconds count from the end of the question, and who speaks by then is heard out; it is asked
+    again up to `retries` times. Raises
+    `question.asked` when it has been spoken and `question.answered` with the answer. Raises
+    HriError for a grammar that cannot be used.
     """
-    slot = context.board.slot(QUESTION)
+    if grammar:
+        async with answers_of(context, grammar):
+            return await _ask(context, question, timeout, retries, _heard_answer)
     if not context.behaviors:
         listener_of(context)
-    await say(context, question)
-    slot.set(True, context.clock.now())
-    try:
-        with (
-            context.queue("speech.heard", "head.*") as queue,
-            context.clock.move_on_after(timeout),
-        ):
-            context.events.raise_event("question.asked", text=question)
-            while True:
-                event = await queue.get()
-                key = event.properties.get("rule", event.name)
-                if key in ANSWERS:
-                    answer = ANSWERS[key]
-                    by = "speech" if event.name == "speech.heard" else "head"
-                    context.events.raise_event(
-                        "question.answered", text=question, answer=answer, by=by
-                    )
-                    return answer
-                if event.name == "speech.heard":
-                    return None  # the person changed the subject
-    finally:
-        slot.clear()
+    return await _ask(context, question, timeout, retries, _plain_answer)
+
+
+async def _ask(
+    context: TaskContext,
+    question: str,
+    timeout: float,
+    retries: int,
+    answer_of: Callable[[TaskContext, Event], tuple[T | None] | None],
+) -> T | None:
+    """Ask until something is an answer; None without one.
+
+    `answer_of` says of an event what it answers: (None,) when it changes the subject, None when it
+    is nothing to the question.
+    """
+    slot = context.board.slot(QUESTION)
+    for _ in range(retries + 1):
+        await say(context, question)
+        slot.set(True, context.clock.now())
+        try:
+            with context.queue("speech.heard", "head.*") as queue:
+                context.events.raise_event("question.asked", text=question)
+                end = context.clock.now() + timeout
+                while (event := await next_heard(context, queue, end)) is not None:
+                    answer = answer_of(context, event)
+                    if answer is None:
+                        continue
+                    if answer[0] is not None:
+                        _tell_answer(context, question, answer[0], event)
+                    return answer[0]
+        finally:
+            slot.clear()
     return None
+
+
+def _tell_answer(context: TaskContext, question: str, answer: object, event: Event) -> None:
+    by = "speech" if event.name == "speech.heard" else "head"
+    told = answer.text if isinstance(answer, Utterance) else answer
+    context.events.raise_event("question.answered", text=question, answer=told, by=by)
+
+
+def _plain_answer(context: TaskContext, event: Event) -> tuple[bool | None] | None:
+    key = event.properties.get("rule", event.name)
+    if key in ANSWERS:
+        return (ANSWERS[key],)
+    return (None,) if event.name == "speech.heard" else None
+
+
+def _heard_answer(context: TaskContext, event: Event) -> tuple[Utterance | None] | None:
+    return (listener_of(context).last_utterance,) if event.name == "speech.heard" else None
 
 
 def is_quiet(behaviors: dict[str, Behavior]) -> bool:

@@ -18,6 +18,7 @@ from hri.hal.bumper import Bumper
 from hri.hal.camera import Camera
 from hri.hal.cliff_sensor import CliffSensor
 from hri.hal.drive import Odometry
+from hri.hal.drivers.memory import SilentSpeaker
 from hri.hal.microphone import Microphone
 from hri.hal.motion import Way
 from hri.hal.moving_base import MovingBase
@@ -25,7 +26,7 @@ from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Description
 from hri.simulation.device import InWorld
 from hri.simulation.head import render_head
-from hri.simulation.sound import RATE
+from hri.simulation.sound import RATE, Source
 
 HEAD_HEIGHT = 0.24
 """Metres from chin to crown, of an adult."""
@@ -53,6 +54,10 @@ about as the one of 2003 did; up to MOST_COUNTS."""
 MOST_COUNTS = 1023
 VOLTAGES = (10.5, 12.4)
 """Of an empty and of a full battery by default."""
+SPEAKER_LEVEL = (-12.0, -60.0, 0.0)
+"""Default, least and most of how loud a speaker is at the microphone, dB."""
+SPEAKER_DELAY = (0.01, 0.0, 0.15)
+"""Default, least and most of the seconds until it is heard there."""
 NOISES = 4099
 """How many errors a range sensor makes before they repeat."""
 GRAIN = 2.0
@@ -73,6 +78,53 @@ class SimulatedMicrophone(InWorld, Microphone):
     def read(self, now: float) -> Samples:
         first, self._next = self._next, max(self._next, math.floor(now * RATE))
         return self.world.sound.between(first, self._next)
+
+
+class SimulatedSpeaker(InWorld, SilentSpeaker):
+    """Plays into the room, so that the simulated microphone hears it.
+
+    `level` is how loud that is at the microphone, in dB against the sound played; `delay` is the
+    seconds until it is there.
+    """
+
+    parameters: ClassVar[tuple[str, ...]] = ("level", "delay")
+
+    @classmethod
+    def check(cls, description: Description) -> None:
+        super().check(description)
+        description.number_within("level", *SPEAKER_LEVEL)
+        description.number_within("delay", *SPEAKER_DELAY)
+
+    def _open(self) -> None:
+        super()._open()
+        self._gain = 10 ** (self.description.number_within("level", *SPEAKER_LEVEL) / 20)
+        self._delay = self.description.number_within("delay", *SPEAKER_DELAY)
+        self._sources: list[Source] = []
+
+    def play(self, samples: Samples, rate: int, now: float) -> None:
+        self.stop(now)
+        super().play(samples, rate, now)
+        self._sources = [self._sound(samples, now)]
+
+    def extend(self, samples: Samples, now: float) -> None:
+        end = self._end
+        super().extend(samples, now)
+        if end is not None:
+            self._sources.append(self._sound(samples, max(end, now)))
+
+    def stop(self, now: float) -> None:
+        super().stop(now)
+        for source in self._sources:
+            self.world.sound.cut(source, now + self._delay)
+        self._sources = []
+
+    @property
+    def _end(self) -> float | None:
+        """When what it plays will have been played."""
+        return None if self._begun is None else self._begun + self._duration
+
+    def _sound(self, samples: Samples, at: float) -> Source:
+        return self.world.sound.add(samples, self._rate, at + self._delay, self._gain)
 
 
 class SimulatedDrive(InWorld, MovingBase):

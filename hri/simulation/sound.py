@@ -25,7 +25,7 @@ MEMORY = 60.0
 _BLOCK = 1600
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Source:
     """Something that sounds."""
 
@@ -47,10 +47,18 @@ class Sound:
         self._seed = seed
         self._noise = FULL_SCALE * 10 ** (noise_db / 20)
 
-    def add(self, samples: Samples, rate: int, at: float, gain: float = 1.0) -> None:
+    def add(self, samples: Samples, rate: int, at: float, gain: float = 1.0) -> Source:
         """Let a sound begin at a time in seconds; what came before is never changed by it."""
         voice = soxr.resample(samples.astype(np.float32) * np.float32(gain), rate, RATE)
         self._sources.append(Source(round(at * RATE), voice))
+        return self._sources[-1]
+
+    def cut(self, source: Source, at: float) -> None:
+        """Let a sound end at a time in seconds, if it has not ended by then."""
+        if source in self._sources:
+            kept = max(0, round(at * RATE) - source.first)
+            place = self._sources.index(source)
+            self._sources[place] = Source(source.first, source.samples[:kept])
 
     def between(self, first: int, end: int) -> Samples:
         """The samples with index `first` up to, not including, `end`; fewer than one is none."""

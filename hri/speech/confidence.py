@@ -19,9 +19,8 @@ seven synthetic voices (12 more as another sentence); of foreign speech none of 
 none of 5 read lines, and 15 of 294 short synthetic sentences. Right pieces of real people's
 speech (118: digits, cards, read lines, each with its own grammar) had at most 0.047.
 """
-FREE_SILENCE = 0.45
-"""Seconds outside of the words that cost nothing: what the endpointer adds at both ends, and a
-short pause. Right pieces have at most 0.46."""
+FREE_SILENCE = 1.05
+"""Seconds outside of the words that cost nothing: what the endpointer adds at both ends."""
 SILENCE_SCALE = 0.3
 """Seconds outside of the words, beyond the free ones, that cost as much as a bad score."""
 FRAME = 0.01

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
@@ -10,25 +13,53 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
 from hri.core import paths
 from hri.core.clock import Worker
-from hri.core.errors import HriError, did_you_mean
-from hri.core.signals import Rejection, Utterance
+from hri.core.signals import Rejection, Samples, Speech, Utterance
 from hri.hal.microphone import Microphone
-from hri.hal.recognizer import Hypothesis, Recognizer, Segment
+from hri.hal.recognizer import Recognizer, Segment
+from hri.speech.echo import EchoCanceller, OwnVoice
 from hri.speech.grammar import Grammar, load_grammar
-from hri.speech.judgement import judge
+from hri.speech.grammar_stack import GrammarStack, Layer
+from hri.speech.hearing import SILENT_AFTER, STEP, Heard, understand
+from hri.speech.judgement import OVER_SPEECH, STRICTNESS
+from hri.speech.turn import FOLLOW_UP, Turn, Wakefulness
 
 MOST_WAITING = 20
 """Pieces of speech that wait for their turn; beyond it the oldest are forgotten."""
+ECHO_TAIL = 0.4
+"""Seconds that the robot's own voice may be heard after it has ended."""
+OWN_SHARE = 0.5
+"""Share of a sound's energy that must be left without the robot's voice to be somebody else's."""
 
-Decoded = tuple[Segment, bool, Hypothesis] | None
-"""A piece of speech, whether the robot spoke meanwhile, its words; None when models are loaded."""
+Tell = Callable[[float], object]
+"""What is to be done in the loop with the result of a job, at a time."""
+
+
+@dataclass(slots=True)
+class _Piece:
+    """What happens while a piece of speech is heard."""
+
+    has_spoken: bool = False
+    """Whether the robot spoke meanwhile."""
+    was_question_open: bool = False
+    energy: float = 0.0
+    """Of what the microphone heard."""
+    foreign_energy: float = 0.0
+    """Of what was left of it without the robot's own voice."""
 
 
 class Listener(Behavior):
     """Hears what the grammar allows: sound in, utterances out.
 
-    Raises `speech.heard` (text, rule, tags, confidence) and `speech.rejected` (reason, text,
-    confidence). Loads its models while the rest already runs; what is said meanwhile waits.
+    Raises `speech.heard` (text, rule, tags, confidence, start, end, latency), `speech.rejected`
+    (reason, detail, text, confidence), `speech.partial` (text) while somebody speaks,
+    `speech.interrupted` (text, rule) when a rule marked @interrupts is heard over the robot's own
+    voice, and `grammar.changed` (file) or `grammar.refused` (file, error). Loads its models and
+    grammars while the rest already runs; what is said before the first grammar is there waits.
+
+    Which rules count is told by their marks, see `hri.speech.turn`. A sentence of a rule marked
+    @interrupts that is heard as clearly as over speech takes effect 0.2 s after its last sound,
+    before the pause that ends a piece of speech is over. Linked to the speech and the
+    position of a voice, it subtracts that voice from what it hears. No sound is ever kept.
     """
 
     category = "speech"
@@ -36,40 +67,113 @@ class Listener(Behavior):
     is_speaking = Input[bool](
         "boolean", "whether the robot speaks; then few rules count", is_optional=True
     )
+    speech = Input[Speech]("speech", "what the robot says, to be subtracted", is_optional=True)
+    position = Input[float]("double", "seconds of it that have been heard", is_optional=True)
+    question = Input[bool](
+        "boolean", "whether an answer is awaited; then rules marked @answer count", is_optional=True
+    )
+    push_to_talk = Input[bool](
+        "boolean", "hear only while it is true; always without a link", is_optional=True
+    )
     utterance = Output[Utterance]("utterance", "what was heard, when something was")
+    text = Output[str]("string", "the words of it")
+    rule = Output[str]("string", "the rule that allows them")
+    partial = Output[str]("string", "the words so far, when there are new ones")
     is_hearing = Output[bool]("boolean", "whether a voice is going on")
     microphone_id = Param("microphone", "resource that hears")
     recognizer_id = Param("recognizer", "resource that finds the words")
     grammar = Param("companion", "name or path of the grammar")
-    strictness = Param(0.5, "confidence from which words count", minimum=0.0, maximum=1.0)
-    interrupting = Param("stop", "rules that count while the robot speaks, spaces between")
+    strictness = Param(STRICTNESS, "confidence from which words count", minimum=0.0, maximum=1.0)
+    follow_up = Param(
+        FOLLOW_UP, "seconds after the last word in which no wake word is needed", minimum=0.0
+    )
+    reload = Param(False, "whether a grammar is read again when its file changes")
     latency_s = Param(0.15, "time that finding the words takes on a fake clock", minimum=0.0)
 
-    loaded_grammar: Grammar
-    """What is understood; there once the behavior has started."""
     is_muted = False
     """Set it to be deaf for a while."""
+    last_utterance: Utterance | None = None
+    """What was heard last."""
 
     def check(self) -> None:
-        known = load_grammar(paths.find("grammars", self.grammar)).public_rules
-        for rule in self.interrupting.split():
-            if rule not in known:
-                remedy = did_you_mean(rule, known)
-                raise HriError(f'{self.id}: interrupting names no rule "{rule}" - {remedy}')
+        load_grammar(paths.find("grammars", self.grammar))
 
     def start(self, context: Context) -> None:
-        self.loaded_grammar = load_grammar(paths.find("grammars", self.grammar))
+        path = paths.find("grammars", self.grammar)
+        self._first = load_grammar(path)
         self._events = context.events
         self._recognizer = context.resources.obtain(self.recognizer_id, Recognizer)
         microphone = context.resources.obtain(self.microphone_id, Microphone)
         self._ear = microphone.listen(self._recognizer.rate)
-        self._waiting: deque[tuple[Segment, bool]] = deque(maxlen=MOST_WAITING)
-        self._has_spoken = False
-        self._worker: Worker[Decoded] = context.clock.worker(self.latency_s)
-        self._worker.submit(self._load)
+        self._waiting: deque[tuple[Segment, _Piece]] = deque(maxlen=MOST_WAITING)
+        self._piece = _Piece()
+        self._wakefulness = Wakefulness(self.follow_up)
+        self._own_voice = OwnVoice(self._recognizer.rate)
+        self._canceller = EchoCanceller()
+        self._spoke = -ECHO_TAIL
+        self._worked = Segment(0.0, 0.0)
+        self._partial = ""
+        self._told_early = (-1, "")
+        self._worker: Worker[Tell] = context.clock.worker(self.latency_s)
+        # What is worked out beforehand takes no time away from the result.
+        self._early_worker: Worker[Tell] = context.clock.worker(0.0)
+        self._grammars = GrammarStack(context.clock.worker(self.latency_s), self._take_grammar)
+        self._grammars.use(path).grammar = self._first
+        self._grammars.update()
 
-    def _load(self) -> None:
-        self._recognizer.start(self.loaded_grammar)
+    # --- grammars ---
+
+    @property
+    def loaded_grammar(self) -> Grammar:
+        """What is understood; there once the behavior has started."""
+        layer = self._grammars.in_force
+        return self._first if layer is None or layer.grammar is None else layer.grammar
+
+    def use(self, grammar: str | Path) -> Layer:
+        """Take another grammar, by name or path, in the place of the topmost one.
+
+        It is read and compiled while the old one stays in force, and no sound is lost: a piece of
+        speech is decoded by the grammar that is in force when it has ended. `Layer.error` says why
+        one was refused. Raises HriError when there is no such file.
+        """
+        return self._grammars.use(paths.find("grammars", str(grammar)))
+
+    def push(self, grammar: str | Path) -> Layer:
+        """Put another grammar above the topmost one, until `pop`. Raises HriError as `use`."""
+        return self._grammars.push(paths.find("grammars", str(grammar)))
+
+    def pop(self, layer: Layer) -> None:
+        """Take a grammar away that was pushed; the one below it comes back into force."""
+        self._grammars.pop(layer)
+
+    def reload_grammar(self) -> None:
+        """Read the files of the grammar in force anew; the old one stays when they are wrong."""
+        self._grammars.reload()
+
+    def is_in_force(self, layer: Layer) -> bool:
+        """Whether a grammar is the one that is listened for."""
+        return self._grammars.in_force is layer
+
+    def _take_grammar(self, layer: Layer) -> None:
+        """Read a grammar and give it to the recogniser; runs in a worker."""
+        grammar = layer.grammar or load_grammar(layer.path)
+        self._recognizer.start(grammar)
+        layer.grammar = grammar
+        self._grammars.in_force = layer
+
+    def _change_grammar(self, now: float) -> None:
+        # What ended before is still decoded by the grammar that was in force then.
+        if not self._waiting or self._grammars.in_force is None:
+            layer = self._grammars.update()
+            if layer is not None and layer.error is not None:
+                error = str(layer.error)
+                self._events.raise_event("grammar.refused", file=str(layer.path), error=error)
+            elif layer is not None and layer.grammar is not self._first:
+                self._events.raise_event("grammar.changed", file=str(layer.path))
+        if self.reload:
+            self._grammars.reload_when_changed(now)
+
+    # --- hearing ---
 
     @property
     def is_idle(self) -> bool:
@@ -78,51 +182,202 @@ class Listener(Behavior):
 
     def compute(self, now: float, dt: float) -> None:
         self._listen(now)
-        for decoded in self._worker.poll():
-            if decoded is not None:
-                self._tell(*decoded)
-        if self._waiting and not self._worker.is_busy:
-            segment, has_spoken = self._waiting.popleft()
-            self._worker.submit(lambda: self._decode(segment, has_spoken))
+        for worker in (self._early_worker, self._worker):
+            for tell in worker.poll():
+                tell(now)
+        self._change_grammar(now)
+        self._work(now)
         self.is_hearing.send(self._recognizer.is_hearing)
 
     def _listen(self, now: float) -> None:
-        """Feed the endpointer; remember whether the robot spoke during each piece."""
-        samples = self._ear.read(now)
-        if self.is_muted:
-            samples = np.zeros_like(samples)
+        """Feed the endpointer; remember what happens during each piece."""
         is_speaking = bool(self.is_speaking.value)
+        if is_speaking:
+            self._spoke = now
+            self._wakefulness.extend(now)
+        heard = self._ear.read(now)
+        samples = self._without_own_voice(heard, now)
+        is_deaf = self.is_muted or bool(self.push_to_talk.sources and not self.push_to_talk.value)
         was_hearing = self._recognizer.is_hearing
-        segments = self._recognizer.listen(samples, now)
-        if self._ear.has_ended and self._recognizer.is_hearing:
+        segments = self._recognizer.listen(samples[:0] if is_deaf else samples, now)
+        if (self._ear.has_ended or is_deaf) and self._recognizer.is_hearing:
             segments += self._recognizer.flush()
-        if was_hearing or self._recognizer.is_hearing:
-            self._has_spoken |= is_speaking
-        self._waiting.extend((segment, self._has_spoken or is_speaking) for segment in segments)
-        if not self._recognizer.is_hearing:
-            self._has_spoken = False
+        if was_hearing or self._recognizer.is_hearing or segments:
+            self._note(heard, samples, is_speaking)
+        self._waiting.extend((segment, self._piece) for segment in segments)
+        if segments or not self._recognizer.is_hearing:
+            self._piece = _Piece()
 
-    def _decode(self, segment: Segment, has_spoken: bool) -> Decoded:
-        return segment, has_spoken, self._recognizer.decode(segment)
+    def _note(self, heard: Samples, samples: Samples, is_speaking: bool) -> None:
+        piece = self._piece
+        piece.has_spoken |= is_speaking
+        piece.was_question_open |= bool(self.question.value)
+        piece.energy += _energy(heard)
+        piece.foreign_energy += _energy(samples)
 
-    def _tell(self, segment: Segment, has_spoken: bool, hypothesis: Hypothesis) -> None:
-        only = self.interrupting.split() if has_spoken else None
-        result = judge(self.loaded_grammar, segment, hypothesis, self.strictness, only)
+    def _without_own_voice(self, heard: Samples, now: float) -> Samples:
+        """Subtract what the robot says, as far as a voice is linked that tells it."""
+        if not self.speech.sources or now - self._spoke > ECHO_TAIL:
+            rest = self._canceller.flush()
+            return np.concatenate([rest, heard]) if len(rest) else heard
+        position = self.position.value or 0.0
+        played = self._own_voice.played(self.speech.value, position, len(heard), now)
+        return self._canceller.cancel(heard, played)
+
+    # --- understanding ---
+
+    def _work(self, now: float) -> None:
+        """Give the worker the next thing to do."""
+        # The engine does one thing at a time.
+        is_busy = self._worker.is_busy or self._early_worker.is_busy
+        if is_busy or self._grammars.in_force is None:
+            return
+        if self._waiting:
+            segment, piece = self._waiting.popleft()
+            turn = self._turn(piece, segment.start)
+            self._worker.submit(lambda: self._understand(segment, piece, turn, now))
+        elif (segment_so_far := self._recognizer.open_segment) is not None:
+            self._advance(segment_so_far, self._piece, now)
+
+    def _turn(self, piece: _Piece, start: float) -> Turn:
+        return Turn(
+            is_speaking=piece.has_spoken,
+            is_question_open=piece.was_question_open or bool(self.question.value),
+            is_awake=self._wakefulness.is_awake(start),
+        )
+
+    def _understand(self, segment: Segment, piece: _Piece, turn: Turn, begun: float) -> Tell:
+        """Decode a piece; runs in the worker."""
+        while True:
+            layer = self._grammars.in_force
+            assert layer is not None
+            assert layer.grammar is not None
+            heard = understand(self._recognizer, layer.grammar, segment, self.strictness, turn)
+            if layer is self._grammars.in_force:
+                break  # else another grammar came meanwhile, and the words may be of either
+        grammar = layer.grammar
+
+        def tell(now: float) -> None:
+            if self._told_early == (segment.number, _rule_of(heard)):
+                return
+            result = replace(heard, latency=now - begun)
+            if isinstance(result, Utterance) and self._is_own(result, piece):
+                result = _own_words(result)
+            self._tell(result, grammar, piece)
+
+        return tell
+
+    def _advance(self, segment: Segment, piece: _Piece, begun: float) -> None:
+        """Let the engine work on an open piece when there is enough new of it."""
+        last = self._worked
+        is_silent = segment.quiet >= SILENT_AFTER
+        if segment.number == last.number and (
+            last.quiet >= SILENT_AFTER if is_silent else segment.end - last.end < STEP
+        ):
+            return
+        self._worked = replace(segment, samples=None)
+        layer = self._grammars.in_force
+        assert layer is not None
+        assert layer.grammar is not None
+        grammar, turn = layer.grammar, self._turn(piece, segment.start)
+
+        def job() -> Tell:
+            if is_silent and grammar.marked("interrupts"):
+                return self._anticipate(segment, piece, turn, grammar, begun)
+            words = self._recognizer.advance(segment, turn.rules(grammar))
+            return lambda now: self._tell_partial(words, turn)
+
+        self._early_worker.submit(job)
+
+    def _anticipate(
+        self, segment: Segment, piece: _Piece, turn: Turn, grammar: Grammar, begun: float
+    ) -> Tell:
+        """Decode a piece in the pause that may end it: a sure "stop" does not wait for the rest."""
+        heard = understand(self._recognizer, grammar, segment, self.strictness, turn)
+        is_sure = (
+            isinstance(heard, Utterance)
+            and heard.rule in grammar.marked("interrupts")
+            and heard.confidence >= self.strictness + OVER_SPEECH * (1.0 - self.strictness)
+            and not self._is_own(heard, piece)
+        )
+
+        def tell(now: float) -> None:
+            early = (segment.number, _rule_of(heard))
+            if is_sure and self._told_early != early:
+                self._told_early = early
+                self._tell(replace(heard, latency=now - begun), grammar, piece)
+            elif not is_sure:
+                self._tell_partial(heard.text, turn)
+
+        return tell
+
+    # --- telling ---
+
+    def _is_own(self, heard: Utterance, piece: _Piece) -> bool:
+        """Whether it is what the robot said itself, and that was most of the sound."""
+        if not piece.has_spoken or piece.foreign_energy >= OWN_SHARE * piece.energy:
+            return False
+        said = self._own_voice.said(heard.start - ECHO_TAIL, heard.end + ECHO_TAIL)
+        return f" {heard.text} " in f" {' '.join(said)} "
+
+    def _tell_partial(self, words: str, turn: Turn) -> None:
+        if words and words != self._partial and not turn.is_speaking:
+            self._partial = words
+            self.partial.send(words)
+            self._events.raise_event("speech.partial", text=words)
+
+    def _tell(self, result: Heard, grammar: Grammar, piece: _Piece) -> None:
+        self._partial = ""
         confidence = round(result.confidence, 3)
         if isinstance(result, Rejection):
             self._events.raise_event(
-                "speech.rejected", reason=result.reason, text=result.text, confidence=confidence
+                "speech.rejected",
+                reason=result.reason,
+                detail=result.detail,
+                text=result.text,
+                confidence=confidence,
             )
             return
+        self._wakefulness.extend(result.end)
+        self.last_utterance = result
         self.utterance.send(result)
+        self.text.send(result.text)
+        self.rule.send(result.rule)
+        if piece.has_spoken and result.rule in grammar.marked("interrupts"):
+            self._events.raise_event("speech.interrupted", text=result.text, rule=result.rule)
         self._events.raise_event(
             "speech.heard",
             text=result.text,
             rule=result.rule,
             tags=dict(result.tags),
             confidence=confidence,
+            start=round(result.start, 3),
+            end=round(result.end, 3),
+            latency=round(result.latency, 3),
         )
 
     def stop(self) -> None:
         self._ear.close()
+        self._early_worker.close()
         self._worker.close()
+        self._grammars.close()
+
+
+def _energy(samples: Samples) -> float:
+    return float(np.sum(np.square(samples, dtype=np.float64)))
+
+
+def _rule_of(heard: Heard) -> str:
+    return heard.rule if isinstance(heard, Utterance) else ""
+
+
+def _own_words(heard: Utterance) -> Rejection:
+    return Rejection(
+        reason="robot speaking",
+        text=heard.text,
+        confidence=heard.confidence,
+        start=heard.start,
+        end=heard.end,
+        detail="its own words",
+        latency=heard.latency,
+    )

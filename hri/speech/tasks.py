@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+
 from hri.behavior.behavior import Behavior
 from hri.behavior.network import Network
 from hri.core.errors import HriError
+from hri.core.signals import Event, Utterance
 from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer
 from hri.hal.resource import Resource
@@ -12,6 +16,7 @@ from hri.hal.speaker import Speaker
 from hri.hal.synthesizer import Synthesizer
 from hri.speech.behaviors import Listener, Voice
 from hri.task.context import TaskContext
+from hri.task.queue import EventQueue
 from hri.task.task import task
 
 LOOK_EVERY = 0.02
@@ -41,6 +46,54 @@ async def say(context: TaskContext, text: str) -> None:
             voice.cancel(saying)
 
 
+async def wait_for_speech(
+    context: TaskContext, rules: str = "", timeout: float = float("inf")
+) -> Utterance | None:
+    """The next thing heard by one of these rules, spaces between; by any when none is named.
+
+    None when nothing of that kind is heard in `timeout` seconds.
+    """
+    listener = listener_of(context)
+    end = context.clock.now() + timeout
+    with context.queue("speech.heard") as queue:
+        while (event := await next_heard(context, queue, end)) is not None:
+            if not rules or event.properties["rule"] in rules.split():
+                return listener.last_utterance
+    return None
+
+
+async def next_heard(context: TaskContext, queue: EventQueue, end: float) -> Event | None:
+    """The next event of a queue, None after the time `end`; who speaks by then is heard out."""
+    while True:
+        listener = context.find_behavior(Listener)
+        now = context.clock.now()
+        if now >= end and (listener is None or listener.is_idle):
+            return None
+        event: Event | None = None
+        with context.clock.move_on_after(max(LOOK_EVERY, end - now)):
+            event = await queue.get()
+        if event is not None:
+            return event
+
+
+@asynccontextmanager
+async def answers_of(context: TaskContext, grammar: str) -> AsyncIterator[Listener]:
+    """Let another grammar be in force for a while; what it is, is ready when the body runs.
+
+    Raises HriError for a grammar that is not there or cannot be used.
+    """
+    listener = listener_of(context)
+    layer = listener.push(grammar)
+    try:
+        while not listener.is_in_force(layer):
+            if layer.error is not None:
+                raise layer.error
+            await context.clock.sleep(LOOK_EVERY)
+        yield listener
+    finally:
+        listener.pop(layer)
+
+
 def voice_of(context: TaskContext) -> Voice:
     """The voice that runs, else one that is started now. Raises HriError without a device."""
     voice = context.find_behavior(Voice)
@@ -48,6 +101,8 @@ def voice_of(context: TaskContext) -> Voice:
         ids = {"voice_id": _id(context, Synthesizer), "speaker_id": _id(context, Speaker)}
         voice = Voice("voice", **ids)
         _start(context, voice)
+        if (listener := context.find_behavior(Listener)) is not None:
+            _let_tell(voice, listener)
     return voice
 
 
@@ -57,8 +112,18 @@ def listener_of(context: TaskContext) -> Listener:
     if listener is None:
         microphone, recognizer = _id(context, Microphone), _id(context, Recognizer)
         listener = Listener("listener", microphone_id=microphone, recognizer_id=recognizer)
+        if (voice := context.find_behavior(Voice)) is not None:
+            _let_tell(voice, listener)
         _start(context, listener)
     return listener
+
+
+def _let_tell(voice: Voice, listener: Listener) -> None:
+    """Let the voice tell the ears what it says, so that the robot does not hear itself."""
+    if not listener.is_speaking.sources:
+        listener.is_speaking.sources.append(voice.is_speaking)
+        listener.speech.sources.append(voice.speech)
+        listener.position.sources.append(voice.position)
 
 
 def _start(context: TaskContext, behavior: Behavior) -> None:

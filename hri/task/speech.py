@@ -2,11 +2,13 @@
 
 Speak(text)            says it; when cancelled, it is cut at once
 Listen(timeout=inf)    the next utterance; None after `timeout` seconds
-Ask(question, timeout=6)    True, False, or None without an answer
+WaitForSpeech(rules="", timeout=inf)    the next utterance by one of these rules
+Ask(question, timeout=6, grammar="", retries=0)    True, False, or None without an answer; with a
+                       grammar, the utterance that answers
 """
 
 from hri.task.library import tasks_by_name
 
-__all__ = ["Ask", "Listen", "Speak"]  # noqa: F822
+__all__ = ["Ask", "Listen", "Speak", "WaitForSpeech"]  # noqa: F822
 
 __getattr__ = tasks_by_name(__name__, *__all__)

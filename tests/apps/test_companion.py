@@ -7,7 +7,7 @@ import pytest
 
 from hri.core import paths
 from hri.core.clock import FakeClock
-from hri.core.errors import AuthoringError, HriError
+from hri.core.errors import AuthoringError, AuthoringErrors, HriError
 from hri.hal.drive import Odometry
 from hri.hal.drivers.memory import OffscreenScreen
 from hri.hal.resource import Description
@@ -214,6 +214,22 @@ def test_a_command_without_a_reply_is_found(own_app):
     replies.write_text(replies.read_text().replace("[reply.yes]\n", "", 1))
     with pytest.raises(AuthoringError, match=r"no reply to the rule <yes> .* add a table"):
         Robot(app=str(own_app), config="simulated", clock=FakeClock())
+
+
+def test_all_mistakes_of_the_replies_are_told_at_once(own_app):
+    replies = own_app / "replies.toml"
+    text = replies.read_text().replace("[reply.yes]\n\n[reply.no]\n", "[reply.weather]\n", 1)
+    text = text.replace('show = "happy"', 'show = "hapy"', 1).replace('bump = "Ouch!"\n', "")
+    replies.write_text(text)
+    with pytest.raises(AuthoringErrors) as error:
+        Robot(app=str(own_app), config="simulated", clock=FakeClock())
+    told = str(error.value)
+    assert all(line.startswith(f"{replies}:") for line in told.splitlines())
+    assert len(told.splitlines()) == 4
+    assert 'no expression "hapy" - did you mean "happy"?' in told
+    assert 'the grammar has no rule "weather" - delete this table, or mend the grammar' in told
+    assert "no reply to the rules <yes>, <no> of the grammar - add a table [reply.yes]" in told
+    assert '"bump" is missing in [unasked]' in told
 
 
 @pytest.mark.parametrize(

@@ -1,14 +1,19 @@
 """The companion as users start it: a process, its files, its exit status."""
 
+import argparse
 import json
+import re
 import shutil
 import signal
 import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+import soundfile
 
+from hri.cli.run import add_options, check_files
 from hri.core import paths
 from hri.core.recording import read_events
 
@@ -16,9 +21,11 @@ SHARED = Path(__file__).resolve().parents[2].parent / "shared"
 GOFORWARD = SHARED / "speech" / "real" / "robot" / "goforward.wav"
 
 
-def hri(*arguments, folder=None):
+def hri(*arguments, folder=None, typed=None):
     command = [sys.executable, "-m", "hri.cli.main", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, cwd=folder, timeout=500)
+    return subprocess.run(
+        command, capture_output=True, text=True, cwd=folder, input=typed, timeout=500
+    )
 
 
 def start(*arguments):
@@ -114,6 +121,29 @@ def test_a_person_who_says_go_forward_ten_meters_is_obeyed(tmp_path):
     odometry = [e for e in events if e["event"] == "odometry"]
     assert odometry[-1]["x_cm"] == pytest.approx(1000, rel=0.02)
     assert abs(odometry[-1]["y_cm"]) < 20
+
+
+def test_what_is_typed_is_told_in_whole_lines_and_its_end_is_the_end(tmp_path):
+    config = tmp_path / "typed.xml"
+    text = paths.find("config", "typed").read_text()
+    config.write_text(text.replace('"640"', '"160"').replace('"480"', '"120"'))
+    run = hri(
+        "companion", "--config", config, "--camera", "none", "--fast", "--headless",
+        typed="what can i say\n",
+    )  # fmt: skip
+    assert run.returncode == 0, run.stderr
+    assert re.search(r"heard +what can i say", run.stdout)
+    assert re.search(r"said +You can say, for instance: .*, stop\.", run.stdout)
+
+
+@pytest.mark.parametrize("suffix", ["wav", "mp3", "flac", "ogg"])
+def test_it_takes_sound_files_of_every_format(suffix, tmp_path):
+    path = tmp_path / f"floats.{suffix}"
+    subtype = "FLOAT" if suffix == "wav" else None
+    soundfile.write(path, 0.1 * np.sin(np.arange(16000)), 16000, subtype=subtype)
+    parser = argparse.ArgumentParser()
+    add_options(parser)
+    check_files(parser.parse_args([f"--audio={path}"], argparse.Namespace(app="companion")))
 
 
 BAD = {
@@ -215,7 +245,9 @@ def test_doctor_reports_and_goes_on():
     assert run.returncode in (0, 1)
     assert "Traceback" not in run.stderr
     for part in ("microphone", "speaker", "camera", "screen", "base", "voice", "recognizer"):
-        assert part in run.stdout
+        assert run.stdout.count(f"\n{part} ") + run.stdout.startswith(f"{part} ") == 1
+        assert f"{part}: " not in run.stdout
+    assert "`hri doctor`" not in run.stdout
 
 
 def test_the_tags_of_a_sentence_as_json():

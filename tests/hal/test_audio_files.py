@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from hri.core.errors import AuthoringError, HriError, NotAvailable
 from hri.hal.audio_file import AudioFilePlayer, AudioFileRecorder
-from hri.hal.drivers import audio_file
-from hri.hal.drivers.audio_file import MicrophoneFileRecorder, SpeakerFilePlayer, load_sound
-from hri.hal.drivers.wav_file import read_wav, write_wav
+from hri.hal.drivers import sound_decoder
+from hri.hal.drivers.audio_file import MicrophoneFileRecorder, SpeakerFilePlayer
+from hri.hal.drivers.wav_file import WavMicrophone, load_sound, read_wav, write_wav
 from hri.hal.manager import ResourceManager
 from hri.hal.pending import Interrupted
 from hri.hal.resource import Description
@@ -44,6 +44,32 @@ def test_both_channels_of_a_file_are_heard(tmp_path):
     assert np.array_equal(samples, (tone(22050) / 2).astype(np.int16))
 
 
+@pytest.mark.parametrize("subtype", ["PCM_U8", "PCM_24", "PCM_32", "FLOAT", "DOUBLE", "ULAW"])
+def test_a_wav_of_any_numbers_is_as_loud_as_it_was(tmp_path, subtype):
+    loud = tone(22050) / 32768.0
+    soundfile.write(tmp_path / "tone.wav", loud, 22050, subtype=subtype)
+    samples, _ = load_sound(tmp_path / "tone.wav")
+    assert samples.max() == pytest.approx(tone(22050).max(), rel=0.05)
+    assert similarity(samples, tone(22050)) > 0.99
+
+
+def test_what_is_too_loud_is_clipped_and_what_is_no_number_is_silence(tmp_path):
+    loud = np.array([3.0, -3e38, np.inf, -np.inf, np.nan, 0.5])
+    soundfile.write(tmp_path / "loud.wav", loud, 22050, subtype="FLOAT")
+    samples, _ = load_sound(tmp_path / "loud.wav")
+    assert samples.tolist() == [32767, -32768, 32767, -32768, 0, 16384]
+
+
+@pytest.mark.parametrize("name", ["float.wav", "tone.mp3", "tone.flac", "tone.ogg"])
+def test_a_microphone_hears_files_of_every_format(tmp_path, clock, open_driver, name):
+    subtype = "FLOAT" if name == "float.wav" else None
+    stereo = np.stack([tone(44100, 1.0), np.zeros(44100, np.int16)], axis=1)
+    soundfile.write(tmp_path / name, stereo / 32768.0, 44100, subtype=subtype)
+    microphone = open_driver(WavMicrophone, file=tmp_path / name, channel="left")
+    clock.advance(0.8)
+    assert similarity(microphone.read(clock.now()), tone(microphone.rate, 0.8)) > 0.98
+
+
 @pytest.mark.parametrize("name", ["bad.mp3", "bad.wav", "bad"])
 @pytest.mark.parametrize("content", [None, b"", b"this is no sound", b"ID3" + b"\xff\xfb" * 500])
 def test_what_cannot_be_played_is_one_line(tmp_path, name, content):
@@ -58,7 +84,7 @@ def test_what_cannot_be_played_is_one_line(tmp_path, name, content):
 
 
 def test_a_file_that_would_fill_the_memory_is_refused(files, monkeypatch):
-    monkeypatch.setattr(audio_file, "LONGEST", 0.5)
+    monkeypatch.setattr(sound_decoder, "LONGEST", 0.5)
     with pytest.raises(HriError, match=r"longer than 0\.5 s"):
         load_sound(files / "tone.mp3")
 

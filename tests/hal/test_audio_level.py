@@ -13,7 +13,7 @@ from hri.hal.resource import Description
 
 from .sounds import tone
 
-pytestmark = pytest.mark.proves("H13")
+pytestmark = [pytest.mark.proves("H13"), pytest.mark.proves("R03")]
 
 
 @pytest.mark.parametrize("amplitude", [30, 300, 3000, 32000])

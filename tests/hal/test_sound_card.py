@@ -122,5 +122,5 @@ def test_a_card_without_a_device_is_one_line(monkeypatch, manager):
 
     monkeypatch.setattr(sound_card, "load_sounddevice", lambda: NoDevice)
     microphone = SoundCardMicrophone(Description("m", "Hri.Microphone"), manager)
-    with pytest.raises(NotAvailable, match="m: no device - plug one in, or see `hri doctor`"):
+    with pytest.raises(NotAvailable, match="m: no device - plug one in, or `hri doctor --choose`"):
         microphone.activate()

@@ -101,7 +101,7 @@ def missing(device):
 
 
 def test_a_camera_that_is_not_there_is_one_line():
-    assert missing(63) == "camera0: no camera /dev/video63 - plug one in, or see `hri doctor`"
+    assert missing(63) == "camera0: no camera /dev/video63 - plug one in, or `hri doctor --choose`"
 
 
 @pytest.mark.proves("D04")

@@ -54,3 +54,14 @@ def test_how_it_is_sliced_does_not_matter(lengths: list[int]) -> None:
 def test_no_time_holds_no_sound() -> None:
     assert len(Sound().between(5, 5)) == 0
     assert len(Sound().between(5, 3)) == 0
+
+
+def test_a_sound_that_is_cut_ends_there_and_what_was_heard_stays() -> None:
+    sound = Sound()
+    source = sound.add(np.full(RATE, 1000, np.int16), RATE, at=1.0)
+    before = sound.between(RATE, RATE + 4000)
+    sound.cut(source, 1.5)
+    sound.cut(source, 1.2)
+
+    assert np.array_equal(sound.between(RATE, RATE + 4000), before)
+    assert not sound.between(RATE + RATE // 2, 2 * RATE).any()

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import numpy as np
 
 from hri.behavior.behavior import Behavior, Context
 from hri.core.clock import FakeClock
+from hri.core.errors import HriError
 from hri.core.events import EventBus
 from hri.core.signals import Phoneme, Prosody, Samples, Speech
 from hri.hal.manager import ResourceManager
@@ -24,23 +27,44 @@ class ScriptedEars(Recognizer):
     def _open(self) -> None:
         self.script: dict[float, tuple[str, float]] = {}
         self.started_with: Grammar | None = None
+        self.partials: dict[float, str] = {}
+        self.decoded_with: list[frozenset[str]] = []
         self.last = 0.0
         self.count = 0
+        self.pause = 0.0  # seconds at the end of each piece in which nobody speaks
 
     def start(self, grammar: Grammar) -> None:
+        if "unspeakable" in grammar.words():
+            raise HriError("unspeakable - write another word")
         self.started_with = grammar
 
     def listen(self, samples: Samples, end: float) -> list[Segment]:
         due = [time for time in self.script if self.last < time <= end]
         self.last = end
         self.count += len(samples)
-        return [Segment(time - 0.5, time, samples) for time in due]
+        return [self._piece(time, time, samples) for time in due]
 
     def flush(self) -> list[Segment]:
         return []
 
-    def decode(self, segment: Segment) -> Hypothesis:
-        return Hypothesis(*self.script[segment.end])
+    def decode(self, segment: Segment, rules: Collection[str] | None = None) -> Hypothesis:
+        self.decoded_with.append(frozenset(rules or ()))
+        return Hypothesis(*self.script[min(time for time in self.script if time >= segment.end)])
+
+    def advance(self, segment: Segment, rules: Collection[str] | None = None) -> str:
+        due = [words for time, words in self.partials.items() if time <= segment.end]
+        return due[-1] if due else ""
+
+    @property
+    def open_segment(self) -> Segment | None:
+        ends = [time for time in self.script if 0.0 < time - self.last < 0.5]
+        return self._piece(ends[0], self.last) if ends else None
+
+    def _piece(self, end: float, now: float, samples: Samples | None = None) -> Segment:
+        """What there is at a time of the piece that ends at another."""
+        quiet = max(0.0, now - (end - self.pause))
+        number = 1 + sorted(self.script).index(end)
+        return Segment(end - 0.5, now, samples, number=number, quiet=quiet)
 
     @property
     def is_hearing(self) -> bool:
@@ -64,7 +88,11 @@ class TimedSpeaker(Speaker):
         self.duration = 0.0
 
     def play(self, samples: Samples, rate: int, now: float) -> None:
-        self.started, self.duration = now, len(samples) / rate
+        self.started, self.duration, self.rate = now, len(samples) / rate, rate
+
+    def extend(self, samples: Samples, now: float) -> None:
+        if self.started is not None:
+            self.duration += len(samples) / self.rate
 
     def position(self, now: float) -> float | None:
         if self.started is None or now - self.started >= self.duration:

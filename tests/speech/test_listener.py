@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import os
+
 import pytest
 
 from hri.behavior.ports import OutputPort
@@ -32,6 +34,9 @@ def test_a_command_is_heard_with_its_meaning():
         "rule": "move",
         "tags": {"distance": 10.0},
         "confidence": 0.721,
+        "start": 0.5,
+        "end": 1.0,
+        "latency": pytest.approx(0.15, abs=TICK),
     }
 
 
@@ -51,7 +56,8 @@ def test_what_does_not_count_is_rejected_with_its_reason(text, confidence, reaso
 
     ((_, name, properties),) = stage.events
     assert name == "speech.rejected"
-    assert properties == {"reason": reason, "text": text, "confidence": confidence}
+    told = (properties["reason"], properties["text"], properties["confidence"])
+    assert told == (reason, text, confidence)
 
 
 def test_strictness_moves_the_line():
@@ -74,9 +80,14 @@ def test_while_the_robot_speaks_only_stop_counts():
     port.value = False
     stage.run(2.0)
 
-    assert stage.names() == ["speech.rejected", "speech.heard", "speech.heard"]
+    assert stage.names() == [
+        "speech.rejected",
+        "speech.interrupted",
+        "speech.heard",
+        "speech.heard",
+    ]
     assert stage.events[0][2]["reason"] == "robot speaking"
-    assert stage.events[1][2]["rule"] == "stop"
+    assert stage.events[2][2]["rule"] == "stop"
 
 
 def test_speech_that_began_while_the_robot_spoke_counts_as_such():
@@ -134,3 +145,169 @@ def test_a_microphone_of_another_rate_is_heard_at_the_recognizers():
     stage = Stage(Listener(), HighMicrophone)
     stage.run(2.0)
     assert stage.ears.count == pytest.approx(2.0 * stage.ears.rate, rel=0.02)
+
+
+def test_what_is_understood_so_far_is_told_while_somebody_speaks():
+    stage = Stage(Listener(latency_s=0.0))
+    stage.ears.script[1.0] = ("go forward", 0.9)
+    stage.ears.partials = {0.6: "go", 0.9: "go forward"}
+
+    stage.run(1.5)
+
+    assert [p["text"] for _, name, p in stage.events if name == "speech.partial"] == [
+        "go",
+        "go forward",
+    ]
+    times = [time for time, name, _ in stage.events if name == "speech.partial"]
+    assert times[1] - times[0] >= 0.2 - TICK
+
+
+def test_nothing_is_told_of_the_words_while_the_robot_itself_speaks():
+    listener = Listener(latency_s=0.0)
+    port = speaking(listener)
+    stage = Stage(listener)
+    stage.ears.script[1.0], stage.ears.partials = ("go forward", 0.9), {0.5: "go"}
+
+    port.value = True
+    stage.run(1.5)
+
+    assert stage.names() == ["speech.rejected"]
+
+
+def test_the_engine_is_told_which_rules_count():
+    listener = Listener()
+    question: OutputPort[bool] = OutputPort(True)
+    stage = Stage(listener)
+    stage.ears.script |= {1.0: ("yes please", 0.9), 3.0: ("yes please", 0.9)}
+
+    stage.run(2.0)
+    listener.question.sources.append(question)
+    stage.run(2.0)
+
+    unasked, asked = stage.ears.decoded_with
+    assert asked - unasked == {"yes", "no"}
+    assert stage.names() == ["speech.rejected", "speech.heard"]
+
+
+def test_a_wake_word_opens_the_talk_for_a_while(write):
+    grammar = write("/** @wake */ public <hey> = hey robot;\npublic <greet> = hello;")
+    stage = Stage(Listener(grammar=str(grammar), follow_up=3.0))
+    stage.ears.script |= {1.0: ("hello", 0.9), 2.0: ("hey robot", 0.9), 4.0: ("hello", 0.9)}
+    stage.ears.script |= {6.5: ("hello", 0.9), 11.0: ("hello", 0.9)}
+
+    stage.run(12.0)
+
+    assert stage.names() == [
+        "speech.rejected",
+        "speech.heard",
+        "speech.heard",
+        "speech.heard",
+        "speech.rejected",
+    ]
+
+
+def test_push_to_talk_is_deaf_until_it_is_pushed_and_done_when_it_is_let_go():
+    listener = Listener()
+    button: OutputPort[bool] = OutputPort(False)
+    listener.push_to_talk.sources.append(button)
+    stage = Stage(listener)
+
+    stage.run(1.0)
+    assert stage.ears.count == 0
+    button.value = True
+    stage.run(1.0)
+    assert stage.ears.count == 16000
+
+
+def test_a_muted_listener_hears_nothing():
+    stage = Stage(Listener())
+    stage.behavior.is_muted = True
+    stage.run(1.0)
+    assert stage.ears.count == 0
+
+
+def test_another_grammar_takes_over_while_somebody_speaks(write):
+    stage = Stage(Listener())
+    stage.ears.script |= {1.0: ("go forward", 0.9), 2.0: ("red wine", 0.9)}
+
+    stage.run(0.8)
+    layer = stage.behavior.push(write("public <drink> = red wine;", "drinks"))
+    stage.run(1.6)
+
+    # What ended before the new one was ready is of the new one too, on a clock that stands still.
+    assert stage.behavior.is_in_force(layer)
+    assert stage.behavior.loaded_grammar.name == "drinks"
+    heard = [p["text"] for _, name, p in stage.events if name == "speech.heard"]
+    assert heard[-1] == "red wine"
+    assert "grammar.changed" in stage.names()
+
+    stage.behavior.pop(layer)
+    stage.behavior.pop(layer)
+    stage.ears.script[3.5] = ("go back", 0.9)
+    stage.run(2.0)
+    assert stage.events[-1][2]["text"] == "go back"
+
+
+@pytest.mark.parametrize(
+    ("rules", "why"),
+    [("public <a> = <b>;", "no rule <b>"), ("public <a> = unspeakable;", "unspeakable - write")],
+)
+def test_a_faulty_grammar_is_refused_and_the_old_one_stays(write, rules, why):
+    stage = Stage(Listener())
+    stage.run(0.5)
+    layer = stage.behavior.use(write(rules, "faulty"))
+    stage.ears.script[1.5] = ("go forward", 0.9)
+    stage.run(1.5)
+
+    assert why in str(layer.error)
+    assert stage.names() == ["grammar.refused", "speech.heard"]
+    assert why in stage.events[0][2]["error"]
+    assert not stage.behavior.is_in_force(layer)
+
+
+def test_a_grammar_is_read_again_when_its_file_changes(write):
+    path = write("public <greet> = hello;")
+    stage = Stage(Listener(grammar=str(path), reload=True))
+    stage.run(2.0)
+    assert stage.events == []
+
+    write("public <greet> = hello;\npublic <part> = farewell;")
+    os.utime(path, (2_000_000_000, 2_000_000_000))
+    stage.run(2.0)
+    assert stage.names() == ["grammar.changed"]
+    assert stage.behavior.loaded_grammar.public_rules == ("greet", "part")
+
+    path.write_text("#JSGF V1.0;\ngrammar test;\npublic <greet> = <hullo>;")
+    os.utime(path, (2_000_000_100, 2_000_000_100))
+    stage.run(4.0)
+    assert stage.names() == ["grammar.changed", "grammar.refused"]
+    assert stage.behavior.loaded_grammar.public_rules == ("greet", "part")
+
+
+@pytest.mark.parametrize(
+    ("words", "confidence", "when"),
+    [("stop", 0.9, 0.8), ("stop", 0.6, 1.15), ("go forward", 0.9, 1.15)],
+)
+def test_a_sure_stop_does_not_wait_for_the_pause_to_end(words, confidence, when):
+    stage = Stage(Listener())
+    stage.ears.pause = 0.45
+    stage.ears.script = {1.0: (words, confidence)}
+    stage.run(2.0)
+
+    heard = [(time, what) for time, name, what in stage.events if name == "speech.heard"]
+    assert [what["text"] for _, what in heard] == [words]
+    assert heard[0][0] == pytest.approx(when, abs=0.06)
+
+
+def test_who_goes_on_after_a_stop_is_heard_too():
+    stage = Stage(Listener())
+    stage.ears.pause = 0.45
+    stage.ears.script = {1.0: ("stop", 0.9)}
+    stage.run(0.9)
+    stage.ears.script = {1.0: ("go forward", 0.9)}
+    stage.run(1.0)
+
+    assert [what["text"] for _, name, what in stage.events if name == "speech.heard"] == [
+        "stop",
+        "go forward",
+    ]

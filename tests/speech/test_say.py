@@ -7,6 +7,8 @@ import wave
 import pytest
 
 from hri.cli.main import main
+from hri.cli.say import prosody_of
+from hri.core.signals import Prosody
 
 
 def seconds(path):
@@ -58,7 +60,11 @@ def test_a_text_comes_from_standard_input(tmp_path, monkeypatch):
         (["--emotion", "joyy"], 'no emotion "joyy" - did you mean "joy"?'),
         (["--emotion", "joy", "--intensity", "2"], "give one from 0 to 1"),
         (["--voice", "en-us+f33"], 'no voice "en-us+f33" - did you mean "f3"?'),
-        (["--rate", "9"], "write a whole number from 80 to 450"),
+        (["--emotion", "hapy"], 'no emotion "hapy" - did you mean "happy"?'),
+        (["--intensity", "2"], "give one from 0 to 1"),
+        (["--voice", "xx"], 'no voice "xx" - `hri voices` lists them'),
+        (["--rate", "79"], "--rate 79 - give words a minute, 80 to 450"),
+        (["--wav", "v.mp3"], "v.mp3: only WAV is written - name it v.wav"),
         (["--phonemes", "/no/such/place.json"], "cannot be written"),
     ],
 )
@@ -67,6 +73,32 @@ def test_a_mistake_is_one_line(tmp_path, capsys, options, remedy):
     told = capsys.readouterr().err
     assert remedy in told
     assert len(told.splitlines()) == 1
+
+
+@pytest.mark.parametrize("text", ["", "  \n"])
+def test_nothing_is_refused(text, tmp_path, capsys):
+    assert main(["say", text, "--wav", str(tmp_path / "a.wav")]) == 2
+    assert "there is nothing to say - give some words" in capsys.readouterr().err
+    assert not (tmp_path / "a.wav").exists()
+
+
+def test_who_wants_the_times_alone_needs_no_speaker(tmp_path):
+    path = tmp_path / "a.json"
+    assert main(["say", "Hello.", "--phonemes", str(path)]) == 0
+    assert json.loads(path.read_text())["text"] == "Hello."
+
+
+@pytest.mark.parametrize(("name", "same"), [("happy", "joy"), ("neutral", None)])
+def test_an_emotion_is_called_as_people_call_it(name, same):
+    assert prosody_of(name, 1.0) == (prosody_of(same, 1.0) if same else Prosody())
+
+
+def test_a_mistake_in_the_lexicon_has_its_place(tmp_path, monkeypatch, capsys):
+    lexicon = tmp_path / "lexicon.txt"
+    lexicon.write_text("robin R AA1 B AH0 N\nzaatar BLAH\n")
+    monkeypatch.setenv("HRI_LEXICON", str(lexicon))
+    assert main(["say", "hello", "--wav", str(tmp_path / "a.wav")]) == 2
+    assert f"{lexicon}:2:" in capsys.readouterr().err
 
 
 def test_voices_are_listed_by_language(capsys):
@@ -82,6 +114,22 @@ def test_voices_are_listed_by_language(capsys):
     assert "German" in capsys.readouterr().out
 
 
-def test_a_language_nobody_speaks_is_told(capsys):
-    assert main(["voices", "--language", "klingon-x"]) == 2
-    assert 'no voice speaks "klingon-x"' in capsys.readouterr().err
+def test_the_variants_take_a_few_lines_and_no_table(capsys):
+    assert main(["voices", "--language", "Korean"]) == 0
+    table, variants = capsys.readouterr().out.split("\n\n")
+    assert [line.split()[0] for line in table.splitlines()] == ["voice", "ko"]
+    assert "+f3 +f4" in variants
+    assert len(variants.splitlines()) < 20
+
+
+@pytest.mark.parametrize(
+    ("language", "remedy"),
+    [
+        ("nowhere-x", "`hri voices` lists all"),
+        ("xx", "`hri voices` lists all"),
+        ("englisch", 'did you mean "english"?'),
+    ],
+)
+def test_a_language_nobody_speaks_is_told(language, remedy, capsys):
+    assert main(["voices", "--language", language]) == 2
+    assert capsys.readouterr().err == f'no voice speaks "{language}" - {remedy}\n'

@@ -10,7 +10,7 @@ from typing import Any
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.ports import DATATYPES, DBL_MAX, Input, Param
-from hri.core.signals import Frame
+from hri.core.signals import Frame, Utterance
 
 _NAMES = {kind: name for name, kind in DATATYPES.items() if kind is not object} | {int: "double"}
 
@@ -62,6 +62,9 @@ def worded(value: object) -> str:
         case Frame():
             height, width = value.image.shape[:2]
             return f"{width} x {height}, number {value.sequence}"
+        case Utterance():
+            meaning = f"{value.rule} {dict(value.tags)}"
+            return f'"{value.text}" is {meaning}, confidence {value.confidence:.2f}'
     if is_dataclass(value):
         return ", ".join(f"{f.name} {worded(getattr(value, f.name))}" for f in fields(value))
     return str(value)

@@ -3,71 +3,26 @@
 from __future__ import annotations
 
 import wave
-from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
-from typing import Any
-
-import numpy as np
 
 from hri.core.clock import Timer, Worker
-from hri.core.errors import HriError, NotAvailable
+from hri.core.errors import HriError
 from hri.core.signals import Samples
 from hri.hal.audio_file import LONGEST_RECORDING, AudioFilePlayer, AudioFileRecorder
 from hri.hal.drivers.partner import use_partner
-from hri.hal.drivers.silence import silenced_libraries
-from hri.hal.drivers.wav_file import open_wav, read_wav
+from hri.hal.drivers.wav_file import load_sound, open_wav
 from hri.hal.ear import Ear
 from hri.hal.microphone import Microphone
 from hri.hal.pending import Pending
 from hri.hal.speaker import Speaker
 
-LONGEST = 3600.0
-"""Seconds; a longer file is refused, so that it cannot fill the memory."""
-BLOCK = 1 << 18
-"""Frames decoded at a time."""
 LOOK = 0.02
 """Seconds between looks whether a file is decoded, or heard to its end."""
 PUMP = 0.1
 """Seconds between writes of a recording."""
 DECODING = 0.05
 """Seconds that decoding takes on a fake clock."""
-
-
-def load_sound(path: Path) -> tuple[Samples, int]:
-    """The samples of a WAV, MP3, FLAC or Ogg file as mono int16, and their rate.
-
-    Raises HriError when it cannot be decoded or is longer than an hour, NotAvailable when the
-    decoder is not installed.
-    """
-    if path.suffix.lower() == ".wav":
-        return read_wav(path)
-    if not path.is_file():
-        raise HriError(f"{path}: no such file - check the path")
-    soundfile = _load_soundfile()
-    try:
-        with silenced_libraries(), soundfile.SoundFile(str(path)) as file:
-            samples, rate = np.concatenate(list(_mono_blocks(path, file))), file.samplerate
-    except (soundfile.SoundFileError, ValueError) as error:
-        raise HriError(f"{path}: not a readable sound file - try a WAV or an MP3") from error
-    return samples, rate
-
-
-def _load_soundfile() -> Any:
-    try:
-        import soundfile
-    except (ImportError, OSError) as error:
-        raise NotAvailable("MP3: soundfile is missing - pip install soundfile") from error
-    return soundfile
-
-
-def _mono_blocks(path: Path, file: Any) -> Iterator[Samples]:
-    left = LONGEST * file.samplerate
-    for block in file.blocks(BLOCK, dtype="int16", always_2d=True):
-        left -= len(block)
-        if left < 0:
-            raise HriError(f"{path}: longer than {LONGEST:g} s - cut it into parts")
-        yield block.mean(axis=1).astype(np.int16)
 
 
 Loaded = tuple[Pending[None], Samples, int]

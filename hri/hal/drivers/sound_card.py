@@ -10,6 +10,7 @@ import numpy as np
 
 from hri.core.errors import NotAvailable
 from hri.core.signals import Samples
+from hri.hal.drivers.channels import OneChannel, channel_of
 from hri.hal.drivers.resampling import resample
 from hri.hal.drivers.silence import silenced_libraries
 from hri.hal.microphone import Microphone
@@ -20,6 +21,8 @@ LONGEST_BACKLOG = 10.0
 """Seconds of sound kept while nobody reads; older sound is dropped."""
 REOPEN_AFTER = 2.0
 """Seconds between attempts to find a device that went away."""
+FADE = 128
+"""Samples in which a sound that is cut dies away."""
 INSTALL = "apt install libportaudio2"
 
 
@@ -50,7 +53,7 @@ class _SoundCard(Resource):
         except (self._sounddevice.PortAudioError, ValueError) as error:
             # PortAudio numbers the default device -1 when there is none.
             why = "no device" if "-1" in str(error) else str(error).split(" [")[0]
-            raise self.not_available(why, "plug one in, or see `hri doctor`") from error
+            raise self.not_available(why, "plug one in, or `hri doctor --choose`") from error
 
     def _started_stream(self) -> Any:
         stream = self._new_stream()
@@ -100,27 +103,35 @@ class _SoundCard(Resource):
 
 
 class SoundCardMicrophone(_SoundCard, Microphone):
-    """Hears through the sound card; when it is unplugged there is silence until it is back."""
+    """Hears through the sound card; when it is unplugged there is silence until it is back.
 
-    parameters = ("device", "rate")
+    With another `channel` than "mix" the device is opened in stereo, see `channels`.
+    """
+
+    parameters = ("device", "rate", "channel")
+    overruns = 0
+    """How often sound was lost because the system did not take it in time."""
 
     def _open(self) -> None:
         self.rate = self.description.count("rate", 16000, 1000, 400_000)
         self._blocks: deque[Samples] = deque(maxlen=int(LONGEST_BACKLOG * self.rate / 320))
+        self._channel = channel_of(self.description)
+        self._one_channel = OneChannel(self._channel)
         super()._open()
 
     def _new_stream(self) -> Any:
         return self._sounddevice.InputStream(
             samplerate=self.rate,
             blocksize=320,
-            channels=1,
+            channels=1 if self._channel == "mix" else 2,
             dtype="int16",
             device=self._device(),
             callback=self._heard,
         )
 
-    def _heard(self, data: Any, frames: int, time: object, status: object) -> None:
-        self._blocks.append(data[:, 0].copy())
+    def _heard(self, data: Any, frames: int, time: object, status: Any) -> None:
+        self.overruns += bool(status and status.input_overflow)
+        self._blocks.append(self._one_channel.take(data))
 
     def read(self, now: float) -> Samples:
         self._watch()
@@ -129,21 +140,29 @@ class SoundCardMicrophone(_SoundCard, Microphone):
 
 
 class SoundCardSpeaker(_SoundCard, Speaker):
-    """Plays through the sound card in small blocks, so that a stop is heard within one."""
+    """Plays through the sound card in small blocks, so that a stop is heard within one.
+
+    While the device is gone a sound goes on in silence, at its own pace: lips and dialogue keep
+    their time, and what was not heard does not sound later.
+    """
 
     parameters = ("device", "rate")
 
     def _open(self) -> None:
         self.rate = self.description.count("rate", 22050, 1000, 400_000)
         self._sound_lock = threading.Lock()
-        self._sound: Samples = np.zeros(0, np.int16)
+        self._source, self._source_rate = np.zeros(0, np.int16), self.rate
+        self._sound: Samples = self._source
         self._played = 0
+        self._begun = 0.0
+        self._is_lost = False
         super()._open()
 
     def _new_stream(self) -> Any:
         return self._sounddevice.OutputStream(
             samplerate=self.rate,
-            blocksize=512,
+            blocksize=256,
+            latency="low",
             channels=1,
             dtype="int16",
             device=self._device(),
@@ -158,21 +177,48 @@ class SoundCardSpeaker(_SoundCard, Speaker):
         out[len(block) :, 0] = 0
 
     def play(self, samples: Samples, rate: int, now: float) -> None:
+        self._source, self._source_rate = samples, rate
+        self._begun, self._is_lost = now, False
         sound = resample(samples, rate, self.rate)
         with self._sound_lock:
             self._sound, self._played = sound, 0
 
+    def extend(self, samples: Samples, now: float) -> None:
+        if not len(self._source):
+            return
+        # Converted anew as a whole, since a seam would click.
+        self._source = np.concatenate([self._source, samples])
+        if not self._is_lost:
+            sound = resample(self._source, self._source_rate, self.rate)
+            with self._sound_lock:
+                self._sound = sound
+
     def position(self, now: float) -> float | None:
         if not self._watch():
-            self.stop(now)  # what was not heard must not sound when the device is back
-            return None
-        latency = round(self._stream.latency * self.rate)
+            self._is_lost = True
+            self._fade_out()
+        if self._is_lost:
+            elapsed = now - self._begun
+            return elapsed if elapsed < len(self._source) / self._source_rate else None
+        latency = round(self.latency * self.rate)
         with self._sound_lock:
-            if self._played >= len(self._sound):
+            if not len(self._source) or self._played >= len(self._sound):
                 # The last blocks are still in the card; they are short enough to count as heard.
                 return None
             return float(max(0, self._played - latency)) / self.rate
 
     def stop(self, now: float) -> None:
+        self._source = self._source[:0]
+        self._fade_out()
+
+    @property
+    def latency(self) -> float:
+        """Seconds from a block being taken until it is heard."""
+        return float(self._stream.latency)
+
+    def _fade_out(self) -> None:
+        """Fall silent within a few milliseconds; at once would click."""
         with self._sound_lock:
-            self._sound, self._played = self._sound[:0], 0
+            rest = self._sound[self._played : self._played + FADE]
+            self._sound = (rest * np.linspace(1, 0, len(rest))).astype(np.int16)
+            self._played = 0

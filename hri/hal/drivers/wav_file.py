@@ -1,4 +1,4 @@
-"""WAV files as a microphone and as a speaker."""
+"""Sound files as a microphone, and WAV files as a speaker."""
 
 from __future__ import annotations
 
@@ -12,15 +12,35 @@ from hri.core.errors import HriError
 from hri.core.signals import Samples
 from hri.hal.drivers.channels import CHOICES, OneChannel, channel_of
 from hri.hal.drivers.resampling import resample, resample_blocks
+from hri.hal.drivers.sound_decoder import BLOCK, LEAST_RATE, MOST_RATE, decode
 from hri.hal.microphone import Microphone
 from hri.hal.speaker import Speaker
 
 LONGEST = 4 * 3600.0
 """Seconds; a longer recording is refused, so that it cannot fill the memory."""
-BLOCK = 1 << 18
-"""Frames read or written at a time."""
 TAIL = 1.0
 """Seconds of silence heard after a file, so that its last word is seen to end."""
+
+
+def load_sound(
+    path: Path, wanted: int | None = None, channel: str = CHOICES[0]
+) -> tuple[Samples, int]:
+    """The samples of a WAV, MP3, FLAC or Ogg file as mono int16, and their rate: as `read_wav`.
+
+    Raises HriError when it cannot be read, is empty, or too long, NotAvailable when the decoder is
+    not installed.
+    """
+    if not path.is_file():  # a pipe without a writer would keep us for ever
+        raise HriError(f"{path}: no such file - check the path")
+    if path.suffix.lower() != ".wav":
+        return decode(path, wanted, channel)
+    try:
+        return read_wav(path, wanted, channel)
+    except HriError as refusal:
+        try:
+            return decode(path, wanted, channel)  # numbers with a point, and other layouts
+        except HriError:
+            raise refusal from None  # it says more of what is wrong
 
 
 def read_wav(
@@ -35,7 +55,7 @@ def read_wav(
     try:
         with wave.open(str(path), "rb") as file:
             rate = file.getframerate()
-            if not 1000 <= rate <= 400_000 or file.getnframes() > LONGEST * rate:
+            if not LEAST_RATE <= rate <= MOST_RATE or file.getnframes() > LONGEST * rate:
                 raise HriError(
                     f"{path}: {rate} Hz or its length is out of range - convert it to 16 kHz"
                 )
@@ -96,7 +116,7 @@ class WavMicrophone(Microphone):
 
     def _open(self) -> None:
         path = Path(self.description.text("file"))
-        self._sound, _ = read_wav(path, self.rate, channel_of(self.description))
+        self._sound, _ = load_sound(path, self.rate, channel_of(self.description))
         self._start = self.manager.clock.now()
         self._given = 0
 
@@ -118,7 +138,7 @@ class WavSpeaker(Speaker):
     parameters = ("file", "rate")
 
     def _open(self) -> None:
-        self.rate = self.description.count("rate", 22050, 1000, 400_000)
+        self.rate = self.description.count("rate", 22050, LEAST_RATE, MOST_RATE)
         self._file = open_wav(Path(self.description.text("file")), self.rate)
         self._origin = self.manager.clock.now()
         self._written = 0

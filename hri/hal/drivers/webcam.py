@@ -55,7 +55,9 @@ class Webcam(Camera):
 
     def _missing(self) -> NotAvailable:
         if sys.platform != "linux" or not self.path.exists():
-            return self.not_available(f"no camera {self.path}", "plug one in, or see `hri doctor`")
+            return self.not_available(
+                f"no camera {self.path}", "plug one in, or `hri doctor --choose`"
+            )
         if not os.access(self.path, os.R_OK | os.W_OK):
             return NotAvailable(f"Failure opening {self.path} - check permissions")
         return NotAvailable(f"Failure opening {self.path} - see what else uses it, or replug it")

@@ -2,41 +2,41 @@
 
 from __future__ import annotations
 
-from hri.core.signals import Samples
-from hri.hal.recognizer import Grammar, Hypothesis, Recognizer, Segment
+from collections.abc import Iterator
+
+from hri.core.errors import NotAvailable
+from hri.hal.recognizer import Recognizer
+from hri.speech.recognizers.ctc.recognizer import CtcRecognizer
+from hri.speech.recognizers.delegating import DelegatingRecognizer
 from hri.speech.recognizers.pocketsphinx import PocketSphinxRecognizer
 from hri.speech.recognizers.vosk import VoskRecognizer, find_model
 
 
-class AutomaticRecognizer(Recognizer):
-    """Vosk when a model directory is found, else PocketSphinx."""
+class AutomaticRecognizer(DelegatingRecognizer):
+    """Our own where its weights are, else Vosk where a model directory is, else PocketSphinx."""
 
-    parameters = ("model",)
+    parameters = tuple({*CtcRecognizer.parameters, *VoskRecognizer.parameters})
 
     def _open(self) -> None:
-        folder = self.description.text("model")
-        driver = VoskRecognizer if folder or find_model() else PocketSphinxRecognizer
-        self.engine: Recognizer = driver(self.description, self.manager)
-        self.engine.activate()
+        for driver in self._drivers():
+            engine = driver(self.description, self.manager)
+            try:
+                engine.activate()
+            except NotAvailable as error:
+                missing = error
+                continue
+            self.engine = engine
+            return
+        raise missing
+
+    def _drivers(self) -> Iterator[type[Recognizer]]:
+        yield CtcRecognizer
+        if self.description.text("model") or find_model():
+            yield VoskRecognizer
+        yield PocketSphinxRecognizer
 
     def _close(self) -> None:
         self.engine.deactivate()
 
     def describe(self) -> str:
         return f"{type(self.engine).__name__}, chosen automatically"
-
-    def start(self, grammar: Grammar) -> None:
-        self.engine.start(grammar)
-
-    def listen(self, samples: Samples, end: float) -> list[Segment]:
-        return self.engine.listen(samples, end)
-
-    def flush(self) -> list[Segment]:
-        return self.engine.flush()
-
-    def decode(self, segment: Segment) -> Hypothesis:
-        return self.engine.decode(segment)
-
-    @property
-    def is_hearing(self) -> bool:
-        return self.engine.is_hearing

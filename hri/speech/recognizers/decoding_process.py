@@ -16,6 +16,10 @@ import signal
 import sys
 from typing import Any, BinaryIO
 
+MOST_STATES = 300
+"""Phone models that are followed at a time. Without a limit sound that fits nothing, such as orders
+6 dB above babble, takes up to 1.2 s a second, with it 0.3; clean orders take 0.06 either way."""
+
 
 def serve(requests: BinaryIO, answers: BinaryIO) -> None:
     """Answer until the requests end."""
@@ -41,6 +45,7 @@ def _decoder() -> Any:
         hmm=get_model_path("en-us/en-us"),
         dict=get_model_path("en-us/cmudict-en-us.dict"),
         lm=None,
+        maxhmmpf=MOST_STATES,
         loglevel="FATAL",
         logfn=os.devnull,
     )
@@ -48,7 +53,8 @@ def _decoder() -> Any:
 
 def _take_grammar(decoder: Any, request: dict[str, Any]) -> dict[str, Any]:
     for word, phones in request["pronunciations"].items():
-        decoder.add_word(word, phones, True)
+        if decoder.lookup_word(word) is None:
+            decoder.add_word(word, phones, True)
     try:
         decoder.add_jsgf_string("grammar", request["jsgf"])
         decoder.activate_search("grammar")

@@ -7,9 +7,8 @@ import os
 import subprocess
 import sys
 import threading
-from collections.abc import Mapping
+from collections.abc import Collection
 from contextlib import suppress
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -17,43 +16,34 @@ import numpy as np
 
 from hri.core.errors import HriError
 from hri.core.signals import Samples
-from hri.hal.recognizer import Grammar, Hypothesis, Recognizer, Segment
+from hri.hal.recognizer import Grammar, Hypothesis, Segment
 from hri.speech.confidence import FRAME, PathFigures, confidence
-from hri.speech.endpoint import Endpointer
-from hri.speech.pronunciation.letter_to_sound import pronounce
-from hri.speech.recognizers.voice_activity import VoiceActivityEndpointer
+from hri.speech.pronunciation.lexicon import Lexicon, load_lexicon
+from hri.speech.recognizers.sound import SoundRecognizer
 
 NOISE_FLOOR = 20.0
 """Standard deviation of the noise laid under all sound, of 32767."""
+KEPT_QUIET = 0.1
+"""Seconds of the pause behind the voice that the decoder gets: more of it it fills with words."""
+PATIENCE = 30.0
+"""Seconds for an answer, then the process is ended: the longest piece of speech takes 6."""
 _PROGRAM = Path(__file__).with_name("decoding_process.py")
 
 
-@cache
-def dictionary() -> Mapping[str, tuple[str, ...]]:
-    """Phones of the 125,000 English words that the engine knows (CMU dictionary)."""
-    from pocketsphinx import get_model_path
-
-    known: dict[str, tuple[str, ...]] = {}
-    with open(get_model_path("en-us/cmudict-en-us.dict"), encoding="utf-8") as lines:
-        for line in lines:
-            word, *phones = line.split()
-            known.setdefault(word, tuple(phones))
-    return known
-
-
-class PocketSphinxRecognizer(Recognizer):
+class PocketSphinxRecognizer(SoundRecognizer):
     """Decodes finished pieces of speech in a process of its own, so that nothing waits for it."""
 
     def _open(self) -> None:
-        self._endpointer: Endpointer = VoiceActivityEndpointer(self.rate)
+        super()._open()
         self._process: subprocess.Popen[bytes] | None = None
         self._grammar_request: dict[str, Any] | None = None
         self._talk = threading.Lock()
 
     def start(self, grammar: Grammar) -> None:
         with self._talk:
-            missing = self._ask({"lookup": sorted(grammar.words())})["missing"]
-            pronunciations = {word: " ".join(pronounce(word)) for word in missing}
+            words = sorted(grammar.words())
+            missing = self._ask({"lookup": words})["missing"]
+            pronunciations = _pronunciations(load_lexicon(), words, missing)
             request = {"jsgf": grammar.flat_jsgf(), "pronunciations": pronunciations}
             answer = self._ask(request)
             if answer["error"]:
@@ -61,38 +51,40 @@ class PocketSphinxRecognizer(Recognizer):
                 raise HriError(f"{what} - try `hri grammar check`")
             self._grammar_request = request
 
-    def listen(self, samples: Samples, end: float) -> list[Segment]:
-        return self._endpointer.listen(samples, end)
-
-    def flush(self) -> list[Segment]:
-        return self._endpointer.flush()
-
-    @property
-    def is_hearing(self) -> bool:
-        return self._endpointer.is_hearing
-
-    def decode(self, segment: Segment) -> Hypothesis:
-        if segment.samples is None:
-            return Hypothesis(segment.text, 1.0)
-        sound = with_floor(segment.samples).tobytes()
+    def _decode(
+        self, segment: Segment, samples: Samples, rules: Collection[str] | None
+    ) -> Hypothesis:
+        samples = samples[: len(samples) - round(max(0.0, segment.quiet - KEPT_QUIET) * self.rate)]
+        sound = with_floor(samples).tobytes()
         with self._talk:
-            answer = self._ask({"bytes": len(sound)}, sound)
+            try:
+                answer = self._ask({"bytes": len(sound)}, sound)
+            except _TooSlow:
+                # The next piece may well be another thing; this one would only hang again.
+                return Hypothesis("", 0.0)
         words = answer["words"]
         figures = PathFigures(
             score=answer["score"],
             word_frames=sum(frames for _, frames in words),
-            frames=round(len(segment.samples) / self.rate / FRAME),
+            frames=round(len(samples) / self.rate / FRAME),
         )
         return Hypothesis(" ".join(word for word, _ in words), confidence(figures))
 
     def _ask(self, request: dict[str, Any], payload: bytes = b"") -> dict[str, Any]:
-        """The process's answer; when it died, a new one gets the grammar and is asked again."""
+        """The process's answer; when it died, a new one gets the grammar and is asked again.
+
+        Raises _TooSlow when it does not answer in time.
+        """
         for _ in range(2):
-            if self._process is None:
-                self._process = _new_process()
-                if self._grammar_request is not None:
-                    _exchange(self._process, self._grammar_request)
-            answer = _exchange(self._process, request, payload)
+            try:
+                if self._process is None:
+                    self._process = _new_process()
+                    if self._grammar_request is not None:
+                        _exchange(self._process, self._grammar_request)
+                answer = _exchange(self._process, request, payload)
+            except _TooSlow:
+                self._end_process()
+                raise
             if answer is not None:
                 return answer
             self._end_process()
@@ -109,6 +101,23 @@ class PocketSphinxRecognizer(Recognizer):
     def _close(self) -> None:
         with self._talk:
             self._end_process()
+
+
+class _TooSlow(HriError):
+    """The process did not answer in time, and was ended."""
+
+
+def _pronunciations(lexicon: Lexicon, words: list[str], missing: list[str]) -> dict[str, str]:
+    """What the engine's own dictionary lacks: words it does not know, and the user's ways of saying
+    others. Beyond the first way of a word it wants a number, or whatever, in brackets behind it.
+    """
+    told = {}
+    for word in words:
+        if word in missing or lexicon.origin(word) == "user":
+            for number, phones in enumerate(lexicon.pronunciations(word), 1):
+                is_first = word in missing and number == 1
+                told[word if is_first else f"{word}(own{number})"] = " ".join(phones)
+    return told
 
 
 def with_floor(samples: Samples) -> Samples:
@@ -135,7 +144,10 @@ def _new_process() -> subprocess.Popen[bytes]:
 def _exchange(
     process: subprocess.Popen[bytes], request: dict[str, Any], payload: bytes = b""
 ) -> dict[str, Any] | None:
-    """Send a request and wait for the answer; None when the process has ended."""
+    """Send a request and wait for the answer; None when the process has ended.
+
+    Raises _TooSlow, and ends it, when there is none in time.
+    """
     assert process.stdin is not None
     assert process.stdout is not None
     try:
@@ -143,5 +155,18 @@ def _exchange(
         process.stdin.flush()
     except OSError:
         return None
-    line = process.stdout.readline()
+    is_late = threading.Event()
+
+    def give_up() -> None:
+        is_late.set()
+        process.kill()
+
+    patience = threading.Timer(PATIENCE, give_up)
+    patience.start()
+    try:
+        line = process.stdout.readline()
+    finally:
+        patience.cancel()
+    if is_late.is_set():
+        raise _TooSlow(f"PocketSphinx gives no answer in {PATIENCE:g} s - try a smaller grammar")
     return json.loads(line) if line else None

@@ -1,13 +1,21 @@
-"""Hears the keyboard: every typed line is a piece of speech."""
+"""Hears the keyboard: every typed line is a piece of speech.
+
+A line need not be a sentence to the letter: little words too many or too few are forgiven, at the
+price that `hri.speech.grammar.tolerance` puts on them. All that may be forgiven at once halves the
+confidence.
+"""
 
 from __future__ import annotations
 
 import sys
 import threading
 from collections import deque
+from collections.abc import Collection
 
 from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, Hypothesis, Recognizer, Segment
+from hri.speech.grammar import Grammar as WrittenGrammar
+from hri.speech.grammar.tolerance import MOST_COST, nearest
 
 
 class TypedRecognizer(Recognizer):
@@ -19,6 +27,7 @@ class TypedRecognizer(Recognizer):
         source = self.description.text("source", "code")
         if source not in ("code", "stdin"):
             raise self.description.error("source", f'no source "{source}"', "write code or stdin")
+        self._grammar: WrittenGrammar | None = None
         self._lines: deque[tuple[str, float | None]] = deque(maxlen=100)
         if source == "stdin":
             # A daemon: nobody can end a read from a terminal.
@@ -27,13 +36,21 @@ class TypedRecognizer(Recognizer):
     def _read(self) -> None:
         for line in sys.stdin:
             self._lines.append((line.strip(), None))
+        self._is_closed = True
+
+    _is_closed = False
+
+    @property
+    def has_ended(self) -> bool:
+        """True when all lines were heard and no further one can come (the end of the input)."""
+        return self._is_closed and not self._lines
 
     def type_line(self, text: str, now: float) -> None:
         """Let it hear a line, typed at `now` seconds."""
         self._lines.append((text, now))
 
     def start(self, grammar: Grammar) -> None:
-        pass
+        self._grammar = grammar if isinstance(grammar, WrittenGrammar) else None
 
     def listen(self, samples: Samples, end: float) -> list[Segment]:
         segments = []
@@ -47,5 +64,9 @@ class TypedRecognizer(Recognizer):
     def flush(self) -> list[Segment]:
         return []
 
-    def decode(self, segment: Segment) -> Hypothesis:
-        return Hypothesis(segment.text.lower(), 1.0)
+    def decode(self, segment: Segment, rules: Collection[str] | None = None) -> Hypothesis:
+        text = segment.text.lower()
+        near = nearest(self._grammar, text, rules=rules) if self._grammar is not None else None
+        if near is None:
+            return Hypothesis(text, 1.0)
+        return Hypothesis(near.parse.text, 1.0 - 0.5 * near.cost / MOST_COST)

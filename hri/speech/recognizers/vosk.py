@@ -5,14 +5,14 @@ from __future__ import annotations
 import json
 import os
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import Any
 
 from hri.core.signals import Samples
-from hri.hal.recognizer import Grammar, Hypothesis, Recognizer, Segment
-from hri.speech.endpoint import Endpointer
-from hri.speech.recognizers.voice_activity import VoiceActivityEndpointer
+from hri.hal.recognizer import Grammar, Hypothesis, Segment
+from hri.speech.models import DOWNLOADS, find_vosk, models_folder
+from hri.speech.recognizers.sound import SoundRecognizer
 
 VARIABLE = "HRI_VOSK_MODEL"
 DEFAULT_FOLDER = Path("~/.local/share/hri/vosk")
@@ -21,27 +21,28 @@ MOST_SENTENCES = 5000
 
 
 def find_model(folder: str = "") -> Path | None:
-    """The model directory: as given, else of the environment, else the user's; None without."""
+    """The model directory: as given, of the environment, the user's, or fetched; None without."""
     for candidate in (folder, os.environ.get(VARIABLE, ""), str(DEFAULT_FOLDER)):
         path = Path(candidate).expanduser()
         if candidate and (path / "conf").is_dir():
             return path
-    return None
+    return find_vosk()
 
 
-class VoskRecognizer(Recognizer):
+class VoskRecognizer(SoundRecognizer):
     """Decodes finished pieces of speech; Vosk lets go of the interpreter while it works."""
 
-    parameters = ("model",)
+    parameters = (*SoundRecognizer.parameters, "model")
 
     def _open(self) -> None:
+        super()._open()
         folder = self.description.text("model")
         path = find_model(folder)
         if path is None or (folder and path != Path(folder).expanduser()):
-            what = f"no Vosk model in {folder or DEFAULT_FOLDER}"
-            raise self.not_available(what, f"unpack one there, or set {VARIABLE}")
+            what = f"no Vosk model in {folder or models_folder()}"
+            remedy = f"hri models fetch {DOWNLOADS[0].name}, or set {VARIABLE}"
+            raise self.not_available(what, remedy)
         self._path = path
-        self._endpointer: Endpointer = VoiceActivityEndpointer(self.rate)
         self._one = threading.Lock()
         self._model: Any = None
         self._engine: Any = None
@@ -64,22 +65,12 @@ class VoskRecognizer(Recognizer):
     def _knows(self, word: str) -> bool:
         return bool(self._model.vosk_model_find_word(word) >= 0)
 
-    def listen(self, samples: Samples, end: float) -> list[Segment]:
-        return self._endpointer.listen(samples, end)
-
-    def flush(self) -> list[Segment]:
-        return self._endpointer.flush()
-
-    @property
-    def is_hearing(self) -> bool:
-        return self._endpointer.is_hearing
-
-    def decode(self, segment: Segment) -> Hypothesis:
-        if segment.samples is None:
-            return Hypothesis(segment.text, 1.0)
+    def _decode(
+        self, segment: Segment, samples: Samples, rules: Collection[str] | None
+    ) -> Hypothesis:
         with self._one:
             self._engine.Reset()
-            self._engine.AcceptWaveform(segment.samples.tobytes())
+            self._engine.AcceptWaveform(samples.tobytes())
             return hypothesis(json.loads(self._engine.FinalResult()))
 
 

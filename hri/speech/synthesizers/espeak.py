@@ -17,6 +17,10 @@ from hri.speech.synthesizers.espeak_marks import timed_speech
 from hri.speech.synthesizers.espeak_text import reading
 
 PLAIN_SETTING = Setting()
+SLOWEST, FASTEST = 80, 450
+"""Words a minute that the library takes."""
+TELLING_LETTERS = 4
+"""Codes of languages that are shorter are all alike, so that none can be guessed."""
 LONGEST_TEXT = 5000
 """Characters; what is longer is cut, it would be minutes of speech."""
 
@@ -34,7 +38,7 @@ class EspeakVoice(Synthesizer):
         self._library = load_espeak()
         self._plain = Setting(
             voice=self.description.text("voice", PLAIN_SETTING.voice),
-            rate=self.description.count("rate_wpm", PLAIN_SETTING.rate, 80, 450),
+            rate=self.description.count("rate_wpm", PLAIN_SETTING.rate, SLOWEST, FASTEST),
             pitch=self.description.count("pitch", PLAIN_SETTING.pitch, 0, 100),
         )
         if not self._library.has_voice(self._plain.voice):
@@ -47,7 +51,7 @@ class EspeakVoice(Synthesizer):
     def _near(self, voice: str) -> str:
         """The remedy for the name of a voice that is not there."""
         language, _, variant = voice.partition("+")
-        known = self._library.voices()
+        known = self._library.voices() if len(language) >= TELLING_LETTERS else ()
         if self._library.has_voice(language):
             language, known = variant, self._library.variants()
         return did_you_mean(language, [voice.id for voice in known], "`hri voices` lists them")
@@ -100,7 +104,7 @@ def scaled(plain: Setting, prosody: Prosody) -> Setting:
     octaves = math.log2(max(prosody.pitch, 0.01))
     return Setting(
         plain.voice,
-        rate=_within(plain.rate * prosody.rate, 80, 450),
+        rate=_within(plain.rate * prosody.rate, SLOWEST, FASTEST),
         pitch=_within(plain.pitch + 50 * octaves, 0, 100),
         volume=_within(plain.volume * prosody.volume, 0, 200),
         range=_within(plain.range * prosody.range * prosody.pitch, 0, 99),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hri.behavior.library.printing import InputCollector, PrintBehavior
-from hri.core.signals import Frame, Pose2D, Twist
+from hri.core.signals import Frame, Pose2D, Twist, Utterance
 from tests.behavior.library.ticking import Links, tick
 
 pytestmark = pytest.mark.proves("B10", "B11", "B19")
@@ -25,6 +25,10 @@ pytestmark = pytest.mark.proves("B10", "B11", "B19")
         (math.nan, "double: nan"),
         ((), "DoubleArray."),
         (True, "boolean: true"),
+        (
+            Utterance("dim it", "dim", {"percent": -25.0}, 0.974, start=0.5),
+            "utterance: \"dim it\" is dim {'percent': -25.0}, confidence 0.97",
+        ),
         (Twist(0.25, -1.0), "twist: linear 0.25, angular -1"),
         (Pose2D(), "pose: x 0, y 0, heading 0"),
         (Frame(np.zeros((240, 320, 3), np.uint8), 0.0, 7), "image: 320 x 240, number 7"),

@@ -1,0 +1,73 @@
+"""Decodes sound files of many formats, with libsndfile."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.core.errors import HriError, NotAvailable
+from hri.core.signals import Samples
+from hri.hal.drivers.channels import CHOICES, OneChannel
+from hri.hal.drivers.resampling import resample_blocks
+from hri.hal.drivers.silence import silenced_libraries
+
+LONGEST = 3600.0
+"""Seconds; a longer file is refused, so that it cannot fill the memory."""
+LEAST_RATE, MOST_RATE = 1000, 400_000
+"""Samples a second of what can be sound."""
+BLOCK = 1 << 18
+"""Frames decoded at a time."""
+
+
+def decode(path: Path, wanted: int | None = None, channel: str = CHOICES[0]) -> tuple[Samples, int]:
+    """The samples of an MP3, FLAC, Ogg or WAV file as mono int16, and their rate.
+
+    Raises HriError when it cannot be decoded, is empty or longer than an hour, NotAvailable when
+    the decoder is not installed.
+    """
+    soundfile = _load_soundfile()
+    try:
+        with silenced_libraries(), soundfile.SoundFile(str(path)) as file:
+            rate = file.samplerate
+            if not LEAST_RATE <= rate <= MOST_RATE:
+                raise HriError(f"{path}: {rate} Hz is out of range - convert it to 16 kHz")
+            heard = _mono_blocks(path, file, channel)
+            blocks = list(resample_blocks(heard, rate, wanted or rate))
+    except (soundfile.SoundFileError, ValueError) as error:
+        raise HriError(f"{path}: not a readable sound file - try a WAV or an MP3") from error
+    if not any(map(len, blocks)):
+        raise HriError(f"{path}: this file holds no sound - record it again")
+    return np.concatenate(blocks), wanted or rate
+
+
+def _load_soundfile() -> Any:
+    try:
+        import soundfile
+    except (ImportError, OSError) as error:
+        raise NotAvailable(
+            "soundfile, which decodes sounds, is missing - pip install soundfile"
+        ) from error
+    return soundfile
+
+
+def _mono_blocks(path: Path, file: Any, channel: str) -> Iterator[Samples]:
+    one_channel = OneChannel(channel)
+    left = LONGEST * file.samplerate
+    # As numbers with a point: the library does not scale those of a file to whole ones.
+    for block in file.blocks(BLOCK, dtype="float32", always_2d=True):
+        left -= len(block)
+        if left < 0:
+            raise HriError(f"{path}: longer than {LONGEST:g} s - cut it into parts")
+        yield one_channel.take(_as_int16(block))
+
+
+def _as_int16(block: NDArray[np.float32]) -> NDArray[np.int16]:
+    """Samples of -1 to 1 as whole numbers; what is beyond is clipped, what is none is silence."""
+    # Clipped before it is scaled, since damaged files hold numbers near the largest there are.
+    within = np.clip(np.nan_to_num(block), -1.0, 1.0)
+    whole: NDArray[np.int16] = np.rint(within * 32768.0).clip(max=32767).astype(np.int16)
+    return whole

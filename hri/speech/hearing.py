@@ -1,0 +1,76 @@
+"""From sound to what was said, without a robot around it: what all who listen share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+from hri.core.signals import Rejection, Samples, Utterance
+from hri.hal.drivers.resampling import resample
+from hri.hal.recognizer import Recognizer, Segment
+from hri.speech.grammar import Grammar
+from hri.speech.judgement import STRICTNESS, judge
+from hri.speech.turn import Turn
+
+STEP = 0.2
+"""Seconds of new sound after which an engine is let work on a piece that is still open."""
+SILENT_AFTER = 0.2
+"""Seconds of quiet at which an engine is let work at once: the end may have come."""
+
+Heard = Utterance | Rejection
+Stopwatch = Callable[[], float]
+"""Seconds that only ever grow."""
+
+
+def stopped() -> float:
+    """A stopwatch for who measures nothing."""
+    return 0.0
+
+
+def hear(
+    samples: Samples,
+    rate: int,
+    engine: Recognizer,
+    grammar: Grammar,
+    strictness: float = STRICTNESS,
+    turn: Turn | None = None,
+    stopwatch: Stopwatch = stopped,
+    tell_partial: Callable[[str], object] | None = None,
+) -> Iterator[Heard]:
+    """What is said in a recording, piece by piece; its times count from its first sample.
+
+    `engine` has been started with the grammar, and keeps nothing of the recording. `turn` tells
+    which rules count; without one, all do. `stopwatch` measures the latencies. `tell_partial` is
+    told the words so far while a piece goes on; without it no work is spent on them.
+    """
+    sound = resample(samples, rate, engine.rate)
+    rules = None if turn is None else turn.rules(grammar)
+    step = round(STEP * engine.rate)
+    for first in range(0, len(sound), step):
+        block = sound[first : first + step]
+        for segment in engine.listen(block, (first + len(block)) / engine.rate):
+            yield understand(engine, grammar, segment, strictness, turn, stopwatch)
+        open_segment = engine.open_segment
+        if open_segment is None:
+            continue
+        if tell_partial is not None:
+            tell_partial(engine.advance(open_segment, rules))
+        elif open_segment.quiet >= SILENT_AFTER:
+            engine.advance(open_segment, rules)
+    for segment in engine.flush():
+        yield understand(engine, grammar, segment, strictness, turn, stopwatch)
+
+
+def understand(
+    engine: Recognizer,
+    grammar: Grammar,
+    segment: Segment,
+    strictness: float,
+    turn: Turn | None,
+    stopwatch: Stopwatch = stopped,
+) -> Heard:
+    """Decode a finished piece of speech and judge it."""
+    begun = stopwatch()
+    hypothesis = engine.decode(segment, None if turn is None else turn.rules(grammar))
+    heard = judge(grammar, segment, hypothesis, strictness, turn)
+    return replace(heard, latency=stopwatch() - begun)

@@ -1,0 +1,60 @@
+"""Whose turn it is: which rules of a grammar may be heard at a moment.
+
+Rules are marked in their comments (see `hri.speech.grammar.doc_comments`): while the robot speaks
+only those with `@interrupts` count; `@answer` counts while a question is open; and where any rule
+is marked `@wake`, the others count after one of those, as long as the talk goes on.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from hri.speech.grammar import Grammar
+
+QUESTION = "question.open"
+"""Slot of the board that is true while an answer is awaited."""
+FOLLOW_UP = 8.0
+"""Seconds after something was heard or said in which no wake word is needed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """How things stand between the robot and the person."""
+
+    is_speaking: bool = False
+    """Whether the robot speaks."""
+    is_question_open: bool = False
+    """Whether the robot has asked something."""
+    is_awake: bool = True
+    """Whether no wake word is needed."""
+
+    def rules(self, grammar: Grammar) -> frozenset[str]:
+        """The public rules that may be heard."""
+        interrupting = grammar.marked("interrupts")
+        if self.is_speaking:
+            return interrupting
+        rules = frozenset(grammar.public_rules)
+        if not self.is_question_open:
+            rules -= grammar.marked("answer")
+        waking = grammar.marked("wake")
+        if waking and not self.is_awake and not self.is_question_open:
+            rules &= waking | interrupting
+        return rules
+
+
+class Wakefulness:
+    """How long the robot is addressed without a wake word."""
+
+    def __init__(self, follow_up: float = FOLLOW_UP) -> None:
+        """`follow_up` seconds after the last word of either side a wake word is needed again."""
+        self.follow_up = follow_up
+        self._until = -math.inf
+
+    def extend(self, now: float) -> None:
+        """Something was said, by the person to the robot or by the robot."""
+        self._until = now + self.follow_up
+
+    def is_awake(self, now: float) -> bool:
+        """Whether somebody who speaks now speaks to the robot."""
+        return now <= self._until

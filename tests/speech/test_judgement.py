@@ -1,0 +1,126 @@
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hri.core.signals import Rejection, Utterance
+from hri.hal.recognizer import Alternative, HeardWord, Hypothesis, Segment
+from hri.speech.grammar import load_grammar
+from hri.speech.judgement import judge
+from hri.speech.turn import Turn, Wakefulness
+
+PIECE = Segment(10.0, 12.0, quiet=0.5)
+
+
+@pytest.fixture
+def grammar(write):
+    return load_grammar(
+        write(
+            "/** @careful */ public <move> = go (forward | back {way=back});\n"
+            "/** @interrupts */ public <stop> = stop;\n"
+            "/** @answer */ public <yes> = yes;\n"
+            "public <greet> = hello [robot];\n"
+        )
+    )
+
+
+def reason(grammar, text, confidence=0.9, turn=None, *alternatives):
+    hypothesis = Hypothesis(text, confidence, alternatives=alternatives)
+    result = judge(grammar, PIECE, hypothesis, 0.5, turn)
+    return result.reason if isinstance(result, Rejection) else result.rule
+
+
+def test_what_is_clear_counts_and_every_rejection_has_its_reason(grammar):
+    assert reason(grammar, "hello", 0.5) == "greet"
+    assert reason(grammar, "") == "no speech"
+    assert reason(grammar, "hello fish") == "not in grammar"
+    assert reason(grammar, "hello", 0.49) == "low confidence"
+    assert reason(grammar, "hello", 0.05) == "not in grammar"
+
+
+def test_what_moves_the_robot_must_be_heard_more_clearly(grammar):
+    assert reason(grammar, "go back", 0.52) == "low confidence"
+    assert reason(grammar, "go back", 0.56) == "move"
+
+
+def test_what_may_as_well_mean_something_else_is_doubted(grammar):
+    other, same = Alternative("go forward", 0.45), Alternative("hello robot", 0.45)
+
+    assert reason(grammar, "go back", 0.9, None, other) == "low confidence"
+    assert reason(grammar, "hello", 0.9, None, same) == "greet"
+    rejection = judge(grammar, PIECE, Hypothesis("go back", 0.9, alternatives=(other,)))
+    assert rejection.detail == 'as likely: "go forward"'
+
+
+@pytest.mark.proves("R02")
+def test_only_listed_words_are_recognized(grammar):
+    for text in ("go", "go forward back", "forward go", "robot hello", "stop stop"):
+        assert reason(grammar, text, 1.0) == "not in grammar"
+
+
+def test_while_the_robot_speaks_only_what_interrupts_counts(grammar):
+    speaking = Turn(is_speaking=True)
+
+    assert reason(grammar, "stop", 0.9, speaking) == "stop"
+    assert reason(grammar, "stop", 0.6, speaking) == "robot speaking"
+    assert reason(grammar, "hello", 0.9, speaking) == "robot speaking"
+    assert reason(grammar, "", 0.9, speaking) == "robot speaking"
+
+
+def test_an_answer_counts_while_a_question_is_open(grammar):
+    assert reason(grammar, "yes", 0.4, Turn(is_question_open=True)) == "yes"
+    result = judge(grammar, PIECE, Hypothesis("yes", 0.9), 0.5, Turn())
+    assert (result.reason, result.detail) == (
+        "not in grammar",
+        "<yes> counts while a question is open",
+    )
+
+
+def test_without_a_turn_all_rules_count_and_none_is_expected(grammar):
+    assert reason(grammar, "yes", 0.5) == "yes"
+    assert reason(grammar, "yes", 0.4) == "low confidence"
+
+
+def test_without_the_wake_word_little_counts(write):
+    grammar = load_grammar(
+        write("/** @wake */ public <hey> = hey robot;\npublic <greet> = hello;", "wake")
+    )
+    asleep = Turn(is_awake=False)
+
+    assert asleep.rules(grammar) == {"hey"}
+    assert Turn(is_awake=True).rules(grammar) == {"hey", "greet"}
+    assert Turn(is_awake=False, is_question_open=True).rules(grammar) == {"hey", "greet"}
+    result = judge(grammar, PIECE, Hypothesis("hello", 0.9), 0.5, asleep)
+    assert result.detail == "<greet> counts after the wake word"
+
+
+def test_no_wake_word_is_needed_for_a_while(grammar):
+    wakefulness = Wakefulness(follow_up=8.0)
+
+    assert not wakefulness.is_awake(0.0)
+    wakefulness.extend(10.0)
+    assert wakefulness.is_awake(18.0)
+    assert not wakefulness.is_awake(18.1)
+
+
+def test_the_times_are_those_of_the_words(grammar):
+    words = (HeardWord("go", 0.3, 0.5), HeardWord("back", 0.6, 1.0))
+
+    timed = judge(grammar, PIECE, Hypothesis("go back", 0.9, words))
+    untimed = judge(grammar, PIECE, Hypothesis("go back", 0.9))
+
+    assert (timed.start, timed.end) == (10.3, 11.0)
+    assert [word.start for word in timed.words] == [10.3, 10.6]
+    assert (untimed.start, untimed.end) == (10.0, 11.5)
+
+
+@given(st.text(max_size=40), st.floats(0, 1), st.floats(0, 1), st.floats(0, 1), st.booleans())
+def test_any_hypothesis_gets_a_verdict(companion, text, confidence, share, strictness, speaking):
+    hypothesis = Hypothesis(text, confidence, alternatives=(Alternative("stop", share),))
+
+    result = judge(companion, PIECE, hypothesis, strictness, Turn(is_speaking=speaking))
+
+    assert 0.0 <= result.confidence <= confidence
+    if isinstance(result, Utterance) and result.rule not in companion.marked("answer"):
+        assert result.confidence >= strictness
