@@ -5,19 +5,25 @@ from __future__ import annotations
 import argparse
 import importlib
 import json
+from pathlib import Path
+from typing import Any
 
 from hri.core.errors import HriError
 
-BENCHES = ("behavior", "companion", "net")
+BENCHES = ("behavior", "companion", "net", "speech")
 """Each is a module of `hri.bench` with `measure() -> dict`."""
-TIMED = ("behavior", "companion")
-"""Those whose `measure` takes `seconds`."""
+TAKES = {"behavior": ("seconds",), "companion": ("seconds",), "speech": ("quick", "recordings")}
+"""The options that the `measure` of some of them takes."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("name", choices=BENCHES, help="what to measure")
-    about = f"how long each case runs ({', '.join(TIMED)})"
+    about = "how long each case runs (behavior, companion)"
     parser.add_argument("--seconds", type=_seconds, metavar="S", help=about)
+    about = "take every sixth sentence and recording (speech)"
+    parser.add_argument("--quick", action="store_true", default=None, help=about)
+    about = "recordings of people, a folder with a manifest.tsv (speech)"
+    parser.add_argument("--recordings", type=Path, metavar="DIR", help=about)
 
 
 def _seconds(text: str) -> float:
@@ -29,8 +35,12 @@ def _seconds(text: str) -> float:
 
 def run(options: argparse.Namespace) -> int:
     module = importlib.import_module(f"hri.bench.{options.name}")
-    if options.seconds is not None and options.name not in TIMED:
-        raise HriError(f"bench {options.name} takes no --seconds - leave it out")
-    limits = {} if options.seconds is None else {"seconds": options.seconds}
-    print(json.dumps(module.measure(**limits), indent=2))
+    given: dict[str, Any] = {
+        name: value
+        for name in ("seconds", "quick", "recordings")
+        if (value := getattr(options, name)) is not None
+    }
+    for name in given.keys() - TAKES.get(options.name, ()):
+        raise HriError(f"bench {options.name} takes no --{name} - leave it out")
+    print(json.dumps(module.measure(**given), indent=2))
     return 0

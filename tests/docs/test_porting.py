@@ -100,7 +100,7 @@ def test_every_name_of_theirs_that_we_understand_stands_beside_ours():
             if name.startswith("Evolution."):
                 assert registry.canonical(name) in quoted(ours)
     known = {name for theirs, _, _ in THEIRS for name in quoted(theirs)}
-    assert set(registry.ALIASES) <= known
+    assert {name for name in registry.ALIASES if name.startswith("Evolution.")} <= known
 
 
 def test_every_row_says_where_to_look():

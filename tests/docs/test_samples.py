@@ -132,7 +132,7 @@ def test_the_devices_are_told_while_the_robot_turns(simulated, capsys):
 def test_what_the_person_says_is_printed(simulated, capsys):
     simulated.resources.obtain("world", SimulatedWorld).say("hello robot", at=1.0)
     run("behavior/speech/listening.xml", simulated, 4.0)
-    assert "heard: text hello robot, rule greet" in capsys.readouterr().out
+    assert 'heard: "hello robot" is greet {}' in capsys.readouterr().out
 
 
 @pytest.mark.proves("P08")

@@ -7,7 +7,7 @@ import pytest
 from tests.docs.tutorial import FOLDER, Tutorial
 
 NAMES = sorted(path.parent.name for path in FOLDER.glob("*/README.md"))
-OURS = ("task-", "python-", "behavior-03-", "behavior-04-")
+OURS = ("task-", "python-", "behavior-03-", "behavior-04-", "speech-")
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name.startswith(OURS)])

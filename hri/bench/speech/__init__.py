@@ -1,0 +1,68 @@
+"""Speech: what is understood and what is made up, how soon, and at what cost.
+
+Every row of recognition is what `hri grammar listen --wav` says with its default engine and
+strictness. The commands and the sentences outside of their grammar are spoken by flite; orders,
+foreign speech and the babble come from recordings of people.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from hri.bench.figures import machine
+from hri.bench.speech.accuracy import rows as accuracy_rows
+from hri.bench.speech.clips import Clip, Recordings, read_recordings
+from hri.bench.speech.listening import Listen, listen
+from hri.bench.speech.speaking import rows as speaking_rows
+from hri.bench.speech.speed import rows as speed_rows
+from hri.bench.speech.start import rows as start_rows
+from hri.bench.speech.table import Row, attempted
+from hri.bench.speech.text import rows as text_rows
+from hri.core import paths
+
+QUICK_STEP = 6
+"""A quick run takes every sixth sentence and recording."""
+
+
+def measure(quick: bool = False, recordings: Path | None = None) -> dict[str, Any]:
+    """All rows; what is being done is told on standard error.
+
+    `recordings` is a folder with a `manifest.tsv` (see `clips.read_recordings`); without one,
+    `../shared/speech/real` beside a checkout is taken when it is there.
+    Raises HriError when recordings cannot be read or a program fails.
+    """
+    folder = recordings or _recordings_beside()
+    people = read_recordings(folder) if folder else None
+    told = list(rows(people, listen, QUICK_STEP if quick else 1))
+    return {
+        "bench": "speech",
+        "machine": machine(),
+        "quick": quick,
+        "rows": told,
+        "missed": [row["what"] for row in told if not row.get("passed", True)],
+        "skipped": [row["what"] for row in told if "skipped" in row],
+    }
+
+
+def rows(people: Recordings | None, hear: Listen, step: int = 1) -> Iterator[Row]:
+    """All rows in the order of the table; every `step`th sentence and recording is taken."""
+    tell = partial(print, file=sys.stderr, flush=True)
+    yield from accuracy_rows(people, hear, step, tell)
+    yield from speed_rows(people, hear, step, tell)
+    tell("start, text, voice")
+    yield from attempted("start and memory of the engine", lambda: start_rows(_longest(people)))
+    yield from attempted("parsing and checking", text_rows)
+    yield from speaking_rows()
+
+
+def _longest(people: Recordings | None) -> list[Clip]:
+    return sorted(people.orders, key=lambda clip: clip.seconds)[-1:] if people else []
+
+
+def _recordings_beside() -> Path | None:
+    folder = paths.house().parent / "shared" / "speech" / "real"
+    return folder if (folder / "manifest.tsv").is_file() else None

@@ -1,0 +1,183 @@
+"""How much is understood, and how little is made up."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import cache, partial
+from pathlib import Path
+from typing import Literal
+
+from hri.bench.speech import clips
+from hri.bench.speech.clips import DATA, Clip, Recordings
+from hri.bench.speech.listening import Heard, Listen
+from hri.bench.speech.table import Limit, Row, at_least, at_most, attempted, share
+from hri.core.errors import NotAvailable
+from hri.speech.grammar import Grammar, load_grammar
+from hri.speech.grammar.matching import parse
+
+ROBOT = DATA / "robot.jsgf"
+ORDERS = DATA / "orders.jsgf"
+TOLD = 20
+"""Clips that a row names."""
+BATCH = 40
+"""Clips for one process."""
+
+Kind = Literal["commands", "outside", "orders", "foreign"]
+Condition = Literal["clean", "12 dB", "6 dB"]
+GRAMMARS: dict[Kind, Path] = {
+    "commands": ROBOT,
+    "outside": ROBOT,
+    "orders": ORDERS,
+    "foreign": ROBOT,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """A clip and what was made of it."""
+
+    clip: Clip
+    heard: Sequence[Heard]
+
+    @property
+    def accepted(self) -> list[Heard]:
+        return [heard for heard in self.heard if heard.is_accepted]
+
+    @property
+    def is_right(self) -> bool:
+        """One thing was understood, and it is what was said: word for word, or slot for slot."""
+        if len(self.accepted) != 1:
+            return False
+        only = self.accepted[0]
+        if self.clip.slots:
+            return slots(only) == self.clip.slots
+        return only.text == self.clip.sentence
+
+    @property
+    def is_mistaken(self) -> bool:
+        """Something was understood that was not said."""
+        return bool(self.accepted) and not self.is_right
+
+    def means_the_same(self, grammar: Grammar) -> bool:
+        """One thing was understood that means what was said, in whatever words."""
+        if len(self.accepted) != 1:
+            return False
+        only, said = self.accepted[0], parse(grammar, self.clip.sentence)
+        return said is not None and (only.rule, only.tags) == (said.rule, said.tags)
+
+    def told(self) -> str:
+        """For people: the clip and what was heard in it."""
+        heard = "; ".join(heard.told() for heard in self.heard) or "nothing"
+        return f"{self.clip.name}: {heard}"
+
+
+def slots(heard: Heard) -> dict[str, str]:
+    """The slots of an order, as the labels write them: how much of what is one slot."""
+    found = {name: str(value) for name, value in heard.tags.items()}
+    for amount, what in (("milkAmount", "milk"), ("sugarAmount", "sugar")):
+        if what in found:
+            found[amount] = f"{found.get(amount, '')} {found.pop(what)}".strip()
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """One row: which clips, what is counted in them, and how many there may be."""
+
+    what: str
+    kind: Kind
+    condition: Condition
+    counted: Literal["right", "mistaken"]
+    limit: Limit
+
+    @property
+    def name(self) -> str:
+        return f"{self.what}, {self.condition}"
+
+
+_UNDERSTOOD = "commands understood word for word"
+_CONFUSED = "another sentence accepted for a command"
+_MADE_UP = "sentences outside of the grammar accepted"
+_ORDERED = "people's orders, all slots right"
+MEASURES = (
+    Measure(_UNDERSTOOD, "commands", "clean", "right", at_least(0.97)),
+    Measure(_UNDERSTOOD, "commands", "12 dB", "right", at_least(0.88)),
+    Measure(_UNDERSTOOD, "commands", "6 dB", "right", at_least(0.72)),
+    Measure(_CONFUSED, "commands", "clean", "mistaken", at_most(0.01)),
+    Measure(_CONFUSED, "commands", "12 dB", "mistaken", at_most(0.04)),
+    Measure(_MADE_UP, "outside", "clean", "mistaken", at_most(0.005)),
+    Measure(_MADE_UP, "outside", "12 dB", "mistaken", at_most(0.02)),
+    Measure(_ORDERED, "orders", "clean", "right", at_least(0.98)),
+    Measure(_ORDERED, "orders", "12 dB", "right", at_least(0.90)),
+    Measure(_ORDERED, "orders", "6 dB", "right", at_least(0.72)),
+    Measure("people's foreign speech accepted", "foreign", "clean", "mistaken", at_most(0.01)),
+)
+
+
+def rows(
+    recordings: Recordings | None, listen: Listen, step: int = 1, progress: Progress = print
+) -> Iterator[Row]:
+    """The rows of recognition; every `step`th sentence and recording is taken."""
+
+    @cache
+    def outcomes(kind: Kind, condition: Condition) -> list[Outcome]:
+        said = sounds(recordings, kind, condition, step)
+        progress(f"{kind}, {condition}: {len(said)} clips")
+        return hear(GRAMMARS[kind], said, listen)
+
+    def counted(measure: Measure) -> Iterator[Row]:
+        yield _row(measure, outcomes(measure.kind, measure.condition))
+
+    for measure in MEASURES:
+        yield from attempted(measure.name, partial(counted, measure))
+
+
+Progress = Callable[[str], object]
+
+
+def sounds(
+    recordings: Recordings | None, kind: Kind, condition: Condition, step: int = 1
+) -> list[Clip]:
+    """The clips of one kind. Raises NotAvailable when flite or the recordings are missing."""
+    if recordings is None and (kind in ("orders", "foreign") or condition != "clean"):
+        raise NotAvailable("no recordings of people - name their folder with --recordings")
+    if recordings is None:
+        recordings = Recordings((), ())
+    people = [*recordings.orders, *recordings.read]
+    if kind == "foreign":
+        return people[::step]
+    if kind == "orders":
+        orders = recordings.orders[::step]
+        said = list(orders) if condition == "clean" else [clips.padded(clip) for clip in orders]
+        return clips.in_babble(said, recordings.orders, condition)
+    sentences = clips.commands() if kind == "commands" else clips.outside()
+    return clips.in_babble(clips.spoken(sentences[::step]), people, condition)
+
+
+def hear(grammar: Path, said: Sequence[Clip], listen: Listen) -> list[Outcome]:
+    """Hear clips in as many processes as there are cores."""
+    batches = [said[start : start + BATCH] for start in range(0, len(said), BATCH)]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        hearings = pool.map(partial(listen, grammar), batches)
+        heard = [pieces for hearing in hearings for pieces in hearing.heard]
+    return [Outcome(clip, pieces) for clip, pieces in zip(said, heard, strict=True)]
+
+
+def _row(measure: Measure, outcomes: Sequence[Outcome]) -> Row:
+    def counts(outcome: Outcome) -> bool:
+        return outcome.is_right if measure.counted == "right" else outcome.is_mistaken
+
+    hits = [outcome for outcome in outcomes if counts(outcome)]
+    odd = hits if measure.counted == "mistaken" else [o for o in outcomes if not o.is_right]
+    row = share(measure.name, len(hits), len(outcomes), measure.limit)
+    voices = Counter(outcome.clip.voice for outcome in hits)
+    if voices.keys() - {""}:
+        row["by_voice"] = dict(sorted(voices.items()))
+    if measure.kind == "commands":
+        grammar = load_grammar(ROBOT)
+        row["meaning_right"] = sum(outcome.means_the_same(grammar) for outcome in outcomes)
+    return row | {"clips": [outcome.told() for outcome in odd[:TOLD]]}

@@ -1,0 +1,144 @@
+"""The sounds that the figures are taken on, each with what was said in it."""
+
+from __future__ import annotations
+
+import csv
+import json
+import random
+import wave
+import zlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hri.bench.speech import flite
+from hri.bench.speech.babble import RATE, above, babble
+from hri.core.errors import HriError
+from hri.core.signals import Samples
+
+DATA = Path(__file__).parent
+RATIOS: Mapping[str, float | None] = {"clean": None, "12 dB": 12.0, "6 dB": 6.0}
+"""Decibels above the babble, by condition."""
+
+
+@dataclass(frozen=True, eq=False)
+class Clip:
+    """One sound, mono, 16 kHz."""
+
+    name: str
+    samples: Samples
+    sentence: str = ""
+    """What was said, where that is known."""
+    slots: Mapping[str, str] = field(default_factory=dict)
+    """What an order asks for."""
+    voice: str = ""
+
+    @property
+    def seconds(self) -> float:
+        return len(self.samples) / RATE
+
+
+@dataclass(frozen=True)
+class Recordings:
+    """Recordings of people; see `read_recordings`."""
+
+    orders: tuple[Clip, ...]
+    read: tuple[Clip, ...]
+    """Lines of a novel."""
+
+
+def commands() -> list[str]:
+    """The sentences of `commands.tsv`."""
+    return [row["sentence"] for row in _rows(DATA / "commands.tsv")]
+
+
+def outside() -> list[str]:
+    """The sentences of `outside.txt`."""
+    lines = (DATA / "outside.txt").read_text(encoding="utf-8").splitlines()
+    return [line for line in lines if line and not line.startswith("#")]
+
+
+def spoken(sentences: Sequence[str], voices: Sequence[str] = flite.VOICES) -> list[Clip]:
+    """Each sentence in each voice."""
+    return [
+        Clip(f"{voice}/{sentence}", flite.say(sentence, voice), sentence, voice=voice)
+        for sentence in sentences
+        for voice in voices
+    ]
+
+
+def read_recordings(folder: Path) -> Recordings:
+    """The recordings that `manifest.tsv` of the folder lists.
+
+    Its column `transcript` holds the words, or "SLOTS " and a JSON object.
+    Raises HriError when a file is missing or of another kind than mono, 16 bit, 16 kHz.
+    """
+    orders, read = [], []
+    for row in _rows(folder / "manifest.tsv"):
+        name, said = row["file"], row["transcript"]
+        if said.startswith("SLOTS "):
+            slots = json.loads(said.removeprefix("SLOTS "))
+            orders.append(Clip(name, flite.read_wav(folder / name), slots=slots))
+        elif "librivox" in row["source"]:
+            read.append(Clip(name, flite.read_wav(folder / name), said))
+    return Recordings(tuple(orders), tuple(read))
+
+
+def in_babble(clips: Sequence[Clip], talkers: Sequence[Clip], condition: str) -> list[Clip]:
+    """The clips over the talk of the others, the same at every run."""
+    ratio = RATIOS[condition]
+    if ratio is None:
+        return list(clips)
+    return [_in_babble(clip, talkers, ratio) for clip in clips]
+
+
+def _in_babble(clip: Clip, talkers: Sequence[Clip], ratio: float) -> Clip:
+    others = [talker.samples for talker in talkers if talker.name != clip.name]
+    chance = np.random.default_rng(zlib.crc32(f"{clip.name} {ratio:g}".encode()))
+    noise = babble(others, len(clip.samples), chance)
+    samples = above(clip.samples, noise, ratio)
+    return Clip(clip.name, samples, clip.sentence, clip.slots, clip.voice)
+
+
+def padded(clip: Clip) -> Clip:
+    """With the silences of a spoken sentence around it, so that babble has a beginning."""
+    lead, tail = round(flite.LEAD * RATE), round(flite.TAIL * RATE)
+    return Clip(clip.name, np.pad(clip.samples, (lead, tail)), clip.sentence, clip.slots)
+
+
+def write_wav(path: Path, clip: Clip) -> None:
+    """Write a clip: mono, 16 bit, 16 kHz."""
+    with wave.open(str(path), "wb") as file:
+        file.setnchannels(1)
+        file.setsampwidth(2)
+        file.setframerate(RATE)
+        file.writeframes(clip.samples.tobytes())
+
+
+_BEGINNINGS = ("b", "br", "c", "d", "f", "g", "h", "j", "k", "l", "m", "n", "p", "r", "s", "t", "v")
+_MIDDLES = ("a", "e", "i", "o", "ar", "en", "or", "il", "an", "ay")
+_ENDINGS = ("ba", "den", "ford", "ger", "kin", "la", "ley", "man", "na", "rick", "son", "ton")
+
+
+def names(count: int) -> list[str]:
+    """Different names of two made words, always the same ones."""
+    chance = random.Random(0)
+    found: dict[str, None] = {}
+    while len(found) < count:
+        found[" ".join(_name(chance) for _ in range(2))] = None
+    return list(found)
+
+
+def _name(chance: random.Random) -> str:
+    return "".join(chance.choice(parts) for parts in (_BEGINNINGS, _MIDDLES, _ENDINGS))
+
+
+def _rows(path: Path) -> list[dict[str, Any]]:
+    try:
+        with path.open(encoding="utf-8", newline="") as lines:
+            return list(csv.DictReader(lines, delimiter="\t"))
+    except OSError as error:
+        raise HriError(f"{path}: {error.strerror} - check the folder") from error

@@ -1,0 +1,148 @@
+"""How soon what was said is known, and how much of a core that takes."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+
+from hri.bench.speech import clips
+from hri.bench.speech.accuracy import ORDERS, ROBOT, Outcome, Progress, sounds
+from hri.bench.speech.babble import RATE
+from hri.bench.speech.clips import Clip, Recordings
+from hri.bench.speech.listening import Hearing, Listen
+from hri.bench.speech.table import Row, amount, at_most, attempted, compared, skipped
+from hri.core.errors import NotAvailable
+from hri.speech.recognizers.vosk import find_model
+
+NAMES = 10_000
+CALLED = 20
+"""Names that are said."""
+SHORTEST = Clip("silence", np.zeros(RATE // 10, np.int16))
+"""What is heard to find out how long the program takes to start."""
+
+
+@dataclass(frozen=True, slots=True)
+class Latency:
+    """How soon the result must be there for recordings of a length."""
+
+    of: str
+    clips_s: tuple[float, float]
+    limit_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Work:
+    """Sentences to hear with one grammar, and how long that may take."""
+
+    name: str
+    grammar: Path
+    said: Callable[[], Sequence[Clip]]
+    limit: float
+    """Real-time factor: seconds of one core for each second of sound."""
+    latency: Latency | None = None
+    peers: tuple[str, ...] = ("pocketsphinx", "vosk")
+    """Engines that do the same work in the same run."""
+
+    @property
+    def row(self) -> str:
+        return f"real-time factor, {self.name}"
+
+
+def rows(
+    recordings: Recordings | None, listen: Listen, step: int = 1, progress: Progress = print
+) -> Iterator[Row]:
+    """Latency and real-time factor by grammar, and the same work by other engines."""
+    short = Latency("commands of 2 to 4 s", (2.0, 4.0), 0.040)
+    long = Latency("orders of 7 to 11 s", (7.0, 11.0), 0.060)
+    commands = partial(sounds, recordings, "commands", "clean", step)
+    orders = partial(sounds, recordings, "orders", "clean", step)
+    with names_grammar() as (names, called):
+        for work in (
+            Work("robot grammar", ROBOT, commands, 0.02, short),
+            Work("order grammar", ORDERS, orders, 0.02, long),
+            Work(f"{NAMES} names", names, called, 0.05, peers=()),
+        ):
+            progress(work.row)
+            yield from attempted(work.row, partial(_of, work, listen))
+            for engine in work.peers:
+                progress(f"{work.row}, {engine}")
+                against = f"{work.row}, against {engine}"
+                yield from attempted(against, partial(_against, work, engine, listen))
+
+
+def _of(work: Work, listen: Listen) -> Iterator[Row]:
+    said = work.said()
+    factor, hearing = real_time_factor(work.grammar, said, listen)
+    right = _right(said, hearing)
+    yield amount(work.row, factor, "s/s", at_most(work.limit), right=right, of=len(said))
+    if work.latency is not None:
+        yield latency(work.latency, said, hearing)
+
+
+def _against(work: Work, engine: str, listen: Listen) -> Iterator[Row]:
+    """Both engines, one after the other, so that the machine is alike for both."""
+    _need(engine)
+    said = work.said()
+    own, _ = real_time_factor(work.grammar, said, listen)
+    other, theirs = real_time_factor(work.grammar, said, partial(listen, engine=engine))
+    row = compared(f"{work.row}, against {engine}", own, other, "s/s")
+    yield row | {"right_by_other": _right(said, theirs), "of": len(said)}
+
+
+def _need(engine: str) -> None:
+    """Raises NotAvailable when an engine cannot run here."""
+    if find_spec(engine) is None:
+        raise NotAvailable(f"{engine} is not installed - pip install {engine}")
+    if engine == "vosk" and find_model() is None:
+        raise NotAvailable("no model directory of Vosk - see `hri models`")
+
+
+def real_time_factor(grammar: Path, said: Sequence[Clip], listen: Listen) -> tuple[float, Hearing]:
+    """Processor seconds for each second of sound, without the start of the program."""
+    start = listen(grammar, [SHORTEST]).cpu_s
+    hearing = listen(grammar, said)
+    if not hearing.cpu_s:
+        raise NotAvailable("this system does not tell the processor time of a program")
+    return (hearing.cpu_s - start) / sum(clip.seconds for clip in said), hearing
+
+
+def _right(said: Sequence[Clip], hearing: Hearing) -> int:
+    pairs = zip(said, hearing.heard, strict=True)
+    return sum(Outcome(clip, heard).is_right for clip, heard in pairs)
+
+
+def latency(asked: Latency, said: Sequence[Clip], hearing: Hearing) -> Row:
+    """From the end of the pause that ends a piece of speech to its result."""
+    shortest, longest = asked.clips_s
+    found = [
+        piece.latency_s
+        for clip, pieces in zip(said, hearing.heard, strict=True)
+        for piece in pieces
+        if shortest <= clip.seconds <= longest
+    ]
+    what = f"end of speech to event without the pause, p95, {asked.of}"
+    if not found:
+        return skipped(what, "no recording is so long")
+    p95 = float(np.percentile(found, 95))
+    median = round(float(np.median(found)), 5)
+    return amount(what, p95, "s", at_most(asked.limit_s), median=median, pieces=len(found))
+
+
+@contextmanager
+def names_grammar() -> Iterator[tuple[Path, Callable[[], list[Clip]]]]:
+    """A grammar of a long list, and some sentences of it."""
+    names = clips.names(NAMES)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "names.jsgf"
+        rules = 'import "names.txt" as <name>;\npublic <call> = call <name>;\n'
+        path.write_text(f"#JSGF V1.0;\ngrammar names;\n{rules}")
+        path.with_suffix(".txt").write_text("\n".join(names) + "\n")
+        sentences = [f"call {name}" for name in names[:: NAMES // CALLED]]
+        yield path, partial(clips.spoken, sentences, ("slt", "rms"))

@@ -1,0 +1,86 @@
+"""Rows of the table of figures: what was measured, how sure it is, and whether it is enough."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from hri.core.errors import HriError, NotAvailable
+
+Row = dict[str, Any]
+
+Z = 1.959964
+"""Standard normal quantile of a two-sided 95 % interval."""
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """What a figure must reach."""
+
+    value: float
+    side: Literal["at least", "at most"]
+
+    def holds(self, figure: float) -> bool:
+        return figure >= self.value if self.side == "at least" else figure <= self.value
+
+    def told(self, figure: float) -> dict[str, Any]:
+        return {"limit": self.value, "side": self.side, "passed": self.holds(figure)}
+
+
+def at_least(value: float) -> Limit:
+    """A figure that is better the larger it is."""
+    return Limit(value, "at least")
+
+
+def at_most(value: float) -> Limit:
+    """A figure that is better the smaller it is."""
+    return Limit(value, "at most")
+
+
+def share(what: str, count: int, total: int, limit: Limit) -> Row:
+    """A row that counts: `count` of `total`, and the interval of the true share."""
+    rate = count / total
+    interval = [round(bound, 4) for bound in wilson(count, total)]
+    told = {"count": count, "of": total, "rate": round(rate, 4), "interval_95": interval}
+    return {"what": what} | told | limit.told(rate)
+
+
+def amount(what: str, value: float, unit: str, limit: Limit, **more: Any) -> Row:
+    """A row that measures one figure."""
+    return {"what": what, "value": round(value, 5), "unit": unit} | limit.told(value) | more
+
+
+def compared(what: str, own: float, other: float, unit: str) -> Row:
+    """A row whose own figure must lie below the other's, of the same run."""
+    return amount(
+        what, own, unit, at_most(other), other=round(other, 5), times=round(other / own, 1)
+    )
+
+
+def skipped(what: str, why: str) -> Row:
+    """A row that could not be measured here."""
+    return {"what": what, "skipped": why}
+
+
+def attempted(what: str, measure: Callable[[], Iterator[Row]]) -> Iterator[Row]:
+    """The rows of one measurement; where it cannot be done or fails, a row that says why."""
+    try:
+        yield from measure()
+    except NotAvailable as why:
+        yield skipped(what, str(why))
+    except HriError as why:
+        yield {"what": what, "failed": str(why), "passed": False}
+
+
+def wilson(count: int, total: int) -> tuple[float, float]:
+    """The 95 % score interval of a share.
+
+    Wilson, E. B. (1927), Probable inference, the law of succession, and statistical inference,
+    Journal of the American Statistical Association 22, 209-212.
+    """
+    rate, spread = count / total, Z**2 / total
+    middle = (rate + spread / 2) / (1 + spread)
+    half = Z / (1 + spread) * math.sqrt(rate * (1 - rate) / total + spread / (4 * total))
+    return max(0.0, middle - half), min(1.0, middle + half)
