@@ -146,7 +146,7 @@ def test_an_hour_of_silence_is_nothing_and_then_it_hears(room):
 
 
 def test_a_grammar_that_is_replaced_within_an_utterance_costs_no_sound(room, write):
-    here = room(strictness=0.2)
+    here = room()
     here.run(0.5)
     here.say("open the red door")
     here.run(0.8)

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import os
-import shutil
-import subprocess
-import tempfile
 import wave
 from contextlib import suppress
 from pathlib import Path
@@ -15,19 +12,15 @@ import numpy as np
 
 from hri.bench.speech.babble import RATE
 from hri.core import paths
-from hri.core.errors import HriError, NotAvailable
+from hri.core.errors import HriError
 from hri.core.signals import Samples
+from hri.hal.drivers.resampling import resample
+from hri.hal.drivers.wav_file import write_wav
+from hri.speech.synthesizers.flite import speak
 
 VOICES = ("slt", "rms", "kal16", "awb")
 LEAD, TAIL = 0.4, 0.8
 """Seconds of silence before and after a sentence."""
-LONGEST = 20.0
-"""Seconds that flite may take."""
-
-
-def is_there() -> bool:
-    """Whether the program is installed."""
-    return shutil.which("flite") is not None
 
 
 def say(text: str, voice: str) -> Samples:
@@ -46,25 +39,14 @@ def say(text: str, voice: str) -> Samples:
 
 
 def _made(text: str, voice: str, path: Path) -> Samples:
-    if not is_there():
-        raise NotAvailable("flite is not installed - apt install flite")
-    with tempfile.TemporaryDirectory() as folder:
-        made = Path(folder) / "said.wav"
-        command = ["flite", "-voice", voice, "-t", text, "-o", str(made)]
-        try:
-            subprocess.run(command, check=True, capture_output=True, timeout=LONGEST)
-        except (OSError, subprocess.SubprocessError) as error:
-            raise HriError(f"{' '.join(command)} failed: {error} - run it by hand") from error
-        with suppress(OSError):  # The cache is only a shortcut.
-            _keep(made, path)
-        return read_wav(made)
-
-
-def _keep(made: Path, path: Path) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    arriving = path.with_suffix(f".{os.getpid()}")
-    shutil.copyfile(made, arriving)
-    arriving.replace(path)
+    samples, rate = speak(text, voice)
+    spoken = resample(samples, rate, RATE)
+    with suppress(OSError, HriError):  # The cache is only a shortcut.
+        path.parent.mkdir(parents=True, exist_ok=True)
+        arriving = path.with_suffix(f".{os.getpid()}")
+        write_wav(arriving, spoken, RATE)
+        arriving.replace(path)
+    return spoken
 
 
 def read_wav(path: Path) -> Samples:

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, Literal
 
 from hri.core.errors import HriError, NotAvailable
+from hri.core.statistics import wilson
 
 Row = dict[str, Any]
-
-Z = 1.959964
-"""Standard normal quantile of a two-sided 95 % interval."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,15 +69,3 @@ def attempted(what: str, measure: Callable[[], Iterator[Row]]) -> Iterator[Row]:
         yield skipped(what, str(why))
     except HriError as why:
         yield {"what": what, "failed": str(why), "passed": False}
-
-
-def wilson(count: int, total: int) -> tuple[float, float]:
-    """The 95 % score interval of a share.
-
-    Wilson, E. B. (1927), Probable inference, the law of succession, and statistical inference,
-    Journal of the American Statistical Association 22, 209-212.
-    """
-    rate, spread = count / total, Z**2 / total
-    middle = (rate + spread / 2) / (1 + spread)
-    half = Z / (1 + spread) * math.sqrt(rate * (1 - rate) / total + spread / (4 * total))
-    return max(0.0, middle - half), min(1.0, middle + half)

@@ -57,6 +57,7 @@ def recording(name):
 @pytest.mark.parametrize(
     "text",
     [
+        "go forward",
         "please come with me",
         "turn left ninety degrees",
         "turn around",
