@@ -36,6 +36,7 @@ import hri.bench.speech
 from hri.speech.grammar import load_grammar
 from hri.speech.grammar.expansion import random_sentence
 from hri.speech.grammar.matching import parse
+from hri.speech.grammar.numerals import in_words
 from hri.speech.synthesizers.espeak_library import Mark, Setting, load_espeak
 
 Sound = NDArray[np.float32]
@@ -71,40 +72,8 @@ ESPEAK = [
 ]
 SIZES = (1.0, 1.0, 1.0, 0.88, 0.94, 1.06, 1.12, 1.2)
 """How much faster the sound is read: the lower, the larger the speaker seems."""
-NUMBERS = [
-    "zero",
-    "one",
-    "two",
-    "three",
-    "four",
-    "five",
-    "six",
-    "seven",
-    "eight",
-    "nine",
-    "ten",
-    "eleven",
-    "twelve",
-    "thirteen",
-    "fourteen",
-    "fifteen",
-    "sixteen",
-    "seventeen",
-    "eighteen",
-    "nineteen",
-    "twenty",
-    "thirty",
-    "forty",
-    "fifty",
-    "sixty",
-    "seventy",
-    "eighty",
-    "ninety",
-    "hundred",
-    "thousand",
-    "half",
-    "quarter",
-]
+NUMBERS = [in_words(str(number)) for number in (*range(20), *range(20, 100, 10))]
+NUMBERS += ["hundred", "thousand", "half", "quarter"]
 
 
 # What is said.

@@ -10,6 +10,7 @@ import numpy as np
 
 from hri.core.signals import Samples
 from hri.hal.recognizer import Alternative, Grammar, HeardWord, Hypothesis, Segment
+from hri.speech.hearing import SILENT_AFTER
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.adaptation import adapted
 from hri.speech.recognizers.ctc.confidence import confidence, margin, scores_of, shares
@@ -27,8 +28,6 @@ MOST_SENTENCES = 8
 """Sentences that are told: the best and its alternatives."""
 BEAM = 12.0
 """Natural log: an alternative that is worse than the best by more is none."""
-QUIET = 0.2
-"""Seconds without a voice after which a piece is decoded as if it had ended: it mostly has."""
 
 
 @dataclass
@@ -97,7 +96,7 @@ class CtcRecognizer(SoundRecognizer):
         with self._work:
             if self._search is None or segment.samples is None:
                 return ""
-            if segment.quiet >= QUIET:
+            if segment.quiet >= SILENT_AFTER:
                 return self._whole(segment, segment.samples, active, self._search).text
             progress = self._progress_of(segment, active, self._search)
             new = segment.samples[progress.taken :]
