@@ -11,14 +11,15 @@ from __future__ import annotations
 import argparse
 import importlib.util
 import json
-import multiprocessing
+import os
 import random
 import re
 import subprocess
 import tempfile
 import time
 from collections.abc import Callable
-from functools import cache
+from concurrent.futures import ProcessPoolExecutor
+from functools import cache, partial
 from pathlib import Path
 from pydoc_data.topics import topics
 
@@ -282,6 +283,15 @@ def spoken(seed: int) -> tuple[str, Sound]:
     return speaker.__name__, trimmed(sound, round(rate * chance.choice(SIZES)))
 
 
+def spoken_for(seconds: float, seed: int) -> list[tuple[str, Sound]]:
+    """As many random sentences as can be made in this time."""
+    end = time.perf_counter() + seconds
+    found = []
+    while time.perf_counter() < end:
+        found.append(spoken(seed + len(found)))
+    return found
+
+
 def main() -> None:
     """Write clips (16 bit, one after another), where each ends, and who speaks."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -289,14 +299,11 @@ def main() -> None:
     parser.add_argument("--minutes", type=float, default=30)
     parser.add_argument("--seed", type=int, default=7)
     args = parser.parse_args()
-    end = time.perf_counter() + 60 * args.minutes
     found = recordings()
-    with multiprocessing.Pool() as pool:
-        for clip in pool.imap(spoken, range(args.seed * 10**6, (args.seed + 1) * 10**6)):
-            found.append(clip)
-            if time.perf_counter() > end:
-                pool.terminate()
-                break
+    seeds = [args.seed * 10**6 + worker * 10**5 for worker in range(os.cpu_count() or 1)]
+    with ProcessPoolExecutor() as pool:
+        for clips in pool.map(partial(spoken_for, 60 * args.minutes), seeds):
+            found += clips
     found = [clip for clip in found if SHORTEST * RATE <= len(clip[1]) <= LONGEST * RATE]
     clips = [np.round(sound * 32767).astype(np.int16) for _, sound in found]
     np.savez(

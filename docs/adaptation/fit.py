@@ -3,9 +3,10 @@
 Sentences of the grammars in `calibration/` are spoken by synthetic voices, laid over babble, cut
 and decoded as the engine does it, each by its own grammar and by others. What its own grammar
 decodes right speaks for a sentence; whatever a grammar makes of sentences that it does not have, of
-`calibration/foreign.txt` and of babble alone speaks against. Every second of the recorded orders
-stands against all grammars, too. Prints the constants for `confidence.py`, and how well a fit that
-never met a fifth of the grammars and voices tells the two apart there.
+`calibration/foreign.txt` and of babble alone speaks against, and so does what its own grammar takes
+for another sentence. Every second of the recorded orders stands against all grammars, too. Prints
+the constants for `confidence.py`, and how well a fit that never met a fifth of the grammars and
+voices tells the two apart there.
 
 Kept out, since figures are taken from them: the voices slt and awb, the other half of the orders,
 and the grammars of `hri bench speech`.
@@ -34,13 +35,15 @@ from hri.speech.grammar.expansion import random_sentence
 from hri.speech.grammar.matching import parse
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.adaptation import adapted
-from hri.speech.recognizers.ctc.confidence import margin, scores_of
+from hri.speech.recognizers.ctc.confidence import Fit, fit_of, scores_of, shares
 from hri.speech.recognizers.ctc.habits import Habits
 from hri.speech.recognizers.ctc.lattice import Walk
 from hri.speech.recognizers.ctc.network import Network
 from hri.speech.recognizers.ctc.phone_graph import compile
+from hri.speech.recognizers.ctc.recognizer import BEAM, MOST_SENTENCES
 from hri.speech.recognizers.ctc.rivals import Rivals
 from hri.speech.recognizers.ctc.search import Search
+from hri.speech.recognizers.ctc.silence import sounding
 from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
 from hri.speech.recognizers.voice_activity import voice_detector
 from hri.speech.synthesizers.espeak_library import Mark, Setting, load_espeak
@@ -94,8 +97,11 @@ class Said:
 class Piece:
     """What a grammar made of a piece of speech, and whether that was said."""
 
-    margin: float
+    fit: Fit
+    doubt: float
+    """How likely the engine holds sentences of another meaning, 0 to 1."""
     is_right: bool
+    is_foreign: bool
     ratio: float | None
     fold: int
 
@@ -180,29 +186,32 @@ def pieces_of(
         names = [clip.grammar, *chance.sample(others, OTHER_GRAMMARS)]
         for ratio in RATIOS:
             for piece in cut(noisy(clip, talkers, ratio)):
-                posteriors = network.posteriors(piece)
-                rival = rivals.score(scores_of(posteriors))
+                posteriors = network.posteriors(piece[sounding(piece)])
+                scores = scores_of(posteriors)
+                rival = rivals.score(scores)
                 for name in filter(None, names):
-                    found = _decoded(clip, name, grammars[name], posteriors, rival)
+                    found = _decoded(clip, name, grammars[name], scores, rival)
                     if found is not None:
                         yield Piece(*found, ratio, _fold(name, clip.voice))
 
 
 def _decoded(
-    clip: Said, name: str, decoder: Decoder, posteriors: NDArray[np.float32], rival: float
-) -> tuple[float, bool] | None:
-    """The margin and whether it is right; None for what speaks neither for nor against."""
+    clip: Said, name: str, decoder: Decoder, scores: NDArray[np.float32], rival: float
+) -> tuple[Fit, float, bool, bool] | None:
+    """How it fits, its doubt, whether it is right and foreign; None for what says nothing."""
     decoder.search.begin()
-    decoder.search.advance(scores_of(posteriors))
-    paths = Walk(decoder.search.trellis).sentences(1, 0.0)
-    if not paths:
-        return None
-    is_own = name == clip.grammar
+    decoder.search.advance(scores)
+    paths = Walk(decoder.search.trellis).sentences(MOST_SENTENCES, BEAM)
     meaning = decoder.meaning(clip.sentence)
-    is_right = is_own and decoder.meaning(" ".join(paths[0].words)) == meaning
-    if not is_right and meaning is not None:
+    if not paths or (meaning is not None and name != clip.grammar):
         return None
-    return margin(paths[0], rival), is_right
+    meanings = [decoder.meaning(" ".join(path.words)) for path in paths]
+    chances = shares([path.score for path in paths])
+    doubt = sum(
+        chance for chance, other in zip(chances, meanings, strict=True) if other != meanings[0]
+    )
+    fit = fit_of(paths[0], rival, scores, decoder.search.graph.phones)
+    return fit, float(doubt), meaning is not None and meanings[0] == meaning, meaning is None
 
 
 def _fold(grammar: str, voice: str) -> int:
@@ -228,32 +237,45 @@ def cut(samples: Samples) -> list[Samples]:
 
 def tell(pieces: Sequence[Piece]) -> None:
     """Fit, and print the constants and how well they do on what they were not fitted on."""
-    margins = np.array([piece.margin for piece in pieces])
+    given = np.array([[1.0, *piece.fit.numbers] for piece in pieces])
     is_right = np.array([piece.is_right for piece in pieces])
+    is_foreign = np.array([piece.is_foreign for piece in pieces])
     folds = np.array([piece.fold for piece in pieces])
     ratios = np.array([piece.ratio or np.inf for piece in pieces])
+    doubts = np.array([piece.doubt for piece in pieces])
     odds = np.zeros(len(pieces))
     for fold in range(FOLDS):
-        offset, weight = fitted(margins[folds != fold], is_right[folds != fold])
-        odds[folds == fold] = offset + weight * margins[folds == fold]
+        weights = fitted(given[folds != fold], is_right[folds != fold])
+        odds[folds == fold] = given[folds == fold] @ weights
+    points = odds - needed(doubts)
     least = max(
-        float(np.quantile(odds[~is_right & (ratios == (ratio or np.inf))], 1.0 - share))
+        float(np.quantile(points[is_foreign & (ratios == (ratio or np.inf))], 1.0 - share))
         for ratio, share in MOST_FOREIGN.items()
     )
-    offset, weight = fitted(margins, is_right)
+    offset, *weights = fitted(given, is_right).tolist()
     print(f"{len(pieces)} pieces, {is_right.sum()} right")
-    print(f"OFFSET, WEIGHT = {offset - least:.2f}, {weight:.2f}  # offset {least:.2f} below")
+    print(f"OFFSET = {offset - least:.2f}  # {least:.2f} below")
+    print(f"WEIGHTS = ({', '.join(f'{weight:.2f}' for weight in weights)})")
     for ratio in np.unique(ratios):
-        here = ratios == ratio
-        right = (odds[here & is_right] >= least).mean()
-        foreign = (odds[here & ~is_right] >= least).mean()
-        print(f"{ratio:g} dB: accepted {right:.3f} of the right, {foreign:.4f} of the foreign")
+        here = (ratios == ratio) & (points >= least)
+        shares_of = {
+            "right": (here & is_right).sum() / (is_right & (ratios == ratio)).sum(),
+            "foreign": (here & is_foreign).sum() / (is_foreign & (ratios == ratio)).sum(),
+            "wrong": (here & ~is_right & ~is_foreign).sum() / max((here & ~is_foreign).sum(), 1),
+        }
+        told = ", ".join(f"{name} {share:.4f}" for name, share in shares_of.items())
+        print(f"{ratio:g} dB, accepted: {told}")
 
 
-def fitted(margins: Floats, is_right: NDArray[np.bool_]) -> Floats:
-    """Offset and weight of a logistic regression, by Newton's method."""
-    given = np.column_stack([np.ones(len(margins)), margins])
-    weights = np.zeros(2)
+def needed(doubts: Floats) -> Floats:
+    """Log odds from which the confidence, after the doubt, is 0.5 or more."""
+    chances = np.minimum(0.5 / np.maximum(1.0 - doubts, 1e-9), 1.0 - 1e-9)
+    return np.asarray(np.log(chances / (1.0 - chances)))
+
+
+def fitted(given: Floats, is_right: NDArray[np.bool_]) -> Floats:
+    """Weights of a logistic regression on [pieces, numbers], by Newton's method."""
+    weights = np.zeros(given.shape[1])
     for _ in range(STEPS):
         chances = 1.0 / (1.0 + np.exp(-given @ weights))
         slope = given.T @ (chances - is_right)

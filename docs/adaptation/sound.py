@@ -174,7 +174,7 @@ def noisy(sound: Sound, noises: Sequence[Sound], chance: Chance) -> Sound:
     power = active_power(sound)
     if chance.random() < 0.35:
         sound = filtered(sound, room(chance, LENGTH))
-    if chance.random() < 0.87:
+    if chance.random() < 0.8:
         ratio = chance.triangular(1, 7, 18) if chance.random() < 0.85 else chance.uniform(18, 40)
         noise = noises[chance.integers(len(noises))]
         start = chance.integers(TRACK - LENGTH)

@@ -36,7 +36,7 @@ from hri.speech.recognizers.ctc.weights import Tensor, find_weights, read_tensor
 Change = dict[str, Array]
 """What is learned, by the names of the file."""
 
-RANK = 24
+RANK = 48
 BATCH = 8
 RATE_OF_LEARNING = 7e-4
 WARM_UP = 40
@@ -350,9 +350,9 @@ def main() -> None:
                 change, mean, square, learned, fold, mel, target, float(number), rate
             )
             losses.append(float(value))
-            if number % 200 == 0:
-                report(number, losses[-200:])
-    report(number, losses[-200:])
+            if number % 300 == 0:
+                report(number, losses[-300:])
+    report(number, losses[-300:])
 
 
 if __name__ == "__main__":

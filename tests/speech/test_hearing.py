@@ -122,7 +122,7 @@ def test_nothing_is_heard_in_silence_and_a_reason_in_foreign_speech(engine, comp
 
 
 def test_an_answer_is_heard_only_while_a_question_is_open(engine, companion, speak):
-    sound = speak("no thank you")
+    sound = speak("yes please")
 
     (asked,) = hear(sound, RATE, engine, companion, turn=Turn(is_question_open=True))
     (unasked,) = hear(sound, RATE, engine, companion, turn=Turn())

@@ -9,7 +9,7 @@ from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.arguments import count, share
 from hri.cli.grammar.clips import spoken, usual_voices
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
-from hri.cli.grammar.progress import progress
+from hri.cli.progress import progress
 from hri.core import paths
 from hri.core.statistics import told
 from hri.speech.grammar import Grammar, load_grammar

@@ -9,7 +9,7 @@ from pathlib import Path
 from hri.cli.grammar.arguments import share
 from hri.cli.grammar.clips import read_manifest
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
-from hri.cli.grammar.progress import progress
+from hri.cli.progress import progress
 from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.statistics import told

@@ -128,7 +128,8 @@ class EspeakLibrary:
     The library keeps the phase of its vibrato from one sentence to the next, and more of a voice
     than it should when it changes to another, so the same text would be a little different each
     time. It is therefore loaded anew after every text, which takes some 2 ms that nobody waits
-    for, and before one in another voice: the same text gives the same samples and times.
+    for, and before one in another voice: the same text gives the same samples and times,
+    but for the breath of variants such as "+f3".
     """
 
     def __init__(self, path: str, data_path: bytes | None) -> None:

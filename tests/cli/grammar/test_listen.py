@@ -65,7 +65,7 @@ def test_a_typed_line_that_is_no_sentence_is_told_why(typed, capsys, line, detai
 
 
 def test_one_channel_of_a_recording_is_heard(grammar, companion_path, tmp_path, capsys):
-    sound = np.pad(spoken("turn left"), 8000)
+    sound = np.pad(spoken("go forward"), 8000)
     noise = np.random.default_rng(1).integers(-9000, 9000, len(sound), np.int16)
     stereo = np.stack([sound, noise], axis=1).ravel()
     write_wav(tmp_path / "said.wav", stereo, 16000)
@@ -76,7 +76,7 @@ def test_one_channel_of_a_recording_is_heard(grammar, companion_path, tmp_path, 
     status = grammar("listen", companion_path, "--wav", tmp_path / "said.wav", "--channel", "left")
 
     assert status == 0
-    assert "turn: turn left" in capsys.readouterr().out
+    assert "move: go forward" in capsys.readouterr().out
 
 
 def test_the_microphone_is_heard_until_ctrl_c_with_level_words_and_results(

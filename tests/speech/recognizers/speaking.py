@@ -9,7 +9,7 @@ from hri.hal.drivers.resampling import resample
 from hri.speech.synthesizers.espeak_library import Mark, Setting, load_espeak
 
 
-def spoken(text: str) -> Samples:
+def spoken(text: str, voice: str = "en-us") -> Samples:
     """A text in a synthetic voice, 16 kHz."""
     blocks: list[bytes] = []
 
@@ -18,5 +18,5 @@ def spoken(text: str) -> Samples:
         return True
 
     espeak = load_espeak()
-    espeak.speak(text, Setting(), take)
+    espeak.speak(text, Setting(voice=voice), take)
     return resample(np.frombuffer(b"".join(blocks), np.int16), espeak.rate, 16000)

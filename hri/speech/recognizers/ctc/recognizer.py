@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,13 +13,19 @@ from hri.hal.recognizer import Alternative, Grammar, HeardWord, Hypothesis, Segm
 from hri.speech.hearing import SILENT_AFTER
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.adaptation import adapted
-from hri.speech.recognizers.ctc.confidence import confidence, margin, scores_of, shares
+from hri.speech.recognizers.ctc.confidence import (
+    confidence,
+    fit_of,
+    scores_of,
+    shares,
+)
 from hri.speech.recognizers.ctc.habits import Habits
 from hri.speech.recognizers.ctc.lattice import Path, Walk
 from hri.speech.recognizers.ctc.network import FRAME, Network
 from hri.speech.recognizers.ctc.phone_graph import Floats, compile
 from hri.speech.recognizers.ctc.rivals import Rivals
 from hri.speech.recognizers.ctc.search import Search
+from hri.speech.recognizers.ctc.silence import noise_of, sounding
 from hri.speech.recognizers.ctc.stream import Stream
 from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
 from hri.speech.recognizers.sound import SoundRecognizer
@@ -135,7 +141,10 @@ class CtcRecognizer(SoundRecognizer):
         early = self._early
         if early is None or not early.holds_for(segment, samples, rules):
             self._progress = None  # Its search is used for the whole.
-            hypothesis = decoded(search, self._rivals, self._network.posteriors(samples), rules)
+            part = sounding(samples)
+            heard = self._network.posteriors(samples[part])
+            found = decoded(search, self._rivals, heard, rules, noise_of(samples))
+            hypothesis = later(found, part.start / self.rate)
             early = Early(samples, segment.end - segment.quiet, rules, hypothesis)
             self._early = early
         return early.hypothesis
@@ -146,8 +155,12 @@ def decoded(
     rivals: Rivals,
     log_probabilities: Floats,
     rules: Collection[str] | None = None,
+    noise: float = 0.0,
 ) -> Hypothesis:
-    """The best sentence of a whole piece of speech, and what else it may have been."""
+    """The best sentence of a whole piece of speech, and what else it may have been.
+
+    `noise` is how noisy the piece is, 0 to 1.
+    """
     scores = scores_of(log_probabilities)
     search.begin(rules)
     search.advance(scores)
@@ -155,16 +168,26 @@ def decoded(
     if not paths:
         return Hypothesis("", 0.0)
     best = paths[0]
+    fit = fit_of(best, rivals.score(scores), scores, search.graph.phones)
     chances = shares([path.score for path in paths])
     return Hypothesis(
         text=" ".join(best.words),
-        confidence=confidence(margin(best, rivals.score(scores))),
+        confidence=confidence(fit, noise),
         words=_times(best),
         alternatives=tuple(
             Alternative(" ".join(path.words), float(chance))
             for path, chance in zip(paths[1:], chances[1:], strict=True)
         ),
     )
+
+
+def later(hypothesis: Hypothesis, seconds: float) -> Hypothesis:
+    """The same, with its words so many seconds later."""
+    words = tuple(
+        replace(word, start=round(word.start + seconds, 3), end=round(word.end + seconds, 3))
+        for word in hypothesis.words
+    )
+    return replace(hypothesis, words=words)
 
 
 def _times(path: Path) -> tuple[HeardWord, ...]:
