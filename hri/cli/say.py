@@ -5,30 +5,36 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import trio
 
+from hri.cli.film import Film
+from hri.cli.voice import NO_FILE, PLAIN_VOICE, open_voice
 from hri.core.clock import RealClock
 from hri.core.errors import LARGEST_FILE, AuthoringError, HriError, did_you_mean
-from hri.core.signals import EmotionState, Prosody, Speech
+from hri.core.signals import EmotionState, Expression, Prosody, Speech
 from hri.emotion.display import felt_now, load_display
 from hri.emotion.emotions import NAMES
+from hri.face import load_face
+from hri.face.lipsync import ARTICULATORS, PhonemeTrack
+from hri.face.scene import scene_of
 from hri.hal.drivers.wav_file import write_wav
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
-from hri.speech.synthesizers.espeak import FASTEST, SLOWEST, EspeakVoice
+from hri.speech.synthesizers.espeak import FASTEST, SLOWEST
 from hri.speech.synthesizers.espeak_library import Setting
 
 PATIENCE = 2.0
 """Seconds beyond the length of the speech after which a speaker is given up."""
+FRAMES = 30
+"""A second, of the weights in JSON."""
 DECIMALS = 4
 """Of the seconds in JSON."""
 RATES = f"{SLOWEST} to {FASTEST}"
-NO_FILE = Description("", "").place.path
-"""Where mistakes of the command line are."""
 
 HELP = """\
 --phonemes writes one JSON object: "text", "rate" (samples a second), "duration" (seconds),
@@ -36,8 +42,15 @@ HELP = """\
 whether it is "stressed"; names that begin with "_" are pauses), "words" and "sentences" (each with
 "text", "position" in characters, "start" and "end" in seconds).
 
+--visemes writes one JSON object, too: "text", "duration", "visemes" (the shapes of the mouth, each
+with "viseme" by its Oculus name, "start" and "end" in seconds and "strength", 0 to 1; of sounds
+that are too short to be seen there is none), "rate" (frames a second) and "frames" (each with the
+"time" in seconds, the weights, 0 to 1.2, of the visemes of "lips", "jaw" and "tongue", and the
+"emphasis", 0 to 1, that lifts the brows).
+
   hri say "Hello there."
   hri say "I have found it!" --emotion joy --wav found.wav --phonemes found.json
+  hri say "I am so happy." --emotion joy --face-video happy.mp4 --visemes happy.json
   echo "One text from a pipe." | hri say -"""
 
 
@@ -46,12 +59,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = HELP
     add = parser.add_argument
     add("text", help='what to say, in quotes; "-" reads it from standard input')
-    add("--voice", default=Setting().voice, help="a voice such as en-gb or en-us+f3 (%(default)s)")
+    add("--voice", default=PLAIN_VOICE, help="a voice such as en-gb or en-us+f3 (%(default)s)")
     add("--rate", type=int, metavar="WPM", help=f"words a minute, {RATES} ({Setting().rate})")
     add("--emotion", metavar="E", help=f"how it sounds: neutral, {', '.join(NAMES)}, or happy, ...")
     add("--intensity", type=float, default=1.0, metavar="X", help="of the emotion, 0 to 1")
     add("--wav", type=Path, metavar="FILE", help="write the sound there, play nothing")
     add("--phonemes", type=Path, metavar="FILE", help="write the times there as JSON, likewise")
+    video = "write a face that says it, likewise: .mp4, .webp or .gif"
+    add("--face-video", type=Path, metavar="FILE", help=video)
+    add("--visemes", type=Path, metavar="FILE", help="write the shapes of the mouth as JSON")
+    add("--face", default="robot", metavar="NAME", help="the face, from faces/ (%(default)s)")
+    add("--captions", action="store_true", help="write what is said below the face")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -60,11 +78,7 @@ def run(options: argparse.Namespace) -> int:
     resources = ResourceManager((), RealClock())
     try:
         speech = _synthesize(resources, options)
-        if options.phonemes is not None:
-            _write(options.phonemes, json.dumps(times_of(speech), indent=1) + "\n")
-        if options.wav is not None:
-            write_wav(options.wav, speech.samples, speech.rate)
-        if options.wav is None and options.phonemes is None:
+        if not _written(speech, options):
             trio.run(_play, resources, speech)
     except AuthoringError as error:
         if error.place.path != NO_FILE:
@@ -74,6 +88,22 @@ def run(options: argparse.Namespace) -> int:
     finally:
         resources.close()
     return 0
+
+
+def _written(speech: Speech, options: argparse.Namespace) -> bool:
+    """Write the files that are asked for; whether there were any."""
+    if options.phonemes is not None:
+        _write(options.phonemes, json.dumps(times_of(speech), indent=1) + "\n")
+    if options.visemes is not None:
+        _write(options.visemes, json.dumps(visemes_of(speech), indent=1) + "\n")
+    if options.wav is not None:
+        write_wav(options.wav, speech.samples, speech.rate)
+    if options.face_video is not None:
+        scene = scene_of(speech, expression_of(options.emotion, options.intensity))
+        film = Film(captions=options.captions)
+        film.shoot(scene, load_face(options.face), options.face_video, options.wav)
+    files = (options.phonemes, options.visemes, options.wav, options.face_video)
+    return any(file is not None for file in files)
 
 
 def check(options: argparse.Namespace) -> None:
@@ -92,13 +122,7 @@ def _synthesize(resources: ResourceManager, options: argparse.Namespace) -> Spee
     text = sys.stdin.read(LARGEST_FILE) if options.text == "-" else options.text
     if not text.strip():
         raise HriError("there is nothing to say - give some words")
-    parameters = {"voice": options.voice}
-    if options.rate is not None:
-        parameters["rate_wpm"] = str(options.rate)
-    voice = EspeakVoice(Description("voice", "Hri.EspeakVoice", parameters), resources)
-    resources.substitute("voice", voice)
-    voice.activate()
-    return voice.synthesize(text, prosody)
+    return open_voice(resources, options.voice, options.rate).synthesize(text, prosody)
 
 
 def prosody_of(feeling: str, intensity: float) -> Prosody:
@@ -106,15 +130,26 @@ def prosody_of(feeling: str, intensity: float) -> Prosody:
 
     Raises HriError when there is no such emotion.
     """
-    if feeling == "neutral":
-        return Prosody()
-    display = load_display()
-    names = {display.looks[name].words: name for name in NAMES} | {name: name for name in NAMES}
-    emotion = names.get(feeling)
-    if emotion is None:
-        raise HriError(f'no emotion "{feeling}" - {did_you_mean(feeling, names)}')
-    state = EmotionState(emotion, intensity, 0.0, 0.0, 0.0, {emotion: intensity})
-    return display.prosody(felt_now(state))
+    state = _feeling(feeling, intensity)
+    return Prosody() if state is None else load_display().prosody(felt_now(state))
+
+
+def expression_of(feeling: str | None, intensity: float) -> Expression:
+    """How its face shows it, likewise."""
+    state = _feeling(feeling or "neutral", intensity)
+    return Expression() if state is None else load_display().expression(state)
+
+
+def _feeling(name: str, intensity: float) -> EmotionState | None:
+    """A neutral mood with one emotion; None for "neutral"."""
+    if name == "neutral":
+        return None
+    looks = load_display().looks
+    names = {looks[emotion].words: emotion for emotion in NAMES} | {name: name for name in NAMES}
+    if name not in names:
+        raise HriError(f'no emotion "{name}" - {did_you_mean(name, names)}')
+    emotion = names[name]
+    return EmotionState(emotion, intensity, 0.0, 0.0, 0.0, {emotion: intensity})
 
 
 def times_of(speech: Speech) -> dict[str, Any]:
@@ -129,7 +164,36 @@ def times_of(speech: Speech) -> dict[str, Any]:
     }
 
 
-def _rounded(fields: dict[str, Any]) -> dict[str, Any]:
+def visemes_of(speech: Speech) -> dict[str, Any]:
+    """What the mouth does for a speech with phonemes, as it is written to JSON; see HELP."""
+    track = PhonemeTrack(speech.phonemes)
+    segments = (segment for segment in track.segments if segment.viseme != "sil")
+    return {
+        "text": speech.text,
+        "duration": round(speech.duration, DECIMALS),
+        "visemes": [
+            {
+                "viseme": segment.viseme,
+                "start": round(segment.start, DECIMALS),
+                "end": round(segment.end, DECIMALS),
+                "strength": round(segment.strength, DECIMALS),
+            }
+            for segment in segments
+        ],
+        "rate": FRAMES,
+        "frames": [
+            _frame(track, number / FRAMES) for number in range(round(speech.duration * FRAMES) + 1)
+        ],
+    }
+
+
+def _frame(track: PhonemeTrack, time: float) -> dict[str, Any]:
+    regions = {name: _rounded(track.weights(time, name)) for name in ARTICULATORS}
+    emphasis = round(track.emphasis(time), DECIMALS)
+    return {"time": round(time, DECIMALS), **regions, "emphasis": emphasis}
+
+
+def _rounded(fields: Mapping[str, Any]) -> dict[str, Any]:
     return {
         name: round(value, DECIMALS) if isinstance(value, float) else value
         for name, value in fields.items()

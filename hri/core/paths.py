@@ -13,6 +13,8 @@ VARIABLES = ("HRI_PATH", "EVOLUTION_CONFIG_PATH")
 
 SUFFIXES = {"grammars": ".jsgf", "config": ".xml"}
 """What a name without a suffix gets, by kind; else ".toml"."""
+FOLDERS = ("apps", "faces")
+"""Kinds of which each one is a folder."""
 
 
 def house() -> Path:
@@ -41,6 +43,8 @@ def find(kind: str, name: str) -> Path:
     `config/`) wins, and last the folder that the program was started in.
     Raises HriError when there is none.
     """
+    if not name:
+        raise HriError(f"an empty name for something in {kind} - {_meant(kind, name)}")
     try:
         direct = Path(name).expanduser()
         is_there = direct.exists()
@@ -48,13 +52,15 @@ def find(kind: str, name: str) -> Path:
         raise HriError(f'"{name[:60]}" is no name of a file - shorten or mend it') from error
     if is_there and (os.sep in name or direct.suffix or name in (os.curdir, os.pardir)):
         return direct
-    spellings = (name, name + SUFFIXES.get(kind, ".toml"))
+    spelled = name if kind in FOLDERS else name + SUFFIXES.get(kind, ".toml")
     for folder in search_folders():
-        for candidate in (below / name for below in (folder / kind, folder) for name in spellings):
+        for candidate in (
+            below / spelling for below in (folder / kind, folder) for spelling in (name, spelled)
+        ):
             if candidate.exists() and candidate != folder:
                 return candidate
-    beside = Path(name + SUFFIXES.get(kind, ".toml")).expanduser()
-    if beside.is_file():
+    beside = Path(spelled).expanduser()
+    if beside.is_dir() if kind in FOLDERS else beside.is_file():
         return beside
     if name.startswith((".", os.sep, "~")):
         raise HriError(f"{name}: no such file or folder - check the path")
@@ -63,6 +69,8 @@ def find(kind: str, name: str) -> Path:
 
 def _meant(kind: str, name: str) -> str:
     """The remedy for a name that is not found: one like it, also in a folder of its kind."""
+    if kind in FOLDERS:
+        return did_you_mean(Path(name).stem, [n for n in names(kind) if not Path(n).suffix])
     suffix = SUFFIXES.get(kind, ".toml")
     # Beside grammars lie lists of names, which are none of their kind.
     fitting = [n for n in names(kind) if kind not in SUFFIXES or Path(n).suffix in ("", suffix)]
@@ -102,4 +110,10 @@ def cache_folder() -> Path:
 def data_folder() -> Path:
     """Where what the user fetched is kept (XDG base directory specification)."""
     base = os.environ.get("XDG_DATA_HOME") or "~/.local/share"
+    return Path(base).expanduser() / "hri"
+
+
+def state_folder() -> Path:
+    """Where what the robot remembers between runs is kept (XDG base directory specification)."""
+    base = os.environ.get("XDG_STATE_HOME") or "~/.local/state"
     return Path(base).expanduser() / "hri"

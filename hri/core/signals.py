@@ -179,6 +179,8 @@ class EmotionState:
     """-1 to 1."""
     emotions: Mapping[str, float] = field(default_factory=dict)
     """Intensity 0 to 1 of each emotion."""
+    drives: Mapping[str, float] = field(default_factory=dict)
+    """How pressing each need is, 0 to 1."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,6 +189,12 @@ class Expression:
 
     label: str = "neutral"
     intensity: float = 1.0
+    duration: float | None = None
+    """Seconds from when it sets in until it fades to the mood again; without, it stays. 0 is as
+    long as the face holds it by itself."""
+    valence: float | None = None
+    arousal: float | None = None
+    """Of the mood below it, -1 to 1 each; None leaves the mood as it is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -202,6 +210,9 @@ class Gaze:
 
     x: float = 0.0
     y: float = 0.0
+    point: tuple[float, float, float] | None = None
+    """What to look at in place of x and y: metres from between the eyes in the robot's axes, x
+    ahead, y left, z up."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,147 +2,198 @@
 
 from __future__ import annotations
 
-import math
+from collections.abc import Mapping
 
 import numpy as np
 
 from hri.core.signals import Expression, FaceWeights, Gaze, Speech
 from hri.face import idle
-from hri.face.lipsync import LipTrack, lip_track
+from hri.face.baking import Vector
+from hri.face.expressing import Expressing, bounded
+from hri.face.gestures import Gesture, Track
+from hri.face.gesturing import Gestured, Gesturing, Playing
+from hri.face.lids import Lids
+from hri.face.living import Alive, Living, check_state
+from hri.face.looking import Look, Looking
 from hri.face.mixer import Layers, Mixer
 from hri.face.model import FaceModel
-from hri.face.spring import Spring, Values
+from hri.face.speaking import PICTURE_LEAD, Speaking
+from hri.face.spring import Follower
+from hri.face.vocabulary import TURNS
 
-PICTURE_LEAD = 0.05
-"""Seconds by which the track of the lips is read ahead of what is heard: one frame until the
-picture is seen, and a little more, since lips that are early look right and late ones do not."""
-
-_BROWS, _MOUTH, _HEAD = 12.0, 9.0, 6.0
-"""Stiffness of expressions, radians a second: the brows lead, the head follows."""
-_LIPS = 70.0
-"""Shut within 100 ms of a cut."""
-_TALKING, _EYES, _AROUSAL = 30.0, 25.0, 1.5
-_BLINK_GAP = 1.0
-"""Seconds between two blinks that something caused."""
-_TURN = 0.5
-"""A change of gaze, of its range, that makes the eyes blink."""
+LARGE_SHIFT = 20.0
+"""Degrees of a look elsewhere that makes the eyes blink."""
+NEARLY_SHUT = 0.6
+"""How far eyes are shut that need no blink."""
+_OVERRIDE = 20.0
+"""Stiffness, radians a second."""
 
 
 class Animator:
     """The state of one living face; feed it at any rate."""
 
-    def __init__(self, model: FaceModel, seed: int = 0) -> None:
-        self.model = model
-        self.seed = seed
-        self._mixer = Mixer(model)
-        rest = np.zeros(len(model.channels))
-        self._label = ""
-        self._expression, self._expression_spring = rest, Spring(_stiffness(model))
-        self._visemes, self._lip_spring = rest, Spring(np.full(len(rest), _LIPS))
-        self._talking, self._talking_spring = 0.0, Spring(_TALKING)
-        self._gaze, self._gaze_spring = np.zeros(2), Spring(np.full(2, _EYES))
-        self._arousal, self._arousal_spring = 0.0, Spring(_AROUSAL)
-        self._speech: Speech | None = None
-        self._track: LipTrack | None = None
-        self._followed: LipTrack | None = None
-        self._blinked_at = -math.inf
-        self.express(Expression())
-        self._wants_blink = False
+    def __init__(self, model: FaceModel, seed: int = 0, latency: float = PICTURE_LEAD) -> None:
+        """`latency` is how many seconds pass until a picture of these weights is seen.
 
-    def express(self, expression: Expression) -> None:
-        """Show an expression from now on. Raises HriError for an unknown label."""
-        weights = self.model.vector(self.model.expression(expression.label))
-        intensity = min(max(expression.intensity, 0.0), 1.0)
-        goal = weights.astype(float) * intensity
-        self._expression_spring.jump(self._expression, goal)
-        self._expression = goal
-        if expression.label != self._label:
-            self._label = expression.label
-            self._wants_blink = True
+        Raises AuthoringError for gestures that cannot be read.
+        """
+        self.model = model
+        self._now = 0.0
+        self._state = ""
+        self._expressing = Expressing(model)
+        self._speaking = Speaking(model, latency)
+        self._gesturing = Gesturing(model)
+        self._looking = Looking(model.settings)
+        self._living = Living(model, seed)
+        self._mixer = Mixer(model)
+        # An override is its weights times how much they win, then how much they win.
+        self._override = Follower(np.zeros(2 * len(model.channels)))
+        self._override_goal = self._override.value
+        self._overridden: Mapping[str, float] = {}
+        self._lids, self._shut = Lids(model), 0.0
+        self._turns = TURNS if set(TURNS) <= set(model.channels) else ()
+
+    @property
+    def gestures(self) -> Mapping[str, Gesture]:
+        """What the face can do, by name."""
+        return self._gesturing.known
+
+    # --- what is asked of it ---
+
+    def express(self, expression: Expression | None) -> None:
+        """Show an expression from now on; None falls back to the mood.
+
+        Raises HriError for an unknown label or what is not finite.
+        """
+        if expression is None:
+            self._expressing.fall()
+            return
+        before = self._expressing.label
+        for name, value in (("valence", expression.valence), ("arousal", expression.arousal)):
+            bounded(name, value or 0.0, -1.0, 1.0)
+        self._expressing.show(expression)
+        if expression.valence is not None or expression.arousal is not None:
+            self.feel(expression.arousal or 0.0, expression.valence or 0.0)
+        if expression.label != before:
+            self._cause("expression changed")
+
+    def feel(self, arousal: float, valence: float | None = None) -> None:
+        """How excited the face is, -1 to 1: pupils and blinks follow.
+
+        With a valence, -1 to 1, both are a mood that shows wherever no expression does. Raises
+        HriError for what is not finite.
+        """
+        arousal = bounded("arousal", arousal, -1.0, 1.0)
+        mood = None if valence is None else (bounded("valence", valence, -1.0, 1.0), arousal)
+        self._living.feel(arousal)
+        self._expressing.feel(mood)
+
+    def be(self, state: str) -> None:
+        """Be in a state of `idle.STATES` from now on; "" leaves it to expression and speech.
+
+        A state that the face has an expression for also looks like it. Raises HriError.
+        """
+        if state != self._state:
+            check_state(state)
+            self._state = state
+            self._expressing.be(state)
 
     def look(self, gaze: Gaze) -> None:
-        """Look somewhere from now on."""
-        goal = np.clip([gaze.x, gaze.y], -1, 1)
-        if np.abs(goal - self._gaze).max() > _TURN:
-            self._wants_blink = True
-        self._gaze_spring.jump(self._gaze, goal)
-        self._gaze = goal
-
-    def feel(self, arousal: float) -> None:
-        """How excited the face is, -1 to 1: pupils and blinks follow."""
-        goal = min(max(arousal, -1.0), 1.0)
-        self._arousal_spring.jump(self._arousal, goal)
-        self._arousal = goal
+        """Look somewhere from now on. Raises HriError for what is not finite."""
+        if self._looking.look(gaze) > LARGE_SHIFT:
+            self._cause("gaze shifted")
 
     def speak(self, speech: Speech | None) -> None:
         """Move the lips to this speech from now on; None when nothing is said."""
-        if speech is self._speech:
-            return
-        self._speech = speech
-        self._track = None if speech is None else lip_track(speech)
-        talking = 0.0 if speech is None else 1.0
-        self._talking_spring.jump(self._talking, talking)
-        self._talking = talking
-        self._wants_blink = self._wants_blink or speech is None
+        if speech is not self._speaking.speech:
+            self._speaking.say(speech)
+            self._cause("speech ended" if speech is None else "speech began")
+
+    def gesture(self, name: str, strength: float = 1.0, seconds: float = 0.0) -> Playing:
+        """Make a gesture from now on, in place of one that is being made.
+
+        `strength` is 0 to 1.5; `seconds` 0 is its own duration. Raises HriError for an unknown name
+        or what is out of range.
+        """
+        return self._gesturing.make(name, strength, seconds)
+
+    def play(
+        self, track: Track, strength: float = 1.0, seconds: float = 0.0, name: str = ""
+    ) -> Playing:
+        """The same for any track, such as a recording. Raises HriError."""
+        return self._gesturing.play(name, track, strength, seconds)
+
+    def override(self, weights: Mapping[str, float]) -> None:
+        """Let these weights win from now on, until there are others; none ends it.
+
+        Raises HriError for an unknown name or a weight that is not finite.
+        """
+        if weights != self._overridden:
+            values = self.model.vector(weights).astype(float)
+            named = self.model.vector(dict.fromkeys(weights, 1.0)) != 0
+            self._override_goal = np.concatenate([values, named])
+            self._overridden = dict(weights)
+
+    def _cause(self, why: str) -> None:
+        """A blink may come of this, unless eyes are nearly shut, or are about to be."""
+        if max(self._shut, self._expressing.shuts) < NEARLY_SHUT:
+            self._living.cause(why, self._now)
+
+    # --- what becomes of it ---
 
     def step(self, now: float, dt: float, position: float | None = None) -> FaceWeights:
-        """The weights of now; `position` is how many seconds of the speech have been heard."""
-        arousal = float(self._arousal_spring.follow(self._arousal, dt))
-        is_talking = self._speech is not None
-        gaze = self._gaze_spring.follow(self._gaze, dt)
-        drift = idle.wandering(self.model.settings.idle, self.seed, now, is_talking)
-        layers = Layers(
-            expression=self._expression_spring.follow(self._expression, dt).astype(np.float32),
-            viseme=self._lips(position, dt).astype(np.float32),
-            talking=float(self._talking_spring.follow(self._talking, dt)),
-            blink=self._lids(now, arousal),
-            gaze=Gaze(_in_range(gaze[0] + drift.x), _in_range(gaze[1] + drift.y)),
-            idle=self._idle(now, arousal),
+        """The weights of now, `dt` seconds after the last ones.
+
+        `position` is how many seconds of the speech have been heard.
+        """
+        return FaceWeights(self.model.weights(self.vector(now, dt, position)))
+
+    def vector(self, now: float, dt: float, position: float | None = None) -> Vector:
+        """The same, a number for each channel of the model."""
+        self._now = now
+        expression = self._expressing.follow(now, dt)
+        viseme, talking = self._speaking.follow(position, dt)
+        self._living.be(self._life())
+        alive = self._living.follow(now, dt, shutting=self._expressing.shuts >= NEARLY_SHUT)
+        look = self._looking.follow(now, dt)
+        gesture = self._gesturing.follow(now, dt)
+        override = self._override.follow(self._override_goal, dt, _OVERRIDE)
+        size = len(self.model.channels)
+        left = self._mixer.gaze_left(gesture.owned)
+        vector = self._mixer.mix(
+            Layers(
+                expression=expression,
+                viseme=viseme,
+                talking=talking,
+                blink=alive.blink,
+                gaze=_gaze(look, alive, gesture, left),
+                inward=left * look.inward,
+                idle=self._moves(look, alive),
+                gesture=gesture.weights,
+                owned=gesture.owned,
+                override=override[:size],
+                overridden=override[size:],
+            )
         )
-        return FaceWeights(self.model.weights(self._mixer.mix(layers)))
+        self._shut = self._lids.shut(vector.astype(float))
+        return vector
 
-    def _lips(self, position: float | None, dt: float) -> Values:
-        """The track at what is heard now; a track that begins or is cut short glides."""
-        track = None if position is None else self._track
-        goal = np.zeros(len(self.model.channels))
-        if track is not None and position is not None:
-            goal = self._shape(track.weights(position + PICTURE_LEAD))
-        if track is not self._followed:
-            self._lip_spring.jump(self._visemes, goal)
-        self._followed, self._visemes = track, goal
-        return self._lip_spring.follow(goal, dt)
+    def _life(self) -> str:
+        """The state to live in: as the face looks, as it was told, or of who talks or rests."""
+        if self._expressing.label in idle.STATES:
+            return self._expressing.label
+        return self._state or ("resting" if self._speaking.speech is None else "talking")
 
-    def _shape(self, visemes: dict[str, float]) -> Values:
-        shape = np.zeros(len(self.model.channels))
-        for viseme, weight in visemes.items():
-            shape += weight * self.model.vector(self.model.viseme(viseme))
-        return shape
-
-    def _lids(self, now: float, arousal: float) -> float:
-        """Blinks of idle life, and those that a change causes."""
-        blink = self.model.settings.blink
-        if self._wants_blink and now - self._blinked_at > _BLINK_GAP:
-            self._blinked_at = now
-        self._wants_blink = False
-        rate = blink.rate * (1 + 0.5 * arousal)
-        caused = idle.lid_closure(blink, now - self._blinked_at)
-        return max(caused, idle.blink_closure(blink, self.seed, now, rate))
-
-    def _idle(self, now: float, arousal: float) -> dict[str, float]:
-        moves = idle.sway(self.model.settings.idle, self.seed, now)
-        for name, weight in self.model.settings.pupils.items():
-            moves[name] = moves.get(name, 0.0) + weight * arousal
+    def _moves(self, look: Look, alive: Alive) -> dict[str, float]:
+        """What moves by itself, and the head that follows the eyes."""
+        moves = alive.moves
+        for name, weight in zip(self._turns, (look.yaw, look.pitch), strict=False):
+            moves[name] += weight
         return moves
 
 
-def _in_range(value: float) -> float:
-    return float(min(max(value, -1.0), 1.0))
-
-
-def _stiffness(model: FaceModel) -> Values:
-    def of(channel: str) -> float:
-        if channel.startswith("head"):
-            return _HEAD
-        return _MOUTH if channel.startswith(("mouth", "jaw", "tongue")) else _BROWS
-
-    return np.array([of(channel) for channel in model.channels])
+def _gaze(look: Look, alive: Alive, gesture: Gestured, left: float) -> Gaze:
+    """Of the eyes; `left` is what a gesture leaves of where they look without it."""
+    x = left * (look.eyes.x + alive.drift.x) + float(gesture.gaze[0])
+    y = left * (look.eyes.y + alive.drift.y) + float(gesture.gaze[1])
+    return Gaze(min(max(x, -1.0), 1.0), min(max(y, -1.0), 1.0))

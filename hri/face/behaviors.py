@@ -2,27 +2,62 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
+from pathlib import Path
+from typing import TypeVar
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
 from hri.core.clock import Worker
 from hri.core.errors import HriError
-from hri.core.signals import Expression, FaceWeights, Gaze, Image, Speech
+from hri.core.events import EventBus, Subscription
+from hri.core.signals import Event, Expression, FaceWeights, Gaze, Image, Speech
+from hri.face import idle
 from hri.face.animator import Animator
+from hri.face.gestures import load_gestures
+from hri.face.gesturing import Playing
 from hri.face.model import load_face
+from hri.face.recording import WeightWriter, read_weights
+from hri.face.speaking import PICTURE_LEAD
 from hri.hal.screen import Screen
+
+T = TypeVar("T")
+
+Mood = tuple[float | None, float | None]
+"""Arousal and valence that came in; None for what did not."""
 
 RENDER_LATENCY = 0.02
 """Seconds that a picture takes on the fake clock: less than a tick at 30 Hz."""
 
 
+class Refusals:
+    """What a face was asked for and cannot do: told by the event `face.refused`, once a reason."""
+
+    def __init__(self, events: EventBus) -> None:
+        self._events = events
+        self._told = ""
+
+    def tell(self, reason: str) -> None:
+        if reason != self._told:
+            self._told = reason
+            self._events.raise_event("face.refused", reason=reason)
+
+
 class Face(Behavior):
-    """Animates a face: expression, lips, blinks and gaze, mixed into weights of morph targets."""
+    """Animates a face: mood, expression, lips, blinks, gaze and gestures become weights.
+
+    What it cannot do, such as an unknown expression, is told by the event `face.refused`; the face
+    stays as it was. Raises `gesture.started` and `gesture.ended`, and makes the gesture of an event
+    `gesture.asked` (`name`, `strength`, `seconds`).
+    """
 
     category = "face"
 
     face = Param("robot", "name of a folder in faces/, or a path")
+    latency = Param(
+        PICTURE_LEAD, "seconds until weights are seen on the screen", minimum=0, maximum=1
+    )
     expression = Input[Expression](
         "expression", "what the face shows; the last one stays", is_optional=True
     )
@@ -33,30 +68,113 @@ class Face(Behavior):
     is_speaking = Input[bool]("boolean", "whether the speech plays", is_optional=True)
     gaze = Input[Gaze]("gaze", "where to look; straight ahead when nothing comes", is_optional=True)
     arousal = Input[float]("double", "-1 to 1: pupils and blinks follow", is_optional=True)
+    valence = Input[float](
+        "double", "-1 to 1: with it, valence and arousal are a mood that shows", is_optional=True
+    )
+    state = Input[str](
+        "string", f"what it does: {', '.join(idle.STATES)}; else as it looks", is_optional=True
+    )
+    is_listening = Input[bool](
+        "boolean", "whether somebody speaks to it: then it listens", is_optional=True
+    )
+    gesture = Input[str](
+        "string", "makes this gesture, whenever another name comes or the first", is_optional=True
+    )
+    override = Input[FaceWeights](
+        "weights", "win over all else, as long as they are sent", is_optional=True
+    )
     weights = Output[FaceWeights]("weights", "weights of all channels that are not at rest")
     caption = Output[str]("string", "the text that is being said")
 
     def check(self) -> None:
-        load_face(self.face)
+        load_gestures(load_face(self.face))
 
     def start(self, context: Context) -> None:
-        self._animator = Animator(load_face(self.face), context.seed_for("face"))
+        """Raises HriError when the face or its gestures cannot be read."""
+        model = load_face(self.face)
+        self._animator = Animator(model, context.seed_for("face"), self.latency)
+        self._events = context.events
+        self._refusals = Refusals(context.events)
         self._expression = Expression()
+        self._mood: Mood = None, None
         self._speech: Speech | None = None
+        self._gesture: str | None = None
+        self._playing: Playing | None = None
+        self._subscription: Subscription = context.events.subscribe("gesture.asked", self._on_asked)
 
     def compute(self, now: float, dt: float) -> None:
         animator = self._animator
         expression = self.expression.value
         if expression is not None and expression != self._expression:
             self._expression = expression
-            animator.express(expression)
-        animator.look(self.gaze.value or Gaze())
-        animator.feel(self.arousal.value or 0.0)
+            self._ask(animator.express, expression)
+        self._ask(animator.look, self.gaze.value or Gaze())
+        mood = self.arousal.value, self.valence.value
+        if mood != self._mood:
+            self._mood = mood
+            self._ask(self._feel, mood)
+        self._ask(animator.override, (self.override.value or FaceWeights()).values)
+        if self.gesture.value != self._gesture:
+            self._gesture = self.gesture.value
+            if self._gesture:
+                self._ask(self.make, self._gesture)
         speech = self._current_speech()
         animator.speak(speech)
+        listening = "listening" if self.is_listening.value and speech is None else ""
+        self._ask(animator.be, self.state.value or listening)
         self.weights.send(animator.step(now, dt, self.position.value))
+        self._tell_end()
         if speech is not None:
             self.caption.send(speech.text)
+
+    def stop(self) -> None:
+        self._subscription.cancel()
+
+    def make(self, gesture: str, strength: float = 1.0, seconds: float = 0.0) -> Playing:
+        """Make a gesture from the next tick on, in place of one that is being made.
+
+        `strength` is 0 to 1.5; `seconds` 0 is its own duration. Raises HriError for an unknown one.
+        """
+        return self._begin(self._animator.gesture(gesture, strength, seconds))
+
+    def replay(self, path: Path | str) -> Playing:
+        """Play recorded weights, in place of all else; see `hri.face.recording`.
+
+        Raises AuthoringError or HriError for a file that cannot be used.
+        """
+        track = read_weights(Path(path), self._animator.model)
+        return self._begin(self._animator.play(track, name=Path(path).name))
+
+    def _begin(self, playing: Playing) -> Playing:
+        self._tell_end()
+        self._playing = playing
+        self._events.raise_event("gesture.started", name=playing.name)
+        return playing
+
+    def _tell_end(self) -> None:
+        if self._playing is not None and self._playing.is_over:
+            self._events.raise_event("gesture.ended", name=self._playing.name)
+            self._playing = None
+
+    def _on_asked(self, event: Event) -> None:
+        properties = event.properties
+        try:
+            numbers = (
+                float(properties.get(name, d)) for name, d in (("strength", 1), ("seconds", 0))
+            )
+            self.make(str(properties.get("name", "")), *numbers)
+        except (HriError, TypeError, ValueError) as error:
+            self._refusals.tell(str(error))
+
+    def _feel(self, mood: Mood) -> None:
+        arousal, valence = mood
+        self._animator.feel(arousal or 0.0, valence)
+
+    def _ask(self, request: Callable[[T], object], value: T) -> None:
+        try:
+            request(value)
+        except HriError as error:
+            self._refusals.tell(str(error))
 
     def _current_speech(self) -> Speech | None:
         """The speech that plays: it may be sent at every tick or only at the first."""
@@ -66,6 +184,38 @@ class Face(Behavior):
         if is_heard is None:
             is_heard = self.position.value is not None
         return self._speech if is_heard else None
+
+
+class FaceRecorder(Behavior):
+    """Records weights of a face to a CSV file with the columns of Live Link Face."""
+
+    category = "face"
+
+    face = Param("robot", "name of a folder in faces/, or a path")
+    file = Param("face.csv", "where to write; what is there is overwritten")
+    weights = Input[FaceWeights]("weights", "what to record")
+
+    def check(self) -> None:
+        load_face(self.face)
+
+    def start(self, context: Context) -> None:
+        """Raises HriError when the file cannot be written."""
+        self._model = load_face(self.face)
+        self._refusals = Refusals(context.events)
+        self._writer = WeightWriter(Path(self.file), self._model)
+
+    def compute(self, now: float, dt: float) -> None:
+        if self.weights.value is None:
+            return
+        try:
+            vector = self._model.vector(self.weights.value.values)
+        except HriError as error:
+            self._refusals.tell(str(error))
+            return
+        self._writer.write(now, vector)
+
+    def stop(self) -> None:
+        self._writer.close()
 
 
 class FaceRenderer(Behavior):
@@ -89,21 +239,20 @@ class FaceRenderer(Behavior):
 
     def start(self, context: Context) -> None:
         """Raises HriError when the face cannot be read or the screen is too large or small."""
-        from hri.face.renderers.opencv import OpenCvRenderer
+        from hri.face.renderers.renderer import Renderer
 
         self.captions_on = self.captions
         self.frames = 0
-        self._events = context.events
-        self._refused = ""
+        self._refusals = Refusals(context.events)
         self._screen = context.resources.obtain(self.screen_id, Screen)
         size = (self._screen.width, self._screen.height)
-        self._renderer = OpenCvRenderer(load_face(self.face), size)
+        self._renderer = Renderer(load_face(self.face), size)
         self._worker: Worker[Image | HriError] = context.clock.worker(RENDER_LATENCY)
 
     def compute(self, now: float, dt: float) -> None:
         for picture in self._worker.poll():
             if isinstance(picture, HriError):
-                self._refuse(str(picture))
+                self._refusals.tell(str(picture))
             else:
                 self._screen.show(picture, now)
                 self.frames += 1
@@ -123,9 +272,3 @@ class FaceRenderer(Behavior):
         except HriError as error:
             return error
         return add_caption(picture, text)
-
-    def _refuse(self, reason: str) -> None:
-        """Weights that cannot be drawn leave the picture as it was; they are told about once."""
-        if reason != self._refused:
-            self._refused = reason
-            self._events.raise_event("face.refused", reason=reason)

@@ -17,12 +17,14 @@ import numpy as np
 from hri.core.errors import did_you_mean
 from hri.core.xml import Element, load_xml
 from hri.face import outline as shapes
-from hri.face.outline import IDENTITY, Matrix, Outline
+from hri.face.outline import IDENTITY, Matrix, Outline, OutlineError
 from hri.face.paint import Gradient, Paint, Solid, parse_color, read_gradient
 
-MOST_NODES = 20_000
+MOST_PARTS, MOST_NODES = 2000, 20_000
 """No drawing may have more."""
 
+STROKE = ":stroke"
+"""Ends the id of the stroke of a shape that is filled as well."""
 IGNORED = ("title", "desc", "metadata", "defs", "linearGradient", "radialGradient", "clipPath")
 _EDITORS = ("sodipodi:", "inkscape:", "rdf:", "cc:", "dc:")
 _STYLES = (
@@ -42,6 +44,8 @@ class Part:
     element: Element
     opacity: float = 1.0
     stroke_width: float = 0.0
+    is_clip: bool = False
+    """Whether it is an opening that others are seen through, so that its color is not seen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,10 +98,12 @@ class _Reader:
         # Clip paths of a drawing without the group they clip are redrawn by targets.
         content = self._children(self.root, _State())
         for element in _walk(self.root):
-            if _tag(element) == "clipPath":
-                for shape in element:
-                    if shape.get("id", "") not in self.parts:
-                        self._clip_shape(element, _State())
+            if _tag(element) == "style" and element.text.strip():
+                remedy = "give each shape its own fill and stroke (plain SVG, no style sheet)"
+                raise element.error("<style> is not supported", remedy)
+            is_clip = _tag(element) == "clipPath"
+            if is_clip and all(shape.get("id", "") not in self.parts for shape in element):
+                self._clip_shape(element, _State())
         return Drawing(self.path, width, height, content, self.parts)
 
     def _view_box(self) -> tuple[float, float, float, float]:
@@ -116,7 +122,7 @@ class _Reader:
 
     def _item(self, element: Element, state: _State) -> Iterator[Part | Group]:
         tag = _tag(element)
-        if tag in IGNORED or tag.startswith(_EDITORS):
+        if _is_silent(tag):
             return
         if tag != "g" and tag not in _SHAPES:
             known = ", ".join(sorted(_SHAPES))
@@ -150,7 +156,7 @@ class _Reader:
 
     def _parts(self, element: Element, state: _State) -> Iterator[Part]:
         """A part for the fill and one for the stroke."""
-        outline = self._outline(element).transformed(state.matrix)
+        outline = self._outline(element, state.matrix)
         fill = self._paint(element, state, "fill", "#000000", outline)
         stroke = self._paint(element, state, "stroke", "none", outline)
         id = self._id(element, fill is not None or stroke is not None)
@@ -159,7 +165,7 @@ class _Reader:
         if stroke is not None:
             scale = float(np.sqrt(abs(np.linalg.det(state.matrix[:, :2]))))
             width = scale * self._number(element, state.styles, "stroke-width", 1.0, 1000.0)
-            name = f"{id}:stroke" if fill is not None else id
+            name = id + STROKE if fill is not None else id
             yield self._keep(Part(name, outline, stroke, element, state.opacity, width))
 
     def _id(self, element: Element, is_needed: bool) -> str:
@@ -170,6 +176,9 @@ class _Reader:
     def _keep(self, part: Part) -> Part:
         if part.id in self.parts:
             raise part.element.error(f'the id "{part.id}" is used twice', "rename one", "id")
+        if len(self.parts) >= MOST_PARTS:
+            what = f"the drawing has more than {MOST_PARTS} shapes"
+            raise part.element.error(what, "draw a simpler face")
         self.nodes += part.outline.nodes
         if self.nodes > MOST_NODES:
             what = f"the drawing has more than {MOST_NODES} nodes"
@@ -177,12 +186,15 @@ class _Reader:
         self.parts[part.id] = part
         return part
 
-    def _outline(self, element: Element) -> Outline:
+    def _outline(self, element: Element, matrix: Matrix) -> Outline:
         try:
-            return _SHAPES[_tag(element)](element)
-        except ValueError as error:
+            outline = _SHAPES[_tag(element)](element).transformed(matrix)
+            if not np.all(np.abs(outline.points) <= shapes.FARTHEST):
+                raise OutlineError("its transforms take it out of any picture", "apply them to it")
+            return outline
+        except OutlineError as error:
             name = element.get("id", _tag(element))
-            remedy = "redraw it with nodes and curves" if "arc" in str(error) else "mend it"
+            remedy = error.remedy
             attribute = "d" if "d" in element.attributes else ""
             raise element.error(f'"{name}": {error}', remedy, attribute) from error
 
@@ -193,13 +205,20 @@ class _Reader:
         return self._clip_shape(target, state)
 
     def _clip_shape(self, target: Element, state: _State) -> Part:
-        drawn = [child for child in target if _tag(child) in _SHAPES]
+        drawn = [child for child in target if not _is_silent(_tag(child))]
+        for child in drawn:
+            if _tag(child) not in _SHAPES:
+                raise child.error(f"<{_tag(child)}> is not supported", "clip with one path")
         if len(drawn) != 1:
             raise target.error(f"the clipPath holds {len(drawn)} shapes", "give it one path")
         inner = self._enter(drawn[0], _styles(drawn[0]), state)
-        outline = self._outline(drawn[0]).transformed(inner.matrix)
+        outline = self._outline(drawn[0], inner.matrix)
         white = Solid((255, 255, 255))
-        return self._keep(Part(self._id(drawn[0], True), outline, white, drawn[0]))
+        id = self._id(drawn[0], True)
+        if id in self.parts:
+            what = f'"{id}" clips a second time'
+            raise target.error(what, "put what it clips into one group, and clip that", "id")
+        return self._keep(Part(id, outline, white, drawn[0], is_clip=True))
 
     def _paint(
         self, element: Element, state: _State, kind: str, default: str, outline: Outline
@@ -255,6 +274,11 @@ def _tag(element: Element) -> str:
     return element.tag.removeprefix("svg:")
 
 
+def _is_silent(tag: str) -> bool:
+    """Whether it draws nothing by itself, or speaks to an editor only."""
+    return tag in IGNORED or tag.startswith(_EDITORS)
+
+
 def _walk(element: Element) -> Iterator[Element]:
     yield element
     for child in element:
@@ -285,15 +309,15 @@ def _numbers(element: Element, *names: str) -> list[float]:
         try:
             values.append(float(text))
         except ValueError:
-            raise ValueError(f'{name} is "{text}", no number') from None
+            raise OutlineError(f'{name} is "{text}", no number', "write units only") from None
         if not abs(values[-1]) <= shapes.FARTHEST:
-            raise ValueError(f"{name} is {text}, outside of any picture")
+            raise OutlineError(f"{name} is {text}, outside of any picture")
     return values
 
 
 def _rect(element: Element) -> Outline:
     if element.get("rx", "0") not in ("0", "") or element.get("ry", "0") not in ("0", ""):
-        raise ValueError("its corners are arcs, which cannot morph")
+        raise OutlineError("its corners are arcs, which cannot morph", shapes.TO_CURVES)
     return shapes.rectangle(*_numbers(element, "x", "y", "width", "height"))
 
 
@@ -303,12 +327,15 @@ def _circle(element: Element) -> Outline:
 
 
 def _polyline(element: Element) -> Outline:
-    numbers = [float(word) for word in element.get("points").replace(",", " ").split()]
-    if len(numbers) < 4 or len(numbers) % 2 or len(numbers) > 2 * shapes.MOST_NODES:
-        raise ValueError(f"it has {len(numbers)} coordinates")
-    corners = np.array(numbers).reshape(-1, 2)
+    words = element.get("points").replace(",", " ").split()
+    if len(words) < 4 or len(words) % 2 or len(words) > 2 * shapes.MOST_NODES:
+        raise OutlineError(f"it has {len(words)} coordinates")
+    try:
+        corners = np.array([float(word) for word in words]).reshape(-1, 2)
+    except ValueError as error:
+        raise OutlineError("its points are no numbers") from error
     if not np.all(np.abs(corners) <= shapes.FARTHEST):
-        raise ValueError("it leaves any picture")
+        raise OutlineError("it leaves any picture")
     return shapes.polygon(corners, _tag(element) == "polygon")
 
 

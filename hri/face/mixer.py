@@ -1,7 +1,10 @@
-"""Who owns which part of the face: expression, speech, blink and gaze become one set of weights.
+"""Who owns which part of the face: layers become one set of weights.
 
-Speech owns the mouth; of the expression the brows, eyes and cheeks stay, and about half of the
-corners. A blink shuts the lids from wherever they are. Shut eyes do not follow the gaze.
+From the bottom: mood, expression, gesture, speech, idle motion and gaze, blink, override. A gesture
+replaces the expression in the regions it owns. Speech owns the mouth; of expression and gesture the
+brows, eyes and cheeks stay, and about half of the corners. A blink shuts the lids from wherever
+they are, and changes nothing of eyes that are shut. Shut eyes do not follow the gaze. An override
+wins everywhere it names.
 """
 
 from __future__ import annotations
@@ -10,32 +13,48 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hri.core.signals import Gaze
 from hri.face.baking import Vector
+from hri.face.lids import Lids
 from hri.face.model import FaceModel
+from hri.face.regions import NAMES, by_region
 
-MOUTH = ("mouth", "jaw", "tongue", "cheekPuff")
-CORNERS = ("mouthSmile", "mouthFrown", "mouthDimple")
-LIDS = ("eyeBlink", "eyeWide", "eyeSquint", "eyeDroop", "cheekSquint", "browDown", "eyeLookUp")
-"""Beginnings of the names of channels."""
 CORNER_SHARE = 0.5
-"""What the expression keeps of the corners of a talking mouth."""
+"""What expression and gesture keep of the corners of a talking mouth."""
+KEPT = {**dict.fromkeys(NAMES, 1.0), "mouth": 0.0, "corners": CORNER_SHARE}
+"""What they keep of each region while the face talks."""
+INWARD = ("eyeLookInLeft", "eyeLookInRight")
+
+Weighted = Vector | NDArray[np.float64]
+"""One number for each channel."""
 
 
 @dataclass(frozen=True)
 class Layers:
     """What each layer asks for."""
 
-    expression: Vector
-    viseme: Vector
+    expression: Weighted
+    """The mood and what is shown in its place."""
+    viseme: Weighted
     talking: float = 0.0
     """How much speech owns the mouth, 0 to 1."""
     blink: float = 0.0
     """How far the lids are shut, 0 to 1."""
     gaze: Gaze = field(default_factory=Gaze)
+    """Of the eyes."""
+    inward: float = 0.0
+    """What each eye turns to the nose, of its range."""
     idle: Mapping[str, float] = field(default_factory=dict)
     """Weights of motions and pupils, added as they are."""
+    gesture: Weighted | None = None
+    owned: Weighted | None = None
+    """How much of each channel the gesture owns, 0 to 1."""
+    override: Weighted | None = None
+    """Weights times how much they win."""
+    overridden: Weighted | None = None
+    """How much the override wins, 0 to 1."""
 
 
 class Mixer:
@@ -43,30 +62,40 @@ class Mixer:
 
     def __init__(self, model: FaceModel) -> None:
         self.model = model
-        self._share = np.array([_share_of(channel) for channel in model.channels])
-        self._lids = np.array([channel.startswith(LIDS) for channel in model.channels], float)
-        self._shut = np.array([name.startswith("eyeBlink") for name in model.channels])
-        self._blink = model.vector(model.settings.blink.weights)
+        channels = model.channels
+        self._lost = 1 - by_region(channels, KEPT)
+        self._lids = Lids(model)
         gaze = model.settings.gaze
-        self._gaze = [model.vector(way) for way in (gaze.right, gaze.left, gaze.up, gaze.down)]
+        self._gaze = np.array(
+            [model.vector(w) for w in (gaze.right, gaze.left, gaze.up, gaze.down)]
+        )
+        self._inward = model.vector({name: 1.0 for name in INWARD if name in channels})
+        self._eyes = np.flatnonzero(by_region(channels, {"eyes": 1.0}))
+        self._index = {channel: number for number, channel in enumerate(channels)}
 
     def mix(self, layers: Layers) -> Vector:
         """One weight for each channel of the model."""
-        kept = 1 - layers.talking * (1 - self._share)
-        mixed = layers.expression * kept + layers.viseme
-        mixed = mixed + self.model.vector(layers.idle)
-        x, y = layers.gaze.x, layers.gaze.y
-        shares = (max(x, 0.0), max(-x, 0.0), max(y, 0.0), max(-y, 0.0))
-        shut = float(mixed[self._shut].mean()) if self._shut.any() else 0.0
-        open_share = min(max(1 - shut, 0.0), 1.0)
-        for share, way in zip(shares, self._gaze, strict=True):
-            mixed = mixed + share * open_share * way
-        mixed = mixed * (1 - layers.blink * self._lids) + layers.blink * self._blink
+        mixed = np.asarray(layers.expression, float)
+        blink, owned = layers.blink, layers.owned
+        if layers.gesture is not None and owned is not None:
+            mixed = mixed * (1 - owned) + layers.gesture
+            blink *= 1 - self._lids.owned(owned)
+        mixed = mixed * (1 - layers.talking * self._lost) + layers.viseme
+        for name, weight in layers.idle.items():
+            number = self._index[name]
+            mixed[number] += weight if owned is None else weight * (1 - owned[number])
+        mixed += (1 - self._lids.shut(mixed)) * self._looks(layers)
+        mixed = self._lids.blinking(mixed, blink)
+        if layers.override is not None and layers.overridden is not None:
+            mixed = mixed * (1 - layers.overridden) + layers.override
         return mixed.astype(np.float32)
 
+    def gaze_left(self, owned: Weighted) -> float:
+        """What a gesture leaves of the gaze: nothing when it owns the eyes."""
+        return 1 - float(owned[self._eyes].max(initial=0.0))
 
-def _share_of(channel: str) -> float:
-    """What an expression keeps of a channel while the face talks."""
-    if channel.startswith(CORNERS):
-        return CORNER_SHARE
-    return 0.0 if channel.startswith(MOUTH) else 1.0
+    def _looks(self, layers: Layers) -> Weighted:
+        x, y = layers.gaze.x, layers.gaze.y
+        ways = np.array([max(x, 0.0), max(-x, 0.0), max(y, 0.0), max(-y, 0.0)])
+        looks: Weighted = ways @ self._gaze + layers.inward * self._inward
+        return looks

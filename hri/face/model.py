@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+import re
+from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property, lru_cache
 from pathlib import Path
 
@@ -12,13 +13,22 @@ from numpy.typing import NDArray
 
 from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
-from hri.face.baking import DisplayList, Vector, bake
-from hri.face.drawing import load_drawing
+from hri.face.baking import DisplayList, Vector, pairs_of
+from hri.face.blending import Blend
+from hri.face.cache import baked
+from hri.face.neck import following
 from hri.face.outline import Matrix
 from hri.face.settings import Settings, Weights, load_settings
-from hri.face.vocabulary import MOTIONS, VISEMES, sides_of
+from hri.face.vocabulary import CORRECTIVE, MOTIONS, RHUBARB, TURNS, VISEMES, sides_of
 
 MOST_TARGETS = 300
+LARGEST_FILE = 600_000
+"""Bytes; 10,000 nodes fit in."""
+LARGEST_FACE = 4_000_000
+"""Bytes of all files of a face together."""
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,60}(\+[A-Za-z0-9_+]{0,60})?")
+CORRECTED = "*"
+"""Stands in the name of the product of two channels."""
 LEAST_WEIGHT, LARGEST_WEIGHT = -1.5, 1.5
 """Weights beyond are cut off: no drawing survives them."""
 
@@ -27,16 +37,29 @@ class FaceModel:
     """A face that can take any expression; immutable."""
 
     def __init__(
-        self, name: str, display: DisplayList, settings: Settings, targets: tuple[str, ...]
+        self, folder: Path, display: DisplayList, settings: Settings, targets: tuple[str, ...]
     ) -> None:
-        self.name = name
+        self.folder = folder
+        """Where it was loaded from."""
+        self.name = folder.name
         self.display = display
         self.settings = settings
         self.targets = targets
         """Names of the drawings."""
         self.channels = (*display.channels, *MOTIONS)
         """What can be weighted, one number each: sides of targets and motions of the head."""
+        self.correctives = tuple(CORRECTED.join(pair) for pair in display.products)
+        """Products of two channels that have a drawing, such as "mouthSmileLeft*jawOpen"."""
         self._index = {channel: number for number, channel in enumerate(self.channels)}
+        self._blend = Blend(display.neutral, display.rows)
+        pairs = [[self._index[name] for name in pair] for pair in display.products]
+        self._factors = np.array(pairs, np.intp).reshape(-1, 2).T
+        turns = np.array([channel in TURNS for channel in display.channels], bool)
+        self._largest = np.where(turns, 1, LARGEST_WEIGHT).astype(np.float32)
+        turned = np.array([pair[0] in TURNS for pair in display.products], bool)
+        self._least_factor = np.where(turned, -1, 0).astype(np.float32)
+        neck = settings.motion.neck
+        self._following = None if neck is None else following(display, *neck)[:, None]
 
     @property
     def expressions(self) -> Mapping[str, Weights]:
@@ -51,7 +74,8 @@ class FaceModel:
     @cached_property
     def names(self) -> frozenset[str]:
         """Every name that may be weighted: channels and whole targets."""
-        return frozenset((*self.channels, *self.targets))
+        drawn = (target for target in self.targets if CORRECTIVE not in target)
+        return frozenset((*self.channels, *drawn))
 
     def expression(self, label: str) -> Weights:
         """The weights of an expression. Raises HriError for an unknown label."""
@@ -61,10 +85,11 @@ class FaceModel:
         return self.expressions[label]
 
     def viseme(self, name: str) -> Weights:
-        """The weights of a viseme. Raises HriError for an unknown name."""
-        if name not in self.visemes:
+        """The weights of a viseme, by its name or by Rhubarb's. Raises HriError for another."""
+        known = name if name in self.visemes else RHUBARB.get(name, name)
+        if known not in self.visemes:
             raise HriError(f'no viseme "{name}" - {did_you_mean(name, VISEMES)}')
-        return self.visemes[name]
+        return self.visemes[known]
 
     def vector(self, weights: Weights) -> Vector:
         """Weights as one number for each channel; the name of a whole target feeds both sides.
@@ -95,13 +120,29 @@ class FaceModel:
 
     def blend(self, vector: Vector) -> tuple[Vector, Vector]:
         """Points [n, 2] in units of the drawing, and scalars, for weights of all channels."""
-        weights = np.clip(vector[: -len(MOTIONS)], LEAST_WEIGHT, LARGEST_WEIGHT)
-        blended = self.display.neutral + weights @ self.display.rows
+        weights = np.empty(len(self.display.rows), np.float32)
+        alone = weights[: len(self._largest)]
+        np.minimum(vector[: len(alone)], self._largest, out=alone)
+        np.maximum(alone, -self._largest, out=alone)
+        # A corrective is drawn for weights from 0 to 1 and must not grow beyond.
+        factors = np.minimum(alone, 1).take(self._factors)
+        np.maximum(factors, self._least_factor, out=factors)
+        np.multiply(factors[0], factors[1], out=weights[len(alone) :])
+        blended = self._blend(weights)
         split = 2 * self.display.points
         return blended[:split].reshape(-1, 2), blended[split:]
 
+    def placed(self, vector: Vector) -> tuple[Vector, Vector]:
+        """The same, moved with the head: what is drawn, and where."""
+        points, scalars = self.blend(vector)
+        matrix = self.motion(vector).astype(np.float32)
+        moved = points @ matrix[:, :2].T + matrix[:, 2]
+        if self._following is not None:
+            moved = points + self._following * (moved - points)
+        return moved, scalars
+
     def motion(self, vector: Vector) -> Matrix:
-        """How the whole head moves, in units of the drawing."""
+        """How the head as a whole moves, in units of the drawing."""
         motion = self.settings.motion
         x, y, roll, size = (float(value) for value in np.clip(vector[-len(MOTIONS) :], -3, 3))
         angle = math.radians(motion.roll * roll)
@@ -122,9 +163,32 @@ def load_face(name: str | Path = "robot") -> FaceModel:
     folder = Path(name) if isinstance(name, Path) else paths.find("faces", name)
     if not (folder / "face.toml").is_file():
         raise HriError(f"{folder} is no face - it needs face.toml, neutral.svg and targets/")
-    files = [folder / "face.toml", folder / "neutral.svg", *_target_files(folder)]
-    stamps = tuple((str(file), _stamp(file)) for file in files)
-    return _load(folder.resolve(), stamps)
+    return _load(folder.resolve(), stamps_of(folder))
+
+
+Stamps = tuple[tuple[Path, int, int], ...]
+
+
+def stamps_of(folder: Path) -> Stamps:
+    """The files of a face with time and size, which differ when one was saved.
+
+    Raises HriError when there are too many, they are too large or one cannot be looked at.
+    """
+    targets = sorted((folder / "targets").glob("*.svg"))
+    if len(targets) > MOST_TARGETS:
+        raise HriError(f"{folder}/targets has {len(targets)} drawings - keep to {MOST_TARGETS}")
+    files = (folder / "face.toml", folder / "neutral.svg", *targets)
+    stamps = tuple((file, *_stamp(file)) for file in files)
+    for file, _, size in stamps:
+        if size > LARGEST_FILE:
+            raise HriError(f"{file}: {size:,} bytes are too much for a drawing - {_SMALLER}")
+    total = sum(size for *_, size in stamps)
+    if total > LARGEST_FACE:
+        raise HriError(f"{folder}: {total:,} bytes are too much for a face - {_SMALLER}")
+    return stamps
+
+
+_SMALLER = "save plain SVG, with fewer nodes, and only what changes in targets/"
 
 
 def _stamp(file: Path) -> tuple[int, int]:
@@ -136,18 +200,52 @@ def _stamp(file: Path) -> tuple[int, int]:
     return status.st_mtime_ns, status.st_size
 
 
-def _target_files(folder: Path) -> list[Path]:
-    files = sorted((folder / "targets").glob("*.svg"))
-    if len(files) > MOST_TARGETS:
-        raise HriError(f"{folder}/targets has {len(files)} drawings - keep to {MOST_TARGETS}")
-    return files
-
-
 @lru_cache(maxsize=4)
-def _load(folder: Path, stamps: tuple[tuple[str, tuple[int, int]], ...]) -> FaceModel:
+def _load(folder: Path, stamps: Stamps) -> FaceModel:
     """Read a face; `stamps` make a changed face a new one."""
-    targets = {file.stem: load_drawing(file) for file in _target_files(folder)}
-    display = bake(load_drawing(folder / "neutral.svg"), targets)
-    names = {*targets, *display.channels, *MOTIONS}
+    _, neutral, *targets = (file for file, *_ in stamps)
+    names = _names(targets)
     settings = load_settings(folder / "face.toml", names)
-    return FaceModel(folder.name, display, settings, tuple(targets))
+    display = baked(neutral, targets, settings.head)
+    return FaceModel(folder, display, settings, tuple(file.stem for file in targets))
+
+
+def _names(targets: Sequence[Path]) -> set[str]:
+    """What the drawings allow to be weighted. Raises HriError for a drawing nobody could use."""
+    names: dict[str, Path] = {}
+    for file in targets:
+        if not _NAME.fullmatch(file.stem):
+            what = f"{file.stem!r} is no name of a target"
+            raise HriError(f"{file.parent}: {what} - use letters, digits and _, as in jawOpen.svg")
+        if CORRECTIVE in file.stem:
+            continue
+        for channel in sides_of(file.stem):
+            if channel in names:
+                what = f"{channel} is drawn by {names[channel].name} already"
+                raise HriError(f"{file}: {what} - delete one of them")
+            if channel in (*MOTIONS, *TURNS):
+                what = f"{channel} is a motion of the whole head"
+                raise HriError(f"{file}: {what} - set it up in face.toml, [motion] and [head]")
+            names[channel] = file
+    known = set(names) | {file.stem for file in targets if CORRECTIVE not in file.stem}
+    corrected: dict[frozenset[str], Path] = {}
+    for file in targets:
+        if CORRECTIVE in file.stem:
+            _check_corrective(file, known)
+            for _, pair in pairs_of(file.stem):
+                other = corrected.setdefault(frozenset(pair), file)
+                if other != file:
+                    what = f"{CORRECTED.join(pair)} is drawn by {other.name} already"
+                    raise HriError(f"{file}: {what} - delete one of them")
+    return known
+
+
+def _check_corrective(file: Path, known: Collection[str]) -> None:
+    parts = file.stem.split(CORRECTIVE)
+    if len(parts) != 2 or parts[0] == parts[1]:
+        what = f'"{file.stem}" does not name two targets'
+        raise HriError(f"{file}: {what} - name it such as mouthSmile+jawOpen.svg")
+    for part in parts:
+        if part not in known:
+            what = f'the face has no target "{part}"'
+            raise HriError(f"{file}: {what} - {did_you_mean(part, known)}")

@@ -26,12 +26,23 @@ FARTHEST = 1e5
 MOST_NODES = 4000
 """No single path may have more."""
 
+TO_CURVES = "turn it into nodes and curves (Inkscape: Path > Object to Path)"
+"""The remedy for a shape that has none."""
+
 _CIRCLE = 0.5522847498307936
 """Length of the handles of a quarter circle of radius 1 drawn as one cubic curve."""
 _TOKEN = re.compile(
     r"\s*,?\s*(?:([A-Za-z])|([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?))|\s*(\S)\s*"
 )
 _COUNTS = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2}
+
+
+class OutlineError(ValueError):
+    """An outline that cannot be used: what is wrong with it, and what to do in the editor."""
+
+    def __init__(self, what: str, remedy: str = "mend its numbers, or draw it anew") -> None:
+        super().__init__(what)
+        self.remedy = remedy
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +117,7 @@ def polygon(corners: Points, is_closed: bool) -> Outline:
 
 
 def parse_path(data: str) -> Outline:
-    """The outline of an SVG path. Raises ValueError that says what is wrong with the data."""
+    """The outline of an SVG path. Raises OutlineError."""
     pen = _Pen()
     tokens = _tokens(data)
     at = 0
@@ -119,15 +130,15 @@ def parse_path(data: str) -> Outline:
                 pen.close()
                 continue
             if command in "Aa":
-                raise ValueError("it has an elliptical arc, which cannot morph")
+                raise OutlineError("it has an elliptical arc, which cannot morph", TO_CURVES)
             if command.upper() not in _COUNTS:
-                raise ValueError(f'"{command}" is no path command')
+                raise OutlineError(f'"{command}" is no path command')
         elif command in ("", "Z", "z"):
-            raise ValueError(f"the number {token:g} follows no command")
+            raise OutlineError(f"the number {token:g} follows no command")
         count = _COUNTS[command.upper()]
         numbers = tokens[at : at + count]
         if len(numbers) < count or any(isinstance(number, str) for number in numbers):
-            raise ValueError(f'"{command}" needs {count} numbers')
+            raise OutlineError(f'"{command}" needs {count} numbers')
         pen.draw(command, [float(number) for number in numbers])
         at += count
         command = {"M": "L", "m": "l"}.get(command, command)
@@ -136,19 +147,25 @@ def parse_path(data: str) -> Outline:
 
 def _tokens(data: str) -> list[str | float]:
     found: list[str | float] = []
-    for letter, number, junk in _TOKEN.findall(data):
+    for token in _TOKEN.finditer(data):
+        letter, number, junk = token.groups()
         if junk:
-            raise ValueError(f'"{junk}" has no place in a path')
+            raise OutlineError(f'"{junk}" has no place in a path')
         if letter:
             found.append(letter)
             continue
         value = float(number)
         if not abs(value) <= FARTHEST:
-            raise ValueError(f"{number} lies outside of any picture")
+            raise OutlineError(f"{number} lies outside of any picture")
         found.append(value)
         if len(found) > MOST_NODES * 6:
-            raise ValueError(f"it has more than {MOST_NODES} nodes")
+            raise _too_long()
     return found
+
+
+def _too_long() -> OutlineError:
+    remedy = "simplify it (Inkscape: Path > Simplify)"
+    return OutlineError(f"it has more than {MOST_NODES} nodes", remedy)
 
 
 def _straight(a: Points, b: Points) -> Points:
@@ -182,7 +199,7 @@ class _Pen:
             self.here = self.start = points[0]
         else:
             if not self.contours and not self.curves and not self.last:
-                raise ValueError("it does not begin with M")
+                raise OutlineError("it does not begin with M")
             self._add(_DRAW[kind](self, points))
         self.last = kind
 
@@ -196,7 +213,7 @@ class _Pen:
     def outline(self) -> Outline:
         self._finish(False)
         if not self.contours:
-            raise ValueError("it draws nothing")
+            raise OutlineError("it draws nothing", "draw it, or delete it")
         return Outline(tuple(self.contours))
 
     def line(self, points: Points) -> Points:
@@ -223,9 +240,9 @@ class _Pen:
     def _add(self, curve: Points) -> None:
         self.count += 1
         if self.count > MOST_NODES:
-            raise ValueError(f"it has more than {MOST_NODES} nodes")
+            raise _too_long()
         if not np.all(np.abs(curve) <= FARTHEST):
-            raise ValueError("it leaves any picture")
+            raise OutlineError("it leaves any picture")
         self.curves.append(curve)
         self.here = curve[3]
 

@@ -22,6 +22,8 @@ from hri.face.outline import (
 Color = tuple[int, int, int]
 """Red, green, blue, 0 to 255."""
 
+MOST_STOPS = 32
+"""No gradient has more."""
 NAMED: dict[str, Color] = {"black": (0, 0, 0), "white": (255, 255, 255)}
 
 
@@ -90,12 +92,16 @@ def read_gradient(
         raise element.error("spreadMethod is not supported", "take it off", "spreadMethod")
     frame = _frame(element, outline, matrix)
     anchors = _linear(element) if kind == "linearGradient" else _radial(element)
-    found = tuple(_stop(child, opacity) for child in stops if _is_stop(child))
+    drawn = [child for child in stops if _is_stop(child)]
+    if len(drawn) > MOST_STOPS:
+        raise element.error(f"the gradient has {len(drawn)} stops", f"keep to {MOST_STOPS}")
+    found = tuple(_stop(child, opacity) for child in drawn)
     if not found:
         raise element.error("the gradient has no stops", "add two <stop> to it")
-    if kind == "linearGradient":
-        return Gradient(_upright(anchors, frame), found)
-    return Gradient(apply(frame, anchors), found)
+    placed = apply(frame, anchors) if kind == "radialGradient" else _upright(anchors, frame)
+    if not np.all(np.abs(placed) <= 10 * FARTHEST):
+        raise element.error("the gradient lies outside of any picture", "draw it anew")
+    return Gradient(placed, found)
 
 
 def _is_stop(element: Element) -> bool:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from hri.core.errors import did_you_mean
+from hri.core.toml import REQUIRED as NO_DEFAULT
 from hri.core.toml import Table, load_toml
 from hri.face.paint import Color, parse_color
-from hri.face.vocabulary import EXPRESSIONS, REQUIRED, VISEMES
+from hri.face.vocabulary import AFFECT, LABELS, MOTIONS, REQUIRED, TURNS, VISEMES
 
 Weights = Mapping[str, float]
 """Weights by the name of a target, of one of its sides, or of a motion of the head."""
@@ -39,6 +40,10 @@ class GazeSettings:
     up: Weights
     down: Weights
     """Right and left are the viewer's."""
+    degrees: tuple[float, float]
+    """How far the eyes have turned then: to either side, and up or down."""
+    head_share: float
+    """Of a look to the side or up, what the head turns, 0 to 1; the eyes do the rest."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +72,40 @@ class MotionSettings:
     """Share of the size, 0.05 is five percent."""
     pivot: tuple[float, float]
     """What it turns around and grows from, in units of the drawing."""
+    neck: tuple[float, float] | None
+    """Above the first y all moves with the head, below the second nothing does, and between them
+    ever less; None where all of the drawing moves."""
+
+
+@dataclass(frozen=True, slots=True)
+class HeadSettings:
+    """The head as a dome that turns: the face lies on it."""
+
+    center: tuple[float, float]
+    """Units of the drawing."""
+    radius: tuple[float, float]
+    """Half its width and half its height, units of the drawing."""
+    depth: float
+    """How far its nearest point lies in front of the center, units of the drawing."""
+    yaw: float
+    pitch: float
+    """Degrees that headYaw and headPitch turn it when they are 1."""
+    still: tuple[str, ...]
+    """Patterns of the ids that do not turn with it, such as "neck*"."""
+    depths: Mapping[str, float]
+    """Patterns of ids, and how far these parts lie in front of its surface; behind is negative."""
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """How an expression that does not stay comes and goes, in seconds."""
+
+    onset_s: float = 0.35
+    """Until it is there."""
+    apex_s: float = 2.5
+    """While it holds."""
+    offset_s: float = 0.8
+    """Until it is gone."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +116,16 @@ class Settings:
     background: tuple[Color, Color]
     """In the middle and in the corners."""
     expressions: Mapping[str, Weights]
+    """By label, aliases too."""
+    timing: Mapping[str, Timing]
+    """Of each of them."""
+    affect: Mapping[str, tuple[float, float]]
+    """Valence and arousal, -1 to 1, of the expressions that feelings blend between."""
+    signs: tuple[str, ...]
+    """Targets that are marks, such as a tear or "zzz", and no muscles: no mood shows them."""
     visemes: Mapping[str, Weights]
+    head: HeadSettings | None
+    """None when the head does not turn."""
     pupils: Weights
     """What high arousal adds."""
     blink: BlinkSettings
@@ -86,18 +134,25 @@ class Settings:
     motion: MotionSettings
 
 
-def load_settings(path: Path, channels: Collection[str]) -> Settings:
-    """Read the file; `channels` are the names that may be weighted. Raises AuthoringError."""
+def load_settings(path: Path, targets: Collection[str]) -> Settings:
+    """Read the file; `targets` are the names of targets and their sides. Raises AuthoringError."""
     table = load_toml(path, "face")
+    head = _head(table.table("head")) if "head" in table else None
+    channels = {*targets, *MOTIONS, *(() if head is None else TURNS)}
+    expressions = _expressions(table, channels)
     settings = Settings(
         about=table.string("about", ""),
         background=_background(table.table("background")),
-        expressions=_expressions(table, channels),
+        expressions=expressions,
+        timing=_timing(table.table("timing", optional=True), expressions),
+        affect=_affect(table.table("affect", optional=True), expressions),
+        signs=_signs(table, channels),
         visemes=_visemes(table.table("visemes"), channels),
+        head=head,
         pupils=_weights(table.table("pupils", optional=True), channels),
         blink=_blink(table.table("blink"), channels),
         gaze=_gaze(table.table("gaze"), channels),
-        idle=_idle(table.table("idle")),
+        idle=_idle(table.table("idle", optional=True)),
         motion=_motion(table.table("motion")),
     )
     table.finish()
@@ -107,9 +162,15 @@ def load_settings(path: Path, channels: Collection[str]) -> Settings:
 def _weights(table: Table, channels: Collection[str]) -> Weights:
     for name in table.data:
         if name not in channels:
-            what = f'the face has no target "{name}"'
-            raise table.error(name, what, did_you_mean(name, channels))
+            raise table.error(name, *_unknown(name, channels))
     return {name: table.number(name, minimum=-1.5, maximum=1.5) for name in table.data}
+
+
+def _unknown(name: str, channels: Collection[str]) -> tuple[str, str]:
+    what = f'the face has no target "{name}"'
+    if name in TURNS:
+        return what, "add a [head] table, which makes the head turn"
+    return what, did_you_mean(name, channels, f"draw targets/{name}.svg")
 
 
 def _background(table: Table) -> tuple[Color, Color]:
@@ -129,19 +190,87 @@ def _expressions(root: Table, channels: Collection[str]) -> Mapping[str, Weights
     """Expressions by label, aliases too."""
     table = root.table("expressions")
     aliases = root.table("aliases", optional=True)
-    known = (*EXPRESSIONS, "listening", "thinking", *aliases.data)
     found: dict[str, Weights] = {}
     for label in table.data:
-        if label not in known:
-            raise table.error(label, f'no expression "{label}"', did_you_mean(label, known))
+        if label not in LABELS:
+            raise table.error(label, f'no expression "{label}"', did_you_mean(label, LABELS))
         found[label] = _weights(table.table(label), channels)
     for label in REQUIRED:
         if label not in found:
             what = f'the expression "{label}" is missing'
             raise table.error(None, what, f"add [expressions.{label}]")
     for alias in aliases.data:
+        if alias in LABELS:
+            what = f'"{alias}" is the name of an expression itself'
+            raise aliases.error(alias, what, f"draw it as [expressions.{alias}]")
         found[alias] = found[aliases.string(alias, among=sorted(found))]
     return found
+
+
+def _timing(table: Table, labels: Collection[str]) -> Mapping[str, Timing]:
+    usual = _times(table, Timing())
+    found = dict.fromkeys(labels, usual)
+    for label, value in table.data.items():
+        if isinstance(value, dict):
+            if label not in labels:
+                raise table.error(label, f'no expression "{label}"', did_you_mean(label, labels))
+            own = table.table(label)
+            found[label] = _times(own, usual)
+            own.finish()
+    table.finish()
+    return found
+
+
+def _times(table: Table, usual: Timing) -> Timing:
+    return Timing(
+        onset_s=table.number("onset_s", usual.onset_s, minimum=0.02, maximum=10),
+        apex_s=table.number("apex_s", usual.apex_s, minimum=0, maximum=60),
+        offset_s=table.number("offset_s", usual.offset_s, minimum=0.02, maximum=10),
+    )
+
+
+def _affect(table: Table, labels: Collection[str]) -> Mapping[str, tuple[float, float]]:
+    found = {label: place for label, place in AFFECT.items() if label in labels}
+    for label in table.data:
+        if label not in labels:
+            raise table.error(label, f'no expression "{label}"', did_you_mean(label, labels))
+        found[label] = _pair(table, label, -1, 1)
+    return found
+
+
+def _signs(table: Table, channels: Collection[str]) -> tuple[str, ...]:
+    signs = tuple(table.strings("signs", ()))
+    for sign in signs:
+        if sign not in channels:
+            raise table.error("signs", *_unknown(sign, channels))
+    return signs
+
+
+def _pair(
+    table: Table, name: str, least: float, most: float, default: Sequence[float] = NO_DEFAULT
+) -> tuple[float, float]:
+    """Two numbers within a range."""
+    first, second = table.numbers(name, default, count=2)
+    if not (least <= first <= most and least <= second <= most):
+        what = f"{name} is {first:g}, {second:g}"
+        raise table.error(name, what, f"write two numbers from {least:g} to {most:g}")
+    return first, second
+
+
+def _head(table: Table) -> HeadSettings:
+    radius = _pair(table, "radius", 1, 10_000)
+    depths = table.table("depths", optional=True)
+    head = HeadSettings(
+        center=_pair(table, "center", -10_000, 10_000),
+        radius=radius,
+        depth=table.number("depth", sum(radius) / 2, minimum=0, maximum=10_000),
+        yaw=table.number("yaw_degrees", 25.0, minimum=0, maximum=40),
+        pitch=table.number("pitch_degrees", 15.0, minimum=0, maximum=40),
+        still=tuple(table.strings("still", ())),
+        depths=depths.weights(-1000, 1000),
+    )
+    table.finish()
+    return head
 
 
 def _visemes(table: Table, channels: Collection[str]) -> Mapping[str, Weights]:
@@ -167,8 +296,10 @@ def _gaze(table: Table, channels: Collection[str]) -> GazeSettings:
     right, left, up, down = (
         _weights(table.table(way), channels) for way in ("right", "left", "up", "down")
     )
+    degrees = _pair(table, "degrees", 1, 60, (25.0, 18.0))
+    share = table.number("head_share", 0.3, minimum=0, maximum=1)
     table.finish()
-    return GazeSettings(right, left, up, down)
+    return GazeSettings(right, left, up, down, degrees, share)
 
 
 def _idle(table: Table) -> IdleSettings:
@@ -183,12 +314,21 @@ def _idle(table: Table) -> IdleSettings:
 
 
 def _motion(table: Table) -> MotionSettings:
-    x, y = table.numbers("pivot", count=2)
+    pivot = _pair(table, "pivot", -10_000, 10_000)
     motion = MotionSettings(
         shift=table.number("shift", 12.0, minimum=0, maximum=100),
         roll=table.number("roll_degrees", 10.0, minimum=0, maximum=45),
         size=table.number("size", 0.05, minimum=0, maximum=0.5),
-        pivot=(x, y),
+        pivot=pivot,
+        neck=_neck(table) if "neck" in table else None,
     )
     table.finish()
     return motion
+
+
+def _neck(table: Table) -> tuple[float, float]:
+    top, bottom = _pair(table, "neck", -10_000, 10_000)
+    if not top < bottom:
+        what = f"neck is {top:g}, {bottom:g}"
+        raise table.error("neck", what, "write the y of its top, then that of its bottom")
+    return top, bottom

@@ -74,7 +74,7 @@ def test_a_new_driver_is_listed_by_hri_devices(folder, monkeypatch, capsys):
 def test_a_new_face_passes_the_check(folder, capsys):
     main(["new", "face", "parrot"])
     assert main(["face", "check", "parrot/faces/parrot"]) == 0
-    assert "parrot: fine" in capsys.readouterr().out
+    assert "points: ok" in capsys.readouterr().out
 
 
 def test_nothing_is_overwritten(folder, capsys):

@@ -73,3 +73,17 @@ def test_the_folder_one_works_in_comes_last(tmp_path, monkeypatch):
     assert paths.find("grammars", "companion").parent == paths.house() / "grammars"
     with pytest.raises(HriError, match='no "lamp" in faces'):
         paths.find("faces", "lamp")
+    (tmp_path / "lamp").mkdir()
+    assert paths.find("faces", "lamp").resolve() == tmp_path / "lamp"
+
+
+def test_of_faces_only_folders_are_offered():
+    with pytest.raises(HriError, match=r'did you mean "eyes"\?'):
+        paths.find("faces", "eye")
+    with pytest.raises(HriError, match="known are: eyes, person, robot"):
+        paths.find("faces", "gestures")
+
+
+def test_an_empty_name_is_none():
+    with pytest.raises(HriError, match="an empty name"):
+        paths.find("faces", "")

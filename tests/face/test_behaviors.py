@@ -1,3 +1,6 @@
+from collections.abc import Mapping
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -7,11 +10,13 @@ from hri.behavior.ports import Output
 from hri.behavior.runner import Runner
 from hri.core.clock import FakeClock
 from hri.core.events import EventBus
-from hri.core.signals import Event, Expression, FaceWeights, Image, Speech
-from hri.face.behaviors import Face, FaceRenderer
+from hri.core.signals import Event, Expression, FaceWeights, Gaze, Image, Speech
+from hri.face.behaviors import Face, FaceRecorder, FaceRenderer
+from hri.face.recording import read_weights
 from hri.hal.drivers.memory import OffscreenScreen
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from tests.face.pixels import MODEL
 from tests.face.test_motion import TICK, spoken
 
 
@@ -23,8 +28,15 @@ class Director(Behavior):
     is_speaking = Output[bool]("boolean", "speaks")
     expression = Output[Expression]("expression", "shown")
     weights = Output[FaceWeights]("weights", "for the renderer alone")
+    gesture = Output[str]("string", "made")
+    state = Output[str]("string", "been in")
+    override = Output[FaceWeights]("weights", "wins")
+    gaze = Output[Gaze]("gaze", "looked at")
+    is_listening = Output[bool]("boolean", "somebody speaks")
 
     said: Speech | None = None
+    sent: Mapping[str, object] = {}
+    """What to send at every tick, by port."""
     since = 0.0
     shown: Expression | None = None
     forced: FaceWeights | None = None
@@ -32,6 +44,8 @@ class Director(Behavior):
     def compute(self, now: float, dt: float) -> None:
         if self.shown is not None:
             self.expression.send(self.shown)
+        for port, value in self.sent.items():
+            getattr(self, port).send(value)
         if self.forced is not None:
             self.weights.send(self.forced)
         self.is_speaking.send(self.said is not None)
@@ -55,7 +69,9 @@ class Recorder(OffscreenScreen):
 class Stage:
     """A director, a face, a renderer and a screen on a fake clock."""
 
-    def __init__(self, *, is_face_wired: bool = True, captions: bool = False) -> None:
+    def __init__(
+        self, *, is_face_wired: bool = True, captions: bool = False, is_drawn: bool = True
+    ) -> None:
         self.clock = FakeClock()
         self.resources = ResourceManager([], self.clock)
         size = {"width": "160", "height": "120"}
@@ -70,10 +86,12 @@ class Stage:
         self.renderer = FaceRenderer("renderer", captions=captions)
         for behavior in (self.director, self.face, self.renderer):
             network.add(behavior)
-        for port in ("speech", "position", "is_speaking", "expression"):
+        ports = ("speech", "position", "is_speaking", "expression", "gesture", "state", "override")
+        for port in (*ports, "gaze", "is_listening"):
             network.connect(f"director.{port}", f"face.{port}")
         source = "face" if is_face_wired else "director"
-        network.connect(f"{source}.weights", "renderer.weights")
+        if is_drawn:
+            network.connect(f"{source}.weights", "renderer.weights")
         network.connect("face.caption", "renderer.caption")
         network.sort()
         self.runner = Runner(network, context)
@@ -109,6 +127,7 @@ def test_two_runs_show_the_same_pictures() -> None:
         assert np.array_equal(one, other)
 
 
+@pytest.mark.proves("R05")
 def test_the_lips_follow_what_is_heard_and_rest_when_it_is_cut() -> None:
     stage = Stage()
     stage.run(0.5)
@@ -146,3 +165,110 @@ def test_weights_of_another_face_leave_the_picture_and_are_told_once() -> None:
         stage.run(0.3)
     assert np.array_equal(stage.screen.image, before)
     assert [event.name for event in stage.events] == ["face.refused", "face.refused"]
+
+
+def shown(stage: Stage, channel: str) -> float:
+    """The newest weight of a channel."""
+    weights = stage.face.weights.value
+    assert weights is not None
+    return weights.values.get(channel, 0.0)
+
+
+def test_a_gesture_is_made_by_name_by_event_and_by_call() -> None:
+    stage = Stage(is_drawn=False)
+    stage.director.sent = {"gesture": "wink"}
+    stage.run(0.3)
+    assert shown(stage, "eyeBlinkLeft") > 0.8
+    stage.run(2.0)
+    assert shown(stage, "eyeBlinkLeft") < 0.5, "a name that stays is one gesture"
+    stage.runner.context.events.raise_event("gesture.asked", name="yawn", seconds=2.0)
+    stage.run(1.0)
+    assert shown(stage, "jawOpen") > 0.8
+    stage.face.make("nod", strength=0.5).cancel()
+    stage.run(0.1)
+    told = [(event.name, event.properties["name"]) for event in stage.events]
+    assert told == [
+        ("gesture.started", "wink"),
+        ("gesture.ended", "wink"),
+        ("gesture.asked", "yawn"),
+        ("gesture.started", "yawn"),
+        ("gesture.ended", "yawn"),
+        ("gesture.started", "nod"),
+        ("gesture.ended", "nod"),
+    ]
+
+
+def test_the_face_listens_while_somebody_speaks_to_it() -> None:
+    stage = Stage(is_drawn=False)
+    stage.run(1.0)
+    calm = shown(stage, "browOuterUpLeft")
+    stage.director.sent = {"is_listening": True}
+    stage.run(1.5)
+    assert shown(stage, "browOuterUpLeft") > calm + 0.15
+    stage.director.sent = {"is_listening": True, "state": "asleep"}
+    stage.run(2.0)
+    assert shown(stage, "eyeBlinkLeft") > 0.6
+
+
+def test_what_the_face_cannot_do_is_told_once_and_it_lives_on() -> None:
+    stage = Stage(is_drawn=False)
+    stage.run(1.0)
+    stage.director.sent = {"gaze": Gaze(float("nan"), 0.0)}
+    stage.run(0.5)
+    stage.director.sent = {"gesture": "nodd"}
+    stage.run(0.5)
+    stage.director.sent = {"override": FaceWeights({"trunkUp": 1.0})}
+    stage.run(0.5)
+    stage.director.sent, stage.director.shown = {}, Expression("hapy")
+    stage.run(0.5)
+    reasons = [event.properties["reason"] for event in stage.events]
+    assert [event.name for event in stage.events] == ["face.refused"] * 4
+    for reason, part in zip(reasons, ("finite", "nodd", "trunkUp", "hapy"), strict=True):
+        assert part in reason
+    stage.director.shown = Expression("surprised")
+    stage.run(1.0)
+    assert shown(stage, "jawOpen") > 0.3
+
+
+def test_a_face_is_recorded_and_replayed(tmp_path: Path) -> None:
+    stage = Stage(is_drawn=False)
+    recorder = FaceRecorder("recorder", file=str(tmp_path / "face.csv"))
+    recorder.start(stage.runner.context)
+    recorder.weights.sources.append(stage.face.weights)
+    stage.director.shown = Expression("surprised")
+    for _ in range(40):
+        stage.run(TICK)
+        recorder.compute(stage.clock.now(), TICK)
+    recorder.stop()
+    assert read_weights(tmp_path / "face.csv", MODEL).duration == pytest.approx(39 * TICK, abs=1e-3)
+    surprised = shown(stage, "jawOpen")
+    stage.director.shown = Expression("sad")
+    stage.run(2.0)
+    assert shown(stage, "jawOpen") < 0.1
+    playing = stage.face.replay(tmp_path / "face.csv")
+    stage.run(1.2)
+    assert shown(stage, "jawOpen") == pytest.approx(surprised, abs=0.05)
+    stage.run(1.0)
+    assert playing.is_over
+    assert shown(stage, "jawOpen") < 0.1
+
+
+def test_a_closed_mouth_is_seen_within_100_ms_of_a_cancel() -> None:
+    """From the pixels: the first picture shown more than 100 ms after the cut has no open mouth."""
+    stage = Stage()
+    stage.run(0.5)
+    calm = stage.screen.image.astype(int)
+    stage.director.said, stage.director.since = spoken(*["a"] * 30), stage.clock.now()
+    stage.run(0.6)
+    talking = stage.screen.image.astype(int)
+    stage.director.said = None
+    cut = stage.clock.now()
+    stage.run(0.3)
+    shut = next(picture for time, picture in stage.screen.pictures if time - cut > 0.1).astype(int)
+    mouth = slice(85, 122), slice(55, 105)
+
+    def dark(picture: np.ndarray) -> int:
+        return int((picture[mouth].sum(axis=2) < 165).sum())
+
+    assert dark(talking) > 20
+    assert dark(shut) <= dark(calm) + 2

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -11,24 +12,33 @@ from PIL import ImageDraw, ImageFont
 
 from hri.core.signals import Image
 
-MOST_LINES = 2
+
+@dataclass(frozen=True)
+class Lettering:
+    """How large the letters are, and how many lines of them there may be."""
+
+    height: float
+    """Of the letters, of the height of the picture."""
+    lines: int
+
+
+SPOKEN = Lettering(0.055, 2)
+SMALL = Lettering(0.032, 5)
 MOST_LETTERS = 400
 """What is longer does not fit anyway."""
-_LETTER = 0.055
-"""Height of the letters, of the height of the picture."""
 _SHADE = 0.55
 """How much the band behind the letters darkens the picture."""
 
 
-def add_caption(image: Image, text: str) -> Image:
+def add_caption(image: Image, text: str, lettering: Lettering = SPOKEN) -> Image:
     """A copy of the picture with the text over a dark band; the picture itself without text.
 
-    A text that is too long for two lines ends in "...".
+    A text that is too long for the lines of the lettering ends in "...".
     """
     if not text.strip():
         return image
     height, width = image.shape[:2]
-    letters = _letters(text, width, height)
+    letters = _letters(text, width, height, lettering)
     captioned = image.copy()
     band = captioned[height - len(letters) :].astype(np.float32) * (1 - _SHADE)
     share = letters[..., None].astype(np.float32) / 255
@@ -37,12 +47,12 @@ def add_caption(image: Image, text: str) -> Image:
 
 
 @lru_cache(maxsize=8)
-def _letters(text: str, width: int, height: int) -> NDArray[np.uint8]:
+def _letters(text: str, width: int, height: int, lettering: Lettering) -> NDArray[np.uint8]:
     """The band with its letters, [band height, width], 0 to 255."""
-    size = max(8, round(height * _LETTER))
+    size = max(8, round(height * lettering.height))
     font = ImageFont.load_default(size)
     assert isinstance(font, ImageFont.FreeTypeFont), "Pillow is built with FreeType"
-    lines = _wrapped(" ".join(text.split())[:MOST_LETTERS], font, width - 2 * size)
+    lines = _wrapped(" ".join(text.split())[:MOST_LETTERS], font, width - 2 * size, lettering.lines)
     step = round(size * 1.3)
     band = Picture.new("L", (width, min(step * len(lines) + size, height)))
     draw = ImageDraw.Draw(band)
@@ -52,13 +62,13 @@ def _letters(text: str, width: int, height: int) -> NDArray[np.uint8]:
     return np.asarray(band)
 
 
-def _wrapped(text: str, font: ImageFont.FreeTypeFont, width: float) -> list[str]:
+def _wrapped(text: str, font: ImageFont.FreeTypeFont, width: float, most: int) -> list[str]:
     lines = [""]
     for word in text.split(" "):
         longer = f"{lines[-1]} {word}".strip()
         if font.getlength(longer) <= width or not lines[-1]:
             lines[-1] = longer
-        elif len(lines) < MOST_LINES:
+        elif len(lines) < most:
             lines.append(word)
         else:
             lines[-1] += " ..."

@@ -91,8 +91,8 @@ WEIGHTS = (0.55, 1.82, 0.45, -0.13)
 
 Logistic regression by `docs/adaptation/fit.py`: pieces of speech, clean and under babble at 15 to
 6 dB, of grammars and sentences that the figures of `hri bench speech` are not told from; the voices
-rms and kal16 are in both. By the foreign speech of that fit the offset would be 0.88; it was settled,
-as the caution below, with sight of the figures, which therefore are no independent test of the two.
+rms and kal16 are in both. By the foreign speech of that fit the offset would be 0.88; it and the
+caution below were settled with sight of the figures, which are no independent test of the two.
 """
 CAUTION = 0.55
 """Log odds that noise costs, so that in babble at 12 dB no more than one in fifty sentences passes

@@ -1,0 +1,60 @@
+"""The face: how fast it is drawn and loaded, how well its lips keep time, whether frames are lost.
+
+All but the last row take the time of the thread or of the process, on one core and without a GPU,
+so that what else the machine does counts as little as possible; the frames are those of a face that
+talks, blinks, sways and changes its expression, in order.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from functools import partial
+from typing import Any
+
+from hri.bench.face import frames, judge, lips, live, loading, skia
+from hri.bench.figures import machine
+from hri.bench.speech.table import Row, attempted
+from hri.face.model import load_face
+
+SIZE = (800, 600)
+SECONDS = 60.0
+QUICK_SECONDS = 5.0
+FRAMES = 600
+
+
+def measure(quick: bool = False) -> dict[str, Any]:
+    """All rows; what is being done is told on standard error. `quick` takes a tenth of the time."""
+    told = list(rows(FRAMES // 10 if quick else FRAMES, QUICK_SECONDS if quick else SECONDS))
+    return {
+        "bench": "face",
+        "machine": machine(),
+        "load": [round(value, 2) for value in os.getloadavg()],
+        "quick": quick,
+        "rows": told,
+        "missed": [row["what"] for row in told if not row.get("passed", True)],
+        "skipped": [row["what"] for row in told if "skipped" in row],
+    }
+
+
+def rows(count: int, seconds: float) -> Iterator[Row]:
+    """All rows in the order of the table: of so many frames, and of so many seconds of talking."""
+    tell = partial(print, file=sys.stderr, flush=True)
+    model = load_face()
+    tell("frames")
+    with frames.one_thread():
+        talking = frames.talking(model, count)
+        yield from frames.rows(model, talking, SIZE)
+        tell("skia")
+        what = "the same frames by skia-python"
+        yield from attempted(what, lambda: skia.rows(model, talking[: max(count // 2, 60)], SIZE))
+    tell("loading")
+    yield from loading.rows()
+    tell("lips")
+    yield from attempted("viseme track against phoneme times", lambda: lips.rows(model))
+    tell("judge")
+    what = "expressions that an independent network names"
+    yield from attempted(what, lambda: judge.rows("robot", "person"))
+    tell(f"{seconds:g} s of talking")
+    yield from attempted("frames dropped while talking", lambda: live.rows(seconds))

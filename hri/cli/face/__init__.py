@@ -1,0 +1,31 @@
+"""`hri face`: begin, check, show, render and list faces; a module for each command."""
+
+from __future__ import annotations
+
+import argparse
+
+from hri.cli.face import animate, check, export, list, new, render, sheet, show
+
+COMMANDS = {
+    "render": (render, "draw one picture"),
+    "sheet": (sheet, "draw all expressions and visemes, with labels"),
+    "animate": (animate, "film a script of what a face shows and says"),
+    "show": (show, "open a window with a living face that follows its drawings"),
+    "new": (new, "copy a face to start a new one from"),
+    "check": (check, "load a face and report all that is wrong"),
+    "list": (list, "show the faces there are"),
+    "export": (export, "write a baked face as JSON, for drawing it elsewhere"),
+}
+"""Each is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    commands = parser.add_subparsers(dest="face_command", metavar="COMMAND", required=True)
+    for name, (module, about) in COMMANDS.items():
+        module.add_arguments(commands.add_parser(name, help=about, description=about))
+
+
+def run(options: argparse.Namespace) -> int:
+    module, _ = COMMANDS[options.face_command]
+    status: int = module.run(options)
+    return status

@@ -1,0 +1,38 @@
+"""`hri face check`: loads a face and tells what is wrong, or likely a slip."""
+
+from __future__ import annotations
+
+import argparse
+
+from hri.core import paths
+from hri.face import load_face
+from hri.face.gestures import load_gestures
+from hri.face.vocabulary import CORRECTIVE
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("face", metavar="DIR|NAME", help="a folder, or a name in faces/")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Exit status 1 when there is something to warn of; what is wrong raises an error."""
+    from hri.face.checking import findings
+
+    folder = paths.find("faces", options.face)
+    model = load_face(folder)
+    load_gestures(model)
+    found = findings(model, folder)
+    for finding in found:
+        print(finding)
+    warnings = sum(finding.is_slip for finding in found)
+    drawn = sum(CORRECTIVE not in target for target in model.targets)
+    print(
+        f"{folder}: {drawn} targets, {len(model.targets) - drawn} correctives,"
+        f" {len(model.expressions)} expressions, {len(model.visemes)} visemes,"
+        f" {model.display.points} points: {_counted(warnings)}"
+    )
+    return 1 if warnings else 0
+
+
+def _counted(warnings: int) -> str:
+    return {0: "ok", 1: "1 warning"}.get(warnings, f"{warnings} warnings")

@@ -1,0 +1,30 @@
+"""`hri face list`: the faces there are, and the gestures they make."""
+
+from __future__ import annotations
+
+import argparse
+
+from hri.core import paths
+from hri.core.errors import HriError
+from hri.face import load_face
+from hri.face.gestures import load_gestures
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """It has none."""
+
+
+def run(options: argparse.Namespace) -> int:
+    """Exit status 1 when one of them does not load."""
+    status = 0
+    for name in paths.names("faces"):
+        if not paths.find("faces", name).is_dir():
+            continue
+        try:
+            model = load_face(name)
+            about = f"{model.settings.about} ({len(model.channels)} channels)"
+        except HriError as error:
+            about, status = f"broken: {error}", 1
+        print(f"{name:12} {about}")
+    print(f"\nGestures: {', '.join(sorted(load_gestures(load_face())))}")
+    return status

@@ -1,0 +1,55 @@
+"""`hri face new`: a copy of a face to start a new one from."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import shutil
+from pathlib import Path
+
+from hri.core import paths
+from hri.core.errors import HriError
+from hri.face import load_face
+from hri.face.gestures import FILE as GESTURES
+from hri.face.model import stamps_of
+
+NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("name", metavar="NAME", help="small letters, digits and _: my_robot")
+    add("--from", dest="source", default="robot", metavar="FACE", help="what to copy (%(default)s)")
+    add("--dir", type=Path, default=Path(), metavar="DIR", help="where its folder goes (here)")
+
+
+def run(options: argparse.Namespace) -> int:
+    if not NAME.fullmatch(options.name):
+        what = f'"{options.name}" is no name for a face'
+        raise HriError(f"{what} - write small letters, digits and _: my_robot")
+    folder: Path = options.dir / options.name
+    if folder.exists() or folder.is_symlink():
+        raise HriError(f"{folder}: is there already - choose another name, or --dir another folder")
+    source = paths.find("faces", options.source)
+    load_face(source)
+    try:
+        _copy(source, folder)
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise HriError(f"{folder}: cannot be written: {reason} - check --dir") from error
+    spelled = folder if folder.is_absolute() else f"./{folder}"
+    print(f"{folder}: a copy of {source.name}. Next:\n")
+    print(f"  draw in {folder / 'neutral.svg'} and {folder / 'targets'}/ with an SVG editor")
+    print(f"  hri face show {spelled} --watch     # shows each change when you save")
+    print(f"  hri face check {spelled}            # tells what is wrong")
+    print(f"  hri companion --face {spelled}      # lives with it")
+    return 0
+
+
+def _copy(source: Path, folder: Path) -> None:
+    """Copy what makes a face, and nothing else that lies in its folder."""
+    own_gestures = [source / GESTURES] if (source / GESTURES).is_file() else []
+    for file in (*(file for file, *_ in stamps_of(source)), *own_gestures):
+        target = folder / file.relative_to(source)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(file, target)

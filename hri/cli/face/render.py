@@ -1,0 +1,81 @@
+"""`hri face render`: one picture of a face."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+from hri.cli.face.arguments import FACE, pair, pixels, share
+from hri.core.signals import Image
+from hri.face import render_face
+from hri.hal.drivers.picture_file import write_picture
+
+HELP = """\
+A named expression or viseme is shown at its apex; --time moves idle life only.
+
+  hri face render --expression happy --out happy.png
+  hri face render --expression sad=0.5 --viseme aa --gaze=-0.5,0.2 --yaw 15 --out talking.png
+  hri face render --valence 0.6 --arousal -0.4 --time 12.5 --seed 3 --out calm.png"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.formatter_class = argparse.RawDescriptionHelpFormatter
+    parser.epilog = HELP
+    add = parser.add_argument
+    add("--face", default="robot", metavar="NAME", help=FACE)
+    part = "with =x for a share from 0 to 1"
+    add("--expression", default="neutral", metavar="LABEL[=x]", help=part)
+    add("--viseme", metavar="V[=x]", help=f"one of Oculus' 15 or Rhubarb's, {part}")
+    add(
+        "--weights",
+        default="",
+        metavar="NAME=x,...",
+        help="morph targets to add, -1.5 to 1.5; 1 without a number",
+    )
+    add("--valence", type=float, metavar="V", help="-1 to 1: a mood, below the expression")
+    add("--arousal", type=float, metavar="A", help="-1 to 1, likewise")
+    look = "-1 to 1: to the viewer's right, and up (write --gaze=-0.5,0)"
+    add("--gaze", type=pair, default=(0.0, 0.0), metavar="X,Y", help=look)
+    add(
+        "--yaw",
+        type=float,
+        default=0.0,
+        metavar="DEG",
+        help="turn to the viewer's right; most faces -25 to 25",
+    )
+    add("--pitch", type=float, default=0.0, metavar="DEG", help="turn up; most faces -15 to 15")
+    add("--time", type=float, metavar="T", help="add idle life as it is after T seconds")
+    add("--seed", type=int, default=0, metavar="N", help="of the idle life")
+    add("--size", type=pixels, default=(640, 480), metavar="WxH", help="in pixels")
+    add("--bits", action="store_true", help="one bit a pixel, as a small OLED shows it")
+    add("--out", required=True, type=Path, metavar="FILE.png", help="or .jpg")
+
+
+def run(options: argparse.Namespace) -> int:
+    label, intensity = share(options.expression)
+    picture = render_face(
+        options.face,
+        label,
+        intensity,
+        viseme=dict([share(options.viseme)]) if options.viseme else None,
+        weights=dict(share(part) for part in options.weights.split(",") if part),
+        gaze=options.gaze,
+        time=options.time,
+        seed=options.seed,
+        size=options.size,
+        valence=options.valence,
+        arousal=options.arousal,
+        yaw=options.yaw,
+        pitch=options.pitch,
+    )
+    write_picture(options.out, _in_one_bit(picture) if options.bits else picture)
+    return 0
+
+
+def _in_one_bit(picture: Image) -> Image:
+    from hri.face.renderers.small_screens import one_bit
+
+    lit = one_bit(picture)[..., None]
+    return np.repeat(np.where(lit, np.uint8(255), np.uint8(0)), 3, axis=2)

@@ -1,0 +1,46 @@
+import sys
+
+import numpy as np
+import pytest
+
+from hri.bench.face import frames, loading, skia
+from hri.core.errors import NotAvailable
+from hri.face.model import load_face
+
+MODEL = load_face()
+
+
+def test_the_face_of_the_bench_talks_and_moves() -> None:
+    vectors = np.array(frames.talking(MODEL, 60))
+    jaw = vectors[:, MODEL.channels.index("jawOpen")]
+    assert np.ptp(jaw) > 0.1
+    assert np.ptp(vectors[:, MODEL.channels.index("headRoll")]) > 0
+
+
+def test_rows_of_frames_tell_what_was_missed() -> None:
+    rows = list(frames.rows(MODEL, frames.talking(MODEL, 3), (160, 120)))
+    assert [row["unit"] for row in rows] == ["ms"] * 3
+    assert all(row["value"] > 0 and "passed" in row for row in rows)
+
+
+def test_loading_is_measured_with_and_without_what_was_kept(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(loading, "ROUNDS", 1)
+    monkeypatch.setattr(loading, "_DRAW", "print(0.5)")
+    baked, raw, first = loading.rows()
+    assert baked["value"] < raw["value"]
+    assert first["value"] == 0.5
+
+
+def test_without_skia_its_rows_say_why(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "skia", None)
+    with pytest.raises(NotAvailable, match="pip install skia-python"):
+        list(skia.rows(MODEL, frames.talking(MODEL, 1), (160, 120)))
+
+
+def test_skia_draws_the_same_picture() -> None:
+    pytest.importorskip("skia")
+    times, difference = skia.rows(MODEL, frames.talking(MODEL, skia.WARM + 2), (320, 240))
+    assert times["value"] > 0
+    assert difference["value"] < 1.5
