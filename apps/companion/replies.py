@@ -27,6 +27,7 @@ class Reply:
     feel: str = ""
     intensity: float = 1.0
     show: str = ""
+    gesture: str = ""
     action: str = ""
 
 
@@ -58,6 +59,7 @@ class Vocabulary:
     tags: Collection[str]
     stimuli: Collection[str]
     expressions: Collection[str]
+    gestures: Collection[str]
 
 
 UNASKED = ("blocked", "bump", "battery_low", "nobody")
@@ -134,6 +136,10 @@ def _reply(entry: Table, vocabulary: Vocabulary) -> Reply:
     if show and not show.startswith("{") and show not in vocabulary.expressions:
         remedy = did_you_mean(show, sorted(vocabulary.expressions))
         raise entry.error("show", f'the face has no expression "{show}"', remedy)
+    gesture = entry.string("gesture", "")
+    if gesture and gesture not in vocabulary.gestures:
+        remedy = did_you_mean(gesture, sorted(vocabulary.gestures))
+        raise entry.error("gesture", f'the face has no gesture "{gesture}"', remedy)
     feel = entry.string("feel", "")
     if feel and feel not in vocabulary.stimuli:
         remedy = did_you_mean(feel, sorted(vocabulary.stimuli))
@@ -141,7 +147,7 @@ def _reply(entry: Table, vocabulary: Vocabulary) -> Reply:
     intensity = entry.number("intensity", 1.0, minimum=0, maximum=1)
     action = entry.string("action", "", among=ACTIONS)
     entry.finish()
-    return Reply(tuple(text for text in texts if text), feel, intensity, show, action)
+    return Reply(tuple(text for text in texts if text), feel, intensity, show, gesture, action)
 
 
 def _question(entry: Table) -> Question:

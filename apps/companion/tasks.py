@@ -2,7 +2,8 @@
 
 converse    replies to what is heard, as `replies.toml` says
 wonder      asks a yes/no question now and then
-notice      turns what happens into feelings: a bump, a person, a low battery, being ignored
+notice      reacts to a bump and a low battery, and feels ignored; what else happens is felt by the
+            triggers in emotions/stimuli
 watch_keys  space stops it, m mutes the microphone, c switches captions, escape ends
 """
 
@@ -20,6 +21,7 @@ from hri.drive.behaviors import CommandGate
 from hri.emotion.behaviors import EmotionModel
 from hri.emotion.stimulus import load_stimuli
 from hri.face.behaviors import FaceRenderer
+from hri.face.gestures import load_gestures
 from hri.face.model import load_face
 from hri.hal.battery import Battery
 from hri.hal.camera import Camera
@@ -64,6 +66,7 @@ def authored_replies(context: TaskContext) -> Replies:
         tags=grammar.tag_names(),
         stimuli=load_stimuli(),
         expressions=face.expressions,
+        gestures=load_gestures(face),
     )
     return load_replies(Path(__file__).with_name("replies.toml"), vocabulary)
 
@@ -82,6 +85,7 @@ class Companion:
         self.talk = Lane(context)
         self.motion = Lane(context)
         self.face = Lane(context)
+        self.gestures = Lane(context)
         self.is_asleep = False
         self.silent_until = -math.inf
         self.last_contact = -math.inf
@@ -111,8 +115,14 @@ class Companion:
         if reply.show:
             label = str(tags.get("emotion", "neutral")) if reply.show[0] == "{" else reply.show
             self.face.start(verbs.show, label, SHOW_SECONDS)
+        if reply.gesture:
+            self.make(reply.gesture)
         if words:
             self.say(words)
+
+    def make(self, gesture: str) -> None:
+        """Make a gesture, in place of one that is being made."""
+        self.gestures.start(verbs.gesture, gesture)
 
     def say(self, words: str) -> None:
         """Say it, in place of what is being said; nothing while it was told to be quiet."""
@@ -129,7 +139,7 @@ class Companion:
             "name": self.replies.name,
             "time": f"{self.context.clock.wall():%H:%M}",
             "battery": round(100 * self._battery()),
-            "why": self.emotion.why_words(),
+            "why": self.emotion.why_words(str(tags.get("emotion", ""))),
             "feeling": self.emotion.feeling_words(),
             "commands": self._commands(),
         }
@@ -275,21 +285,20 @@ async def _ask(context: TaskContext, companion: Companion, question: Any) -> Non
     if answer is None:
         return
     companion.last_contact = context.clock.now()
-    companion.emotion.feel("answered")
     if words := (question.yes if answer else question.no):
         await verbs.say(context, words)
 
 
 async def notice(context: TaskContext) -> None:
-    """Feel what happens, and that nothing happens."""
+    """React to what happens, and feel that nothing happens."""
     companion = Companion.of(context)
     calm_since = context.clock.now()
     deeds = {
-        "bumper.pressed": partial(_noticed, companion, "bump", "bump"),
-        "battery.lowered": partial(_noticed, companion, "battery_low", "battery_low"),
-        "person.seen": partial(_noticed, companion, "person_seen", ""),
+        "bumper.pressed": partial(_bumped, companion),
+        "battery.lowered": partial(_talk_about, companion, "battery_low"),
     }
-    with context.queue(*deeds, "speech.heard", "question.answered") as queue:
+    others = ("person.seen", "speech.heard", "question.answered")
+    with context.queue(*deeds, *others) as queue:
         while True:
             event: Event | None = None
             with context.clock.move_on_after(1.0):
@@ -306,12 +315,15 @@ async def notice(context: TaskContext) -> None:
                 companion.emotion.feel("ignored")
 
 
-def _noticed(companion: Companion, stimulus: str, words: str) -> None:
-    companion.emotion.feel(stimulus)
-    if stimulus == "bump":
-        companion.motion.stop()  # no second try: whoever was bumped decides what comes next
-    if words and not companion.is_asleep:
-        # What hurts or worries it is talked about first, before any question.
+def _bumped(companion: Companion) -> None:
+    companion.motion.stop()  # no second try: whoever was bumped decides what comes next
+    companion.make("startle")
+    _talk_about(companion, "bump")
+
+
+def _talk_about(companion: Companion, words: str) -> None:
+    """What hurts or worries it is talked about first, before any question."""
+    if not companion.is_asleep:
         companion.last_contact = max(companion.last_contact, companion.context.clock.now())
         companion.say(companion.replies.unasked[words])
 

@@ -19,6 +19,8 @@ LINES = {
     "speech.rejected": "ignored   {text} ({reason})",
     "speech.said": "said      {text}",
     "emotion.changed": "feels     {label}",
+    "emotions.reloaded": "took      the emotion files that were saved",
+    "memory.forgotten": "forgot    as it was told",
     "head.nodded": "saw       a nod",
     "head.shaken": "saw       a shake of the head",
     "person.seen": "saw       a person",
@@ -106,7 +108,8 @@ class Narrator:
             self.tell("missed ticks: " + ", ".join(f"{name} {n}" for name, n in missed.items()))
         if self.robot.recording is not None:
             folder: Path = self.robot.recording.folder
-            self.tell(f"recorded in {folder}/: events.jsonl, face.mp4, robot.wav, timeline.png")
+            files = "events.jsonl, face.mp4, robot.wav, timeline.png, feelings.svg"
+            self.tell(f"recorded in {folder}/: {files}")
 
 
 class _Known(dict[str, object]):

@@ -15,6 +15,7 @@ from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
 from hri.core.realtime import become_realtime
 from hri.drive.behaviors import CommandGate
+from hri.emotion.persistence import memory_file
 from hri.emotion.personality import load_personality
 from hri.face.model import load_face
 from hri.hal.camera import Camera
@@ -78,7 +79,7 @@ def run(options: argparse.Namespace) -> int:
         seed=options.seed or 0,
         devices=replaced_devices(options),
         parameters={
-            "emotion": {"personality": options.personality},
+            "emotion": {"personality": options.personality, "memory": memory_of(options)},
             "display": {"personality": options.personality},
             "face": {"face": options.face},
             "renderer": {"face": options.face, "captions": options.captions},
@@ -123,6 +124,12 @@ def check_files(options: argparse.Namespace) -> None:
         check_video(Path(options.camera))
     load_face(options.face)
     load_personality(options.personality)
+
+
+def memory_of(options: argparse.Namespace) -> str:
+    """The file in which feelings outlast the run; none for runs that are to repeat."""
+    repeats = options.fast or options.demo or options.seed is not None
+    return "" if repeats else str(memory_file())
 
 
 def replaced_devices(options: argparse.Namespace) -> list[Description]:

@@ -100,7 +100,10 @@ class Clock(ABC):
 
     @abstractmethod
     def wall(self) -> datetime:
-        """Date and time of day, as people tell it; for words only, never for arithmetic."""
+        """Date and time of day, as people tell it.
+
+        For words, and for how long the robot was switched off; never for arithmetic within a run.
+        """
 
     async def drive(self) -> None:
         """Run the timers, for ever; started once, in the nursery of the robot loop."""

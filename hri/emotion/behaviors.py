@@ -2,62 +2,123 @@
 
 from __future__ import annotations
 
+import logging
+import os
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
-from hri.core.events import EventBus, Subscription
-from hri.core.signals import EmotionState, Event, Expression, Prosody, Stimulus
-from hri.emotion.display import felt_now, load_display
-from hri.emotion.dynamics import Affect
+from hri.core.errors import HriError
+from hri.core.signals import EmotionState, Expression, Gaze, Prosody, Stimulus
+from hri.emotion.acting import NOTHING_ACTED, whole_vector
+from hri.emotion.affect import Affect
+from hri.emotion.announcer import Announcer
+from hri.emotion.appraisal import LONGEST_NAME, OccEvent
+from hri.emotion.display import HONEST, felt_now, load_display
+from hri.emotion.keeper import Keeper
+from hri.emotion.label import CALM
+from hri.emotion.ledger import Cause
 from hri.emotion.model import load_emotions
 from hri.emotion.personality import load_personality
+from hri.emotion.reasons import labels_called, why_words
+from hri.emotion.reloading import Reloading
+from hri.emotion.triggers import Triggers
 
-_NOTABLE = 0.1
-"""A change of valence worth an event when the label stays the same."""
-_INTERVAL_S = 1.0
-"""Seconds between two such events."""
+LOOK_EVERY_S = 1.0
+"""Seconds between looks for ports to watch."""
+FAINT = 0.05
+"""An emotion of less than this is not felt, when somebody asks why it is."""
+CLEAR = 0.25
+"""From this on it is more than a little."""
+BATTERY_STEP = 0.01
+"""A change of the battery's level that counts, of 1."""
+
+log = logging.getLogger("hri.emotion")
 
 
 class EmotionModel(Behavior):
-    """What the robot feels: moved by stimuli, colored by a personality."""
+    """What the robot feels: moved by stimuli, colored by a personality.
+
+    Raises `emotion.changed` (label, valence, arousal, dominance: the mood's) when the label changes
+    or the valence has moved, and `mood.changed` when the name of the mood changes.
+    """
 
     category = "emotion"
 
     personality = Param("neutral", "name of a file in emotions/personalities, or a path")
+    memory = Param("", "file that keeps mood, relations and drives between runs; empty: none")
     stimulus = Input[Stimulus](
         "stimulus", "felt at every tick in which it is sent", is_optional=True
     )
+    battery = Input[float](
+        "double", "how full it is, 0 to 1: the drive for energy", is_optional=True
+    )
     state = Output[EmotionState]("emotion", "what is felt now")
+    label = Output[str]("string", "the emotion that stands out, else the name of the mood")
+    mood = Output[tuple[float, ...]]("doublearray", "pleasure, arousal, dominance, -1 to 1 each")
 
     def check(self) -> None:
         load_emotions(self.personality)
 
     def start(self, context: Context) -> None:
-        """Load the emotions and listen to `stimulus.felt`, with `stimulus` and `intensity` (1)."""
+        """Load the emotions and listen to `stimulus.felt` and to what stimuli have as a trigger.
+
+        `stimulus.felt` has a `stimulus`, and if need be an `intensity` (1) and a `person`.
+        """
+        self._context = context
         self._clock = context.clock
-        self._model = load_emotions(self.personality)
-        self._dynamics = self._model.dynamics()
-        self._affect = self._dynamics.rest(context.clock.now())
+        self._files = Reloading(self.personality, context.clock)
+        self._dynamics = self._files.model.dynamics()
+        self._looked = now = context.clock.now()
+        # The state when something last happened: what is felt now follows from it.
+        self._affect = self._dynamics.rest(now)
+        self._keeper: Keeper | None = None
+        if self.memory:
+            self._keeper = Keeper(Path(os.path.expanduser(self.memory)), self.personality, context)
+            self._affect = self._keeper.recall(self._dynamics)
         self._announcer = Announcer(context.events)
-        self._subscription: Subscription = context.events.subscribe("stimulus.felt", self._on_felt)
+        stimuli = self._files.model.stimuli.values()
+        self._triggers = Triggers(stimuli, context, self.feel)
 
     def compute(self, now: float, dt: float) -> None:
         for stimulus in self.stimulus.values:
-            self.feel(stimulus.name, stimulus.intensity)
-        self._affect = self._dynamics.advance(self._affect, now)
-        state = self._dynamics.read(self._affect)
+            self._triggers.feel(stimulus.name, stimulus.intensity)
+        self._feel_battery(now)
+        state = self._dynamics.read(self._dynamics.advance(self._affect, now))
         self._announcer.announce(state, now)
         self.state.send(state)
+        self.label.send(state.label)
+        self.mood.send((state.valence, state.arousal, state.dominance))
+        self._reload(now)
+        if now - self._looked >= LOOK_EVERY_S:
+            self._looked = now
+            self._triggers.connect()
+            if self._keeper is not None:
+                self._affect = self._keeper.forgotten(self._dynamics) or self._affect
+        if self._keeper is not None:
+            self._keeper.keep(self._affect, now)
 
     def stop(self) -> None:
-        self._subscription.cancel()
+        self._triggers.close()
+        self._files.close()
+        if self._keeper is not None:
+            self._keeper.close(self._affect)
+            self._keeper = None
 
-    def feel(self, name: str, intensity: float = 1.0) -> None:
-        """Something happened just now.
+    def feel(self, name: str, intensity: float = 1.0, person: str | None = None) -> None:
+        """Something happened just now, perhaps by a person, whose name is cut to 200 letters.
 
         Raises HriError for an unknown stimulus, ValueError for an intensity outside 0 to 1.
         """
         now = self._clock.now()
-        self._affect = self._dynamics.feel(self._affect, name, intensity, now)
+        person = person[:LONGEST_NAME] if person else None
+        self._affect = self._dynamics.feel(self._affect, name, intensity, now, person)
+
+    def appraise(self, event: OccEvent) -> None:
+        """Something happened just now to a goal, by a deed, or with an object."""
+        self._affect = self._dynamics.appraise(self._affect, event, self._clock.now())
 
     def feeling(self) -> EmotionState:
         """What is felt now."""
@@ -65,78 +126,138 @@ class EmotionModel(Behavior):
 
     def feeling_words(self) -> str:
         """What the robot is, after "I am": "happy"."""
-        return self._model.words(self.feeling().label)
+        return self._files.model.words(self.feeling().label)
 
-    def why(self) -> list[tuple[str, float]]:
-        """The causes of what is felt with their shares, the largest first; see Dynamics.why."""
+    def why(self) -> tuple[Cause, ...]:
+        """The causes of what is felt with their shares and ages, the largest first."""
         return self._dynamics.why(self._current())
 
-    def why_words(self) -> str:
-        """The same as a sentence: "I am sad because you scolded me."."""
-        return self._model.why_words(self._dynamics, self._current())
+    def why_words(self, about: str = "") -> str:
+        """The same as a sentence: "I am sad because you scolded me.".
+
+        `about` is what was asked about, as people call it: "why are you sad?".
+        """
+        state, looks = self.feeling(), self._files.model.display.looks
+        labels = labels_called(about, looks)
+        if not labels or state.label in labels:
+            return self._because(state.label, state, looks[state.label].words)
+        strongest = max(labels, key=lambda label: state.emotions.get(label, 0.0))
+        intensity = state.emotions.get(strongest, 0.0)
+        if intensity >= FAINT:
+            much = "also" if intensity >= CLEAR else "a little"
+            return self._because(strongest, state, f"{much} {about}")
+        return f"I am not {about}. {self._because(state.label, state, looks[state.label].words)}"
+
+    def _because(self, label: str, state: EmotionState, feeling: str) -> str:
+        words = {name: spec.words for name, spec in self._files.model.stimuli.items()}
+        causes = self._dynamics.why(self._current(), label)
+        return why_words(feeling, causes, words, state.valence)
 
     def _current(self) -> Affect:
         return self._dynamics.advance(self._affect, self._clock.now())
 
-    def _on_felt(self, event: Event) -> None:
-        properties = event.properties
-        self.feel(str(properties.get("stimulus", "")), float(properties.get("intensity", 1.0)))
-
-
-class Announcer:
-    """Raises `emotion.changed` when the label changes, or when the valence has moved."""
-
-    def __init__(self, events: EventBus) -> None:
-        self._events = events
-        self._label = ""
-        self._valence = 0.0
-        self._time = 0.0
-
-    def announce(self, state: EmotionState, now: float) -> None:
-        moved = abs(state.valence - self._valence) > _NOTABLE and now - self._time >= _INTERVAL_S
-        if state.label == self._label and not moved:
+    def _feel_battery(self, now: float) -> None:
+        """The battery runs down slowly: only what can be felt counts as something that happened."""
+        level = self.battery.value
+        if level is None:
             return
-        self._label, self._valence, self._time = state.label, state.valence, now
-        self._events.raise_event(
-            "emotion.changed",
-            label=state.label,
-            valence=round(state.valence, 4),
-            arousal=round(state.arousal, 4),
-            dominance=round(state.dominance, 4),
-        )
+        need = min(max(1.0 - level, 0.0), 1.0)
+        felt = self._dynamics.drives(self._affect)["energy"]
+        if abs(need - felt) >= BATTERY_STEP:
+            self._affect = self._dynamics.report(self._affect, "energy", need, now)
+
+    def _reload(self, now: float) -> None:
+        """Take files that were saved; with wrong ones all goes on as before, and it is told."""
+        try:
+            if not self._files.look(now):
+                return
+        except HriError as error:
+            log.error("%s", error)
+            self._context.events.raise_event("emotions.refused", reason=str(error))
+            return
+        settled = self._dynamics.settle(self._current())
+        self._dynamics = self._files.model.dynamics()
+        self._affect = self._dynamics.resume(settled.imprint, now)
+        self._triggers.close()
+        stimuli = self._files.model.stimuli.values()
+        self._triggers = Triggers(stimuli, self._context, self.feel, self._triggers.levels)
+        self._context.events.raise_event("emotions.reloaded", personality=self.personality)
 
 
 class EmotionDisplay(Behavior):
-    """What a feeling shows: the face's expression, how the voice sounds, how fast it drives."""
+    """What a feeling shows: face, voice, eyes, how fast it drives; and feelings that are put on."""
 
     category = "emotion"
 
     personality = Param("neutral", "whose expressiveness to use; the same as the EmotionModel's")
+    rules = Param(HONEST, "display rules of emotions/display.toml; empty: what is felt is shown")
     state = Input[EmotionState]("emotion", "what is felt")
     override = Input[Expression]("expression", "shown instead, as long as it is sent")
     expression = Output[Expression]("expression", "for the face")
     prosody = Output[Prosody]("prosody", "for the voice")
     speed = Output[float]("double", "factor on the driving speed, 0.6 to 1.2")
     arousal = Output[float]("double", "-1 (sleepy) to 1 (excited), for idle motion")
+    gaze = Output[Gaze]("gaze", "where the eyes rest when there is nothing to look at")
 
     def check(self) -> None:
-        load_display()
+        load_display().shown(_CALM, self.rules)
         load_personality(self.personality)
 
     def start(self, context: Context) -> None:
-        self._display = load_display()
-        self._expressiveness = load_personality(self.personality).expressiveness
+        self._clock = context.clock
+        self._files = Reloading(self.personality, context.clock)
+        self._model = self._files.model
+        self._state = _CALM
+        self._acting = NOTHING_ACTED
 
     def compute(self, now: float, dt: float) -> None:
+        self._reload(now)
+        display, personality = self._model.display, self._model.personality
         override = self.override.value
         if override is not None:
             self.expression.send(override)
         state = self.state.value
         if state is None:
             return
+        self._state = display.shown(state, self.rules)
+        shown = self._acting.shown(self._state, now)
         if override is None:
-            self.expression.send(self._display.expression(state, self._expressiveness))
-        felt = felt_now(state)
-        self.prosody.send(self._display.prosody(felt))
-        self.speed.send(self._display.speed.factor(felt))
-        self.arousal.send(float(felt[1]))
+            self.expression.send(display.expression(shown, personality.expressiveness))
+        felt = felt_now(shown)
+        self.prosody.send(display.prosody(felt))
+        self.speed.send(display.speed.value(felt))
+        self.arousal.send(felt[1])
+        self.gaze.send(display.eyes(felt))
+
+    def stop(self) -> None:
+        self._files.close()
+
+    def _reload(self, now: float) -> None:
+        """Take files that were saved; what is wrong with them is told by the EmotionModel."""
+        with suppress(HriError):
+            if self._files.look(now):
+                self._files.model.display.shown(_CALM, self.rules)  # they may have gone
+                self._model = self._files.model
+
+    def act(self, values: Mapping[str, float], duration: float) -> None:
+        """Show these emotions, 0 to 1, for so many seconds, whatever is felt. Raises HriError."""
+        self._acting = self._acting.set(values, duration, self._clock.now())
+
+    def act_more(self, emotion: str, increment: float, duration: float) -> None:
+        """Show an emotion by so much more than now, -1 to 1, for some seconds. Raises HriError."""
+        now = self._clock.now()
+        self._acting = self._acting.raised(emotion, increment, self._state, duration, now)
+
+    def act_all(self, values: Mapping[str, float] | Sequence[float], duration: float) -> None:
+        """Show these and no other emotions for some seconds. Raises HriError."""
+        self.act(whole_vector(values), duration)
+
+    @property
+    def is_acting(self) -> bool:
+        """Whether something is put on."""
+        now = self._clock.now()
+        return self._acting.ends(now) > now
+
+
+_CALM = EmotionState(CALM, 0.0, 0.0, 0.0, 0.0)
+"""What is shown before anything was felt."""

@@ -1,27 +1,40 @@
-"""How a feeling shows on the face, in the voice and in the driving: `emotions/display.toml`."""
+"""How a feeling shows on the face, in the voice, the eyes and the driving: `emotions/display.toml`.
+
+What is shown need not be what is felt. Display rules (P. Ekman and W. V. Friesen, "The repertoire
+of nonverbal behavior", Semiotica 1, 1969) weaken, exaggerate, hide or mask single emotions; what
+has not been hidden goes on to face, voice, eyes and driving.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-import numpy as np
-
 from hri.core import paths
-from hri.core.errors import did_you_mean
-from hri.core.signals import EmotionState, Expression, Prosody
+from hri.core.errors import HriError, did_you_mean
+from hri.core.signals import EmotionState, Expression, Gaze, Prosody
 from hri.core.toml import Table, load_toml
-from hri.emotion.emotions import NAMES, PAD, Vector
-from hri.emotion.label import MOODS
+from hri.emotion.emotions import EMOTIONS, INDEX, NAMES, emotions_in
+from hri.emotion.label import CALM, MOODS
+
+Felt = tuple[float, float, float]
+"""Pleasure, arousal, dominance, each -1 to 1."""
 
 EXPRESSIONS = (
-    "neutral", "happy", "sad", "angry", "surprised", "scared", "disgusted", "asleep",
+    "neutral", "angry", "sad", "happy", "surprised", "disgusted", "scared", "pleading",
+    "vulnerable", "despaired", "guilty", "disappointed", "embarrassed", "horrified", "skeptical",
+    "annoyed", "furious", "suspicious", "rejected", "bored", "tired", "asleep", "confused",
+    "amazed", "excited",
 )  # fmt: skip
-"""What every face can show."""
+"""What faces can show: the labels of ROS4HRI's hri_msgs/Expression."""
 
 LABELS = (*NAMES, *MOODS)
 """Every label that a state can have."""
+
+HONEST = ""
+"""The name of no display rules at all: what is felt is shown."""
 
 _ALMOST = 1 - 1e-12
 """A mood this close to the end of an axis is taken for less, so that its inverse is finite."""
@@ -40,22 +53,37 @@ class Look:
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """A factor that is linear in what is felt, within limits; 1 where nothing is felt."""
+    """Something that is linear in what is felt, within limits."""
 
     pleasure: float
     arousal: float
     dominance: float
     minimum: float
     maximum: float
+    rest: float = 1.0
+    """Where nothing is felt; 1 for a factor."""
 
-    def factor(self, felt: Vector) -> float:
-        """The factor for pleasure, arousal and dominance, each -1 to 1."""
-        weights = np.array([self.pleasure, self.arousal, self.dominance])
-        return min(max(1.0 + float(weights @ felt), self.minimum), self.maximum)
+    def value(self, felt: Felt) -> float:
+        """The value for pleasure, arousal and dominance, each -1 to 1."""
+        pleasure, arousal, dominance = felt
+        moved = self.pleasure * pleasure + self.arousal * arousal + self.dominance * dominance
+        return min(max(self.rest + float(moved), self.minimum), self.maximum)
 
 
 STEADY = Rule(0.0, 0.0, 0.0, 1.0, 1.0)
-"""What does not follow the feelings."""
+"""A factor that does not follow the feelings."""
+STRAIGHT = Rule(0.0, 0.0, 0.0, 0.0, 0.0, rest=0.0)
+"""Eyes that do not."""
+
+
+@dataclass(frozen=True, slots=True)
+class DisplayRule:
+    """What is shown of an emotion that is felt."""
+
+    show: str
+    """The emotion that is shown in its place; the same one when it is not masked."""
+    gain: float
+    """Factor on its charge: 0 hides it, below 1 weakens, above 1 exaggerates it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,32 +96,86 @@ class Display:
     volume: Rule
     range: Rule
     speed: Rule
+    gaze: Rule
+    """Height of the eyes, -1 (down) to 1 (up)."""
+    rules: Mapping[str, Mapping[str, DisplayRule]]
+    """Display rules by the name of the set and the emotion."""
+
+    def shown(self, state: EmotionState, rules: str = HONEST) -> EmotionState:
+        """What others get to see of a state under a set of display rules.
+
+        The mood is left as it is: it leaks through. Raises HriError for an unknown set.
+        """
+        if rules == HONEST:
+            return state
+        if rules not in self.rules:
+            raise HriError(f'no display rules "{rules}" - {did_you_mean(rules, self.rules)}')
+        return _shown(state, self.rules[rules])
 
     def expression(self, state: EmotionState, expressiveness: float = 1.0) -> Expression:
-        """The face for a state."""
+        """The face for a state: the look of its label, above the valence and arousal of its mood.
+
+        `expressiveness` is a factor on all that the face shows, 0 or more.
+        """
         look = self.looks[state.label]
         intensity = min(1.0, look.gain * state.intensity * expressiveness)
-        return Expression(look.expression, intensity)
+        valence, arousal = (
+            min(max(axis * expressiveness, -1.0), 1.0) for axis in (state.valence, state.arousal)
+        )
+        return Expression(look.expression, intensity, valence=valence, arousal=arousal)
 
-    def prosody(self, felt: Vector) -> Prosody:
+    def prosody(self, felt: Felt) -> Prosody:
         """The voice for pleasure, arousal and dominance, each -1 to 1."""
         return Prosody(
-            rate=self.rate.factor(felt),
-            pitch=self.pitch.factor(felt),
-            volume=self.volume.factor(felt),
-            range=self.range.factor(felt),
+            rate=self.rate.value(felt),
+            pitch=self.pitch.value(felt),
+            volume=self.volume.value(felt),
+            range=self.range.value(felt),
         )
 
+    def eyes(self, felt: Felt) -> Gaze:
+        """Where the eyes rest: who is ashamed or sad looks down, who is proud holds them up."""
+        return Gaze(0.0, self.gaze.value(felt))
 
-def felt_now(state: EmotionState) -> Vector:
+
+def felt_now(state: EmotionState) -> Felt:
     """Pleasure, arousal and dominance of mood and emotions together, each -1 to 1.
 
     The mood alone is too slow for voice and motion: who is praised sounds pleased at once.
     """
-    mood = np.clip([state.valence, state.arousal, state.dominance], -_ALMOST, _ALMOST)
-    pull = np.array([state.emotions.get(name, 0.0) for name in NAMES]) @ PAD
-    felt: Vector = np.tanh(np.arctanh(mood) + pull)
-    return felt
+    pleasure, arousal, dominance = map(
+        _straightened, (state.valence, state.arousal, state.dominance)
+    )
+    for name, intensity in state.emotions.items():
+        if intensity:
+            emotion = EMOTIONS[INDEX[name]]
+            pleasure += intensity * emotion.pleasure
+            arousal += intensity * emotion.arousal
+            dominance += intensity * emotion.dominance
+    return math.tanh(pleasure), math.tanh(arousal), math.tanh(dominance)
+
+
+def _straightened(axis: float) -> float:
+    """What the mood sums up before it saturates."""
+    return math.atanh(min(max(axis, -_ALMOST), _ALMOST))
+
+
+def _shown(state: EmotionState, rules: Mapping[str, DisplayRule]) -> EmotionState:
+    hidden = dict.fromkeys(state.emotions, 1.0)
+    """1 - intensity by emotion: charges add where these multiply."""
+    for name, intensity in state.emotions.items():
+        rule = rules.get(name, DisplayRule(name, 1.0))
+        hidden[rule.show] = hidden.get(rule.show, 1.0) * (1.0 - intensity) ** rule.gain
+    emotions = {name: 1.0 - rest for name, rest in hidden.items()}
+    if state.label not in rules:
+        # Another emotion may be masked by this one, which then shows more of it.
+        return replace(
+            state, intensity=emotions.get(state.label, state.intensity), emotions=emotions
+        )
+    label = rules[state.label].show
+    if emotions.get(label, 0.0) > 0.0:
+        return replace(state, label=label, intensity=emotions[label], emotions=emotions)
+    return replace(state, label=CALM, intensity=0.0, emotions=emotions)
 
 
 def display_path() -> Path:
@@ -104,27 +186,37 @@ def display_path() -> Path:
 def load_display(path: Path | None = None) -> Display:
     """The display rules. Raises HriError, or AuthoringError with the place."""
     table = load_toml(path or display_path(), "display file")
+    table.number("schema", 1, minimum=1, maximum=1)
     looks = table.table("label")
     voice = table.table("voice")
     drive = table.table("drive")
+    eyes = table.table("eyes", optional=True)
     display = Display(
         looks=_looks(looks),
-        rate=_rule(voice.table("rate")),
-        pitch=_rule(voice.table("pitch")),
-        volume=_rule(voice.table("volume")),
-        range=_rule(voice.table("range")) if "range" in voice else STEADY,
-        speed=_rule(drive.table("speed")),
+        rate=_factor(voice.table("rate")),
+        pitch=_factor(voice.table("pitch")),
+        volume=_factor(voice.table("volume")),
+        range=_factor(voice.table("range")) if "range" in voice else STEADY,
+        speed=_factor(drive.table("speed")),
+        gaze=_height(eyes.table("height")) if "height" in eyes else STRAIGHT,
+        rules={name: _rules(below) for name, below in table.tables("rules")},
     )
-    for part in (voice, drive, table):
+    for part in (voice, drive, eyes, table):
         part.finish()
     return display
 
 
 def _looks(table: Table) -> dict[str, Look]:
+    """A look for every label; one that the file leaves out shows as the mood alone."""
     for name in table.data:
         if name not in LABELS:
             raise table.error(name, f'no label "{name}"', did_you_mean(name, LABELS))
-    return {label: _look(table.table(label)) for label in LABELS}
+    return {
+        label: _look(table.table(label))
+        if label in table
+        else Look("neutral", 1.0, label.replace("_", " "))
+        for label in LABELS
+    }
 
 
 def _look(table: Table) -> Look:
@@ -137,17 +229,45 @@ def _look(table: Table) -> Look:
     return look
 
 
-def _rule(table: Table) -> Rule:
+def _factor(table: Table) -> Rule:
+    weights = _weights(table)
+    rule = Rule(
+        *weights,
+        minimum=table.number("minimum", minimum=0.1, maximum=1),
+        maximum=table.number("maximum", minimum=1, maximum=3),
+    )
+    table.finish()
+    return rule
+
+
+def _height(table: Table) -> Rule:
+    weights = _weights(table)
+    rule = Rule(
+        *weights,
+        minimum=table.number("minimum", minimum=-1, maximum=0),
+        maximum=table.number("maximum", minimum=0, maximum=1),
+        rest=0.0,
+    )
+    table.finish()
+    return rule
+
+
+def _weights(table: Table) -> tuple[float, float, float]:
     pleasure, arousal, dominance = (
         table.number(axis, 0.0, minimum=-2, maximum=2)
         for axis in ("pleasure", "arousal", "dominance")
     )
-    rule = Rule(
-        pleasure,
-        arousal,
-        dominance,
-        minimum=table.number("minimum", minimum=0.1, maximum=1),
-        maximum=table.number("maximum", minimum=1, maximum=3),
+    return pleasure, arousal, dominance
+
+
+def _rules(table: Table) -> dict[str, DisplayRule]:
+    return {name: _display_rule(name, table.table(name)) for name in emotions_in(table)}
+
+
+def _display_rule(emotion: str, table: Table) -> DisplayRule:
+    rule = DisplayRule(
+        show=table.string("show", emotion, among=NAMES),
+        gain=table.number("gain", 1.0, minimum=0.0, maximum=5.0),
     )
     table.finish()
     return rule

@@ -1,23 +1,22 @@
-"""The emotions the robot can have: what they feel like and how long they last.
+"""The emotions the robot can have: what they feel like, how long they last, which are opposites.
 
-The words are those of everyday life; "sadness" is the distress of Ortony, Clore and Collins (OCC).
+The 22 of Ortony, Clore and Collins (OCC, "The Cognitive Structure of Emotions", 1988), and surprise
+and disgust so that the six basic ones are all there. The words are those of everyday life:
+"sadness" is the distress of OCC, and this is the only place where that matters.
+
 Coordinates of the six basic emotions: Russell and Mehrabian 1977, "Evidence for a three-factor
-theory of emotions", J. Research in Personality 11:273-294, scaled to -1..1. The other four:
-Gebhard 2005, "ALMA: a layered model of affect", AAMAS, table 2. The time constants are ours, set by
-eye for a visit of a few minutes (ALMA fades an emotion linearly within 20 s).
+theory of emotions", J. Research in Personality 11:273-294, scaled to -1..1. All others: Gebhard
+2005, "ALMA: a layered model of affect", AAMAS, table 2. The time constants are ours, set by eye for
+a visit of a few minutes (ALMA fades an emotion linearly within 20 s); what names a feeling more
+exactly (relief rather than joy) lasts longer, so that it has the last word.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from hri.core.errors import did_you_mean
 from hri.core.toml import Table
-
-Vector = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,48 +33,78 @@ class Emotion:
     tau_s: float
     """Seconds in which its charge falls to 1/e."""
 
+    @property
+    def is_positive(self) -> bool:
+        """Whether it pleases."""
+        return self.pleasure >= 0
+
 
 EMOTIONS = (
+    # the six basic ones
     Emotion("joy", 0.76, 0.48, 0.35, 12.0),
     Emotion("sadness", -0.63, -0.27, -0.33, 13.0),
-    Emotion("anger", -0.51, 0.59, 0.25, 12.0),
+    Emotion("anger", -0.51, 0.59, 0.25, 14.0),
     Emotion("fear", -0.64, 0.60, -0.43, 5.0),
     Emotion("disgust", -0.60, 0.35, 0.11, 8.0),
     Emotion("surprise", 0.40, 0.67, -0.13, 1.5),
+    # prospects, and what became of them
+    Emotion("hope", 0.20, 0.20, -0.10, 12.0),
+    Emotion("satisfaction", 0.30, -0.20, 0.40, 18.0),
+    Emotion("relief", 0.20, -0.30, 0.40, 16.0),
+    Emotion("disappointment", -0.30, 0.10, -0.40, 18.0),
+    Emotion("fears_confirmed", -0.50, -0.30, -0.70, 16.0),
+    # the fortunes of others
+    Emotion("happy_for", 0.40, 0.20, 0.20, 12.0),
+    Emotion("gloating", 0.30, -0.30, -0.10, 10.0),
+    Emotion("resentment", -0.20, -0.30, -0.20, 14.0),
+    Emotion("pity", -0.40, -0.20, -0.50, 12.0),
+    # what one does oneself, what others do
     Emotion("pride", 0.40, 0.30, 0.30, 12.0),
     Emotion("shame", -0.30, 0.10, -0.60, 12.0),
-    Emotion("gratitude", 0.40, 0.20, -0.30, 12.0),
+    Emotion("admiration", 0.50, 0.30, -0.20, 10.0),
+    Emotion("reproach", -0.30, -0.10, 0.40, 12.0),
+    # what one does oneself, what others do, and what comes of it
+    Emotion("gratification", 0.60, 0.50, 0.40, 14.0),
+    Emotion("remorse", -0.30, 0.10, -0.60, 16.0),
+    Emotion("gratitude", 0.40, 0.20, -0.30, 14.0),
+    # things and persons in themselves
     Emotion("love", 0.30, 0.10, 0.20, 15.0),
+    Emotion("hate", -0.60, 0.60, 0.30, 12.0),
 )
 
 NAMES = tuple(emotion.name for emotion in EMOTIONS)
 INDEX = {name: index for index, name in enumerate(NAMES)}
 
-PAD: Vector = np.array([(e.pleasure, e.arousal, e.dominance) for e in EMOTIONS])
-"""Shape [emotions, 3]."""
-
 OPPOSITES = (
     ("joy", "sadness"),
     ("joy", "anger"),
     ("joy", "fear"),
+    ("hope", "fear"),
+    ("hope", "disappointment"),
+    ("relief", "fear"),
+    ("satisfaction", "disappointment"),
+    ("satisfaction", "fears_confirmed"),
+    ("happy_for", "resentment"),
+    ("gloating", "pity"),
+    ("pride", "shame"),
+    ("admiration", "reproach"),
+    ("gratification", "remorse"),
     ("gratitude", "anger"),
+    ("love", "hate"),
     ("love", "anger"),
     ("love", "disgust"),
-    ("pride", "shame"),
 )
 """Pairs of which a new one drives out the old one; always a positive and a negative emotion, so
 that what pleases more can never leave the robot less pleased."""
 
 
-def _opposition() -> Vector:
-    matrix = np.zeros((len(NAMES), len(NAMES)))
-    for one, other in OPPOSITES:
-        matrix[INDEX[one], INDEX[other]] = matrix[INDEX[other], INDEX[one]] = 1.0
-    return matrix
+def _opposites_of(name: str) -> tuple[str, ...]:
+    pairs = (pair for pair in OPPOSITES if name in pair)
+    return tuple(other for pair in pairs for other in pair if other != name)
 
 
-OPPOSITION: Vector = _opposition()
-"""1 where two emotions are opposites, shape [emotions, emotions]."""
+OPPOSITES_OF = {name: _opposites_of(name) for name in NAMES}
+"""The opposites of each emotion."""
 
 
 def emotions_in(table: Table) -> list[str]:

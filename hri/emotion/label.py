@@ -1,27 +1,24 @@
 """The one word for a state: the emotion that stands out, else the name of the mood.
 
 An emotion keeps the label until it has faded well below the level that gave it the label, or until
-another one clearly leads. Charges decay exponentially, so both moments are known in closed form:
-the label does not depend on how often anyone looks.
+another one clearly leads. Charges decay exponentially, so both moments are known in closed form
+when something happens: the label does not depend on when, or how often, anyone looks.
 """
 
 from __future__ import annotations
 
-import math
+from collections.abc import Mapping, Sequence
+from math import exp, hypot, log
 
-import numpy as np
-
-from hri.emotion.emotions import Vector
-
-RISE = -math.log(1 - 0.20)
+RISE = -log(1 - 0.20)
 """Charge at which an emotion takes the label (intensity 0.20)."""
-FALL = -math.log(1 - 0.12)
+FALL = -log(1 - 0.12)
 """Charge at which it loses it again (intensity 0.12)."""
 LEAD = 1.15
 """How many times the labelled charge another one must be to take over."""
 
-NOTHING = -1
-"""In place of an emotion's index: none stands out."""
+NOTHING = ""
+"""In place of an emotion's name: none stands out."""
 
 CALM = "calm"
 CALM_RADIUS = 0.12
@@ -43,53 +40,76 @@ OCTANTS = {
 
 MOODS = (CALM, *OCTANTS.values())
 
+Course = tuple[tuple[float, str], ...]
+"""Who has the label from when on: seconds, rising from 0, and an emotion; the last is NOTHING or
+keeps it."""
 
-def mood_name(mood: Vector) -> str:
-    """The name of a mood given as pleasure, arousal, dominance."""
-    if np.linalg.norm(mood) < CALM_RADIUS:
+_LOG_RISE, _LOG_FALL, _LOG_LEAD = log(RISE), log(FALL), log(LEAD)
+
+
+def mood_name(mood: Sequence[float]) -> str:
+    """The name of a mood given as pleasure, arousal, dominance, each -1 to 1."""
+    pleasure, arousal, dominance = mood
+    if hypot(pleasure, arousal, dominance) < CALM_RADIUS:
         return CALM
-    pleasure, arousal, dominance = (float(axis) >= -EDGE for axis in mood)
-    return OCTANTS[pleasure, arousal, dominance]
+    return OCTANTS[pleasure >= -EDGE, arousal >= -EDGE, dominance >= -EDGE]
 
 
-def leader(current: int, charges: Vector, rates: Vector, seconds: float) -> int:
-    """Index of the emotion that stands out some seconds on, NOTHING for none.
+def course(current: str, charges: Mapping[str, float], rates: Mapping[str, float]) -> Course:
+    """Which emotions have the label from now on, if nothing else happens.
 
-    `current` stood out before, `charges` are those at the start, `rates` their decay in 1/s.
+    `current` had it until now, `charges` are those of now, `rates` their decay in 1/s, above 0.
     """
-    if current == NOTHING:
-        current = int(np.argmax(charges))
-        if charges[current] < RISE:
-            return NOTHING
-    while True:
-        wait, successor = _next_change(current, charges, rates)
-        if wait > seconds:
-            return current
-        if successor == NOTHING:
-            return NOTHING
-        charges = charges * np.exp(-rates * wait)
-        seconds -= wait
-        current = successor
+    # On a logarithmic scale charges fade along straight lines.
+    heights = {
+        name: log(charge)
+        for name, charge in charges.items()
+        if charge >= FALL and (charge >= RISE or name == current)
+    }
+    if current not in heights:
+        current = _highest(heights, rates)
+    steps = [(0.0, current)]
+    while current != NOTHING:
+        at, current = _next_change(current, steps[-1][0], heights, rates)
+        if at == steps[-1][0]:
+            steps.pop()
+        steps.append((at, current))
+    return tuple(steps)
 
 
-def _next_change(current: int, charges: Vector, rates: Vector) -> tuple[float, int]:
-    """Seconds until the label passes on, and to which emotion."""
-    own, rate = float(charges[current]), float(rates[current])
-    fades = math.log(own / FALL) / rate if own > FALL else 0.0
+def label_at(course: Course, seconds: float) -> str:
+    """Who has the label some seconds after the start of a course."""
+    label = NOTHING
+    for at, name in course:
+        if at > seconds:
+            break
+        label = name
+    return label
+
+
+def _highest(heights: Mapping[str, float], rates: Mapping[str, float]) -> str:
+    """The strongest emotion; of equals the one that lasts longest."""
+    if not heights:
+        return NOTHING
+    return min(heights, key=lambda name: (-heights[name], rates[name], name))
+
+
+def _next_change(
+    current: str, now: float, heights: Mapping[str, float], rates: Mapping[str, float]
+) -> tuple[float, str]:
+    """When the label passes on, and to which emotion."""
+    own, rate = heights[current], rates[current]
+    fades = max((own - _LOG_FALL) / rate, now)
     # Of several at the same moment the strongest emotion wins, and any wins over none.
-    changes = [(fades, 0.0, NOTHING)]
-    for other in range(len(charges)):
-        wait = _overtakes_after(own, rate, float(charges[other]), float(rates[other]))
-        if other != current and charges[other] * math.exp(-rates[other] * wait) >= RISE:
-            changes.append((wait, -float(charges[other]), other))
-    wait, _, successor = min(changes)
-    return wait, successor
-
-
-def _overtakes_after(own: float, rate: float, other: float, other_rate: float) -> float:
-    """Seconds until `other` is LEAD times `own`; infinite when it never will be."""
-    if other >= LEAD * own:
-        return 0.0
-    if other <= 0 or other_rate >= rate:
-        return math.inf
-    return math.log(LEAD * own / other) / (rate - other_rate)
+    first = (fades, 0.0, 0.0, NOTHING)
+    for name, height in heights.items():
+        behind, faster = _LOG_LEAD + own - height, rate - rates[name]
+        if behind <= faster * now:
+            at = now
+        elif faster > 0:
+            at = behind / faster
+        else:
+            continue
+        if at <= fades and name != current and height - rates[name] * at >= _LOG_RISE:
+            first = min(first, (at, -exp(height), rates[name], name))
+    return first[0], first[3]

@@ -3,19 +3,29 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from hri.core import paths
 from hri.core.errors import HriError
-from hri.core.toml import Table, load_toml
+from hri.core.toml import REQUIRED, Table, load_toml
+from hri.emotion.appraisal import LONGEST_NAME
+from hri.emotion.drives import drives_in
 from hri.emotion.emotions import NAMES, emotions_in
+from hri.emotion.expectation import Expectation, expectations_in
+from hri.emotion.formula import Formula, parse_formula
+from hri.emotion.ledger import OTHER, TEMPERAMENT
 
 FOLDER = "emotions/stimuli"
-TEMPERAMENT = "temperament"
-"""The name under which a personality's baseline appears among the causes."""
+MOST = 1000
+"""Stimuli at most, in all files."""
 _STRONGEST = 0.95
+_FULL = parse_formula("1")
+_NAME = re.compile(r"[\w-]{1,60}", re.ASCII)
+_TRIGGER = re.compile(r"[\w-]+(\.[\w-]+)+", re.ASCII)
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,10 +41,34 @@ class StimulusSpec:
     """Share of its effect that is lost with each time, 0 to 1."""
     recover_s: float = 60.0
     """Seconds in which that loss falls to 1/e."""
+    trigger: str = ""
+    """The event that brings it, "bumper.pressed", or the port of a behavior that does,
+    "battery.level"; empty: somebody feels it by name."""
+    formula: Formula = _FULL
+    """Its intensity, of the event's properties; of a port's `value`."""
+    satisfies: Mapping[str, float] = field(default_factory=dict)
+    """Share of each drive that it stills in full strength, 0 to 1."""
+    relation: float = 0.0
+    """What it adds to the liking of who does it, in full strength, -1 to 1."""
+    person: str = ""
+    """Who does it where the event has no property `person`; empty: nobody."""
+    expects: tuple[Expectation, ...] = ()
+    """What must be felt after it, for `hri emotion check`."""
 
     def charges(self) -> list[float]:
         """Charge it adds to each emotion in full strength, in the order of the table."""
         return [-math.log1p(-self.emotions.get(name, 0.0)) for name in NAMES]
+
+    def intensity(self, properties: Mapping[str, Any]) -> float:
+        """How strong it is for an event, 0 (it is not felt) to 1.
+
+        Raises ValueError when the event lacks a property that the formula asks for.
+        """
+        return self.formula.intensity(properties)
+
+    def doer(self, properties: Mapping[str, Any]) -> str | None:
+        """Whom it comes from, for an event; None for nobody."""
+        return str(properties.get("person") or self.person)[:LONGEST_NAME] or None
 
 
 def stimulus_paths() -> Iterator[Path]:
@@ -49,9 +83,15 @@ def load_stimuli() -> dict[str, StimulusSpec]:
     stimuli: dict[str, StimulusSpec] = {}
     for path in stimulus_paths():
         table = load_toml(path, "stimulus file")
+        table.number("schema", 1, minimum=1, maximum=1)
         for name, entry in table.tables("stimulus"):
-            if name in stimuli or name == TEMPERAMENT:
+            if name in stimuli or name in (TEMPERAMENT, OTHER):
                 raise entry.error(None, f'"{name}" is taken already', "choose another name")
+            if not _NAME.fullmatch(name):
+                remedy = "use letters, digits, - and _"
+                raise entry.error(None, f'"{name[:40]}" is no name of a stimulus', remedy)
+            if len(stimuli) == MOST:
+                raise entry.error(None, f"more than {MOST} stimuli", "take away some")
             stimuli[name] = _stimulus(name, entry)
         table.finish()
     if not stimuli:
@@ -60,16 +100,55 @@ def load_stimuli() -> dict[str, StimulusSpec]:
 
 
 def _stimulus(name: str, table: Table) -> StimulusSpec:
-    emotions = table.table("emotions")
+    emotions = table.table("emotions", optional=True)
     emotions_in(emotions)
     habituation = table.table("habituation", optional=True)
     stimulus = StimulusSpec(
         name=name,
-        words=table.string("words"),
+        words=_text(table, "words"),
         emotions=emotions.weights(maximum=_STRONGEST),
         habituates=habituation.number("per_event", 0.0, minimum=0, maximum=1),
         recover_s=habituation.number("recover_s", 60.0, minimum=1, maximum=86400),
+        trigger=_trigger(table),
+        formula=_formula(table),
+        satisfies=_satisfied(table.table("satisfies", optional=True)),
+        relation=table.number("relation", 0.0, minimum=-1, maximum=1),
+        person=_text(table, "person", ""),
+        expects=expectations_in(table),
     )
     habituation.finish()
     table.finish()
     return stimulus
+
+
+def _text(table: Table, name: str, default: str = REQUIRED) -> str:
+    """A text that can be said."""
+    text: str = table.string(name, default)
+    if len(text) > LONGEST_NAME:
+        raise table.error(name, f"{name} has {len(text)} letters", f"keep it within {LONGEST_NAME}")
+    return text
+
+
+def _trigger(table: Table) -> str:
+    trigger = table.string("trigger", "")
+    if trigger and not _TRIGGER.fullmatch(trigger):
+        remedy = 'write an event, "bumper.pressed", or a port, "battery.level"'
+        raise table.error("trigger", f'"{trigger}" is no trigger', remedy)
+    return trigger
+
+
+def _formula(table: Table) -> Formula:
+    """An intensity: a number from 0 to 1, or a formula in quotes."""
+    if not isinstance(table.data.get("intensity"), str):
+        return parse_formula(repr(table.number("intensity", 1.0, minimum=0, maximum=1)))
+    text = table.string("intensity")
+    try:
+        return parse_formula(text)
+    except ValueError as error:
+        what, _, remedy = str(error).partition(" - ")
+        raise table.error("intensity", what, remedy or "mend the formula") from error
+
+
+def _satisfied(table: Table) -> dict[str, float]:
+    drives_in(table)
+    return table.weights()

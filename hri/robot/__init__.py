@@ -8,7 +8,7 @@ with Robot() as robot:
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import replace
 from functools import partial
@@ -28,11 +28,12 @@ from hri.core.latest import Board
 from hri.core.registry import canonical
 from hri.core.signals import Event, Utterance
 from hri.drive.behaviors import CommandGate
+from hri.emotion.appraisal import OccEvent
 from hri.hal.choices import apply_choices, load_choices
 from hri.hal.configuration import Configuration, load_configuration
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
-from hri.robot import verbs
+from hri.robot import acting, verbs
 from hri.robot.app import App, load_app
 from hri.robot.recording import Recording
 from hri.task import script
@@ -121,6 +122,10 @@ class Robot:
                 self.tasks.live_in(nursery)
                 nursery.start_soon(self.clock.drive)
                 self.clock.soon(partial(nursery.start_soon, self.networks.run))
+                if self.recording is not None:
+                    self.clock.soon(
+                        partial(nursery.start_soon, self.tasks.run, self.recording.watch)
+                    )
                 for job in jobs:
                     self.clock.soon(partial(nursery.start_soon, self.tasks.run, job))
                 self._ready()
@@ -219,12 +224,58 @@ class Robot:
         return heard
 
     def show(self, expression: str, seconds: float = 4.0) -> None:
-        """Show an expression for some seconds."""
+        """Show an expression for some seconds; 0 is as long as the face holds it by itself."""
         self.run(verbs.show, expression, seconds)
 
-    def feel(self, stimulus: str, intensity: float = 1.0) -> None:
-        """Let a stimulus such as "praise" move the emotions."""
-        self.run(verbs.feel, stimulus, intensity)
+    def gesture(self, name: str, strength: float = 1.0, seconds: float = 0.0) -> None:
+        """Make a gesture such as "nod" with the face and wait until it is made.
+
+        `strength` is 0 to 1.5; 0 `seconds` is the gesture's own duration.
+        """
+        self.run(verbs.gesture, name, strength, seconds)
+
+    def feel(self, stimulus: str, intensity: float = 1.0, person: str | None = None) -> None:
+        """Let a stimulus such as "praise", perhaps by a person, move the emotions."""
+        self.run(verbs.feel, stimulus, intensity, person)
+
+    def appraise(self, event: OccEvent) -> None:
+        """Let a goal that became likelier, a deed or a thing move the emotions.
+
+        `robot.appraise(GoalEvent("charger", utility=1.0, likelihood_after=0.8))` gives hope.
+        """
+        self.run(verbs.appraise, event)
+
+    def why(self, about: str = "") -> str:
+        """What it feels and why, in a sentence; `about` is a feeling such as "sad"."""
+        words: str = self.run(verbs.why, about)
+        return words
+
+    def action(self, name: str) -> None:
+        """Play an animation of the face, such as "nod"; does not wait for its end."""
+        self.run(acting.action, name)
+
+    def set_emotion_value(self, duration: float, emotion: str, value: float) -> None:
+        """Show an emotion at a value, 0 to 1, for some seconds, whatever is felt."""
+        self.run(acting.set_emotion_value, duration, emotion, value)
+
+    def set_emotion_increment(self, duration: float, emotion: str, value: float) -> None:
+        """Show an emotion by so much more than now, -1 to 1, for some seconds."""
+        self.run(acting.set_emotion_increment, duration, emotion, value)
+
+    def set_emotion_vector(
+        self, duration: float, emotions: Mapping[str, float] | Sequence[float]
+    ) -> None:
+        """Show nothing but these emotions for some seconds; see `hri.robot.acting`."""
+        self.run(acting.set_emotion_vector, duration, emotions)
+
+    def speak(self, phonemes: str | Sequence[str]) -> None:
+        """Move the lips to phonemes such as "h @ l oU", without a sound, and wait for the end."""
+        self.run(acting.speak, phonemes)
+
+    def wait_for_emotional_change(self, timeout: float = float("inf")) -> bool:
+        """Wait until emotions that were set are over; whether they are within `timeout` seconds."""
+        is_over: bool = self.run(acting.wait_for_emotional_change, timeout)
+        return is_over
 
     def move(self, distance: float) -> float:
         """Drive straight on by metres, back when negative; the metres really travelled."""

@@ -9,6 +9,7 @@ from hri.behavior.behavior import Behavior
 from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import Event, Expression, Utterance
 from hri.drive.tasks import move, turn
+from hri.emotion.appraisal import OccEvent
 from hri.emotion.behaviors import EmotionModel
 from hri.face.behaviors import Face
 from hri.face.model import load_face
@@ -17,7 +18,19 @@ from hri.speech.tasks import answers_of, listener_of, next_heard, say, wait_for_
 from hri.speech.turn import QUESTION
 from hri.task.context import TaskContext
 
-__all__ = ["ask", "feel", "listen", "move", "say", "show", "turn", "wait_for_speech"]
+__all__ = [
+    "appraise",
+    "ask",
+    "feel",
+    "gesture",
+    "listen",
+    "move",
+    "say",
+    "show",
+    "turn",
+    "wait_for_speech",
+    "why",
+]
 
 T = TypeVar("T")
 
@@ -26,16 +39,21 @@ ANSWERS = {"yes": True, "no": False, "head.nodded": True, "head.shaken": False}
 
 SHOWN = "expression.override"
 """Slot of the board with the expression that is shown in place of the felt one."""
+LOOK_EVERY = 0.02
+"""Seconds between looks at whether a gesture has been made."""
 
 
 async def show(context: TaskContext, label: str, seconds: float = 4.0) -> None:
-    """Show an expression for a while, whatever is felt.
+    """Show an expression for a while, whatever is felt; 0 seconds is as long as the face holds it.
 
     Raises HriError for one the face does not know.
     """
-    known = load_face(context.behavior(Face).face).expressions
+    face = load_face(context.behavior(Face).face)
+    known = face.expressions
     if label not in known:
         raise HriError(f'the face has no expression "{label}" - {did_you_mean(label, known)}')
+    timing = face.settings.timing[label]
+    seconds = seconds or timing.onset_s + timing.apex_s
     slot = context.board.slot(SHOWN)
     async with context.claim("face"):
         slot.set(Expression(label), context.clock.now())
@@ -45,9 +63,41 @@ async def show(context: TaskContext, label: str, seconds: float = 4.0) -> None:
             slot.clear()
 
 
-async def feel(context: TaskContext, stimulus: str, intensity: float = 1.0) -> None:
-    """Let a stimulus of `emotions/stimuli` move the emotions."""
-    context.behavior(EmotionModel).feel(stimulus, intensity)
+async def gesture(
+    context: TaskContext, name: str, strength: float = 1.0, seconds: float = 0.0
+) -> None:
+    """Make a gesture with the face, such as "nod", and wait until it is made.
+
+    `strength` is 0 to 1.5; `seconds` 0 is the gesture's own duration. When cancelled, or when
+    another one takes its place, the face glides on from where it is. Raises HriError for a gesture
+    the face does not know.
+    """
+    playing = context.behavior(Face).make(name, strength, seconds)
+    try:
+        while not playing.is_over:
+            await context.clock.sleep(LOOK_EVERY)
+    finally:
+        playing.cancel()
+
+
+async def feel(
+    context: TaskContext, stimulus: str, intensity: float = 1.0, person: str | None = None
+) -> None:
+    """Let a stimulus of `emotions/stimuli`, perhaps by a person, move the emotions.
+
+    Raises HriError for an unknown stimulus, ValueError for an intensity outside 0 to 1.
+    """
+    context.behavior(EmotionModel).feel(stimulus, intensity, person)
+
+
+async def appraise(context: TaskContext, event: OccEvent) -> None:
+    """Let a goal that became likelier, a deed or a thing move the emotions, as OCC has it."""
+    context.behavior(EmotionModel).appraise(event)
+
+
+async def why(context: TaskContext, about: str = "") -> str:
+    """What the robot feels and why, in a sentence: "I am sad because you scolded me."."""
+    return context.behavior(EmotionModel).why_words(about)
 
 
 async def listen(context: TaskContext, timeout: float = float("inf")) -> Utterance | None:

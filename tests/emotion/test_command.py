@@ -1,7 +1,9 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
+from PIL import Image
 
 from hri.cli.main import main
 
@@ -10,6 +12,32 @@ VISIT = """
 10 praise 1
 0 person_seen
 40 scold 0.5
+"""
+
+DAY = """
+# What became of a hope.
+[[event]]
+t = 5
+goal = "charger"
+utility = 1.0
+likelihood_after = 0.9
+
+[[event]]
+t = 20
+goal = "charger"
+utility = 1.0
+likelihood_before = 0.9
+likelihood_after = 0.0
+
+[[event]]
+t = 200
+object = "music"
+appeal = 0.8
+
+[[event]]
+t = 300
+action = "spilled"
+praiseworthiness = -0.6
 """
 
 
@@ -40,6 +68,24 @@ def test_check_reports_every_wrong_file(
     assert "odd.toml:1:1" in lines[1]
 
 
+def test_check_tells_what_is_not_as_expected(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("HRI_PATH", str(tmp_path))
+    path = tmp_path / "emotions" / "stimuli" / "mine.toml"
+    path.parent.mkdir(parents=True)
+    path.write_text(
+        '[stimulus.x]\nwords = "x"\nemotions = { joy = 0.5 }\ntrigger = "x.hapened"\n'
+        '[[stimulus.x.expect]]\ndominant = "anger"\n',
+        encoding="utf-8",
+    )
+    assert main(["emotion", "check"]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].startswith(f"{path}:5:1: x, neutral, after 0 s: anger was to be dominant")
+    assert lines[1].startswith('warning: x: nothing raises "x.hapened"')
+    assert "1 of" in lines[-1]
+
+
 def test_list_names_what_there_is(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["emotion", "list"]) == 0
     text = capsys.readouterr().out
@@ -56,10 +102,82 @@ def test_simulate_prints_a_state_for_each_event_and_time(
     assert states[2]["label"] == "joy"
     assert states[2]["why"][0]["cause"] == "praise"
     assert set(states[0]) == {
-        "t", "label", "pleasure", "arousal", "dominance", "emotions", "why",
+        "t", "label", "pleasure", "arousal", "dominance", "emotions", "drives", "why",
     }  # fmt: skip
+    assert sum(cause["share"] for cause in states[2]["why"]) == pytest.approx(1.0)
+    assert states[2]["why"][1]["cause"] == "person_seen"
+    assert states[2]["why"][1]["age_s"] == 10
+    assert set(states[0]["drives"]) == {"company", "play", "rest", "energy"}
     assert main(words) == 0
     assert "praise 79%, person_seen 21%" in capsys.readouterr().out
+
+
+def test_a_person_who_is_liked_pleases_more(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    joys = {}
+    for person in ("Anna", "Bob"):
+        path = tmp_path / f"{person}.txt"
+        visits = "".join(f"{100 * visit} petted 1 Anna\n" for visit in range(9))
+        path.write_text(f"{visits}2000 praise 1 {person}\n", encoding="utf-8")
+        assert main(["emotion", "simulate", "--events", str(path), "--json"]) == 0
+        last = json.loads(capsys.readouterr().out.splitlines()[-1])
+        joys[person] = last["emotions"]["joy"]
+    assert joys["Anna"] > joys["Bob"]
+
+
+def test_goals_deeds_and_things_are_felt(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "day.toml"
+    path.write_text(DAY, encoding="utf-8")
+    assert main(["emotion", "simulate", "--events", str(path), "--json"]) == 0
+    states = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert [state["label"] for state in states] == ["hope", "disappointment", "love", "shame"]
+    reason = {"cause": "goal.charger", "share": 1.0, "age_s": 0.0, "person": None}
+    assert states[1]["why"] == [reason]
+
+
+def test_goals_may_come_in_a_file_of_any_name(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "events"
+    path.write_text(DAY, encoding="utf-8")
+    assert main(["emotion", "simulate", "--events", str(path)]) == 0
+    assert "hope" in capsys.readouterr().out
+
+
+def test_nothing_is_kept_of_a_simulation(
+    visit: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    assert main(["emotion", "simulate", "--events", str(visit)]) == 0
+    assert not (tmp_path / "state").exists()
+
+
+def test_a_simulation_can_be_drawn(
+    visit: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out.png"
+    words = ["emotion", "simulate", "--events", str(visit), "--plot"]
+    assert main([*words, str(out)]) == 0
+    picture = np.asarray(Image.open(out).convert("RGB")).reshape(-1, 3)
+    # The lines of pleasure, arousal and dominance are there.
+    for color in ((0x2E, 0x8B, 0x57), (0xC4, 0x62, 0x10), (0x6A, 0x5A, 0xCD)):
+        assert (picture == color).all(axis=1).sum() > 100
+    assert main([*words, str(tmp_path / "missing" / "out.png")]) == 2
+    assert "choose another file" in capsys.readouterr().err
+
+
+def test_nothing_happening_can_be_simulated_and_drawn(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, out = tmp_path / "nothing.txt", tmp_path / "out.png"
+    path.write_text("# nothing\n", encoding="utf-8")
+    words = ["emotion", "simulate", "--events", str(path), "--plot", str(out)]
+    assert main(words) == 0
+    assert capsys.readouterr().out == ""
+    assert out.is_file()
 
 
 @pytest.mark.parametrize(
@@ -70,6 +188,9 @@ def test_simulate_prints_a_state_for_each_event_and_time(
         ("1 praise 2", '"2" is no intensity'),
         ("1 praise nan", '"nan" is no intensity'),
         ("praise", "1 words"),
+        ("1 praise 1 Anna Bob", "5 words"),
+        ("-1 praise 1", '"-1" is no time'),
+        ("1e10 praise 1", '"1e10" is no time'),
     ],
 )
 def test_a_wrong_event_is_refused_with_its_place(
@@ -80,3 +201,30 @@ def test_a_wrong_event_is_refused_with_its_place(
     assert main(["emotion", "simulate", "--events", str(path)]) == 2
     error = capsys.readouterr().err
     assert f"{path}:2:1: {what}" in error
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "what"),
+    [
+        ("[[event]]\nt = 1\n", 1, "an event of no kind - name one of stimulus, goal"),
+        ('[[event]]\nt = 1\ngoal = "a"\nobject = "b"\n', 1, "an event of two kinds"),
+        ('[[event]]\nt = 1\nstimulus = "prase"\n', 3, 'did you mean "praise"'),
+        ('[[event]]\nt = -1\nstimulus = "praise"\n', 2, "from 0 to"),
+        ('[[event]]\nt = 1\ngoal = "a"\nutility = 2\n', 4, "from -1 to 1"),
+        ('[[event]]\nt = 1\ngoal = "a"\nutility = 1\n', 1, '"likelihood_after" is missing'),
+        ('[[event]]\nt = 1\nobject = ""\nappeal = 1\n', 3, "0 letters"),
+        ('[[event]]\nt = 1\nobject = "a"\nappeal = nan\n', 4, "from -1 to 1"),
+        ('[[event]]\nt = 1\nobject = "a"\nappeal = 1\nappeals = 1\n', 5, 'mean "appeal"'),
+        ("[[events]]\nt = 1\n", 1, 'did you mean "event"'),
+        ("[event]\nt = 1\n", 1, "array of tables"),
+    ],
+)
+def test_a_wrong_event_in_toml_is_refused_with_its_place(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str, line: int, what: str
+) -> None:
+    path = tmp_path / "wrong.toml"
+    path.write_text(text, encoding="utf-8")
+    assert main(["emotion", "simulate", "--events", str(path)]) == 2
+    error = capsys.readouterr().err
+    assert f"{path}:{line}:" in error
+    assert what in error

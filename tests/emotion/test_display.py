@@ -6,15 +6,50 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hri.core import paths
+from hri.core.errors import HriError
 from hri.core.signals import EmotionState, Expression, Prosody
-from hri.emotion.display import display_path, felt_now, load_display
-from hri.emotion.emotions import INDEX, PAD
+from hri.core.toml import load_toml
+from hri.emotion.display import EXPRESSIONS, LABELS, Felt, display_path, felt_now, load_display
+from hri.emotion.emotions import EMOTIONS, INDEX, NAMES
+from hri.face import vocabulary
 
 SCHROEDER = (
     Path(__file__).resolve().parents[3] / "shared" / "emotion_tables" / "schroeder_mary_prosody.tsv"
 )
 DISPLAY = load_display()
 axes = st.floats(-1, 1)
+shares = st.floats(0, 1)
+
+
+def coordinates(name: str) -> Felt:
+    emotion = EMOTIONS[INDEX[name]]
+    return emotion.pleasure, emotion.arousal, emotion.dominance
+
+
+def test_it_knows_what_faces_can_show() -> None:
+    assert EXPRESSIONS == vocabulary.EXPRESSIONS
+
+
+def test_every_face_of_the_house_can_show_every_label() -> None:
+    wanted = {look.expression for look in DISPLAY.looks.values()}
+    for name in ("robot", "person", "eyes"):
+        settings = load_toml(paths.find("faces", name) / "face.toml")
+        assert wanted <= set(settings.table("expressions").keys()), name
+
+
+def test_every_label_has_a_look_and_words_of_its_own() -> None:
+    words = [DISPLAY.looks[label].words for label in LABELS]
+    assert len(set(words)) == len(words)
+    assert all(DISPLAY.looks[name].expression != "neutral" for name in NAMES)
+
+
+def test_what_feels_bad_never_shows_as_a_smile_nor_the_other_way_round() -> None:
+    valence = {label: place[0] for label, place in vocabulary.AFFECT.items()}
+    for emotion in EMOTIONS:
+        # Those without a place, such as guilty, are no smile and no frown.
+        shown = valence.get(DISPLAY.looks[emotion.name].expression, emotion.pleasure)
+        assert shown * emotion.pleasure > 0, emotion.name
 
 
 @pytest.mark.skipif(not SCHROEDER.is_file(), reason="the published table is not here")
@@ -42,15 +77,15 @@ def test_a_file_without_a_range_leaves_the_melody_alone(tmp_path) -> None:
     path = tmp_path / "display.toml"
     path.write_text("".join(line for line in lines if not line.startswith("range")))
 
-    assert load_display(path).prosody(PAD[INDEX["anger"]]).range == 1.0
+    assert load_display(path).prosody(coordinates("anger")).range == 1.0
 
 
 def test_anger_and_sadness_sound_as_published() -> None:
-    anger, sadness = PAD[INDEX["anger"]], PAD[INDEX["sadness"]]
-    assert DISPLAY.rate.factor(anger) == pytest.approx(1.19, abs=0.01)
-    assert DISPLAY.pitch.factor(anger) == pytest.approx(1.10, abs=0.01)
-    assert DISPLAY.pitch.factor(sadness) == pytest.approx(0.89, abs=0.01)
-    assert DISPLAY.rate.factor(sadness) == pytest.approx(0.75), "capped, published is 0.74"
+    anger, sadness = coordinates("anger"), coordinates("sadness")
+    assert DISPLAY.rate.value(anger) == pytest.approx(1.19, abs=0.01)
+    assert DISPLAY.pitch.value(anger) == pytest.approx(1.10, abs=0.01)
+    assert DISPLAY.pitch.value(sadness) == pytest.approx(0.89, abs=0.01)
+    assert DISPLAY.rate.value(sadness) == pytest.approx(0.75), "capped, published is 0.74"
 
 
 @settings(deadline=None)
@@ -63,23 +98,88 @@ def test_everything_that_follows_stays_within_limits(p: float, a: float, d: floa
     assert 0.8 <= prosody.pitch <= 1.2
     assert 0.7 <= prosody.volume <= 1.3
     assert 0.5 <= prosody.range <= 1.6
-    assert 0.6 <= DISPLAY.speed.factor(felt) <= 1.2
+    assert 0.6 <= DISPLAY.speed.value(felt) <= 1.2
 
 
 def test_nothing_felt_changes_nothing() -> None:
     felt = felt_now(EmotionState("calm", 0.0, 0.0, 0.0, 0.0))
     assert DISPLAY.prosody(felt) == Prosody()
-    assert DISPLAY.speed.factor(felt) == 1.0
+    assert DISPLAY.speed.value(felt) == 1.0
 
 
 def test_an_emotion_shows_before_the_mood_has_moved() -> None:
     felt = felt_now(EmotionState("joy", 0.7, 0.0, 0.0, 0.0, {"joy": 0.7}))
     assert felt[0] > 0.4
-    assert DISPLAY.speed.factor(felt) > 1.1
+    assert DISPLAY.speed.value(felt) > 1.1
 
 
-def test_the_face_follows_the_label() -> None:
-    joy = EmotionState("joy", 0.5, 0.0, 0.0, 0.0)
-    assert DISPLAY.expression(joy) == Expression("happy", pytest.approx(0.7))
-    assert DISPLAY.expression(joy, expressiveness=0.5) == Expression("happy", pytest.approx(0.35))
-    assert DISPLAY.expression(EmotionState("fear", 1.0, 0.0, 0.0, 0.0)) == Expression("scared", 1.0)
+def test_the_face_follows_the_label_above_the_mood() -> None:
+    joy = EmotionState("joy", 0.5, 0.4, -0.2, 0.0)
+    happy = DISPLAY.expression(joy)
+    assert happy == Expression("happy", pytest.approx(0.7), valence=0.4, arousal=-0.2)
+    reserved = DISPLAY.expression(joy, expressiveness=0.5)
+    assert reserved == Expression("happy", pytest.approx(0.35), valence=0.2, arousal=-0.1)
+    scared = DISPLAY.expression(EmotionState("fear", 1.0, -1.0, 1.0, 0.0), expressiveness=2.0)
+    assert scared == Expression("scared", 1.0, valence=-1.0, arousal=1.0)
+
+
+def test_the_ashamed_look_down_and_the_proud_hold_their_eyes_up() -> None:
+    assert DISPLAY.eyes(coordinates("shame")).y < -0.3
+    assert DISPLAY.eyes(coordinates("pride")).y > 0.2
+    assert DISPLAY.eyes((0.0, 0.0, 0.0)).y == 0.0
+
+
+def test_who_is_polite_shows_little_of_an_anger_that_is_felt() -> None:
+    angry = EmotionState("anger", 0.8, -0.2, 0.3, 0.1, {"anger": 0.8, "joy": 0.0})
+    shown = DISPLAY.shown(angry, "polite")
+    assert shown.label == "anger"
+    assert 0.2 < shown.intensity < 0.4
+    assert shown.emotions["anger"] == shown.intensity
+    assert (shown.valence, shown.arousal) == (angry.valence, angry.arousal)
+    assert angry.emotions["anger"] == 0.8, "what is felt stays as it is"
+
+
+def test_a_disappointment_hides_behind_a_smile() -> None:
+    felt = EmotionState("disappointment", 0.7, -0.1, 0.0, 0.0, {"disappointment": 0.7, "joy": 0.1})
+    shown = DISPLAY.shown(felt, "polite")
+    assert shown.label == "joy"
+    assert shown.emotions["disappointment"] == 0.0
+    assert shown.emotions["joy"] == pytest.approx(1 - 0.9 * 0.3**0.3)
+    assert DISPLAY.expression(shown).label == "happy"
+
+
+def test_what_is_hidden_altogether_leaves_a_calm_face() -> None:
+    felt = EmotionState("hate", 0.7, -0.4, 0.0, 0.0, {"hate": 0.7})
+    shown = DISPLAY.shown(felt, "polite")
+    assert (shown.label, shown.intensity, shown.emotions["hate"]) == ("calm", 0.0, 0.0)
+
+
+def test_a_state_without_intensities_can_be_shown_too() -> None:
+    assert DISPLAY.shown(EmotionState("anger", 0.5, 0.0, 0.0, 0.0), "polite").label == "calm"
+
+
+def test_without_rules_all_is_shown_and_unknown_rules_are_refused() -> None:
+    felt = EmotionState("joy", 0.7, 0.0, 0.0, 0.0, {"joy": 0.7})
+    assert DISPLAY.shown(felt) is felt
+    with pytest.raises(HriError, match='did you mean "polite"'):
+        DISPLAY.shown(felt, "polit")
+
+
+@settings(deadline=None)
+@given(
+    st.dictionaries(st.sampled_from(NAMES), shares),
+    st.sampled_from(sorted(DISPLAY.rules)),
+    st.data(),
+)
+def test_what_is_shown_stays_within_limits(
+    emotions: dict[str, float], rules: str, data: st.DataObject
+) -> None:
+    label = data.draw(st.sampled_from([*emotions, "calm", "hostile"]))
+    shown = DISPLAY.shown(
+        EmotionState(label, emotions.get(label, 0.2), 0.0, 0.0, 0.0, emotions), rules
+    )
+    assert all(0 <= intensity <= 1 for intensity in shown.emotions.values())
+    assert 0 <= shown.intensity <= 1
+    expression = DISPLAY.expression(shown)
+    assert expression.label in EXPRESSIONS
+    assert 0 <= expression.intensity <= 1

@@ -12,7 +12,7 @@ from hri.core.errors import AuthoringError, HriError
 from hri.core.recording import read_events
 from hri.hal.drive import Odometry
 from hri.hal.speaker import Speaker
-from hri.robot import load_app
+from hri.robot import load_app, verbs
 from hri.simulation.world import SimulatedWorld
 from hri.task import navigation, speech
 
@@ -79,10 +79,29 @@ def test_an_expression_the_face_does_not_know_is_refused(robot):
         robot.show("hapy")
 
 
+def test_a_gesture_takes_its_time_and_can_be_cut(robot):
+    ended = []
+    robot.events.subscribe("gesture.ended", lambda event: ended.append(event.time))
+    before = robot.clock.now()
+    robot.gesture("nod", seconds=2.0)
+    assert robot.clock.now() - before == pytest.approx(2.0, abs=0.1)
+
+    async def cut_short(context):
+        with context.clock.move_on_after(0.5):
+            await verbs.gesture(context, "yawn")
+
+    before = robot.clock.now()
+    robot.run(cut_short)
+    robot.wait(0.1)
+    assert ended[-1] - before == pytest.approx(0.5, abs=0.05)
+    with pytest.raises(HriError, match=r'no gesture "nodd" - did you mean "nod"\?'):
+        robot.gesture("nodd")
+
+
 def test_a_recording_has_all_its_parts(tmp_path):
     with Robot(config="simulated", clock=FakeClock(), record=tmp_path / "out") as robot:
         robot.say("One two three.")
-    for name in ("events.jsonl", "face.mp4", "robot.wav", "timeline.png"):
+    for name in ("events.jsonl", "face.mp4", "robot.wav", "timeline.png", "feelings.svg"):
         assert (tmp_path / "out" / name).stat().st_size > 100, name
     events = read_events(tmp_path / "out" / "events.jsonl")
     assert [event["text"] for event in events if event["event"] == "speech.said"] == [

@@ -1,0 +1,28 @@
+"""`hri emotion`: check, list, try out and watch what the robot feels; a module for each command."""
+
+from __future__ import annotations
+
+import argparse
+
+from hri.cli.emotion import check, forget, list, simulate, watch
+
+COMMANDS = {
+    "check": (check, "load all emotion files, run their self-tests, report what is wrong"),
+    "list": (list, "show personalities, stimuli and emotions"),
+    "simulate": (simulate, "play events and print what is felt"),
+    "watch": (watch, "show what a running robot feels"),
+    "forget": (forget, "erase what the robot remembers, or one person"),
+}
+"""Each is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    commands = parser.add_subparsers(dest="emotion_command", metavar="COMMAND", required=True)
+    for name, (module, about) in COMMANDS.items():
+        module.add_arguments(commands.add_parser(name, help=about, description=about))
+
+
+def run(options: argparse.Namespace) -> int:
+    module, _ = COMMANDS[options.emotion_command]
+    status: int = module.run(options)
+    return status

@@ -1,0 +1,118 @@
+"""The plot of a simulation: mood, emotions and drives over time, and what happened when."""
+
+from __future__ import annotations
+
+import bisect
+from collections.abc import Sequence
+from pathlib import Path
+
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from hri.cli.emotion.timeline import Happening
+from hri.core.errors import HriError
+from hri.core.signals import EmotionState, Stimulus
+from hri.emotion.affect import Affect
+from hri.emotion.appraisal import appraise
+from hri.emotion.dynamics import Dynamics
+
+POINTS = 600
+"""Moments between the first and the last; events come on top."""
+FADES_S = 60.0
+"""Seconds that are drawn after the last event, so that one sees it fade."""
+MOST_CURVES = 8
+"""Emotions that are drawn, the strongest ones."""
+MOST_NAMES = 40
+"""Events, and labels, that are written; with more one could read none."""
+_MOOD = {"pleasure": "#2e8b57", "arousal": "#c46210", "dominance": "#6a5acd"}
+
+
+def plot_affects(
+    dynamics: Dynamics, affects: Sequence[Affect], timeline: Sequence[Happening], path: Path
+) -> None:
+    """Draw a simulation to a PNG file. Raises HriError when it cannot be written."""
+    figure = Figure(figsize=(12, 9), layout="constrained")
+    FigureCanvasAgg(figure)
+    mood, emotions, drives = figure.subplots(3, 1, sharex=True, height_ratios=[2, 2, 1])
+    times, states = _sampled(dynamics, affects, timeline)
+    axes = {
+        "pleasure": [state.valence for state in states],
+        "arousal": [state.arousal for state in states],
+        "dominance": [state.dominance for state in states],
+    }
+    for name, values in axes.items():
+        mood.plot(times, values, color=_MOOD[name], label=name)
+    _finish(mood, "mood", -1.05)
+    _write_labels(mood, times, states)
+    for name in _strongest(states):
+        emotions.plot(times, [state.emotions[name] for state in states], label=name)
+    _finish(emotions, "emotions", -0.02)
+    _write_events(emotions, timeline)
+    for name in states[0].drives if states else ():
+        drives.plot(times, [state.drives[name] for state in states], label=name)
+    _finish(drives, "drives", -0.02)
+    drives.set_xlabel("seconds")
+    try:
+        figure.savefig(path, dpi=100, format="png", metadata={"Software": "hri"})
+    except OSError as error:
+        raise HriError(f"{path}: {error.strerror} - choose another file") from error
+
+
+def _sampled(
+    dynamics: Dynamics, affects: Sequence[Affect], timeline: Sequence[Happening]
+) -> tuple[list[float], list[EmotionState]]:
+    """States at even moments and at all that were printed, in order."""
+    if not affects:
+        return [], []
+    first, last = affects[0].time, affects[-1].time
+    if timeline and timeline[-1].time == last:
+        last += FADES_S
+    even = [first + (last - first) * step / POINTS for step in range(POINTS + 1)]
+    known = [affect.time for affect in affects]
+    points = [(affect.time, affect) for affect in affects]
+    for time in even:
+        before = bisect.bisect_right(known, time) - 1
+        points.append((time, dynamics.advance(affects[before], time)))
+    points.sort(key=lambda point: point[0])
+    return [time for time, _ in points], [dynamics.read(affect) for _, affect in points]
+
+
+def _strongest(states: Sequence[EmotionState]) -> list[str]:
+    peaks: dict[str, float] = {}
+    for state in states:
+        for name, intensity in state.emotions.items():
+            peaks[name] = max(peaks.get(name, 0.0), intensity)
+    felt = sorted((name for name, peak in peaks.items() if peak > 0), key=lambda n: -peaks[n])
+    return felt[:MOST_CURVES]
+
+
+def _write_labels(axes: Axes, times: Sequence[float], states: Sequence[EmotionState]) -> None:
+    changes = [
+        (time, state.label)
+        for time, state, before in zip(times, states, [None, *states], strict=False)
+        if before is None or state.label != before.label
+    ]
+    for time, label in changes[:MOST_NAMES]:
+        axes.axvline(time, color="#dddddd", zorder=0)
+        axes.text(time, 1.0, label, fontsize=8, rotation=35, ha="left", va="bottom")
+
+
+def _write_events(axes: Axes, timeline: Sequence[Happening]) -> None:
+    for event in timeline[:MOST_NAMES]:
+        axes.axvline(event.time, color="#dddddd", zorder=0)
+        name = _name_of(event)[:38]
+        axes.text(event.time, 1.0, name, fontsize=7, rotation=35, va="bottom", parse_math=False)
+
+
+def _name_of(event: Happening) -> str:
+    what = event.what
+    return what.name if isinstance(what, Stimulus) else appraise(what).cause
+
+
+def _finish(axes: Axes, title: str, bottom: float) -> None:
+    axes.set_ylabel(title)
+    axes.set_ylim(bottom, 1.05)
+    axes.grid(alpha=0.3)
+    if axes.lines:
+        axes.legend(loc="upper right", fontsize=8, ncols=4)

@@ -1,0 +1,225 @@
+"""What an event means to the robot: the emotions of Ortony, Clore and Collins (OCC, 1988).
+
+Three kinds of things happen: a goal becomes more or less likely (GoalEvent), someone does something
+good or bad (ActionEvent), there is something to like or dislike (ObjectEvent). Goals follow
+GAMYGDALA (Popescu, Broekens and van Someren 2014, IEEE Trans. Affective Computing 5:32-44): what
+counts is the change of the expected utility, utility * (likelihood after - before). Its program
+never gives relief and disappointment, since it asks for a rise of the likelihood where there is a
+fall; here both come when what was more likely than not does not happen.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+SELF = "self"
+"""The robot as the agent of an event."""
+UNKNOWN = 0.5
+"""Likelihood of what one knows nothing about."""
+CERTAIN = 0.95
+"""Intensity that an appraisal of full strength reaches in a calm robot: an intensity of 1 would
+take an infinite charge."""
+LONGEST_NAME = 100
+"""Letters that the name of a goal, a deed, a thing or a person may have."""
+
+
+@dataclass(frozen=True, slots=True)
+class GoalEvent:
+    """A goal, or something to be avoided, has become more or less likely.
+
+    Raises ValueError for a number out of range.
+    """
+
+    goal: str
+    utility: float
+    """What it is worth to its owner, -1 (must not happen) to 1."""
+    likelihood_after: float
+    """0 (it will not happen any more) to 1 (it has happened)."""
+    likelihood_before: float = UNKNOWN
+    owner: str | None = None
+    """The person whose goal it is; None: it is the robot's."""
+    liking: float | None = None
+    """How much the robot likes the owner, -1 to 1; left out, the relation it has."""
+    agent: str | None = None
+    """Who brought it about: a person, SELF, or nobody."""
+    praiseworthiness: float | None = None
+    """Of what the agent did, -1 to 1, 0 being an accident; left out, the agent is judged by what
+    came of it for the owner."""
+
+    def __post_init__(self) -> None:
+        check_name("goal", self.goal)
+        _check("utility", self.utility, -1.0)
+        _check("likelihood_after", self.likelihood_after, 0.0)
+        _check("likelihood_before", self.likelihood_before, 0.0)
+        for name in ("liking", "praiseworthiness"):
+            value = getattr(self, name)
+            if value is not None:
+                _check(name, value, -1.0)
+        for name in ("owner", "agent"):
+            if getattr(self, name) is not None:
+                check_name(name, getattr(self, name))
+
+    @property
+    def change(self) -> float:
+        """Change of the expected utility, -1 to 1."""
+        return self.utility * (self.likelihood_after - self.likelihood_before)
+
+    @property
+    def praise(self) -> float:
+        """How the agent is judged, -1 to 1; 0 without one."""
+        if self.agent is None:
+            return 0.0
+        return self.change if self.praiseworthiness is None else self.praiseworthiness
+
+
+@dataclass(frozen=True, slots=True)
+class ActionEvent:
+    """Someone did something good or bad by the robot's standards.
+
+    Raises ValueError for a number out of range.
+    """
+
+    action: str
+    praiseworthiness: float
+    """-1 to 1."""
+    agent: str = SELF
+    """A person, or SELF."""
+
+    def __post_init__(self) -> None:
+        check_name("action", self.action)
+        check_name("agent", self.agent)
+        _check("praiseworthiness", self.praiseworthiness, -1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class ObjectEvent:
+    """There is something, or someone, to like or dislike.
+
+    Raises ValueError for a number out of range.
+    """
+
+    object: str
+    appeal: float
+    """-1 to 1."""
+
+    def __post_init__(self) -> None:
+        check_name("object", self.object)
+        _check("appeal", self.appeal, -1.0)
+
+
+OccEvent = GoalEvent | ActionEvent | ObjectEvent
+
+
+@dataclass(frozen=True, slots=True)
+class Appraisal:
+    """What an event means."""
+
+    cause: str
+    """Under which the ledger has it: "goal.charger", "action.rescue", "object.spider"."""
+    charges: Mapping[str, float] = field(default_factory=dict)
+    """Added to each emotion, >= 0, before the personality's gains."""
+    person: str | None = None
+    """Who has to do with it."""
+    settles: bool = False
+    """Whether nothing is left of the goal to hope for or to fear."""
+    praise: float = 0.0
+    """How the person did, -1 to 1: a relation follows."""
+
+
+def appraise(event: OccEvent, relation: float = 0.0) -> Appraisal:
+    """What an event means to a robot that has this relation, -1 to 1, to the owner of the goal."""
+    if isinstance(event, GoalEvent):
+        return _goal(event, relation if event.liking is None else event.liking)
+    if isinstance(event, ActionEvent):
+        charges = _judged(event.agent, event.praiseworthiness)
+        person = None if event.agent == SELF else event.agent
+        praise = event.praiseworthiness if person else 0.0
+        return Appraisal(f"action.{event.action}", charges, person, praise=praise)
+    liked = {"love" if event.appeal > 0 else "hate": _charge(event.appeal)}
+    return Appraisal(f"object.{event.object}", _felt(liked))
+
+
+def _goal(event: GoalEvent, liking: float) -> Appraisal:
+    own = event.owner is None
+    desired = event.change if own else event.change * liking
+    charges = _prospects(event) if own else _fortunes(event, liking)
+    if event.agent is not None:
+        charges |= _judged(event.agent, event.praise)
+        charges |= _compound(event.agent, desired, event.praise)
+    doer = None if event.agent == SELF else event.agent
+    return Appraisal(
+        cause=f"goal.{event.goal}",
+        charges=_felt(charges),
+        person=event.owner if doer is None else doer,
+        settles=event.likelihood_after in (0.0, 1.0),
+        praise=0.0 if doer is None else event.praise,
+    )
+
+
+def _prospects(event: GoalEvent) -> dict[str, float]:
+    """Hope and fear; when it is decided, joy or sadness and what became of hope and fear."""
+    charge, pleases = _charge(event.change), event.change > 0
+    if 0.0 < event.likelihood_after < 1.0:
+        return {"hope" if pleases else "fear": charge}
+    charges = {"joy" if pleases else "sadness": charge}
+    if event.likelihood_before > UNKNOWN:
+        happened = event.likelihood_after == 1.0
+        if pleases:
+            charges["satisfaction" if happened else "relief"] = charge
+        else:
+            charges["fears_confirmed" if happened else "disappointment"] = charge
+    return charges
+
+
+def _fortunes(event: GoalEvent, liking: float) -> dict[str, float]:
+    """What is felt for others."""
+    if event.change > 0:
+        name = "happy_for" if liking > 0 else "resentment"
+    else:
+        name = "pity" if liking > 0 else "gloating"
+    return {name: _charge(event.change * liking)}
+
+
+def _judged(agent: str, praise: float) -> dict[str, float]:
+    """Pride and shame of oneself, admiration and reproach of others."""
+    if agent == SELF:
+        name = "pride" if praise > 0 else "shame"
+    else:
+        name = "admiration" if praise > 0 else "reproach"
+    return _felt({name: _charge(praise)})
+
+
+def _compound(agent: str, desired: float, praise: float) -> dict[str, float]:
+    """A deed and what came of it together: as much as both parts, and nothing without either.
+
+    A good deed of which harm came, or the other way round, is no compound.
+    """
+    if desired * praise <= 0:
+        return {}
+    if agent == SELF:
+        name = "gratification" if praise > 0 else "remorse"
+    else:
+        name = "gratitude" if praise > 0 else "anger"
+    return {name: 2.0 * math.sqrt(_charge(desired) * _charge(praise))}
+
+
+def _charge(strength: float) -> float:
+    """The charge that reads as an intensity of CERTAIN times the strength, whatever its sign."""
+    return -math.log1p(-CERTAIN * abs(strength))
+
+
+def _felt(charges: dict[str, float]) -> dict[str, float]:
+    return {name: charge for name, charge in charges.items() if charge > 0}
+
+
+def _check(name: str, value: float, minimum: float) -> None:
+    if not minimum <= value <= 1.0:
+        raise ValueError(f"{name} is {value} - give {minimum:g} to 1")
+
+
+def check_name(name: str, value: str) -> None:
+    """Raises ValueError for a name that is empty or too long; `name` says whose it is."""
+    if not 0 < len(value) <= LONGEST_NAME:
+        raise ValueError(f"{name} has {len(value)} letters - give 1 to {LONGEST_NAME}")

@@ -1,0 +1,195 @@
+"""How long feelings last and what they do to the mood: the closed forms, for one personality.
+
+    du/dt = -u / tau_emotion            dq/dt = (q_resting - q) / tau_drive
+    dm/dt = -m / tau_return + sum(PAD * u) / tau_follow + sum(PAD * (q - q_resting)) / tau_return
+
+for charges u, needs q and the mood m (pleasure, arousal, dominance, off the baseline). An
+exponential decay of rate a, in something that itself decays at rate b, leaves the convolution of
+both, exp(-slow t) (1 - exp(-gap t)) / gap with slow = min(a, b) and gap = |a - b|. Written so, with
+expm1, nearly equal rates and huge times are harmless.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import exp, expm1
+from typing import NamedTuple
+
+from hri.emotion.affect import Affect, Imprint, Need, Outlook
+from hri.emotion.emotions import EMOTIONS, NAMES
+from hri.emotion.ledger import STILL, Axes, Origin, Row, merged
+from hri.emotion.personality import Personality
+
+FORGOTTEN = 1e-15
+"""A charge below this is dropped when something new happens."""
+_UNFELT = dict.fromkeys(NAMES, 0.0)
+_NO_GAP = -1e-200
+"""In place of a gap of 0, so that (1 - exp(-gap t)) / gap is t as it ought to be."""
+
+
+_Step = tuple[float, float, float, float]
+"""What is left of 1, and how far it has pulled the mood."""
+
+
+class Force(NamedTuple):
+    """Something that fades exponentially and pulls the mood while it lasts."""
+
+    slow: float
+    """The smaller one of its own rate and the mood's, 1/s."""
+    gap: float
+    """Minus the distance of both, 1/s; below 0."""
+    pleasure: float
+    """Speed at which 1 of it pulls the mood, 1/s, over the gap."""
+    arousal: float
+    dominance: float
+
+
+class Reading(NamedTuple):
+    """A state some seconds after something happened."""
+
+    intensities: dict[str, float]
+    """Of all emotions, each 0 to 1."""
+    mood: Axes
+    """The sum of all pulls, off the baseline."""
+    levels: dict[str, float]
+    """The needs, each 0 to 1."""
+
+
+class Fading:
+    """What some seconds in which nothing happens leave of a state."""
+
+    def __init__(self, personality: Personality) -> None:
+        self._return_rate = 1.0 / personality.return_s
+        self.rates = {emotion.name: 1.0 / personality.tau_s(emotion) for emotion in EMOTIONS}
+        """Decay of each emotion's charge, 1/s."""
+        follow_rate = 1.0 / personality.follow_s
+        self._emotions = {
+            emotion.name: self._force(
+                self.rates[emotion.name],
+                follow_rate,
+                (emotion.pleasure, emotion.arousal, emotion.dominance),
+            )
+            for emotion in EMOTIONS
+        }
+        self._drives = {
+            drive.name: self._force(
+                1.0 / drive.tau_s,
+                self._return_rate,
+                (drive.pleasure, drive.arousal, drive.dominance),
+            )
+            for drive in personality.drives
+        }
+        self._resting = {drive.name: drive.resting for drive in personality.drives}
+
+    def _force(self, rate: float, scale: float, axes: Axes) -> Force:
+        gap = -abs(rate - self._return_rate) or _NO_GAP
+        pleasure, arousal, dominance = (axis * scale / gap for axis in axes)
+        return Force(min(rate, self._return_rate), gap, pleasure, arousal, dominance)
+
+    def read(self, affect: Affect) -> Reading:
+        """All that is felt, whatever its cause."""
+        now, imprint, outlook = affect
+        seconds = now - imprint.time
+        forces, mood_rate, intensities = self._emotions, self._return_rate, _UNFELT.copy()
+        kept = exp(-mood_rate * seconds)
+        p, a, d = outlook.mood
+        p, a, d = p * kept, a * kept, d * kept
+        for name, charge in outlook.charges.items():
+            slow, gap, pleasure, arousal, dominance = forces[name]
+            if slow == mood_rate:
+                held = charge * kept
+                lost = held * expm1(gap * seconds)
+                intensities[name] = -expm1(-(held + lost))
+            else:
+                held = charge * exp(-slow * seconds)
+                lost = held * expm1(gap * seconds)
+                intensities[name] = -expm1(-held)
+            p += lost * pleasure
+            a += lost * arousal
+            d += lost * dominance
+        levels = {}
+        for name, (level, _) in imprint.needs.items():
+            rest = self._resting[name]
+            if level != rest:
+                slow, gap, pleasure, arousal, dominance = self._drives[name]
+                if slow == mood_rate:
+                    held = (level - rest) * kept
+                    lost = held * expm1(gap * seconds)
+                    level = rest + (held + lost)
+                else:
+                    held = (level - rest) * exp(-slow * seconds)
+                    lost = held * expm1(gap * seconds)
+                    level = rest + held
+                p += lost * pleasure
+                a += lost * arousal
+                d += lost * dominance
+            levels[name] = level
+        return Reading(intensities, (p, a, d), levels)
+
+    def rows(self, imprint: Imprint, outlook: Outlook, seconds: float) -> dict[Origin, Row]:
+        """The same cause by cause: what is left of its charges, and its pull on the mood."""
+        kept = exp(-self._return_rate * seconds)
+        steps = {name: self._step(self._emotions[name], kept, seconds) for name in outlook.charges}
+        rows = {}
+        for origin, (charges, mood, time) in imprint.ledger.items():
+            rows[origin] = _evolved(charges, outlook.left, steps, mood, kept, time)
+        for origin, charges in imprint.fresh.items():
+            row = _evolved(charges, {}, steps, STILL, kept, imprint.time)
+            rows[origin] = merged(rows[origin], row) if origin in rows else row
+        return rows
+
+    def needs(self, needs: Mapping[str, Need], seconds: float) -> dict[str, Need]:
+        """The drives, and what they have done to the mood."""
+        kept = exp(-self._return_rate * seconds)
+        drifted, resting = dict(needs), self._resting
+        for name, (level, mood) in needs.items():
+            off = level - resting[name]
+            if off or mood != STILL:
+                step = self._step(self._drives[name], kept, seconds)
+                decay, pleasure, arousal, dominance = step
+                p, a, d = mood
+                mood = (
+                    p * kept + off * pleasure,
+                    a * kept + off * arousal,
+                    d * kept + off * dominance,
+                )
+                drifted[name] = Need(resting[name] + off * decay, mood)
+        return drifted
+
+    def _step(self, force: Force, kept: float, seconds: float) -> _Step:
+        """What some seconds do to 1 of a force; `kept` is what they leave of a mood."""
+        slow, gap, pleasure, arousal, dominance = force
+        lost = expm1(gap * seconds)
+        if slow == self._return_rate:
+            # Of what fades faster than the mood exp(-slow t) exp(-gap t) is left.
+            pull = kept * lost
+            left = kept + pull
+        else:
+            left = exp(-slow * seconds)
+            pull = left * lost
+        return left, pull * pleasure, pull * arousal, pull * dominance
+
+
+def _evolved(
+    charges: Mapping[str, float],
+    left: Mapping[str, float],
+    steps: Mapping[str, _Step],
+    mood: Axes,
+    kept: float,
+    time: float,
+) -> Row:
+    """A row after the steps; `left` was left of its charges, `kept` is left of its mood."""
+    p, a, d = mood
+    p, a, d = p * kept, a * kept, d * kept
+    evolved = {}
+    for name, charge in charges.items():
+        if name in left:
+            charge *= left[name]
+        decay, pleasure, arousal, dominance = steps[name]
+        p += charge * pleasure
+        a += charge * arousal
+        d += charge * dominance
+        charge *= decay
+        if charge > FORGOTTEN:
+            evolved[name] = charge
+    return Row(evolved, (p, a, d), time)

@@ -1,0 +1,171 @@
+"""An imprint of what was felt as JSON, to the last bit, and back with every value checked."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar
+
+from hri.core.errors import HriError, did_you_mean
+from hri.emotion.affect import Imprint, Need, Trace
+from hri.emotion.emotions import NAMES
+from hri.emotion.label import NOTHING
+from hri.emotion.ledger import Axes, Origin, Row
+
+T = TypeVar("T")
+
+LARGEST = 1e12
+"""No charge, pull or regard that comes from living is anywhere near."""
+LATEST = 1e12
+"""Seconds; no clock shows more."""
+
+
+def encoded(imprint: Imprint) -> dict[str, Any]:
+    """The imprint as JSON knows it."""
+    return {
+        "time": imprint.time,
+        "label": imprint.label,
+        "causes": [
+            {**_named(origin), "charges": dict(row.charges), "mood": row.mood, "time": row.time}
+            for origin, row in imprint.ledger.items()
+        ],
+        "fresh": [
+            {**_named(origin), "charges": dict(charges)}
+            for origin, charges in imprint.fresh.items()
+        ],
+        "needs": {name: need._asdict() for name, need in imprint.needs.items()},
+        "habituation": [
+            {**_named(origin), **trace._asdict()} for origin, trace in imprint.habituation.items()
+        ],
+        "relations": {person: trace._asdict() for person, trace in imprint.relations.items()},
+    }
+
+
+def decoded(data: object) -> Imprint:
+    """The imprint again. Raises HriError that says which value is missing or wrong."""
+    fields = Fields(data, "affect")
+    time = fields.number("time", LATEST)
+    label = fields.text("label")
+    if label != NOTHING:
+        _check_emotion(label, "affect.label")
+    causes = fields.entries("causes")
+    return Imprint(
+        time=time,
+        ledger={
+            _origin(entry): Row(_charges(entry), _axes(entry), entry.number("time", time))
+            for entry in causes
+        },
+        fresh={_origin(entry): _charges(entry) for entry in fields.entries("fresh")},
+        needs=fields.table(
+            "needs", lambda entry: Need(entry.number("level", 1.0, 0.0), _axes(entry))
+        ),
+        habituation={
+            _origin(entry): _trace(entry, time, lowest=0.0, highest=1.0)
+            for entry in fields.entries("habituation")
+        },
+        relations=fields.table(
+            "relations", lambda entry: _trace(entry, time, lowest=-LARGEST, highest=LARGEST)
+        ),
+        label=label,
+    )
+
+
+class Fields:
+    """A JSON object whose values are asked for by name and kind; errors say where they stand."""
+
+    def __init__(self, data: object, place: str) -> None:
+        """Raises HriError for what is no object."""
+        if not isinstance(data, dict):
+            raise HriError(f"{place} is no table")
+        self._data: Mapping[str, Any] = data
+        self._place = place
+
+    def value(self, name: str) -> Any:
+        """Whatever stands there. Raises HriError when nothing does."""
+        if name not in self._data:
+            raise HriError(f"{self._place} has no {name}")
+        return self._data[name]
+
+    def number(self, name: str, highest: float, lowest: float = -LATEST) -> float:
+        """A number within a range."""
+        return _number(self.value(name), f"{self._place}.{name}", lowest, highest)
+
+    def numbers(self, name: str) -> list[float]:
+        """A list of numbers within -LARGEST to LARGEST."""
+        where = f"{self._place}.{name}"
+        return [_number(item, where, -LARGEST, LARGEST) for item in self._list(name)]
+
+    def text(self, name: str) -> str:
+        """A text."""
+        return _text(self.value(name), f"{self._place}.{name}")
+
+    def entries(self, name: str) -> list[Fields]:
+        """A list of objects."""
+        items = enumerate(self._list(name))
+        return [Fields(item, f"{self._place}.{name}[{number}]") for number, item in items]
+
+    def below(self, name: str) -> Fields:
+        """An object."""
+        return Fields(self.value(name), f"{self._place}.{name}")
+
+    def table(self, name: str, make: Callable[[Fields], T]) -> dict[str, T]:
+        """An object of objects by names, each made into something."""
+        below = self.below(name)
+        return {key: make(below.below(key)) for key in below._data}
+
+    def charges(self, name: str) -> dict[str, float]:
+        """Charges by emotion."""
+        below = self.below(name)
+        for emotion in below._data:
+            _check_emotion(emotion, below._place)
+        return {emotion: below.number(emotion, LARGEST, 0.0) for emotion in below._data}
+
+    def _list(self, name: str) -> list[Any]:
+        value = self.value(name)
+        if not isinstance(value, list):
+            raise HriError(f"{self._place}.{name} is no list")
+        return value
+
+
+def _named(origin: Origin) -> dict[str, str | None]:
+    return {"name": origin.name, "person": origin.person}
+
+
+def _origin(entry: Fields) -> Origin:
+    person = None if entry.value("person") is None else entry.text("person")
+    return Origin(entry.text("name"), person)
+
+
+def _charges(entry: Fields) -> dict[str, float]:
+    return entry.charges("charges")
+
+
+def _axes(entry: Fields) -> Axes:
+    axes = entry.numbers("mood")
+    if len(axes) != 3:
+        raise HriError(f"a mood of {len(axes)} numbers, not 3")
+    return axes[0], axes[1], axes[2]
+
+
+def _trace(entry: Fields, time: float, lowest: float, highest: float) -> Trace:
+    before, after = (entry.number(name, highest, lowest) for name in ("before", "after"))
+    return Trace(before, after, entry.number("time", time))
+
+
+def _number(value: object, place: str, lowest: float, highest: float) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise HriError(f"{place} is no number")
+    if not math.isfinite(value) or not lowest <= value <= highest:
+        raise HriError(f"{place} is {value:.6g}, not {lowest:g} to {highest:g}")
+    return float(value)
+
+
+def _text(value: object, place: str) -> str:
+    if not isinstance(value, str):
+        raise HriError(f"{place} is no text")
+    return value
+
+
+def _check_emotion(name: str, place: str) -> None:
+    if name not in NAMES:
+        raise HriError(f'{place}: no emotion "{name}" - {did_you_mean(name, NAMES)}')

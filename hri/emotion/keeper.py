@@ -1,0 +1,139 @@
+"""How a running robot keeps its feelings in a file, and notices that it is to forget."""
+
+from __future__ import annotations
+
+import logging
+import math
+from functools import partial
+from pathlib import Path
+
+from hri.behavior.behavior import Context
+from hri.core.clock import Clock, Worker
+from hri.core.errors import HriError
+from hri.emotion.affect import Affect, Imprint
+from hri.emotion.dynamics import Dynamics
+from hri.emotion.persistence import Mark, Memory, keep, mark_of, put_aside, recall
+
+KEEP_EVERY_S = 2.0
+"""A robot whose plug is pulled forgets no more than this, `hri emotion watch` lags by no more."""
+SAVE_LATENCY = 0.05
+"""Seconds that writing takes on the fake clock."""
+
+log = logging.getLogger("hri.emotion")
+
+
+class Keeper:
+    """Keeps what a running robot feels in a file, whenever something has happened and at its end.
+
+    A file that cannot be used is told by the event `memory.refused` and put aside; one that cannot
+    be written by `memory.failed`, once; and `memory.forgotten` that it was made to forget.
+    """
+
+    def __init__(self, path: Path, personality: str, context: Context) -> None:
+        """`personality` is the robot's, for those who read the file."""
+        self._path = path
+        self._personality = personality
+        self._events = context.events
+        self._clock: Clock = context.clock
+        self._worker: Worker[None] = context.clock.worker(SAVE_LATENCY)
+        self._is_stuck = False
+        """Whether there is something in the way that must not be overwritten."""
+        self._has_failed = False
+        self._kept: Imprint | None = None
+        self._next = -math.inf
+        self._mark: Mark | None = None
+        """Of the file that was written last; None before."""
+        self._forgettings = 0
+
+    def recall(self, dynamics: Dynamics) -> Affect:
+        """What is felt now, the time away counted; nothing yet when nothing is remembered."""
+        now = self._clock.now()
+        try:
+            memory = recall(self._path)
+        except HriError as error:
+            self._put_aside(error)
+            memory = None
+        return self._resumed(memory, dynamics, now)
+
+    def forgotten(self, dynamics: Dynamics) -> Affect | None:
+        """What is still felt if somebody had the robot forget something; None if nobody had."""
+        if not self._is_touched():
+            return None
+        try:
+            memory = recall(self._path)
+        except HriError as error:
+            self._mark = None
+            self._put_aside(error)
+            return None
+        if memory is not None and memory.forgettings == self._forgettings:
+            return None  # another robot that has the same file; the last one to write wins
+        self._mark = self._kept = None
+        self._events.raise_event("memory.forgotten", file=str(self._path))
+        return self._resumed(memory, dynamics, self._clock.now())
+
+    def keep(self, affect: Affect, now: float) -> None:
+        """Write it beside the loop, if something has happened and the last time is a while ago."""
+        self._poll()
+        is_new = affect.imprint is not self._kept and now >= self._next
+        if is_new and not self._is_stuck and not self._worker.is_busy:
+            self._kept, self._next = affect.imprint, now + KEEP_EVERY_S
+            self._worker.submit(partial(self._write, self._memory(affect)))
+
+    def close(self, affect: Affect) -> None:
+        """Write it now, unless something was forgotten meanwhile."""
+        self._poll()
+        self._worker.close()
+        self._poll()
+        if not self._is_stuck and not self._is_touched():
+            try:
+                self._write(self._memory(affect))
+            except OSError as error:
+                self._fail(error)
+
+    def _resumed(self, memory: Memory | None, dynamics: Dynamics, now: float) -> Affect:
+        if memory is None:
+            return dynamics.rest(now)
+        self._forgettings = memory.forgettings
+        return dynamics.resume(memory.awakened(now, self._wall()), now)
+
+    def _write(self, memory: Memory) -> None:
+        self._mark = keep(self._path, memory)
+
+    def _is_touched(self) -> bool:
+        """Whether the file is not the one that was written last."""
+        self._poll()
+        if self._mark is None or self._worker.is_busy:
+            return False
+        try:
+            return mark_of(self._path.stat()) != self._mark
+        except OSError:
+            return True
+
+    def _memory(self, affect: Affect) -> Memory:
+        now, wall = self._clock.now(), self._wall()
+        return Memory(affect.imprint, now, wall, self._personality, self._forgettings)
+
+    def _wall(self) -> float:
+        return self._clock.wall().timestamp()
+
+    def _poll(self) -> None:
+        try:
+            self._worker.poll()
+        except OSError as error:
+            self._fail(error)
+
+    def _put_aside(self, problem: HriError) -> None:
+        try:
+            reason = f"{problem} - it is kept as {put_aside(self._path)}, and the robot begins anew"
+        except OSError as error:
+            self._is_stuck = True  # or the end of this run would overwrite it
+            reason = f"{problem} - nor can it be renamed ({error.strerror}): nothing is kept"
+        log.error("%s: %s", self._path, reason)
+        self._events.raise_event("memory.refused", file=str(self._path), reason=reason)
+
+    def _fail(self, error: OSError) -> None:
+        if not self._has_failed:
+            self._has_failed = True
+            reason = f"cannot write: {error.strerror} - check the folder"
+            log.error("%s: %s", self._path, reason)
+            self._events.raise_event("memory.failed", file=str(self._path), reason=reason)

@@ -1,0 +1,114 @@
+"""Who and what brought the state about: the state kept as one row per cause.
+
+Charges decay and pull the mood linearly, so the rows evolve each by itself and their sum is the
+state, exactly. Rows beyond a bound are added together under "other": nothing of the sum is lost.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+TEMPERAMENT = "temperament"
+"""The name under which a personality's baseline appears among the causes."""
+OTHER = "other"
+"""The name under which causes that count little appear together."""
+MOST = 8
+"""Rows that a ledger keeps apart, besides "other"."""
+FAINT = 1e-3
+"""A row that weighs less is not kept apart when it is older than OLD_S: it explains nothing."""
+OLD_S = 60.0
+
+Axes = tuple[float, float, float]
+"""Pleasure, arousal, dominance."""
+STILL: Axes = (0.0, 0.0, 0.0)
+
+
+class Origin(NamedTuple):
+    """What happened, and who did it."""
+
+    name: str
+    """A stimulus, "goal.NAME", "action.NAME", "object.NAME", "drive.NAME" or OTHER."""
+    person: str | None = None
+
+
+REST = Origin(OTHER)
+
+
+class Row(NamedTuple):
+    """What is left of a cause."""
+
+    charges: Mapping[str, float]
+    """By emotion, above 0; no unit."""
+    mood: Axes
+    """Its pull on the mood, off the baseline; no unit, before the tanh."""
+    time: float
+    """When it last happened, in seconds."""
+
+    @property
+    def weight(self) -> float:
+        """How much it counts."""
+        return sum(self.charges.values()) + sum(map(abs, self.mood))
+
+
+@dataclass(frozen=True, slots=True)
+class Cause:
+    """A part of what is felt."""
+
+    name: str
+    """A stimulus, "goal.NAME", "action.NAME", "object.NAME", "drive.NAME", TEMPERAMENT, OTHER."""
+    share: float
+    """Of the whole; shares sum to 1. Negative when it pulls the other way."""
+    age_s: float
+    """Seconds since it last happened; 0 for what always acts: drives and the temperament."""
+    person: str | None = None
+    """Who did it."""
+
+
+Ledger = Mapping[Origin, Row]
+
+
+def merged(one: Row, other: Row) -> Row:
+    """Both causes as one."""
+    charges = summed(one.charges, other.charges)
+    return Row(charges, added(one.mood, other.mood), max(one.time, other.time))
+
+
+def pruned(ledger: Ledger, now: float) -> Ledger:
+    """A ledger of at most MOST rows and REST; faint rows and those that count least go to REST."""
+    faint = [
+        origin
+        for origin, row in ledger.items()
+        if now - row.time > OLD_S and row.weight < FAINT and origin != REST
+    ]
+    if not faint and len(ledger) <= MOST:
+        return ledger
+    kept = [origin for origin in ledger if origin != REST and origin not in faint]
+    kept.sort(key=lambda origin: -ledger[origin].weight)
+    result = dict(ledger)
+    for origin in (*faint, *kept[MOST:]):
+        row = result.pop(origin)
+        result[REST] = merged(result[REST], row) if REST in result else row
+    return result
+
+
+def summed(one: Mapping[str, float], other: Mapping[str, float]) -> dict[str, float]:
+    """The charges of both, by emotion."""
+    both = dict(one)
+    for name, charge in other.items():
+        both[name] = both.get(name, 0.0) + charge
+    return both
+
+
+def total_mood(rows: Iterable[Row]) -> Axes:
+    """The sum of all rows, each axis."""
+    total = STILL
+    for row in rows:
+        total = added(total, row.mood)
+    return total
+
+
+def added(one: Axes, other: Axes) -> Axes:
+    """The sum of two points."""
+    return one[0] + other[0], one[1] + other[1], one[2] + other[2]

@@ -1,0 +1,195 @@
+"""What a robot still feels after a restart: its state in a file, with the time away counted.
+
+The file is the user's own, in the XDG state folder, and readable by nobody else. It holds names of
+people and what the robot thinks of them, so it can be looked at (it is JSON) and forgotten, as a
+whole or one person at a time. A file that cannot be used is put aside, never overwritten.
+"""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import NoReturn
+
+from hri.core import paths
+from hri.core.errors import HriError, did_you_mean, read_text
+from hri.emotion.affect import Imprint, shifted
+from hri.emotion.imprint_file import LATEST, Fields, decoded, encoded
+from hri.emotion.ledger import Origin, Row, merged
+
+SCHEMA = 1
+LONGEST_AWAY_S = 365 * 86400.0
+"""More than this is a clock that was wrong, and counts as this."""
+Mark = tuple[int, int]
+"""By which a file is known again: its number on the disk, and when it was written (nanoseconds)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Memory:
+    """What was felt, and when it was kept."""
+
+    imprint: Imprint
+    time: float
+    """Seconds of the clock of that run."""
+    wall: float
+    """Seconds since 1970."""
+    personality: str = "neutral"
+    """Of the robot that felt it: a name or a path."""
+    forgettings: int = 0
+    """How often a person was forgotten since the file began."""
+
+    def awakened(self, now: float, wall: float) -> Imprint:
+        """The same on the clock of another run, which shows `now` at `wall` seconds since 1970.
+
+        A clock that was set back counts as no time away.
+        """
+        away = min(max(wall - self.wall, 0.0), LONGEST_AWAY_S)
+        return shifted(self.imprint, now - away - self.time)
+
+
+def memory_file() -> Path:
+    """Where a robot keeps what it feels between runs."""
+    return paths.state_folder() / "feelings.json"
+
+
+def dump(memory: Memory) -> str:
+    """A memory as text; `parse` gives the same again, to the last bit."""
+    data = {
+        "schema": SCHEMA,
+        "time": memory.time,
+        "wall": memory.wall,
+        "personality": memory.personality,
+        "forgettings": memory.forgettings,
+        "affect": encoded(memory.imprint),
+    }
+    return json.dumps(data, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def parse(text: str) -> Memory:
+    """A memory of its text. Raises HriError for what is damaged, or of another version."""
+    try:
+        data = json.loads(text, parse_constant=_refuse)
+    except (ValueError, RecursionError) as error:
+        raise HriError(f"no JSON: {error}") from error
+    fields = Fields(data, "the file")
+    if (schema := fields.value("schema")) != SCHEMA:
+        raise HriError(f"it is of version {schema!r:.20}, not {SCHEMA}")
+    memory = Memory(
+        imprint=decoded(fields.value("affect")),
+        time=fields.number("time", LATEST),
+        wall=fields.number("wall", LATEST),
+        personality=fields.text("personality"),
+        forgettings=int(fields.number("forgettings", LATEST, 0.0)),
+    )
+    if memory.imprint.time > memory.time:
+        raise HriError("it tells of a time after it was written")
+    return memory
+
+
+def _refuse(constant: str) -> NoReturn:
+    raise ValueError(f"{constant} is no number")
+
+
+def recall(path: Path) -> Memory | None:
+    """What the file holds; None when there is none.
+
+    Raises HriError for one that is damaged, cannot be read, or is of another version.
+    """
+    if not os.path.lexists(path):
+        return None
+    return parse(read_text(path, "memory of feelings"))
+
+
+def keep(path: Path, memory: Memory) -> Mark:
+    """Write the file, in the place of the one before, as a whole or not at all. Raises OSError."""
+    path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+    new = path.with_name(f"{path.name}.new")
+    new.unlink(missing_ok=True)
+    handle = os.open(new, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+    with os.fdopen(handle, "w", encoding="utf-8") as file:
+        file.write(dump(memory))
+        file.flush()
+        os.fsync(file.fileno())  # or a pulled plug may leave an empty file under the name
+        mark = mark_of(os.fstat(file.fileno()))
+    os.replace(new, path)
+    return mark
+
+
+def put_aside(path: Path) -> Path:
+    """Give a file that cannot be used another name; that name.
+
+    Raises OSError, also for what is no file: a folder that was named by mistake stays where it is.
+    """
+    if not path.is_file():
+        raise FileNotFoundError(errno.ENOENT, "it is no file", str(path))
+    number = 1
+    while os.path.lexists(aside := path.with_name(f"{path.stem}.unusable-{number}{path.suffix}")):
+        number += 1
+    path.rename(aside)
+    return aside
+
+
+def forget(path: Path, person: str | None = None) -> bool:
+    """Forget all that was felt, or a person; whether there was anything to forget.
+
+    With a person, what the robot thinks of them goes, and what they caused has no name any more. A
+    robot that runs forgets it too, within a second. Files that were put aside go as well when all
+    is forgotten. Raises HriError for somebody it does not know, for a file that cannot be used, and
+    for one that cannot be written.
+    """
+    try:
+        if person is None:
+            found = [path, *path.parent.glob(f"{path.stem}.unusable-*{path.suffix}")]
+            there = [file for file in found if os.path.lexists(file)]
+            for file in there:
+                file.unlink()
+            return bool(there)
+        memory = recall(path)
+        if memory is None:
+            return False
+        known = people(memory.imprint)
+        if person not in known:
+            raise HriError(f'nobody called "{person}" - {did_you_mean(person, known)}')
+        imprint, count = without(memory.imprint, person), memory.forgettings + 1
+        keep(path, replace(memory, imprint=imprint, forgettings=count))
+    except OSError as error:
+        raise HriError(f"{path}: {error.strerror} - check the folder") from error
+    return True
+
+
+def people(imprint: Imprint) -> set[str]:
+    """Everybody whose name is in it."""
+    origins = (*imprint.ledger, *imprint.fresh, *imprint.habituation)
+    named = {origin.person for origin in origins if origin.person is not None}
+    return named | set(imprint.relations)
+
+
+def without(imprint: Imprint, person: str) -> Imprint:
+    """The same without a person: what they caused stays felt, but nobody has done it."""
+    ledger: dict[Origin, Row] = {}
+    for origin, row in imprint.ledger.items():
+        nameless = _nameless(origin, person)
+        ledger[nameless] = merged(ledger[nameless], row) if nameless in ledger else row
+    fresh: dict[Origin, dict[str, float]] = {}
+    for origin, charges in imprint.fresh.items():
+        total = fresh.setdefault(_nameless(origin, person), {})
+        for emotion, charge in charges.items():
+            total[emotion] = total.get(emotion, 0.0) + charge
+    return imprint._replace(
+        ledger=ledger,
+        fresh=fresh,
+        habituation={o: trace for o, trace in imprint.habituation.items() if o.person != person},
+        relations={name: trace for name, trace in imprint.relations.items() if name != person},
+    )
+
+
+def _nameless(origin: Origin, person: str) -> Origin:
+    return Origin(origin.name) if origin.person == person else origin
+
+
+def mark_of(status: os.stat_result) -> Mark:
+    """By which the file of this status is known again."""
+    return status.st_ino, status.st_mtime_ns

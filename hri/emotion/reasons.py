@@ -1,0 +1,101 @@
+"""Why the robot feels as it does, in words: "mostly because you scolded me 2 minutes ago"."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from hri.emotion.display import Look
+from hri.emotion.ledger import TEMPERAMENT, Cause
+
+WORTH_SAYING = 0.2
+"""A cause with a smaller share is not mentioned."""
+MOST_CAUSES = 2
+ALONE = 0.9
+"""With this share a cause is the reason, with less it is a part of it."""
+MOSTLY = 0.6
+"""From this share on the first cause outweighs the second."""
+APPRAISED = ("goal", "action", "object")
+"""What causes begin with that have no stimulus: `goal.charger`."""
+ALWAYS = {
+    TEMPERAMENT: ("that is how I am", "that is how I am"),
+    "drive.company": ("I have had company", "I have been alone"),
+    "drive.play": ("I have had something to do", "I have had little to do"),
+    "drive.rest": ("I am rested", "I have had no rest"),
+    "drive.energy": ("my battery is full", "my battery runs down"),
+}
+"""Words for what always acts, where the mood is pleasant and where it is not."""
+JUST_NOW_S = 10.0
+"""What is younger needs no time said."""
+
+ALSO_CALLED = {"afraid": "scared"}
+"""What people say, and what the display file calls it."""
+
+_AGES = (
+    # up to so many seconds: (seconds of the unit, one of it, several of it)
+    (60.0, 1.0, "a moment ago", "a moment ago"),
+    (3600.0, 60.0, "a minute ago", "{} minutes ago"),
+    (86400.0, 3600.0, "an hour ago", "{} hours ago"),
+    (float("inf"), 86400.0, "a day ago", "{} days ago"),
+)
+
+
+def why_words(
+    feeling: str, causes: Sequence[Cause], words: Mapping[str, str], pleasure: float
+) -> str:
+    """One sentence: what the robot feels, and what made it so.
+
+    `feeling` is what follows "I am", `pleasure` that of the mood; `causes` come largest first;
+    `words` say of each cause by name what happened: "you praised me". Goals, actions and objects of
+    an appraisal are called by their own name; any other cause without words is not mentioned.
+    """
+    told = [
+        (cause.share, reason)
+        for cause in causes
+        if cause.share >= WORTH_SAYING and (reason := _reason(cause, words, pleasure))
+    ][:MOST_CAUSES]
+    if not told:
+        return f"I am {feeling}, and there is no special reason."
+    share, first = told[0]
+    if len(told) == 1:
+        return f"I am {feeling} {'because' if share >= ALONE else 'mostly because'} {first}."
+    second = told[1][1]
+    if share >= MOSTLY:
+        return f"I am {feeling} mostly because {first}, and a little because {second}."
+    return f"I am {feeling} because {first}, and because {second}."
+
+
+def labels_called(word: str, looks: Mapping[str, Look]) -> list[str]:
+    """The labels that people mean by a word such as "sad": it is their name, or says their look."""
+    meant = ALSO_CALLED.get(word, word)
+    return [
+        label
+        for label, look in looks.items()
+        if meant in (label, look.words, look.expression) and meant != "neutral"
+    ]
+
+
+def age_words(age_s: float) -> str:
+    """How long ago that is: "2 minutes ago"; empty for what happened just now."""
+    if age_s < JUST_NOW_S:
+        return ""
+    for limit, unit, one, several in _AGES:
+        # Rounded first, so that 59.7 minutes are an hour.
+        if round(age_s / unit) * unit < limit:
+            count = max(1, round(age_s / unit))
+            return one if count == 1 else several.format(count)
+    raise ValueError(f"an age of {age_s} s")
+
+
+def _reason(cause: Cause, words: Mapping[str, str], pleasure: float) -> str:
+    """What follows "because"; empty for what cannot be said."""
+    if cause.name in ALWAYS:
+        pleasant, unpleasant = ALWAYS[cause.name]
+        return pleasant if pleasure >= 0 else unpleasant
+    kind, _, name = cause.name.partition(".")
+    if cause.name in words:
+        what = words[cause.name]
+    elif kind in APPRAISED and name:
+        what = f"of {name.replace('_', ' ')}"
+    else:
+        return ""
+    return f"{what} {age_words(cause.age_s)}".rstrip()

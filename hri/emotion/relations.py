@@ -1,0 +1,37 @@
+"""What the robot thinks of people: a number from -1 (hated) to 1 (loved), 0 for a stranger.
+
+It is the tanh of a regard that stimuli add to and that fades over a month, so that it stays within
+its range and things of the same instant commute. It changes what a person can do to the robot: what
+pleases counts for more from somebody it likes, what hurts for more from somebody it does not.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from hri.emotion.emotions import EMOTIONS
+
+FADES_S = 30 * 86400.0
+"""Seconds in which a regard falls to 1/e."""
+PRAISED = 0.1
+"""What a deed of full praiseworthiness adds to the regard for who did it."""
+WEIGHT = 0.5
+"""How much more, or less, a person of relation 1 moves the robot than a stranger."""
+MOST = 200
+"""People that are remembered; of more the most indifferent one is forgotten."""
+
+SIGNS = {emotion.name: 1.0 if emotion.is_positive else -1.0 for emotion in EMOTIONS}
+"""1 for each emotion that pleases, -1 for the others."""
+
+
+def relation_of(regard: float) -> float:
+    """The relation, -1 to 1, of a regard."""
+    return math.tanh(regard)
+
+
+def weighted(charges: Mapping[str, float], relation: float) -> dict[str, float]:
+    """What a person of this relation, -1 to 1, charges where a stranger charges this."""
+    return {
+        name: charge * (1.0 + WEIGHT * relation * SIGNS[name]) for name, charge in charges.items()
+    }

@@ -1,0 +1,111 @@
+"""What happens on the robot becomes stimuli: events by name, and ports of behaviors.
+
+An event is felt each time it is raised. A port is felt when the formula of its stimulus rises above
+zero, so that it does not matter how often the port is read; it counts again after a zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from functools import partial
+from typing import Any
+
+from hri.behavior.behavior import Context
+from hri.behavior.runner import Watch
+from hri.core.errors import HriError
+from hri.core.events import Subscription
+from hri.core.signals import Event
+from hri.emotion.stimulus import StimulusSpec
+
+MOST_REFUSED = 100
+"""Stimuli whose refusal is told; somebody who sends nonsense does not fill the memory with it."""
+
+Felt = Callable[[str, float, str | None], object]
+"""Takes the name of a stimulus, its intensity and who it comes from."""
+
+
+class Triggers:
+    """Listens for `stimulus.felt` and for all stimuli that have a trigger, until it is closed.
+
+    What cannot be felt, such as an unknown stimulus, or an event without the property that a
+    formula asks for, is told by the event `stimulus.refused`, once a stimulus.
+    """
+
+    def __init__(
+        self,
+        stimuli: Iterable[StimulusSpec],
+        context: Context,
+        feel: Felt,
+        levels: Mapping[str, float] | None = None,
+    ) -> None:
+        """`levels` are those of the triggers in whose place these come."""
+        self.levels = dict(levels or {})
+        """How strong the stimuli of ports are, by name; what did not rise is not felt anew."""
+        self._context = context
+        self._feel = feel
+        self._refused: set[str] = set()
+        self._waiting = [spec for spec in stimuli if spec.trigger]
+        """Those whose trigger may still turn out to be a port of a network to come."""
+        subscribe = context.events.subscribe
+        self._links: list[Subscription | Watch] = [
+            subscribe("stimulus.felt", self._on_felt),
+            *(subscribe(spec.trigger, partial(self._on_event, spec)) for spec in self._waiting),
+        ]
+
+    def connect(self) -> None:
+        """Watch the ports that have come up since; called now and then."""
+        self._waiting = [spec for spec in self._waiting if not self._watch(spec)]
+
+    def close(self) -> None:
+        """Listen no more; a second call does nothing."""
+        for link in self._links:
+            link.cancel()
+        self._links.clear()
+
+    def feel(self, name: str, intensity: Any = 1.0, person: Any = None) -> None:
+        """Let a stimulus be felt, or tell why it cannot be."""
+        try:
+            self._feel(name, float(intensity), None if person is None else str(person))
+        except (HriError, TypeError, ValueError) as error:
+            self._refuse(name, error)
+
+    def _on_felt(self, event: Event) -> None:
+        properties = event.properties
+        name = str(properties.get("stimulus", ""))
+        self.feel(name, properties.get("intensity", 1.0), properties.get("person"))
+
+    def _on_event(self, spec: StimulusSpec, event: Event) -> None:
+        if (intensity := self._intensity(spec, event.properties)) > 0:
+            self.feel(spec.name, intensity, spec.doer(event.properties))
+
+    def _on_port(self, spec: StimulusSpec, value: Any, now: float) -> None:
+        intensity = self._intensity(spec, {"value": value})
+        before, self.levels[spec.name] = self.levels.get(spec.name, 0.0), intensity
+        if before == 0.0 < intensity:
+            self.feel(spec.name, intensity, spec.doer({}))
+
+    def _intensity(self, spec: StimulusSpec, properties: Mapping[str, Any]) -> float:
+        """How strong it is; 0 when that cannot be told."""
+        try:
+            return spec.intensity(properties)
+        except ValueError as error:
+            self._refuse(spec.name, error)
+            return 0.0
+
+    def _watch(self, spec: StimulusSpec) -> bool:
+        """Whether the trigger is a port that runs: "battery.level" of the behavior "battery"."""
+        behavior_id, _, output = spec.trigger.rpartition(".")
+        for runner in self._context.networks.runners.values():
+            for behavior in runner.network.behaviors:
+                names = (behavior.id, f"{runner.network.name}.{behavior.id}")
+                if behavior_id in names and output in behavior.outputs:
+                    watch = runner.watch(behavior.id, output, partial(self._on_port, spec))
+                    self._links.append(watch)
+                    return True
+        return False
+
+    def _refuse(self, name: str, error: Exception) -> None:
+        if name not in self._refused and len(self._refused) < MOST_REFUSED:
+            self._refused.add(name)
+            reason = f"{name}: {error}"
+            self._context.events.raise_event("stimulus.refused", reason=reason)

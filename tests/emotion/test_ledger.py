@@ -1,0 +1,44 @@
+import pytest
+
+from hri.emotion.ledger import (
+    FAINT,
+    MOST,
+    OLD_S,
+    OTHER,
+    REST,
+    STILL,
+    Origin,
+    Row,
+    pruned,
+    total_mood,
+)
+
+
+def row(charge: float, time: float = 0.0) -> Row:
+    return Row({"joy": charge}, (charge, 0.0, -charge), time)
+
+
+def test_what_counts_least_goes_to_the_rest() -> None:
+    ledger = {Origin(f"cause {n}"): row(1.0 + n) for n in range(MOST + 3)}
+    left = pruned(ledger, 0.0)
+    assert set(ledger) - set(left) == {Origin(f"cause {n}") for n in range(3)}
+    assert left[REST].charges["joy"] == pytest.approx(1.0 + 2.0 + 3.0)
+    assert total_mood(left.values()) == pytest.approx(total_mood(ledger.values()))
+
+
+def test_the_rest_takes_no_place_of_a_cause() -> None:
+    ledger = {Origin(f"cause {n}"): row(1.0) for n in range(MOST)}
+    assert pruned({**ledger, REST: row(0.1)}, 0.0).keys() == {*ledger, REST}
+
+
+def test_what_explains_nothing_any_more_goes_to_the_rest() -> None:
+    faint = row(FAINT / 4)
+    ledger = {Origin("old"): faint, Origin("strong"): row(1.0)}
+    assert pruned(ledger, OLD_S) is ledger
+    left = pruned(ledger, OLD_S + 1.0)
+    assert left == {Origin("strong"): row(1.0), Origin(OTHER): faint}
+
+
+def test_the_rest_stays_the_rest() -> None:
+    ledger = {REST: Row({}, STILL, 0.0)}
+    assert pruned(ledger, 1e9) == ledger

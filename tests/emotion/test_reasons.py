@@ -1,0 +1,76 @@
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hri.emotion.ledger import Cause
+from hri.emotion.reasons import age_words, why_words
+
+WORDS = {"scold": "you scolded me", "bump": "I bumped into something", "praise": "you praised me"}
+
+
+def test_one_cause_is_the_reason() -> None:
+    causes = [Cause("scold", 1.0, 2.0)]
+    assert why_words("sad", causes, WORDS, -0.2) == "I am sad because you scolded me."
+
+
+def test_of_two_causes_the_larger_weighs_more_and_each_has_its_age() -> None:
+    causes = [Cause("scold", 0.7, 130.0), Cause("bump", 0.25, 30.0), Cause("praise", 0.05, 1.0)]
+    told = why_words("sad", causes, WORDS, -0.2)
+    assert told == (
+        "I am sad mostly because you scolded me 2 minutes ago, "
+        "and a little because I bumped into something a moment ago."
+    )
+    causes = [Cause("scold", 0.5, 0.0), Cause("bump", 0.45, 0.0)]
+    told = why_words("sad", causes, WORDS, -0.2)
+    assert told == "I am sad because you scolded me, and because I bumped into something."
+
+
+def test_a_cause_that_is_most_of_it_is_told_so() -> None:
+    causes = [Cause("scold", 0.8, 0.0), Cause("bump", 0.15, 0.0)]
+    assert why_words("sad", causes, WORDS, -0.2) == "I am sad mostly because you scolded me."
+
+
+def test_what_pulls_the_other_way_or_has_no_words_is_not_told() -> None:
+    causes = [Cause("other", 1.2, 0.0), Cause("praise", -0.2, 0.0)]
+    assert why_words("calm", [], WORDS, 0.0) == "I am calm, and there is no special reason."
+    assert why_words("sad", causes, WORDS, -0.1) == "I am sad, and there is no special reason."
+
+
+@pytest.mark.parametrize(
+    ("cause", "pleasure", "reason"),
+    [
+        ("temperament", -0.3, "that is how I am"),
+        ("drive.company", -0.3, "I have been alone"),
+        ("drive.company", 0.3, "I have had company"),
+        ("drive.energy", -0.3, "my battery runs down"),
+        ("goal.find_the_charger", 0.3, "of find the charger"),
+    ],
+)
+def test_what_is_no_stimulus_has_words_too(cause: str, pleasure: float, reason: str) -> None:
+    told = why_words("so", [Cause(cause, 1.0, 0.0)], WORDS, pleasure)
+    assert told == f"I am so because {reason}."
+
+
+@pytest.mark.parametrize(
+    ("age_s", "words"),
+    [
+        (0.0, ""),
+        (9.9, ""),
+        (10.0, "a moment ago"),
+        (59.7, "a minute ago"),
+        (100.0, "2 minutes ago"),
+        (3590.0, "an hour ago"),
+        (7300.0, "2 hours ago"),
+        (86390.0, "a day ago"),
+        (300000.0, "3 days ago"),
+    ],
+)
+def test_ages_are_told_in_the_unit_that_people_use(age_s: float, words: str) -> None:
+    assert age_words(age_s) == words
+
+
+@given(st.floats(0, 1e9))
+def test_every_age_has_words_without_large_numbers_of_small_units(age_s: float) -> None:
+    words = age_words(age_s)
+    assert "60 minutes" not in words
+    assert "24 hours" not in words
