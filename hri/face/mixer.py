@@ -78,7 +78,7 @@ class Mixer:
         mixed = np.asarray(layers.expression, float)
         blink, owned = layers.blink, layers.owned
         if layers.gesture is not None and owned is not None:
-            mixed = mixed * (1 - owned) + layers.gesture
+            mixed = _together(mixed * (1 - owned), layers.gesture)
             blink *= 1 - self._lids.owned(owned)
         mixed = mixed * (1 - layers.talking * self._lost) + layers.viseme
         for name, weight in layers.idle.items():
@@ -99,3 +99,10 @@ class Mixer:
         ways = np.array([max(x, 0.0), max(-x, 0.0), max(y, 0.0), max(-y, 0.0)])
         looks: Weighted = ways @ self._gaze + layers.inward * self._inward
         return looks
+
+
+def _together(one: Weighted, other: Weighted) -> NDArray[np.float64]:
+    """The sum, no farther out than 1 or the farther of the two: what laughs twice laughs once."""
+    most = np.maximum(np.maximum(one, other), 1.0)
+    least = np.minimum(np.minimum(one, other), -1.0)
+    return np.clip(np.asarray(one, float) + other, least, most)

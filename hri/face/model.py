@@ -54,8 +54,7 @@ class FaceModel:
         self._blend = Blend(display.neutral, display.rows)
         pairs = [[self._index[name] for name in pair] for pair in display.products]
         self._factors = np.array(pairs, np.intp).reshape(-1, 2).T
-        turns = np.array([channel in TURNS for channel in display.channels], bool)
-        self._largest = np.where(turns, 1, LARGEST_WEIGHT).astype(np.float32)
+        self._largest = np.array([_most(name) for name in display.channels], np.float32)
         turned = np.array([pair[0] in TURNS for pair in display.products], bool)
         self._least_factor = np.where(turned, -1, 0).astype(np.float32)
         neck = settings.motion.neck
@@ -153,6 +152,11 @@ class FaceModel:
         pivot = np.array(motion.pivot)
         shift = pivot + motion.shift * np.array([x, y]) - linear @ pivot
         return np.column_stack([linear, shift])
+
+
+def _most(channel: str) -> float:
+    """How far a channel goes: a head to its limits, and lids that are shut do not cross."""
+    return 1.0 if channel in TURNS or channel.startswith("eyeBlink") else LARGEST_WEIGHT
 
 
 def load_face(name: str | Path = "robot") -> FaceModel:

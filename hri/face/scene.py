@@ -85,8 +85,9 @@ class Cue:
 
     @property
     def begin(self) -> float:
-        """Seconds: what the face looks like at 0 is there by then."""
-        is_look = not (self.speech or self.gesture or self.recording)
+        """Seconds: what the face looks like at 0 is there by then, unless it is to pass."""
+        passes = self.expression is not None and self.expression.duration is not None
+        is_look = not (self.speech or self.gesture or self.recording or passes)
         return -SETTLING if self.at <= 0 and is_look else self.at
 
     @property

@@ -128,3 +128,25 @@ def test_events_bring_no_blink_to_eyes_that_are_shut_or_shut_now() -> None:
             shown.express(Expression("despaired" if number % 180 else "asleep"))
         weights = shown.vector(number * TICK, TICK)
         assert number < 90 or lids.shut(weights.astype(float)) > 0.95
+
+
+@pytest.mark.parametrize("face", ["robot", "person", "eyes"])
+def test_a_gesture_adds_no_more_than_all_there_is(face: str) -> None:
+    model = load_face(face)
+    glad, laughing = (
+        model.vector({"eyeBlink": blink, "cheekSquint": squint, "headSize": size})
+        for blink, squint, size in ((0.9, 1.2, -0.6), (1.0, 0.6, -0.8))
+    )
+    layers = Layers(glad, np.zeros_like(glad), gesture=laughing, owned=np.zeros(len(glad)))
+
+    mixed = model.weights(Mixer(model).mix(layers))
+
+    assert mixed["eyeBlinkLeft"] == pytest.approx(1.0)
+    assert mixed["cheekSquintLeft"] == pytest.approx(1.2)
+    assert mixed["headSize"] == pytest.approx(-1.0)
+
+
+def test_shut_lids_do_not_cross_however_much_is_asked_for() -> None:
+    model = load_face("person")
+    shut, more = (model.blend(model.vector({"eyeBlink": weight}))[0] for weight in (1.0, 1.5))
+    assert np.array_equal(shut, more)

@@ -95,6 +95,17 @@ def test_the_face_does_what_the_script_says(scene) -> None:  # type: ignore[no-u
     assert weight(moments, 3.9, "browInnerUp") == pytest.approx(0.9, abs=0.05)
 
 
+def test_an_expression_that_passes_lasts_as_long_at_the_start_as_later(scene) -> None:  # type: ignore[no-untyped-def]
+    step = '[[step]]\nat = {at}\nexpress = "happy"\nduration = 2.0\n'
+    soon = played(scene("duration = 4.0\n" + step.format(at=0)))
+    later = played(scene("duration = 4.0\n" + step.format(at=0.5)))
+
+    assert weight(soon, 1.5, "mouthSmileLeft") > 0.8
+    assert weight(soon, 1.5, "mouthSmileLeft") == pytest.approx(
+        weight(later, 2.0, "mouthSmileLeft"), abs=0.02
+    )
+
+
 def test_the_same_scene_gives_the_same_weights(scene) -> None:  # type: ignore[no-untyped-def]
     script = scene('[[step]]\nat = 0.1\nsay = "mama"\n[[step]]\ngesture = "nod"\n')
     one, again, other = played(script), played(script), played(script, seed=4)
