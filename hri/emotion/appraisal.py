@@ -223,3 +223,9 @@ def check_name(name: str, value: str) -> None:
     """Raises ValueError for a name that is empty or too long; `name` says whose it is."""
     if not 0 < len(value) <= LONGEST_NAME:
         raise ValueError(f"{name} has {len(value)} letters - give 1 to {LONGEST_NAME}")
+
+
+def name_of(value: object) -> str | None:
+    """A name as it can be kept: cut to its length, without halves of letters; None for none."""
+    written = str(value or "").encode("utf-8", "replace").decode("utf-8")
+    return written[:LONGEST_NAME] or None

@@ -15,7 +15,7 @@ from hri.core.signals import EmotionState, Expression, Gaze, Prosody, Stimulus
 from hri.emotion.acting import NOTHING_ACTED, whole_vector
 from hri.emotion.affect import Affect
 from hri.emotion.announcer import Announcer
-from hri.emotion.appraisal import LONGEST_NAME, OccEvent
+from hri.emotion.appraisal import OccEvent, name_of
 from hri.emotion.display import HONEST, felt_now, load_display
 from hri.emotion.keeper import Keeper
 from hri.emotion.label import CALM
@@ -108,13 +108,12 @@ class EmotionModel(Behavior):
             self._keeper = None
 
     def feel(self, name: str, intensity: float = 1.0, person: str | None = None) -> None:
-        """Something happened just now, perhaps by a person, whose name is cut to 200 letters.
+        """Something happened just now, perhaps by a person, whose name is cut to 100 letters.
 
         Raises HriError for an unknown stimulus, ValueError for an intensity outside 0 to 1.
         """
         now = self._clock.now()
-        person = person[:LONGEST_NAME] if person else None
-        self._affect = self._dynamics.feel(self._affect, name, intensity, now, person)
+        self._affect = self._dynamics.feel(self._affect, name, intensity, now, name_of(person))
 
     def appraise(self, event: OccEvent) -> None:
         """Something happened just now to a goal, by a deed, or with an object."""

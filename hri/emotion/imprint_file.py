@@ -155,14 +155,20 @@ def _trace(entry: Fields, time: float, lowest: float, highest: float) -> Trace:
 def _number(value: object, place: str, lowest: float, highest: float) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise HriError(f"{place} is no number")
-    if not math.isfinite(value) or not lowest <= value <= highest:
-        raise HriError(f"{place} is {value:.6g}, not {lowest:g} to {highest:g}")
-    return float(value)
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not lowest <= number <= highest:
+        raise HriError(f"{place} is {number:.6g}, not {lowest:g} to {highest:g}")
+    return number
 
 
 def _text(value: object, place: str) -> str:
     if not isinstance(value, str):
         raise HriError(f"{place} is no text")
+    if not value.isascii() and value != value.encode("utf-8", "replace").decode("utf-8"):
+        raise HriError(f"{place} has halves of letters")
     return value
 
 

@@ -66,16 +66,20 @@ class Keeper:
             self._put_aside(error)
             return None
         if memory is not None and memory.forgettings == self._forgettings:
+            self._mark = mark_of(self._path.stat()) if self._path.exists() else None
             return None  # another robot that has the same file; the last one to write wins
         self._mark = self._kept = None
         self._events.raise_event("memory.forgotten", file=str(self._path))
         return self._resumed(memory, dynamics, self._clock.now())
 
     def keep(self, affect: Affect, now: float) -> None:
-        """Write it beside the loop, if something has happened and the last time is a while ago."""
+        """Write it beside the loop, if something has happened and the last time is a while ago.
+
+        Not over a file that somebody has changed: what they had the robot forget comes first.
+        """
         self._poll()
         is_new = affect.imprint is not self._kept and now >= self._next
-        if is_new and not self._is_stuck and not self._worker.is_busy:
+        if is_new and not self._is_stuck and not self._worker.is_busy and not self._is_touched():
             self._kept, self._next = affect.imprint, now + KEEP_EVERY_S
             self._worker.submit(partial(self._write, self._memory(affect)))
 

@@ -12,7 +12,7 @@ from typing import Any
 from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.toml import REQUIRED, Table, load_toml
-from hri.emotion.appraisal import LONGEST_NAME
+from hri.emotion.appraisal import LONGEST_NAME, name_of
 from hri.emotion.drives import drives_in
 from hri.emotion.emotions import NAMES, emotions_in
 from hri.emotion.expectation import Expectation, expectations_in
@@ -68,7 +68,7 @@ class StimulusSpec:
 
     def doer(self, properties: Mapping[str, Any]) -> str | None:
         """Whom it comes from, for an event; None for nobody."""
-        return str(properties.get("person") or self.person)[:LONGEST_NAME] or None
+        return name_of(properties.get("person") or self.person)
 
 
 def stimulus_paths() -> Iterator[Path]:

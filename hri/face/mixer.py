@@ -105,4 +105,4 @@ def _together(one: Weighted, other: Weighted) -> NDArray[np.float64]:
     """The sum, no farther out than 1 or the farther of the two: what laughs twice laughs once."""
     most = np.maximum(np.maximum(one, other), 1.0)
     least = np.minimum(np.minimum(one, other), -1.0)
-    return np.clip(np.asarray(one, float) + other, least, most)
+    return np.asarray(np.clip(one + other, least, most), float)

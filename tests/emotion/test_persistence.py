@@ -14,7 +14,7 @@ from hri.core.errors import HriError
 from hri.core.events import EventBus
 from hri.core.signals import Event
 from hri.emotion.affect import Affect
-from hri.emotion.appraisal import GoalEvent
+from hri.emotion.appraisal import GoalEvent, name_of
 from hri.emotion.behaviors import EmotionModel
 from hri.emotion.model import load_emotions
 from hri.emotion.persistence import (
@@ -79,10 +79,10 @@ class Run:
         self.model = EmotionModel(memory=str(path), personality=personality)
         self.model.start(self.context)
 
-    def live(self, seconds: float) -> None:
-        for _ in range(round(seconds)):
-            self.model.compute(self.clock.now(), 1.0)
-            self.clock.advance(1.0)
+    def live(self, seconds: float, tick: float = 1.0) -> None:
+        for _ in range(round(seconds / tick)):
+            self.model.compute(self.clock.now(), tick)
+            self.clock.advance(tick)
 
 
 # --- the file ---
@@ -138,6 +138,8 @@ DAMAGE: list[tuple[Callable[[Any], object], str]] = [
     (lambda data: data.update(schema=0), "it is of version 0, not 1"),
     (lambda data: data.pop("wall"), "the file has no wall"),
     (lambda data: data.update(time=True), "the file.time is no number"),
+    (lambda data: data.update(time=10**400), "the file.time is inf"),
+    (lambda data: data["affect"]["causes"][0].update(person="\ud800"), "has halves of letters"),
     (lambda data: data.update(time=-1e9), "it tells of a time after it was written"),
     (lambda data: data.update(affect=[]), "affect is no table"),
     (lambda data: data["affect"].update(label="joyy"), 'affect.label: no emotion "joyy"'),
@@ -215,6 +217,21 @@ def test_a_robot_that_runs_forgets_a_person_too(tmp_path: Path) -> None:
     assert [event.name for event in run.events] == ["memory.forgotten"]
 
 
+def test_what_is_forgotten_just_before_the_next_writing_stays_forgotten(tmp_path: Path) -> None:
+    path = tmp_path / "feelings.json"
+    for wait in (1.1, 1.3, 1.5, 1.7, 1.9):
+        path.unlink(missing_ok=True)
+        run = Run(path)
+        run.live(2.3, tick=0.1)
+        run.model.feel("praise", 1.0, "Ann")
+        run.live(wait, tick=0.1)
+        forget(path, "Ann")
+        run.model.feel("praise", 0.5, "Bob")
+        run.live(6, tick=0.1)
+        run.model.stop()
+        assert "Ann" not in path.read_text()
+
+
 def test_a_robot_that_runs_forgets_all_even_at_its_very_end(tmp_path: Path) -> None:
     path = tmp_path / "feelings.json"
     for seconds in (0, 3):
@@ -225,6 +242,13 @@ def test_a_robot_that_runs_forgets_all_even_at_its_very_end(tmp_path: Path) -> N
         run.live(seconds)
         run.model.stop()
         assert not path.exists() or "Ann" not in path.read_text()
+
+
+def test_a_name_that_cannot_be_written_keeps_nothing_from_being_kept(tmp_path: Path) -> None:
+    affect = lived([(0, "praise", 1.0, name_of("An\ud800na"))])
+    keep(tmp_path / "feelings.json", Memory(affect.imprint, 1.0, 1e9))
+    memory = parse((tmp_path / "feelings.json").read_text())
+    assert {origin.person for origin in memory.imprint.habituation} == {"An?na"}
 
 
 def test_two_robots_with_one_file_do_not_forget_for_each_other(tmp_path: Path) -> None:

@@ -1,7 +1,4 @@
-"""`hri emotion forget`: erases what the robot remembers of how it felt, or of a person.
-
-A robot that is running has it all in its head still, and keeps it anew.
-"""
+"""`hri emotion forget`: erases what the robot remembers of how it felt, or of a person."""
 
 from __future__ import annotations
 
@@ -11,7 +8,7 @@ from hri.emotion.persistence import forget, memory_file
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.epilog = "End the robot first: one that is running keeps all of it anew."
+    parser.epilog = "A robot that is running forgets it, too, within a second or so."
     about = "forget only this person: what the robot thinks of them, and what they did by name"
     parser.add_argument("person", nargs="?", metavar="PERSON", help=about)
 

@@ -96,6 +96,9 @@ def _read_line(words: list[str], place: Place, known: Collection[str]) -> Happen
     if intensity is None or not 0 <= intensity <= 1:
         raise AuthoringError(place, f'"{strength}" is no intensity', "write a number from 0 to 1")
     person = words[3] if len(words) == 4 else None
+    if person is not None and len(person) > LONGEST_NAME:
+        what = f"the person has {len(person)} letters"
+        raise AuthoringError(place, what, f"give them 1 to {LONGEST_NAME}")
     return Happening(time, Stimulus(name, intensity), person)
 
 
@@ -130,7 +133,7 @@ def _read_entry(table: Table, known: Collection[str]) -> Happening:
 def _stimulus(table: Table, time: float, known: Collection[str]) -> Happening:
     name = table.string("stimulus", among=tuple(known))
     intensity = table.number("intensity", 1.0, minimum=0, maximum=1)
-    return Happening(time, Stimulus(name, intensity), table.string("person", None))
+    return Happening(time, Stimulus(name, intensity), _optional_name(table, "person"))
 
 
 def _goal(table: Table, time: float, known: Collection[str]) -> Happening:
