@@ -150,7 +150,7 @@ class EmotionModel(Behavior):
     def _because(self, label: str, state: EmotionState, feeling: str) -> str:
         words = {name: spec.words for name, spec in self._files.model.stimuli.items()}
         causes = self._dynamics.why(self._current(), label)
-        return why_words(feeling, causes, words, state.valence)
+        return why_words(feeling, causes, words, state.drives)
 
     def _current(self) -> Affect:
         return self._dynamics.advance(self._affect, self._clock.now())

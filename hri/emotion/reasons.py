@@ -23,7 +23,9 @@ ALWAYS = {
     "drive.rest": ("I am rested", "I have had no rest"),
     "drive.energy": ("my battery is full", "my battery runs down"),
 }
-"""Words for what always acts, where the mood is pleasant and where it is not."""
+"""Words for what always acts: where the need is stilled, and where it presses."""
+PRESSING = 0.5
+"""From this level on."""
 JUST_NOW_S = 10.0
 """What is younger needs no time said."""
 
@@ -40,18 +42,18 @@ _AGES = (
 
 
 def why_words(
-    feeling: str, causes: Sequence[Cause], words: Mapping[str, str], pleasure: float
+    feeling: str, causes: Sequence[Cause], words: Mapping[str, str], needs: Mapping[str, float]
 ) -> str:
     """One sentence: what the robot feels, and what made it so.
 
-    `feeling` is what follows "I am", `pleasure` that of the mood; `causes` come largest first;
+    `feeling` is what follows "I am"; `causes` come largest first; `needs` are 0, stilled, to 1;
     `words` say of each cause by name what happened: "you praised me". Goals, actions and objects of
     an appraisal are called by their own name; any other cause without words is not mentioned.
     """
     told = [
         (cause.share, reason)
         for cause in causes
-        if cause.share >= WORTH_SAYING and (reason := _reason(cause, words, pleasure))
+        if cause.share >= WORTH_SAYING and (reason := _reason(cause, words, needs))
     ][:MOST_CAUSES]
     if not told:
         return f"I am {feeling}, and there is no special reason."
@@ -86,11 +88,12 @@ def age_words(age_s: float) -> str:
     raise ValueError(f"an age of {age_s} s")
 
 
-def _reason(cause: Cause, words: Mapping[str, str], pleasure: float) -> str:
+def _reason(cause: Cause, words: Mapping[str, str], needs: Mapping[str, float]) -> str:
     """What follows "because"; empty for what cannot be said."""
     if cause.name in ALWAYS:
-        pleasant, unpleasant = ALWAYS[cause.name]
-        return pleasant if pleasure >= 0 else unpleasant
+        stilled, pressing = ALWAYS[cause.name]
+        level = needs.get(cause.name.removeprefix("drive."), 0.0)
+        return pressing if level >= PRESSING else stilled
     kind, _, name = cause.name.partition(".")
     if cause.name in words:
         what = words[cause.name]

@@ -10,44 +10,46 @@ WORDS = {"scold": "you scolded me", "bump": "I bumped into something", "praise":
 
 def test_one_cause_is_the_reason() -> None:
     causes = [Cause("scold", 1.0, 2.0)]
-    assert why_words("sad", causes, WORDS, -0.2) == "I am sad because you scolded me."
+    assert why_words("sad", causes, WORDS, {}) == "I am sad because you scolded me."
 
 
 def test_of_two_causes_the_larger_weighs_more_and_each_has_its_age() -> None:
     causes = [Cause("scold", 0.7, 130.0), Cause("bump", 0.25, 30.0), Cause("praise", 0.05, 1.0)]
-    told = why_words("sad", causes, WORDS, -0.2)
+    told = why_words("sad", causes, WORDS, {})
     assert told == (
         "I am sad mostly because you scolded me 2 minutes ago, "
         "and a little because I bumped into something a moment ago."
     )
     causes = [Cause("scold", 0.5, 0.0), Cause("bump", 0.45, 0.0)]
-    told = why_words("sad", causes, WORDS, -0.2)
+    told = why_words("sad", causes, WORDS, {})
     assert told == "I am sad because you scolded me, and because I bumped into something."
 
 
 def test_a_cause_that_is_most_of_it_is_told_so() -> None:
     causes = [Cause("scold", 0.8, 0.0), Cause("bump", 0.15, 0.0)]
-    assert why_words("sad", causes, WORDS, -0.2) == "I am sad mostly because you scolded me."
+    assert why_words("sad", causes, WORDS, {}) == "I am sad mostly because you scolded me."
 
 
 def test_what_pulls_the_other_way_or_has_no_words_is_not_told() -> None:
     causes = [Cause("other", 1.2, 0.0), Cause("praise", -0.2, 0.0)]
-    assert why_words("calm", [], WORDS, 0.0) == "I am calm, and there is no special reason."
-    assert why_words("sad", causes, WORDS, -0.1) == "I am sad, and there is no special reason."
+    assert why_words("calm", [], WORDS, {}) == "I am calm, and there is no special reason."
+    assert why_words("sad", causes, WORDS, {}) == "I am sad, and there is no special reason."
 
 
 @pytest.mark.parametrize(
-    ("cause", "pleasure", "reason"),
+    ("cause", "needs", "reason"),
     [
-        ("temperament", -0.3, "that is how I am"),
-        ("drive.company", -0.3, "I have been alone"),
-        ("drive.company", 0.3, "I have had company"),
-        ("drive.energy", -0.3, "my battery runs down"),
-        ("goal.find_the_charger", 0.3, "of find the charger"),
+        ("temperament", {}, "that is how I am"),
+        ("drive.company", {"company": 0.9}, "I have been alone"),
+        ("drive.company", {"company": 0.1}, "I have had company"),
+        ("drive.energy", {"energy": 1.0, "company": 0.0}, "my battery runs down"),
+        ("goal.find_the_charger", {}, "of find the charger"),
     ],
 )
-def test_what_is_no_stimulus_has_words_too(cause: str, pleasure: float, reason: str) -> None:
-    told = why_words("so", [Cause(cause, 1.0, 0.0)], WORDS, pleasure)
+def test_what_is_no_stimulus_has_words_too(
+    cause: str, needs: dict[str, float], reason: str
+) -> None:
+    told = why_words("so", [Cause(cause, 1.0, 0.0)], WORDS, needs)
     assert told == f"I am so because {reason}."
 
 

@@ -66,7 +66,7 @@ def remembered(dynamics: Dynamics, path: Path, clock: Clock) -> Affect:
 def _told(model: EmotionModelSpec, dynamics: Dynamics, affect: Affect) -> str:
     state = dynamics.read(affect)
     words = {name: spec.words for name, spec in model.stimuli.items()}
-    why = why_words(model.words(state.label), dynamics.why(affect), words, state.valence)
+    why = why_words(model.words(state.label), dynamics.why(affect), words, state.drives)
     drives = " ".join(f"{name} {level:.2f}" for name, level in state.drives.items())
     return f"{state.label} {state.intensity:.2f}  {mood_words(state)}  {drives}  {why}"
 
