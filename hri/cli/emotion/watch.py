@@ -1,6 +1,7 @@
 """`hri emotion watch`: shows what a running robot feels, from what it keeps in its memory file.
 
-Between two events all follows in closed form, so the file is as good as a look into the robot.
+Between two events all follows in closed form, so the file is as good as a look into the robot; of
+one that has ended it tells what it would feel by now.
 """
 
 from __future__ import annotations
@@ -14,7 +15,8 @@ from hri.core.clock import Clock, RealClock
 from hri.core.errors import HriError
 from hri.emotion.affect import Affect
 from hri.emotion.dynamics import Dynamics
-from hri.emotion.model import EmotionModelSpec, load_emotions
+from hri.emotion.files import EmotionFiles
+from hri.emotion.model import EmotionModelSpec
 from hri.emotion.persistence import Memory, memory_file, recall
 from hri.emotion.reasons import why_words
 
@@ -30,22 +32,35 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Until Ctrl-C."""
     personality = options.personality or kept(memory_file()).personality
-    model, clock = load_emotions(personality), RealClock()
-    dynamics = model.dynamics()
+    files, clock = EmotionFiles(personality), RealClock()
+    dynamics = files.model.dynamics()
     try:
         while True:
+            if _is_new(files):
+                dynamics = files.model.dynamics()
             affect = remembered(dynamics, memory_file(), clock)
             if options.json:
                 line = json_line(clock.wall().timestamp(), dynamics, affect)
                 print(line, flush=True)
             else:
-                _show(f"{clock.wall():%H:%M:%S}  {_told(model, dynamics, affect)}", options.once)
+                _show(
+                    f"{clock.wall():%H:%M:%S}  {_told(files.model, dynamics, affect)}", options.once
+                )
             if options.once:
                 return 0
             clock.advance(options.every)
     except KeyboardInterrupt:
         print()
         return 0
+
+
+def _is_new(files: EmotionFiles) -> bool:
+    """Whether the robot has read its files anew; as it does, a wrong one is told once."""
+    try:
+        return files.reload()
+    except HriError as error:
+        print(f"\n{error}", file=sys.stderr)
+        return False
 
 
 def kept(path: Path) -> Memory:
