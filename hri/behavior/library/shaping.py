@@ -84,7 +84,8 @@ class Smooth(Behavior):
         if value is None:
             return
         if self._last is not None and not _is_unbounded(value) and self.time_constant > 0:
-            share = -math.expm1((self._time - now) / self.time_constant)
+            # A clock that was set back must not make it run away.
+            share = -math.expm1(min(self._time - now, 0.0) / self.time_constant)
             value = self._last * (1 - share) + value * share
         self._last = None if _is_unbounded(value) else value
         self._time = now

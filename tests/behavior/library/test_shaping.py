@@ -135,6 +135,13 @@ def test_what_is_no_number_is_never_sent(ticks):
                 assert not math.isnan(sent)
 
 
+def test_smooth_stays_between_what_came_when_the_clock_is_set_back():
+    smooth = Smooth()
+    tick(smooth, now=1000.0, input=1.0)
+    assert tick(smooth, now=0.0, input=3.0)["smoothed"] == 1.0
+    assert 1.0 < tick(smooth, now=0.5, input=3.0)["smoothed"] < 3.0
+
+
 @pytest.mark.parametrize("cls", [Clamp, Scale, Deadband, Smooth, RateLimit])
 def test_what_is_no_number_counts_as_nothing(cls):
     behavior = cls()
