@@ -15,7 +15,7 @@ from typing import Any
 
 from hri.bench.face import frames, judge, lips, live, loading, skia
 from hri.bench.figures import machine
-from hri.bench.speech.table import Row, attempted
+from hri.bench.table import Row, attempted
 from hri.face.model import load_face
 
 SIZE = (800, 600)

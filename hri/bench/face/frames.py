@@ -11,7 +11,7 @@ from itertools import cycle, islice
 import cv2
 import numpy as np
 
-from hri.bench.speech.table import Row, amount, at_most
+from hri.bench.table import Row, amount, at_most
 from hri.core.signals import Expression, Gaze, Phoneme, Speech
 from hri.face.animator import Animator
 from hri.face.baking import Vector

@@ -16,7 +16,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.bench.speech.table import Row, at_least, share
+from hri.bench.table import Row, at_least, share
 from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Image
 from hri.face.model import FaceModel, load_face

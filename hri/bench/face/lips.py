@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from hri.bench.face.lip_timing import lip_timing
-from hri.bench.speech.table import Row, amount, at_most
+from hri.bench.table import Row, amount, at_most
 from hri.core.clock import RealClock
 from hri.face.model import FaceModel
 from hri.hal.manager import ResourceManager

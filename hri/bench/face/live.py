@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from hri.behavior.network import Network
 from hri.bench.behavior import Relay, Source
 from hri.bench.face.lips import SENTENCES
-from hri.bench.speech.table import Row, amount, at_most
+from hri.bench.table import Row, amount, at_most
 from hri.core.clock import RealClock
 from hri.face.behaviors import FaceRenderer
 from hri.hal.resource import Description

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from hri.bench.speech.table import Row, amount, at_most
+from hri.bench.table import Row, amount, at_most
 from hri.core.errors import HriError
 
 ROUNDS = 5

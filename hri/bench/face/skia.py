@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.bench.speech.table import Row, amount, at_least, at_most
+from hri.bench.table import Row, amount, at_least, at_most
 from hri.core.errors import NotAvailable
 from hri.core.signals import Image
 from hri.face.baking import Item, Shape, Vector

@@ -20,8 +20,8 @@ from hri.bench.speech.listening import Listen, listen
 from hri.bench.speech.speaking import rows as speaking_rows
 from hri.bench.speech.speed import rows as speed_rows
 from hri.bench.speech.start import rows as start_rows
-from hri.bench.speech.table import Row, attempted
 from hri.bench.speech.text import rows as text_rows
+from hri.bench.table import Row, attempted
 from hri.core import paths
 
 QUICK_STEP = 6

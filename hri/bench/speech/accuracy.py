@@ -14,7 +14,7 @@ from typing import Literal
 from hri.bench.speech import clips
 from hri.bench.speech.clips import DATA, Clip, Recordings
 from hri.bench.speech.listening import Heard, Listen
-from hri.bench.speech.table import Limit, Row, at_least, at_most, attempted, share
+from hri.bench.table import Limit, Row, at_least, at_most, attempted, share
 from hri.core.errors import NotAvailable
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.matching import parse

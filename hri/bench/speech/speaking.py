@@ -12,7 +12,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 
 from hri.behavior.behavior import Context
-from hri.bench.speech.table import Row, amount, at_most, attempted
+from hri.bench.table import Row, amount, at_most, attempted
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.core.events import EventBus

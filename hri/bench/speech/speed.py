@@ -17,7 +17,7 @@ from hri.bench.speech.accuracy import ORDERS, ROBOT, Outcome, Progress, sounds
 from hri.bench.speech.babble import RATE
 from hri.bench.speech.clips import Clip, Recordings
 from hri.bench.speech.listening import Hearing, Listen
-from hri.bench.speech.table import Row, amount, at_most, attempted, compared, skipped
+from hri.bench.table import Row, amount, at_most, attempted, compared, skipped
 from hri.core.errors import NotAvailable
 from hri.speech.recognizers.vosk import find_model
 

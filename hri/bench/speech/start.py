@@ -15,7 +15,7 @@ import numpy as np
 from hri.bench.speech.accuracy import ROBOT
 from hri.bench.speech.clips import Clip, write_wav
 from hri.bench.speech.listening import ONE_CORE
-from hri.bench.speech.table import Row, amount, at_most, skipped
+from hri.bench.table import Row, amount, at_most, skipped
 from hri.core.errors import HriError
 
 STARTS = 5

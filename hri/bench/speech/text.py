@@ -13,7 +13,7 @@ import numpy as np
 
 from hri.bench.speech import clips
 from hri.bench.speech.accuracy import ROBOT
-from hri.bench.speech.table import Row, amount, at_most, compared, skipped
+from hri.bench.table import Row, amount, at_most, compared, skipped
 from hri.speech.grammar import load_grammar, read_grammar
 from hri.speech.grammar.check import check
 from hri.speech.grammar.expansion import random_sentence

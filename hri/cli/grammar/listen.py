@@ -16,6 +16,7 @@ from typing import Any, TextIO
 import numpy as np
 
 from hri.cli.grammar import FILE_HELP
+from hri.cli.grammar.arguments import share
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
 from hri.core import paths, registry
 from hri.core.clock import RealClock
@@ -59,7 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--strictness",
-        type=_share,
+        type=share,
         default=STRICTNESS,
         metavar="X",
         help=f"confidence from which words count, 0 to 1 ({STRICTNESS})",
@@ -225,13 +226,3 @@ def _show_json(file: str, heard: Heard) -> None:
 
 def _complain(what: object) -> None:
     print(what, file=sys.stderr)
-
-
-def _share(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not 0.0 <= value <= 1.0:
-        raise argparse.ArgumentTypeError(f"{text} - write a number from 0 to 1")
-    return value
