@@ -42,6 +42,7 @@ DATATYPES: dict[str, type] = {
     "gaze": signals.Gaze,
     "headpose": signals.HeadPose,
     "gesture": signals.HeadGesture,
+    "people": signals.People,
     "twist": signals.Twist,
     "pose": signals.Pose2D,
     "range": signals.RangeReading,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
@@ -239,13 +240,83 @@ class HeadPose:
 
 @dataclass(frozen=True, slots=True)
 class HeadGesture:
-    """A nod or a shake."""
+    """A movement of the head that means something."""
 
     kind: str
-    """"nod" or "shake"."""
+    """"nod", "shake", or another pattern of `config/gestures.toml`."""
     time: float
-    """Seconds, when it was recognised."""
+    """Seconds, when the picture was taken with which it was recognised."""
     confidence: float = 1.0
+    """0 to 1."""
+    person: str = ""
+    """Id of who made it; empty when nobody is told apart."""
+    latency: float = 0.0
+    """Seconds from where the movement began."""
+
+
+Landmarks = NDArray[np.float32]
+"""Points of a face mesh, shape [468, 3]: x and y in pixels of the picture, z in the same scale,
+growing away from the camera; numbered as in MediaPipe's face mesh."""
+
+
+@dataclass(frozen=True, slots=True)
+class Countenance:
+    """What the parts of a face do."""
+
+    smile: float = 0.0
+    """0 to 1."""
+    brows: float = 0.0
+    """-1 drawn together and down, 0 at rest, 1 raised."""
+    blink: float = 0.0
+    """0 eyes open, 1 shut."""
+
+
+@dataclass(frozen=True, slots=True)
+class Person:
+    """Somebody whom the camera sees, or saw a moment ago."""
+
+    id: str
+    """"p1", "p2" ...; the same while they are seen and for some seconds after."""
+    pose: HeadPose
+    """How the head is turned, against the way to the camera; with its box and its time."""
+    motion: HeadPose | None = None
+    """Pitch and yaw from the motion of the picture alone: they tell swings, not where the head
+    has turned to stay. None when there is none."""
+    is_visible: bool = True
+    """False while they are out of sight but not yet given up; the rest is then as it was last."""
+    distance: float = math.nan
+    """Meters from the camera; NaN when unknown."""
+    bearing: float = 0.0
+    """Radians from the robot's straight ahead to the left."""
+    elevation: float = 0.0
+    """Radians from the robot's straight ahead up."""
+    looking: float = 0.0
+    """How surely they look at the robot, 0 to 1."""
+    is_looking: bool = False
+    """The same with hysteresis."""
+    engagement: str = "unengaged"
+    """One of "unengaged", "engaging", "engaged", "disengaging"."""
+    countenance: Countenance | None = None
+    """None without a face mesh."""
+    landmarks: Landmarks | None = None
+    """None without a face mesh."""
+    name: str = ""
+    """Who it is, when a face recognizer knows."""
+
+
+@dataclass(frozen=True, slots=True)
+class People:
+    """Everybody whom the camera sees or saw a moment ago, in the order of their ids."""
+
+    time: float
+    """Seconds, when the picture was taken."""
+    persons: tuple[Person, ...] = ()
+    attended: str = ""
+    """Id of the one the robot attends to; empty when there is none."""
+
+    def person(self, id: str) -> Person | None:
+        """The one of this id; None when they are not here."""
+        return next((person for person in self.persons if person.id == id), None)
 
 
 @dataclass(frozen=True, slots=True)
