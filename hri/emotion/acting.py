@@ -12,10 +12,10 @@ from dataclasses import dataclass, replace
 from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import EmotionState
 from hri.emotion.emotions import NAMES
-from hri.emotion.label import MOODS, mood_name
+from hri.emotion.label import MOODS, STANDS_OUT, mood_name
 
-STANDS_OUT = 0.2
-"""An emotion that is put on less than this does not give its name to what is shown."""
+MOST_ACTS = 20
+"""Values of one emotion that may lie upon each other; the oldest is forgotten."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,20 +32,26 @@ class Act:
 class Acting:
     """All that is put on, by emotion; a value, each method gives a new one."""
 
-    acts: Mapping[str, Act]
+    acts: Mapping[str, tuple[Act, ...]]
+    """Of each emotion those that are still to be seen: the last one now, the one before when that
+    is over."""
 
     def set(self, values: Mapping[str, float], duration: float, now: float) -> Acting:
         """Show these intensities, 0 to 1, for `duration` seconds; others stay as they are.
 
-        Raises HriError for an unknown emotion, or a value or a duration out of range.
+        What was put on for longer is shown again after that. Raises HriError for an unknown
+        emotion, or a value or a duration out of range.
         """
         if not duration > 0:
             raise HriError(f"an emotion for {duration} seconds - give a time above 0")
         for emotion, value in values.items():
             _check(emotion, value, lowest=0.0)
         until = now + duration
-        new = {emotion: Act(float(value), until) for emotion, value in values.items()}
-        return Acting({**self._current(now), **new})
+        acts = self._current(now)
+        for emotion, value in values.items():
+            longer = [act for act in acts.get(emotion, ()) if act.until > until]
+            acts[emotion] = (*longer, Act(float(value), until))[-MOST_ACTS:]
+        return Acting(acts)
 
     def raised(
         self, emotion: str, increment: float, state: EmotionState, duration: float, now: float
@@ -57,14 +63,14 @@ class Acting:
 
     def ends(self, now: float) -> float:
         """When the last of it is over, in seconds of the clock; `now` when nothing is put on."""
-        return max((act.until for act in self._current(now).values()), default=now)
+        return max((acts[0].until for acts in self._current(now).values()), default=now)
 
     def shown(self, state: EmotionState, now: float) -> EmotionState:
         """What is to be seen of a robot that feels `state`."""
         acts = self._current(now)
         if not acts:
             return state
-        emotions = {**state.emotions, **{emotion: act.value for emotion, act in acts.items()}}
+        emotions = {**state.emotions, **{emotion: on[-1].value for emotion, on in acts.items()}}
         strongest = max(emotions, key=lambda emotion: emotions[emotion])
         if emotions[strongest] >= STANDS_OUT:
             label, intensity = strongest, emotions[strongest]
@@ -72,8 +78,13 @@ class Acting:
             label, intensity = _mood_of(state)
         return replace(state, label=label, intensity=intensity, emotions=emotions)
 
-    def _current(self, now: float) -> dict[str, Act]:
-        return {emotion: act for emotion, act in self.acts.items() if act.until > now}
+    def _current(self, now: float) -> dict[str, tuple[Act, ...]]:
+        """What is not over: of each emotion those below end later than those above."""
+        going = {
+            emotion: tuple(act for act in acts if act.until > now)
+            for emotion, acts in self.acts.items()
+        }
+        return {emotion: acts for emotion, acts in going.items() if acts}
 
 
 NOTHING_ACTED = Acting({})

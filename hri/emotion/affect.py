@@ -12,13 +12,10 @@ from typing import NamedTuple
 
 from hri.emotion.emotions import OPPOSITES_OF
 from hri.emotion.label import Course
-from hri.emotion.ledger import Axes, Ledger, Origin, Row
+from hri.emotion.ledger import PROSPECTS, Axes, Ledger, Origin, Row, merged, summed
 
 Fresh = Mapping[Origin, Mapping[str, float]]
 """Charges by cause and emotion."""
-
-PROSPECTS = ("hope", "fear")
-"""What is felt for a goal until it is decided."""
 
 
 class Trace(NamedTuple):
@@ -147,6 +144,41 @@ def sums(imprint: Imprint, left: Mapping[str, float]) -> tuple[dict[str, float],
         arousal += a
         dominance += d
     return total, (pleasure, arousal, dominance)
+
+
+def renamed(imprint: Imprint, names: Mapping[str, str | None]) -> Imprint:
+    """The same with people under other names: what they caused, and what is thought of them.
+
+    Of whose name becomes None nothing is thought any more; what they caused, nobody has done.
+    """
+
+    def named(origin: Origin) -> Origin:
+        return Origin(origin.name, names.get(origin.person or "", origin.person))
+
+    ledger: dict[Origin, Row] = {}
+    for origin, row in imprint.ledger.items():
+        other = named(origin)
+        ledger[other] = merged(ledger[other], row) if other in ledger else row
+    fresh: dict[Origin, Mapping[str, float]] = {}
+    for origin, charges in imprint.fresh.items():
+        fresh[named(origin)] = summed(fresh.get(named(origin), {}), charges)
+    habituation: dict[Origin, Trace] = {}
+    for origin, trace in imprint.habituation.items():
+        if origin.person is None or named(origin).person is not None:
+            habituation[named(origin)] = trace
+    relations: dict[str, Trace] = {}
+    for person, trace in imprint.relations.items():
+        if (name := names.get(person, person)) is not None:
+            relations[name] = _together(relations[name], trace) if name in relations else trace
+    return imprint._replace(
+        ledger=ledger, fresh=fresh, habituation=habituation, relations=relations
+    )
+
+
+def _together(one: Trace, other: Trace) -> Trace:
+    """Both regards as one; how much the older one has faded by the time of the newer is little."""
+    time = max(one.time, other.time)
+    return Trace(one.before + other.before, one.after + other.after, time)
 
 
 def shifted(imprint: Imprint, seconds: float) -> Imprint:

@@ -6,12 +6,13 @@ import logging
 import os
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
 from hri.core.errors import HriError
-from hri.core.signals import EmotionState, Expression, Gaze, Prosody, Stimulus
+from hri.core.signals import EmotionState, Expression, Gaze, People, Prosody, Stimulus
 from hri.emotion.acting import NOTHING_ACTED, whole_vector
 from hri.emotion.affect import Affect
 from hri.emotion.announcer import Announcer
@@ -55,6 +56,10 @@ class EmotionModel(Behavior):
     battery = Input[float](
         "double", "how full it is, 0 to 1: the drive for energy", is_optional=True
     )
+    people = Input[People](
+        "people", "who is seen: what comes by the id of somebody with a name is theirs",
+        is_optional=True,
+    )  # fmt: skip
     state = Output[EmotionState]("emotion", "what is felt now")
     label = Output[str]("string", "the emotion that stands out, else the name of the mood")
     mood = Output[tuple[float, ...]]("doublearray", "pleasure, arousal, dominance, -1 to 1 each")
@@ -69,6 +74,7 @@ class EmotionModel(Behavior):
         """
         self._context = context
         self._clock = context.clock
+        self._people = People(context.clock.now())
         self._files = Reloading(self.personality, context.clock)
         self._dynamics = self._files.model.dynamics()
         self._looked = now = context.clock.now()
@@ -83,6 +89,7 @@ class EmotionModel(Behavior):
         self._triggers = Triggers(stimuli, context, self.feel)
 
     def compute(self, now: float, dt: float) -> None:
+        self._meet(self.people.value or self._people)
         for stimulus in self.stimulus.values:
             self._triggers.feel(stimulus.name, stimulus.intensity)
         self._feel_battery(now)
@@ -108,12 +115,13 @@ class EmotionModel(Behavior):
             self._keeper = None
 
     def feel(self, name: str, intensity: float = 1.0, person: str | None = None) -> None:
-        """Something happened just now, perhaps by a person, whose name is cut to 100 letters.
+        """Something happened just now, perhaps by a person: a name, or the id of one who is seen.
 
-        Raises HriError for an unknown stimulus, ValueError for an intensity outside 0 to 1.
+        A name is cut to 100 letters. Raises HriError for an unknown stimulus, ValueError for an
+        intensity outside 0 to 1.
         """
-        now = self._clock.now()
-        self._affect = self._dynamics.feel(self._affect, name, intensity, now, name_of(person))
+        now, doer = self._clock.now(), self._name_of(person)
+        self._affect = self._dynamics.feel(self._affect, name, intensity, now, doer)
 
     def appraise(self, event: OccEvent) -> None:
         """Something happened just now to a goal, by a deed, or with an object."""
@@ -134,7 +142,8 @@ class EmotionModel(Behavior):
     def why_words(self, about: str = "") -> str:
         """The same as a sentence: "I am sad because you scolded me.".
 
-        `about` is what was asked about, as people call it: "why are you sad?".
+        `about` is what was asked about, as people call it: "why are you sad?". Who has a name is
+        named, except the one whom the robot attends to: that one is told "you".
         """
         state, looks = self.feeling(), self._files.model.display.looks
         labels = labels_called(about, looks)
@@ -149,8 +158,31 @@ class EmotionModel(Behavior):
 
     def _because(self, label: str, state: EmotionState, feeling: str) -> str:
         words = {name: spec.words for name, spec in self._files.model.stimuli.items()}
-        causes = self._dynamics.why(self._current(), label)
+        asking = self._name_of(self._people.attended)
+        causes = [
+            replace(cause, person=None) if cause.person == asking else cause
+            for cause in self._dynamics.why(self._current(), label)
+        ]
         return why_words(feeling, causes, words, state.drives)
+
+    def _meet(self, people: People) -> None:
+        """Put down to a name, once it is known, what was felt of the id of somebody who is seen."""
+        if people is self._people:
+            return
+        names = {
+            person.id: name
+            for person in people.persons
+            if (name := name_of(person.name)) is not None
+        }
+        known = {person.id for person in self._people.persons if person.name}
+        self._people = people
+        if fresh := {id: name for id, name in names.items() if id not in known}:
+            self._affect = self._dynamics.rename(self._affect, fresh)
+
+    def _name_of(self, person: str | None) -> str | None:
+        """The name of somebody who is seen, if it is known; else what they are called already."""
+        seen = self._people.person(person) if person else None
+        return name_of(seen.name if seen is not None and seen.name else person)
 
     def _current(self) -> Affect:
         return self._dynamics.advance(self._affect, self._clock.now())

@@ -17,7 +17,7 @@ from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import EmotionState, Expression, Gaze, Prosody
 from hri.core.toml import Table, load_toml
 from hri.emotion.emotions import EMOTIONS, INDEX, NAMES, emotions_in
-from hri.emotion.label import CALM, MOODS
+from hri.emotion.label import CALM, LEAD, MOODS, STANDS_OUT
 
 Felt = tuple[float, float, float]
 """Pleasure, arousal, dominance, each -1 to 1."""
@@ -167,15 +167,24 @@ def _shown(state: EmotionState, rules: Mapping[str, DisplayRule]) -> EmotionStat
         rule = rules.get(name, DisplayRule(name, 1.0))
         hidden[rule.show] = hidden.get(rule.show, 1.0) * (1.0 - intensity) ** rule.gain
     emotions = {name: 1.0 - rest for name, rest in hidden.items()}
-    if state.label not in rules:
-        # Another emotion may be masked by this one, which then shows more of it.
-        return replace(
-            state, intensity=emotions.get(state.label, state.intensity), emotions=emotions
-        )
-    label = rules[state.label].show
+    label = rules[state.label].show if state.label in rules else state.label
+    strongest = max(emotions, key=lambda name: emotions[name], default=label)
+    if _outshines(emotions.get(strongest, 0.0), emotions.get(label, 0.0)):
+        label = strongest
+    if label in MOODS:
+        return replace(state, emotions=emotions)
     if emotions.get(label, 0.0) > 0.0:
         return replace(state, label=label, intensity=emotions[label], emotions=emotions)
     return replace(state, label=CALM, intensity=0.0, emotions=emotions)
+
+
+def _outshines(intensity: float, other: float) -> bool:
+    """Whether an emotion is shown before the one that has the label, as it would take the label."""
+    return intensity >= STANDS_OUT and _charge(intensity) >= LEAD * _charge(other)
+
+
+def _charge(intensity: float) -> float:
+    return -math.log1p(-intensity) if intensity < 1.0 else math.inf
 
 
 def display_path() -> Path:

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import atanh, exp, hypot, isfinite, sqrt, tanh
+from math import exp, hypot, isfinite, sqrt
 
 from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import EmotionState
@@ -26,6 +26,7 @@ from hri.emotion.affect import (
     Need,
     Outlook,
     Trace,
+    renamed,
     shares_left,
     sums,
     without_prospects,
@@ -82,8 +83,6 @@ class Dynamics:
         self._gains = {emotion.name: personality.gain(emotion) for emotion in EMOTIONS}
         self._stimuli = {stimulus.name: self._taken(stimulus) for stimulus in stimuli}
         self._fading = Fading(personality)
-        pleasure, arousal, dominance = map(atanh, personality.baseline)
-        self._baseline = (pleasure, arousal, dominance)
         self._rest = {drive.name: Need(drive.resting, STILL) for drive in personality.drives}
 
     def _taken(self, stimulus: StimulusSpec) -> _Taken:
@@ -131,6 +130,10 @@ class Dynamics:
             raise ValueError(f"the time must be finite, not {now}")
         return affect if now <= affect.time else Affect(now, affect.imprint, affect.outlook)
 
+    def rename(self, affect: Affect, names: Mapping[str, str]) -> Affect:
+        """The same state with people under other names, once it is known who they are."""
+        return self.advance(self._affect(renamed(affect.imprint, names)), affect.time)
+
     # What happens.
 
     def feel(
@@ -138,8 +141,9 @@ class Dynamics:
     ) -> Affect:
         """The state just after a stimulus of intensity 0 to 1, which may come from a person.
 
-        Raises HriError for an unknown stimulus, ValueError for an intensity out of range, a person
-        without a name or of a very long one, or a time that is not finite.
+        One of intensity 0 has not happened. Raises HriError for an unknown stimulus, ValueError for
+        an intensity out of range, a person without a name or of a very long one, or a time that is
+        not finite.
         """
         if name not in self._stimuli:
             raise HriError(f'no stimulus "{name}" - {did_you_mean(name, self.names)}')
@@ -147,9 +151,13 @@ class Dynamics:
             raise ValueError(f"the intensity of {name} is {intensity} - give 0 to 1")
         if person is not None:
             check_name("person", person)
+        if intensity == 0:
+            return self.advance(affect, now)
         stimulus, origin = self._stimuli[name], Origin(name, person)
+        # To those whom it cannot tell from others it gets used as to one.
+        habit = Origin(name) if person is not None and relations.is_unnamed(person) else origin
         imprint = self._imprint_at(affect, now)
-        worn = imprint.habituation.get(origin, FRESH).at(imprint.time, stimulus.recovery_rate)
+        worn = imprint.habituation.get(habit, FRESH).at(imprint.time, stimulus.recovery_rate)
         strength = intensity * (1.0 - worn.before)
         charges = {name: charge * strength for name, charge in stimulus.charges.items()}
         if relation := _relation(imprint, person):
@@ -160,7 +168,7 @@ class Dynamics:
                 imprint.ledger,
                 _with_charges(imprint.fresh, origin, charges),
                 _satisfied(imprint.needs, stimulus.satisfies, strength),
-                _habituated(imprint.habituation, origin, worn, stimulus.habituates),
+                _habituated(imprint.habituation, habit, worn, stimulus.habituates),
                 _regarded(imprint, person, stimulus.relation * strength),
                 imprint.label,
             )
@@ -208,8 +216,7 @@ class Dynamics:
 
     def read(self, affect: Affect) -> EmotionState:
         """What is felt, as others may see it."""
-        intensities, pull, levels = self._fading.read(affect)
-        mood = self._mood(pull)
+        intensities, mood, levels = self._fading.read(affect)
         label = label_at(affect.outlook.course, affect.time - affect.imprint.time)
         if label == NOTHING:
             label, intensity = mood_name(mood), hypot(*mood) / _FARTHEST
@@ -225,15 +232,11 @@ class Dynamics:
 
     def mood(self, affect: Affect) -> Axes:
         """Pleasure, arousal and dominance, each -1 to 1."""
-        return self._mood(self._fading.read(affect).mood)
+        return self._fading.read(affect)[1]
 
     def drives(self, affect: Affect) -> dict[str, float]:
         """How pressing each need is, 0 to 1."""
-        return self._fading.read(affect).levels
-
-    def _mood(self, pull: Axes) -> Axes:
-        pleasure, arousal, dominance = self._baseline
-        return tanh(pleasure + pull[0]), tanh(arousal + pull[1]), tanh(dominance + pull[2])
+        return self._fading.read(affect)[2]
 
     def relations(self, affect: Affect) -> dict[str, float]:
         """What the robot thinks of everybody it knows, -1 to 1; see `relations`."""
@@ -251,7 +254,7 @@ class Dynamics:
         stands for the baseline, "drive.NAME" for a drive.
         """
         rows = self._fading.rows(affect.imprint, affect.outlook, affect.age)
-        rows[Origin(TEMPERAMENT)] = Row({}, self._baseline, affect.time)
+        rows[Origin(TEMPERAMENT)] = Row({}, self._fading.baseline, affect.time)
         for name, need in self._fading.needs(affect.imprint.needs, affect.age).items():
             rows[Origin(cause_of(name))] = Row({}, need.mood, affect.time)
         return rows

@@ -11,8 +11,8 @@ expm1, nearly equal rates and huge times are harmless.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from math import exp, expm1
+from collections.abc import Iterable, Mapping
+from math import atanh, exp, expm1, tanh
 from typing import NamedTuple
 
 from hri.emotion.affect import Affect, Imprint, Need, Outlook
@@ -44,21 +44,13 @@ class Force(NamedTuple):
     dominance: float
 
 
-class Reading(NamedTuple):
-    """A state some seconds after something happened."""
-
-    intensities: dict[str, float]
-    """Of all emotions, each 0 to 1."""
-    mood: Axes
-    """The sum of all pulls, off the baseline."""
-    levels: dict[str, float]
-    """The needs, each 0 to 1."""
-
-
 class Fading:
     """What some seconds in which nothing happens leave of a state."""
 
     def __init__(self, personality: Personality) -> None:
+        pleasure, arousal, dominance = map(atanh, personality.baseline)
+        self.baseline = (pleasure, arousal, dominance)
+        """Of the mood, before the tanh."""
         self._return_rate = 1.0 / personality.return_s
         self.rates = {emotion.name: 1.0 / personality.tau_s(emotion) for emotion in EMOTIONS}
         """Decay of each emotion's charge, 1/s."""
@@ -86,8 +78,11 @@ class Fading:
         pleasure, arousal, dominance = (axis * scale / gap for axis in axes)
         return Force(min(rate, self._return_rate), gap, pleasure, arousal, dominance)
 
-    def read(self, affect: Affect) -> Reading:
-        """All that is felt, whatever its cause."""
+    def read(self, affect: Affect) -> tuple[dict[str, float], Axes, dict[str, float]]:
+        """All that is felt, whatever its cause.
+
+        The intensities of all emotions, 0 to 1; the mood, -1 to 1 each; the needs, 0 to 1.
+        """
         now, imprint, outlook = affect
         seconds = now - imprint.time
         forces, mood_rate, intensities = self._emotions, self._return_rate, _UNFELT.copy()
@@ -107,9 +102,9 @@ class Fading:
             p += lost * pleasure
             a += lost * arousal
             d += lost * dominance
-        levels = {}
+        levels, resting = {}, self._resting
         for name, (level, _) in imprint.needs.items():
-            rest = self._resting[name]
+            rest = resting[name]
             if level != rest:
                 slow, gap, pleasure, arousal, dominance = self._drives[name]
                 if slow == mood_rate:
@@ -124,17 +119,20 @@ class Fading:
                 a += lost * arousal
                 d += lost * dominance
             levels[name] = level
-        return Reading(intensities, (p, a, d), levels)
+        pleasure, arousal, dominance = self.baseline
+        return intensities, (tanh(pleasure + p), tanh(arousal + a), tanh(dominance + d)), levels
 
     def rows(self, imprint: Imprint, outlook: Outlook, seconds: float) -> dict[Origin, Row]:
         """The same cause by cause: what is left of its charges, and its pull on the mood."""
         kept = exp(-self._return_rate * seconds)
-        steps = {name: self._step(self._emotions[name], kept, seconds) for name in outlook.charges}
+        steps = self._steps(self._emotions, outlook.charges, kept, seconds)
+        older = _scaled(steps, outlook.left) if outlook.left else steps
         rows = {}
-        for origin, (charges, mood, time) in imprint.ledger.items():
-            rows[origin] = _evolved(charges, outlook.left, steps, mood, kept, time)
+        for origin, (charges, (p, a, d), time) in imprint.ledger.items():
+            mood = p * kept, a * kept, d * kept
+            rows[origin] = _evolved(charges, older, mood, time)
         for origin, charges in imprint.fresh.items():
-            row = _evolved(charges, {}, steps, STILL, kept, imprint.time)
+            row = _evolved(charges, steps, STILL, imprint.time)
             rows[origin] = merged(rows[origin], row) if origin in rows else row
         return rows
 
@@ -142,49 +140,50 @@ class Fading:
         """The drives, and what they have done to the mood."""
         kept = exp(-self._return_rate * seconds)
         drifted, resting = dict(needs), self._resting
-        for name, (level, mood) in needs.items():
+        moved = [name for name, need in needs.items() if need != (resting[name], STILL)]
+        for name, step in self._steps(self._drives, moved, kept, seconds).items():
+            decay, pleasure, arousal, dominance = step
+            level, (p, a, d) = needs[name]
             off = level - resting[name]
-            if off or mood != STILL:
-                step = self._step(self._drives[name], kept, seconds)
-                decay, pleasure, arousal, dominance = step
-                p, a, d = mood
-                mood = (
-                    p * kept + off * pleasure,
-                    a * kept + off * arousal,
-                    d * kept + off * dominance,
-                )
-                drifted[name] = Need(resting[name] + off * decay, mood)
+            mood = p * kept + off * pleasure, a * kept + off * arousal, d * kept + off * dominance
+            drifted[name] = Need(resting[name] + off * decay, mood)
         return drifted
 
-    def _step(self, force: Force, kept: float, seconds: float) -> _Step:
-        """What some seconds do to 1 of a force; `kept` is what they leave of a mood."""
-        slow, gap, pleasure, arousal, dominance = force
-        lost = expm1(gap * seconds)
-        if slow == self._return_rate:
-            # Of what fades faster than the mood exp(-slow t) exp(-gap t) is left.
-            pull = kept * lost
-            left = kept + pull
-        else:
-            left = exp(-slow * seconds)
-            pull = left * lost
-        return left, pull * pleasure, pull * arousal, pull * dominance
+    def _steps(
+        self, forces: Mapping[str, Force], names: Iterable[str], kept: float, seconds: float
+    ) -> dict[str, _Step]:
+        """What some seconds do to 1 of some forces; `kept` is what they leave of a mood."""
+        mood_rate, steps = self._return_rate, {}
+        for name in names:
+            slow, gap, pleasure, arousal, dominance = forces[name]
+            if slow == mood_rate:
+                # Of what fades faster than the mood exp(-slow t) exp(-gap t) is left.
+                pull = kept * expm1(gap * seconds)
+                left = kept + pull
+            else:
+                left = exp(-slow * seconds)
+                pull = left * expm1(gap * seconds)
+            steps[name] = left, pull * pleasure, pull * arousal, pull * dominance
+        return steps
+
+
+def _scaled(steps: Mapping[str, _Step], left: Mapping[str, float]) -> Mapping[str, _Step]:
+    """The steps of charges of which these shares are left."""
+    scaled = dict(steps)
+    for name, share in left.items():
+        if name in scaled:
+            kept, pleasure, arousal, dominance = scaled[name]
+            scaled[name] = share * kept, share * pleasure, share * arousal, share * dominance
+    return scaled
 
 
 def _evolved(
-    charges: Mapping[str, float],
-    left: Mapping[str, float],
-    steps: Mapping[str, _Step],
-    mood: Axes,
-    kept: float,
-    time: float,
+    charges: Mapping[str, float], steps: Mapping[str, _Step], mood: Axes, time: float
 ) -> Row:
-    """A row after the steps; `left` was left of its charges, `kept` is left of its mood."""
+    """A row after the steps; of its mood this is left."""
     p, a, d = mood
-    p, a, d = p * kept, a * kept, d * kept
     evolved = {}
     for name, charge in charges.items():
-        if name in left:
-            charge *= left[name]
         decay, pleasure, arousal, dominance = steps[name]
         p += charge * pleasure
         a += charge * arousal

@@ -28,7 +28,7 @@ Part = Callable[[Mapping[str, Any]], Value]
 LONGEST = 200
 """Characters of a formula."""
 DEEPEST = 30
-"""Brackets, signs and functions within each other."""
+"""Brackets, signs and functions within each other; a sum or product in a row counts as one."""
 
 _ARITHMETIC: dict[type[ast.operator], Callable[[float, float], float]] = {
     ast.Add: operator.add,
@@ -125,7 +125,9 @@ def _part_of(node: ast.expr, fields: set[str], depth: int) -> Part:
         case ast.UnaryOp(op=ast.UAdd(), operand=child):
             return below(child)
         case ast.BinOp(left=left, op=op, right=right) if type(op) in _ARITHMETIC:
-            combine, one, other = _ARITHMETIC[type(op)], below(left), below(right)
+            # a + b + c is (a + b) + c, which nobody calls deep; LONGEST keeps it short enough.
+            one = _numeric(_part_of(left, fields, depth), left)
+            combine, other = _ARITHMETIC[type(op)], below(right)
             return lambda properties: combine(one(properties), other(properties))
         case ast.Call(func=ast.Name(id=name), args=arguments, keywords=[]):
             function = _function(name, len(arguments))

@@ -99,6 +99,13 @@ class Fields:
         """A text."""
         return _text(self.value(name), f"{self._place}.{name}")
 
+    def truth(self, name: str, default: bool) -> bool:
+        """True or false; the default when nothing stands there."""
+        value = self._data.get(name, default)
+        if not isinstance(value, bool):
+            raise HriError(f"{self._place}.{name} is neither true nor false")
+        return value
+
     def entries(self, name: str) -> list[Fields]:
         """A list of objects."""
         items = enumerate(self._list(name))

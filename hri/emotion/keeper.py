@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -12,7 +13,16 @@ from hri.core.clock import Clock, Worker
 from hri.core.errors import HriError
 from hri.emotion.affect import Affect, Imprint
 from hri.emotion.dynamics import Dynamics
-from hri.emotion.persistence import Mark, Memory, keep, mark_of, put_aside, recall
+from hri.emotion.persistence import (
+    SIGN_OF_LIFE_S,
+    Mark,
+    Memory,
+    keep,
+    mark_of,
+    put_aside,
+    recall,
+    without_unnamed,
+)
 
 KEEP_EVERY_S = 2.0
 """A robot whose plug is pulled forgets no more than this, `hri emotion watch` lags by no more."""
@@ -23,7 +33,8 @@ log = logging.getLogger("hri.emotion")
 
 
 class Keeper:
-    """Keeps what a running robot feels in a file, whenever something has happened and at its end.
+    """Keeps what a running robot feels in a file: whenever something has happened, now and then as
+    a sign of life, and at its end.
 
     A file that cannot be used is told by the event `memory.refused` and put aside; one that cannot
     be written by `memory.failed`, once; and `memory.forgotten` that it was made to forget.
@@ -40,7 +51,8 @@ class Keeper:
         """Whether there is something in the way that must not be overwritten."""
         self._has_failed = False
         self._kept: Imprint | None = None
-        self._next = -math.inf
+        self._written = -math.inf
+        """When, in seconds of the clock."""
         self._mark: Mark | None = None
         """Of the file that was written last; None before."""
         self._forgettings = 0
@@ -53,6 +65,8 @@ class Keeper:
         except HriError as error:
             self._put_aside(error)
             memory = None
+        if memory is not None:
+            memory = replace(memory, imprint=without_unnamed(memory.imprint))
         return self._resumed(memory, dynamics, now)
 
     def forgotten(self, dynamics: Dynamics) -> Affect | None:
@@ -73,14 +87,16 @@ class Keeper:
         return self._resumed(memory, dynamics, self._clock.now())
 
     def keep(self, affect: Affect, now: float) -> None:
-        """Write it beside the loop, if something has happened and the last time is a while ago.
+        """Write it beside the loop, if the last time is a while ago: a short one if something has
+        happened, else SIGN_OF_LIFE_S.
 
         Not over a file that somebody has changed: what they had the robot forget comes first.
         """
         self._poll()
-        is_new = affect.imprint is not self._kept and now >= self._next
-        if is_new and not self._is_stuck and not self._worker.is_busy and not self._is_touched():
-            self._kept, self._next = affect.imprint, now + KEEP_EVERY_S
+        wait = SIGN_OF_LIFE_S if affect.imprint is self._kept else KEEP_EVERY_S
+        is_due = now - self._written >= wait
+        if is_due and not self._is_stuck and not self._worker.is_busy and not self._is_touched():
+            self._kept, self._written = affect.imprint, now
             self._worker.submit(partial(self._write, self._memory(affect)))
 
     def close(self, affect: Affect) -> None:
@@ -90,7 +106,7 @@ class Keeper:
         self._poll()
         if not self._is_stuck and not self._is_touched():
             try:
-                self._write(self._memory(affect))
+                self._write(replace(self._memory(affect), has_ended=True))
             except OSError as error:
                 self._fail(error)
 

@@ -10,8 +10,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from math import exp, hypot, log
 
-RISE = -log(1 - 0.20)
-"""Charge at which an emotion takes the label (intensity 0.20)."""
+STANDS_OUT = 0.20
+"""Intensity at which an emotion takes the label."""
+RISE = -log(1 - STANDS_OUT)
+"""The same as a charge."""
 FALL = -log(1 - 0.12)
 """Charge at which it loses it again (intensity 0.12)."""
 LEAD = 1.15
@@ -102,14 +104,19 @@ def _next_change(
     fades = max((own - _LOG_FALL) / rate, now)
     # Of several at the same moment the strongest emotion wins, and any wins over none.
     first = (fades, 0.0, 0.0, NOTHING)
+    to_beat = own + _LOG_LEAD
     for name, height in heights.items():
-        behind, faster = _LOG_LEAD + own - height, rate - rates[name]
+        if name == current:
+            continue
+        behind, faster = to_beat - height, rate - rates[name]
         if behind <= faster * now:
             at = now
         elif faster > 0:
             at = behind / faster
         else:
             continue
-        if at <= fades and name != current and height - rates[name] * at >= _LOG_RISE:
-            first = min(first, (at, -exp(height), rates[name], name))
+        if at <= fades and height - rates[name] * at >= _LOG_RISE:
+            rival = (at, -exp(height), rates[name], name)
+            if rival < first:
+                first = rival
     return first[0], first[3]

@@ -6,7 +6,7 @@ state, exactly. Rows beyond a bound are added together under "other": nothing of
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -19,6 +19,11 @@ MOST = 8
 FAINT = 1e-3
 """A row that weighs less is not kept apart when it is older than OLD_S: it explains nothing."""
 OLD_S = 60.0
+PROSPECTS = frozenset({"hope", "fear"})
+"""What is felt for a goal until it is decided."""
+MOST_OPEN = 50
+"""Goals that are kept apart besides, as long as they are hoped for or feared: or it could not be
+found again when they are decided."""
 
 Axes = tuple[float, float, float]
 """Pleasure, arousal, dominance."""
@@ -49,7 +54,8 @@ class Row(NamedTuple):
     @property
     def weight(self) -> float:
         """How much it counts."""
-        return sum(self.charges.values()) + sum(map(abs, self.mood))
+        p, a, d = self.mood
+        return sum(self.charges.values()) + abs(p) + abs(a) + abs(d)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,21 +82,43 @@ def merged(one: Row, other: Row) -> Row:
 
 
 def pruned(ledger: Ledger, now: float) -> Ledger:
-    """A ledger of at most MOST rows and REST; faint rows and those that count least go to REST."""
-    faint = [
+    """A ledger of few rows; faint rows, and of too many those that count least, go to REST.
+
+    MOST are kept apart, and besides up to MOST_OPEN goals that are still hoped for or feared.
+    """
+    before = now - OLD_S
+    leaving = [
         origin
         for origin, row in ledger.items()
-        if now - row.time > OLD_S and row.weight < FAINT and origin != REST
+        if row.time < before and row.weight < FAINT and origin != REST
     ]
-    if not faint and len(ledger) <= MOST:
+    if len(ledger) - len(leaving) > MOST:
+        leaving += _lightest(ledger, leaving)
+    if not leaving:
         return ledger
-    kept = [origin for origin in ledger if origin != REST and origin not in faint]
-    kept.sort(key=lambda origin: -ledger[origin].weight)
     result = dict(ledger)
-    for origin in (*faint, *kept[MOST:]):
+    for origin in leaving:
         row = result.pop(origin)
         result[REST] = merged(result[REST], row) if REST in result else row
     return result
+
+
+def _lightest(ledger: Ledger, leaving: Collection[Origin]) -> list[Origin]:
+    """The rows that there is no room for, once those that are leaving have left."""
+    goals: dict[Origin, float] = {}
+    others: dict[Origin, float] = {}
+    for origin, row in ledger.items():
+        if origin != REST and origin not in leaving:
+            is_open = origin.name[:5] == "goal." and not PROSPECTS.isdisjoint(row.charges)
+            (goals if is_open else others)[origin] = row.weight
+    return [*_excess(goals, MOST_OPEN), *_excess(others, MOST)]
+
+
+def _excess(weights: Mapping[Origin, float], most: int) -> list[Origin]:
+    """The lightest ones, beyond so many."""
+    if len(weights) <= most:
+        return []
+    return sorted(weights, key=weights.__getitem__)[: len(weights) - most]
 
 
 def summed(one: Mapping[str, float], other: Mapping[str, float]) -> dict[str, float]:

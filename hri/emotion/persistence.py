@@ -16,11 +16,13 @@ from typing import NoReturn
 
 from hri.core import paths
 from hri.core.errors import HriError, did_you_mean, read_text
-from hri.emotion.affect import Imprint, shifted
+from hri.emotion.affect import Imprint, renamed, shifted
 from hri.emotion.imprint_file import LATEST, Fields, decoded, encoded
-from hri.emotion.ledger import Origin, Row, merged
+from hri.emotion.relations import is_unnamed
 
 SCHEMA = 1
+SIGN_OF_LIFE_S = 60.0
+"""A robot that runs writes its file at least as often."""
 LONGEST_AWAY_S = 365 * 86400.0
 """More than this is a clock that was wrong, and counts as this."""
 Mark = tuple[int, int]
@@ -40,6 +42,15 @@ class Memory:
     """Of the robot that felt it: a name or a path."""
     forgettings: int = 0
     """How often a person was forgotten since the file began."""
+    has_ended: bool = False
+    """Whether it was written at the end of a run."""
+
+    def is_running(self, wall: float) -> bool:
+        """Whether the robot runs at `wall` seconds since 1970.
+
+        It has not ended then, nor been silent for as long as one whose plug was pulled.
+        """
+        return not self.has_ended and wall - self.wall < 2 * SIGN_OF_LIFE_S
 
     def awakened(self, now: float, wall: float) -> Imprint:
         """The same on the clock of another run, which shows `now` at `wall` seconds since 1970.
@@ -63,6 +74,7 @@ def dump(memory: Memory) -> str:
         "wall": memory.wall,
         "personality": memory.personality,
         "forgettings": memory.forgettings,
+        "has_ended": memory.has_ended,
         "affect": encoded(memory.imprint),
     }
     return json.dumps(data, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
@@ -83,6 +95,7 @@ def parse(text: str) -> Memory:
         wall=fields.number("wall", LATEST),
         personality=fields.text("personality"),
         forgettings=int(fields.number("forgettings", LATEST, 0.0)),
+        has_ended=fields.truth("has_ended", default=False),
     )
     if memory.imprint.time > memory.time:
         raise HriError("it tells of a time after it was written")
@@ -100,6 +113,8 @@ def recall(path: Path) -> Memory | None:
     """
     if not os.path.lexists(path):
         return None
+    if not path.exists():
+        raise HriError(f"{path} links to {os.readlink(path)}, which is not there - mend the link")
     return parse(read_text(path, "memory of feelings"))
 
 
@@ -123,7 +138,7 @@ def put_aside(path: Path) -> Path:
 
     Raises OSError, also for what is no file: a folder that was named by mistake stays where it is.
     """
-    if not path.is_file():
+    if not path.is_file() and path.exists():
         raise FileNotFoundError(errno.ENOENT, "it is no file", str(path))
     number = 1
     while os.path.lexists(aside := path.with_name(f"{path.stem}.unusable-{number}{path.suffix}")):
@@ -169,25 +184,12 @@ def people(imprint: Imprint) -> set[str]:
 
 def without(imprint: Imprint, person: str) -> Imprint:
     """The same without a person: what they caused stays felt, but nobody has done it."""
-    ledger: dict[Origin, Row] = {}
-    for origin, row in imprint.ledger.items():
-        nameless = _nameless(origin, person)
-        ledger[nameless] = merged(ledger[nameless], row) if nameless in ledger else row
-    fresh: dict[Origin, dict[str, float]] = {}
-    for origin, charges in imprint.fresh.items():
-        total = fresh.setdefault(_nameless(origin, person), {})
-        for emotion, charge in charges.items():
-            total[emotion] = total.get(emotion, 0.0) + charge
-    return imprint._replace(
-        ledger=ledger,
-        fresh=fresh,
-        habituation={o: trace for o, trace in imprint.habituation.items() if o.person != person},
-        relations={name: trace for name, trace in imprint.relations.items() if name != person},
-    )
+    return renamed(imprint, {person: None})
 
 
-def _nameless(origin: Origin, person: str) -> Origin:
-    return Origin(origin.name) if origin.person == person else origin
+def without_unnamed(imprint: Imprint) -> Imprint:
+    """The same without those who had but an id, which is somebody else's by now."""
+    return renamed(imprint, dict.fromkeys(filter(is_unnamed, people(imprint))))
 
 
 def mark_of(status: os.stat_result) -> Mark:

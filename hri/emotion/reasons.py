@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 
 from hri.emotion.display import Look
 from hri.emotion.ledger import TEMPERAMENT, Cause
+from hri.emotion.relations import is_unnamed
 
 WORTH_SAYING = 0.2
 """A cause with a smaller share is not mentioned."""
@@ -32,6 +34,9 @@ JUST_NOW_S = 10.0
 ALSO_CALLED = {"afraid": "scared"}
 """What people say, and what the display file calls it."""
 
+_PERSON = re.compile(r"\{([^{}]*)\}")
+"""In words of a stimulus, what gives way to a name."""
+
 _AGES = (
     # up to so many seconds: (seconds of the unit, one of it, several of it)
     (60.0, 1.0, "a moment ago", "a moment ago"),
@@ -47,8 +52,9 @@ def why_words(
     """One sentence: what the robot feels, and what made it so.
 
     `feeling` is what follows "I am"; `causes` come largest first; `needs` are 0, stilled, to 1;
-    `words` say of each cause by name what happened: "you praised me". Goals, actions and objects of
-    an appraisal are called by their own name; any other cause without words is not mentioned.
+    `words` say of each cause by name what happened: "{you} praised me", which is "Anna praised me"
+    where it was Anna. Goals, actions and objects of an appraisal are called by their own name; any
+    other cause without words is not mentioned.
     """
     told = [
         (cause.share, reason)
@@ -88,6 +94,12 @@ def age_words(age_s: float) -> str:
     raise ValueError(f"an age of {age_s} s")
 
 
+def _said(words: str, person: str | None) -> str:
+    if person is None or is_unnamed(person):
+        return _PERSON.sub(lambda found: found[1], words)
+    return _PERSON.sub(lambda found: person, words)
+
+
 def _reason(cause: Cause, words: Mapping[str, str], needs: Mapping[str, float]) -> str:
     """What follows "because"; empty for what cannot be said."""
     if cause.name in ALWAYS:
@@ -96,7 +108,7 @@ def _reason(cause: Cause, words: Mapping[str, str], needs: Mapping[str, float]) 
         return pressing if level >= PRESSING else stilled
     kind, _, name = cause.name.partition(".")
     if cause.name in words:
-        what = words[cause.name]
+        what = _said(words[cause.name], cause.person)
     elif kind in APPRAISED and name:
         what = f"of {name.replace('_', ' ')}"
     else:

@@ -25,6 +25,14 @@ SIGNS = {emotion.name: 1.0 if emotion.is_positive else -1.0 for emotion in EMOTI
 """1 for each emotion that pleases, -1 for the others."""
 
 
+def is_unnamed(person: str) -> bool:
+    """Whether this is no name but the id of somebody in sight: "p1", "p2" (see `Person.id`).
+
+    The next time it is somebody else's: what the robot thinks of them ends with its run.
+    """
+    return person[:1] == "p" and person[1:].isdecimal()
+
+
 def relation_of(regard: float) -> float:
     """The relation, -1 to 1, of a regard."""
     return math.tanh(regard)

@@ -24,6 +24,7 @@ MOST = 1000
 """Stimuli at most, in all files."""
 _STRONGEST = 0.95
 _FULL = parse_formula("1")
+_WORDS = re.compile(r"(?:[^{}]|\{[^{}\s]+\})*")
 _NAME = re.compile(r"[\w-]{1,60}", re.ASCII)
 _TRIGGER = re.compile(r"[\w-]+(\.[\w-]+)+", re.ASCII)
 
@@ -34,7 +35,8 @@ class StimulusSpec:
 
     name: str
     words: str
-    """What happened, as the robot says it after "because": "you praised me"."""
+    """What happened, as the robot says it after "because": "{you} praised me". What stands in
+    braces gives way to the name of who did it, where that is known."""
     emotions: Mapping[str, float]
     """Intensity that each emotion reaches when this comes in full strength out of a calm."""
     habituates: float = 0.0
@@ -105,7 +107,7 @@ def _stimulus(name: str, table: Table) -> StimulusSpec:
     habituation = table.table("habituation", optional=True)
     stimulus = StimulusSpec(
         name=name,
-        words=_text(table, "words"),
+        words=_words(table),
         emotions=emotions.weights(maximum=_STRONGEST),
         habituates=habituation.number("per_event", 0.0, minimum=0, maximum=1),
         recover_s=habituation.number("recover_s", 60.0, minimum=1, maximum=86400),
@@ -127,6 +129,14 @@ def _text(table: Table, name: str, default: str = REQUIRED) -> str:
     if len(text) > LONGEST_NAME:
         raise table.error(name, f"{name} has {len(text)} letters", f"keep it within {LONGEST_NAME}")
     return text
+
+
+def _words(table: Table) -> str:
+    words = _text(table, "words")
+    if not _WORDS.fullmatch(words):
+        remedy = 'put one word in braces, such as "{you} praised me", or none'
+        raise table.error("words", f'"{words}" has a brace too many', remedy)
+    return words
 
 
 def _trigger(table: Table) -> str:

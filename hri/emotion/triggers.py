@@ -11,7 +11,7 @@ from functools import partial
 from typing import Any
 
 from hri.behavior.behavior import Context
-from hri.behavior.runner import Watch
+from hri.behavior.runner import Runner, Watch
 from hri.core.errors import HriError
 from hri.core.events import Subscription
 from hri.core.signals import Event
@@ -44,23 +44,45 @@ class Triggers:
         self._context = context
         self._feel = feel
         self._refused: set[str] = set()
-        self._waiting = [spec for spec in stimuli if spec.trigger]
-        """Those whose trigger may still turn out to be a port of a network to come."""
+        self._triggered = [spec for spec in stimuli if spec.trigger]
         subscribe = context.events.subscribe
-        self._links: list[Subscription | Watch] = [
+        self._subscriptions: list[Subscription] = [
             subscribe("stimulus.felt", self._on_felt),
-            *(subscribe(spec.trigger, partial(self._on_event, spec)) for spec in self._waiting),
+            *(subscribe(spec.trigger, partial(self._on_event, spec)) for spec in self._triggered),
         ]
+        self._watches: dict[str, tuple[Runner, Watch]] = {}
+        """Ports that turned out to be triggers, and what runs them, by stimulus."""
+        self._searched: tuple[Runner, ...] = ()
+        """The networks in which ports were looked for."""
 
     def connect(self) -> None:
-        """Watch the ports that have come up since; called now and then."""
-        self._waiting = [spec for spec in self._waiting if not self._watch(spec)]
+        """Watch the ports that have come up since, and again those whose network was swapped.
+
+        Called now and then.
+        """
+        running = tuple(self._context.networks.runners.values())
+        if running == self._searched:
+            return
+        self._searched = running
+        for spec in self._triggered:
+            runner, watch = self._watches.get(spec.name, (None, None))
+            if runner in running:
+                continue
+            if watch is not None:
+                watch.cancel()
+                del self._watches[spec.name]
+            for candidate in running:
+                self._watch(spec, candidate)
 
     def close(self) -> None:
         """Listen no more; a second call does nothing."""
-        for link in self._links:
-            link.cancel()
-        self._links.clear()
+        for subscription in self._subscriptions:
+            subscription.cancel()
+        for _, watch in self._watches.values():
+            watch.cancel()
+        self._subscriptions.clear()
+        self._watches.clear()
+        self._triggered.clear()
 
     def feel(self, name: str, intensity: Any = 1.0, person: Any = None) -> None:
         """Let a stimulus be felt, or tell why it cannot be."""
@@ -92,17 +114,15 @@ class Triggers:
             self._refuse(spec.name, error)
             return 0.0
 
-    def _watch(self, spec: StimulusSpec) -> bool:
-        """Whether the trigger is a port that runs: "battery.level" of the behavior "battery"."""
+    def _watch(self, spec: StimulusSpec, runner: Runner) -> None:
+        """Watch the trigger if it is a port there: "battery.level" of the behavior "battery"."""
         behavior_id, _, output = spec.trigger.rpartition(".")
-        for runner in self._context.networks.runners.values():
-            for behavior in runner.network.behaviors:
-                names = (behavior.id, f"{runner.network.name}.{behavior.id}")
-                if behavior_id in names and output in behavior.outputs:
-                    watch = runner.watch(behavior.id, output, partial(self._on_port, spec))
-                    self._links.append(watch)
-                    return True
-        return False
+        for behavior in runner.network.behaviors:
+            names = (behavior.id, f"{runner.network.name}.{behavior.id}")
+            is_port = behavior_id in names and output in behavior.outputs
+            if is_port and spec.name not in self._watches:
+                watch = runner.watch(behavior.id, output, partial(self._on_port, spec))
+                self._watches[spec.name] = runner, watch
 
     def _refuse(self, name: str, error: Exception) -> None:
         if name not in self._refused and len(self._refused) < MOST_REFUSED:

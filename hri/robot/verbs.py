@@ -165,7 +165,9 @@ async def _ask(
 def _tell_answer(context: TaskContext, question: str, answer: object, event: Event) -> None:
     by = "speech" if event.name == "speech.heard" else "head"
     told = answer.text if isinstance(answer, Utterance) else answer
-    context.events.raise_event("question.answered", text=question, answer=told, by=by)
+    # Of a nod or a shake it is known whose it was, and they are thanked for it.
+    who = {"person": person} if (person := event.properties.get("person")) else {}
+    context.events.raise_event("question.answered", text=question, answer=told, by=by, **who)
 
 
 def _plain_answer(context: TaskContext, event: Event) -> tuple[bool | None] | None:

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from hri.core.errors import HriError
 from hri.core.signals import EmotionState
-from hri.emotion.acting import NOTHING_ACTED, whole_vector
+from hri.emotion.acting import MOST_ACTS, NOTHING_ACTED, whole_vector
 from hri.emotion.emotions import NAMES
 
 SAD = EmotionState("sadness", 0.5, -0.2, -0.1, -0.1, {"sadness": 0.5, "joy": 0.1})
@@ -28,7 +28,7 @@ def test_a_newer_act_counts_and_leaves_other_emotions_alone() -> None:
     acting = NOTHING_ACTED.set({"joy": 0.9, "anger": 0.3}, 5.0, now=0.0)
     acting = acting.set({"joy": 0.4}, 1.0, now=0.0)
     assert acting.shown(SAD, 0.5).emotions == {"sadness": 0.5, "joy": 0.4, "anger": 0.3}
-    assert acting.shown(SAD, 2.0).emotions == {"sadness": 0.5, "joy": 0.1, "anger": 0.3}
+    assert acting.shown(SAD, 2.0).emotions == {"sadness": 0.5, "joy": 0.9, "anger": 0.3}
 
 
 def test_an_increment_starts_from_what_is_shown_and_stops_at_the_ends() -> None:
@@ -38,6 +38,18 @@ def test_an_increment_starts_from_what_is_shown_and_stops_at_the_ends() -> None:
     assert acting.shown(SAD, 1.0).emotions["sadness"] == pytest.approx(0.9)
     assert acting.raised("sadness", 1.0, SAD, 5.0, 1.0).shown(SAD, 1.0).intensity == 1.0
     assert acting.raised("sadness", -1.0, SAD, 5.0, 1.0).shown(SAD, 1.0).emotions["sadness"] == 0.0
+
+
+def test_what_was_put_on_for_longer_is_shown_again_after_something_shorter() -> None:
+    acting = NOTHING_ACTED.set({"joy": 0.5}, 10.0, now=0.0).raised("joy", 0.3, SAD, 2.0, now=1.0)
+    joys = [acting.shown(SAD, now).emotions["joy"] for now in (1.0, 2.9, 3.0, 9.9, 10.0)]
+    assert joys == [pytest.approx(0.8), pytest.approx(0.8), 0.5, 0.5, 0.1]
+    assert acting.ends(5.0) == 10.0
+    longer = acting.set({"joy": 0.2}, 20.0, now=1.5)
+    assert [longer.shown(SAD, now).emotions["joy"] for now in (2.0, 11.0)] == [0.2, 0.2]
+    for step in range(10 * MOST_ACTS):
+        acting = acting.set({"joy": 0.1}, 9.0 - 0.01 * step, now=0.0)
+    assert len(acting.acts["joy"]) == MOST_ACTS
 
 
 def test_a_feeling_that_is_hidden_leaves_the_mood_to_be_seen() -> None:

@@ -125,6 +125,15 @@ def test_the_relation_decides_what_is_felt_for_others() -> None:
     assert max(NEUTRAL.read(stranger).emotions.values()) == 0.0
 
 
+def test_nothing_is_left_to_hope_for_once_a_goal_is_decided_whatever_came_between() -> None:
+    affect = NEUTRAL.appraise(NEUTRAL.rest(), goal(0.3, 0.5, 0.7), 0.0)
+    assert NEUTRAL.charges(affect)["hope"] > 0.05
+    for n in range(30):
+        affect = NEUTRAL.feel(affect, "petted", 1.0, 0.1 * (n + 1), f"person {n}")
+    affect = NEUTRAL.appraise(affect, goal(0.3, 0.7, 1.0), 4.0)
+    assert NEUTRAL.charges(affect).get("hope", 0.0) == 0.0
+
+
 def test_a_personality_has_its_gains_on_appraisals_too() -> None:
     cold = Dynamics(Personality("cold", positive=Temper(0.5)), ())
     warm = NEUTRAL.appraise(NEUTRAL.rest(), REACHED["joy"], 0.0)

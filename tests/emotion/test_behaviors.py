@@ -2,6 +2,8 @@ import math
 import os
 import re
 import shutil
+from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -14,10 +16,14 @@ from hri.core import paths
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.core.events import EventBus
-from hri.core.signals import EmotionState, Event, Expression, Stimulus
+from hri.core.signals import EmotionState, Event, Expression, HeadPose, People, Person, Stimulus
 from hri.emotion.appraisal import GoalEvent
 from hri.emotion.behaviors import EmotionDisplay, EmotionModel
+from hri.face.behaviors import Face
 from hri.hal.manager import ResourceManager
+
+SEEN = {"p1": "Anna", "p2": ""}
+"""Who is seen in a test, by id: not all have names."""
 
 
 class Feeling:
@@ -123,6 +129,45 @@ def test_it_says_why() -> None:
     assert Feeling("pessimist").model.why_words() == "I am a bit down because that is how I am."
 
 
+def test_who_praised_it_is_named_unless_it_is_the_one_who_asks() -> None:
+    feeling = Feeling()
+    sent: OutputPort[People] = OutputPort()
+    feeling.model.people.sources.append(sent)
+    anna, ben = (Person(id, HeadPose(0.0, 0.0, 0.0), name=name) for id, name in SEEN.items())
+    sent.value = People(0.0, (anna, ben), attended="p2")
+    feeling.live(0.1)
+    feeling.model.feel("praise", person="p1")
+    assert feeling.model.why_words() == "I am happy because Anna praised me."
+    assert feeling.model.why()[0].person == "Anna"
+    sent.value = People(0.0, (anna, ben), attended="p1")
+    feeling.live(0.1)
+    assert feeling.model.why_words() == "I am happy because you praised me."
+    feeling.context.events.raise_event("stimulus.felt", stimulus="scold", person="p2")
+    feeling.live(10.0)
+    assert feeling.model.why_words() == "I am sad because you scolded me."
+
+
+def test_what_somebody_did_is_theirs_once_their_name_is_known() -> None:
+    feeling = Feeling()
+    sent: OutputPort[People] = OutputPort()
+    feeling.model.people.sources.append(sent)
+    somebody = Person("p1", HeadPose(0.0, 0.0, 0.0))
+    sent.value = People(0.0, (somebody,))
+    feeling.live(0.1)
+    for person in ("p1", "Anna", "p2"):
+        feeling.model.feel("petted", person=person)
+        feeling.live(0.1)
+    before = feeling.model.feeling()
+    sent.value = People(1.0, (replace(somebody, name="Anna"),))
+    feeling.model.compute(feeling.clock.now(), 0.1)
+    assert feeling.model.feeling().emotions == pytest.approx(before.emotions, abs=1e-9)
+    shares = {cause.person: cause.share for cause in feeling.model.why()}
+    assert set(shares) == {"Anna", "p2"}
+    assert shares["Anna"] > 0.6
+    feeling.model.feel("petted", person="p1")
+    assert set(shares) == {cause.person for cause in feeling.model.why()}
+
+
 def test_who_asks_about_a_feeling_hears_about_that_one() -> None:
     feeling = Feeling()
     feeling.model.feel("praise")
@@ -199,6 +244,30 @@ def test_the_display_passes_on_what_is_felt() -> None:
     override.value = Expression("asleep", 1.0)
     display.compute(0.2, 0.1)
     assert display.expression.value == Expression("asleep", 1.0)
+
+
+def test_a_smile_fades_into_the_mood_and_does_not_grow_again() -> None:
+    feeling, display, face = Feeling(), EmotionDisplay(), Face()
+    display.state.sources.append(feeling.model.state)
+    face.expression.sources.append(display.expression)
+    display.start(feeling.context)
+    face.start(feeling.context)
+    feeling.model.feel("praise")
+    smiles = []
+    for _ in range(600):
+        feeling.live(0.1)
+        now = feeling.clock.now()
+        display.compute(now, 0.1)
+        face.compute(now, 0.1)
+        assert face.weights.value is not None
+        smiles.append(face.weights.value.values.get("mouthSmileLeft", 0.0))
+    assert feeling.labels() == ["joy", "exuberant"]
+    peak = smiles.index(max(smiles))
+    assert peak < 20
+    fading = smiles[peak:]
+    assert max(later - one for one, later in pairwise(fading)) < 0.01
+    assert max(later - one for one, later in zip(fading, fading[30:], strict=False)) < 0.02
+    assert 0.1 < smiles[-1] < 0.6 * max(smiles)
 
 
 def test_a_shy_one_shows_less() -> None:

@@ -1,11 +1,17 @@
 import json
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
 
+from hri.cli.emotion.plot import figure_of
+from hri.cli.emotion.simulate import play
+from hri.cli.emotion.timeline import Happening
 from hri.cli.main import main
+from hri.core.signals import Stimulus
+from hri.emotion.model import load_emotions
 
 VISIT = """
 # seconds stimulus intensity
@@ -167,6 +173,18 @@ def test_a_simulation_can_be_drawn(
         assert (picture == color).all(axis=1).sum() > 100
     assert main([*words, str(tmp_path / "missing" / "out.png")]) == 2
     assert "choose another file" in capsys.readouterr().err
+
+
+def test_the_names_in_a_drawing_can_be_read() -> None:
+    dynamics = load_emotions("neutral").dynamics()
+    whiles = [0.0, 0.1, 0.2, 1.0, 1.1, 5.0, 20.0, 20.5, 21.0, 60.0] + [90.0] * 20
+    timeline = [Happening(time, Stimulus("praise", 1.0)) for time in whiles]
+    figure = figure_of(dynamics, list(play(dynamics, timeline, [])), timeline)
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        boxes = [text.get_window_extent() for text in axes.texts]
+        assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))
+    assert len(figure.axes[1].texts) > 10
 
 
 def test_nothing_happening_can_be_simulated_and_drawn(

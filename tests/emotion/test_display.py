@@ -1,4 +1,5 @@
 import csv
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,9 +11,19 @@ from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.signals import EmotionState, Expression, Prosody
 from hri.core.toml import load_toml
-from hri.emotion.display import EXPRESSIONS, LABELS, Felt, display_path, felt_now, load_display
+from hri.emotion.display import (
+    EXPRESSIONS,
+    LABELS,
+    DisplayRule,
+    Felt,
+    display_path,
+    felt_now,
+    load_display,
+)
+from hri.emotion.dynamics import Dynamics
 from hri.emotion.emotions import EMOTIONS, INDEX, NAMES
 from hri.face import vocabulary
+from tests.emotion.streams import Stream, models, play, streams
 
 SCHROEDER = (
     Path(__file__).resolve().parents[3] / "shared" / "emotion_tables" / "schroeder_mary_prosody.tsv"
@@ -152,6 +163,34 @@ def test_what_is_hidden_altogether_leaves_a_calm_face() -> None:
     felt = EmotionState("hate", 0.7, -0.4, 0.0, 0.0, {"hate": 0.7})
     shown = DISPLAY.shown(felt, "polite")
     assert (shown.label, shown.intensity, shown.emotions["hate"]) == ("calm", 0.0, 0.0)
+
+
+def test_behind_what_is_hidden_the_next_feeling_shows() -> None:
+    felt = EmotionState("hate", 0.7, -0.4, 0.0, 0.0, {"hate": 0.7, "joy": 0.1, "surprise": 0.4})
+    shown = DISPLAY.shown(felt, "polite")
+    assert (shown.label, shown.intensity) == ("surprise", 0.4)
+
+
+def test_a_weakened_feeling_steps_behind_a_stronger_one() -> None:
+    emotions = {"anger": 0.6, "surprise": 0.5}
+    shown = DISPLAY.shown(EmotionState("anger", 0.6, 0.0, 0.0, 0.0, emotions), "polite")
+    assert (shown.label, shown.intensity) == ("surprise", 0.5)
+    emotions["surprise"] = shown.emotions["anger"] * 0.9
+    shown = DISPLAY.shown(EmotionState("anger", 0.6, 0.0, 0.0, 0.0, emotions), "polite")
+    assert shown.label == "anger"
+
+
+@settings(deadline=None)
+@given(models, streams, st.floats(0, 100))
+def test_rules_about_what_is_not_felt_change_nothing(
+    model: Dynamics, stream: Stream, until: float
+) -> None:
+    state = model.read(play(model, stream, until))
+    unfelt = [name for name in NAMES if not state.emotions[name]]
+    rules = {name: DisplayRule(name, 2.0) for name in unfelt}
+    shown = replace(DISPLAY, rules={"idle": rules}).shown(state, "idle")
+    assert shown.label == state.label
+    assert shown.intensity == pytest.approx(state.intensity, abs=1e-12)
 
 
 def test_a_state_without_intensities_can_be_shown_too() -> None:

@@ -119,8 +119,8 @@ def test_a_stronger_stimulus_is_felt_more(
     wait, event = stream[at]
     assert isinstance(event, Felt)
     spec = STIMULI[[stimulus.name for stimulus in STIMULI].index(event.name)]
-    # These move what follows by other ways than the emotions.
-    assume(not spec.relation and not spec.satisfies)
+    # These move what follows by other ways than the emotions, and what was nothing did not happen.
+    assume(not spec.relation and not spec.satisfies and event.intensity > 0)
     stronger = [*stream]
     more = event.intensity + (1 - event.intensity) * data.draw(st.floats(0, 1))
     stronger[at] = (wait, replace(event, intensity=more))
@@ -257,11 +257,25 @@ def test_a_repeated_stimulus_wears_off_and_recovers() -> None:
     assert gains[3] == pytest.approx(gains[0], rel=1e-3)
 
 
+def test_of_intensity_0_nothing_has_happened() -> None:
+    before = play(NEUTRAL, [(0.0, Felt("praise", 1.0, "Anna"))])
+    for person in ("Anna", "Ben", None):
+        after = NEUTRAL.feel(before, "praise", 0.0, 5.0, person)
+        assert after == NEUTRAL.advance(before, 5.0)
+
+
 def test_it_gets_used_to_each_person_apart() -> None:
     affect = NEUTRAL.feel(NEUTRAL.rest(), "scold", 1.0, 0.0, "Anna")
     again = NEUTRAL.feel(affect, "scold", 1.0, 1.0, "Anna")
     other = NEUTRAL.feel(affect, "scold", 1.0, 1.0, "Ben")
     assert NEUTRAL.charges(other)["shame"] > NEUTRAL.charges(again)["shame"]
+
+
+def test_to_people_without_a_name_it_gets_used_as_to_one() -> None:
+    affect = NEUTRAL.feel(NEUTRAL.rest(), "praise", 1.0, 0.0, "p1")
+    again = NEUTRAL.feel(affect, "praise", 1.0, 1.0, "p2")
+    assert NEUTRAL.charges(again)["joy"] < 1.8 * NEUTRAL.charges(affect)["joy"]
+    assert set(NEUTRAL.relations(again)) == {"p1", "p2"}
 
 
 def test_what_it_is_used_to_and_whom_it_knows_is_bounded() -> None:

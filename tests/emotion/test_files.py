@@ -116,6 +116,8 @@ def test_a_wrong_personality_is_refused_with_its_place(
         ("schema = 2\n", "from 1 to 1"),
         (TICKLED + 'trigger = "touched"\n', "is no trigger"),
         (f'[stimulus.x]\nwords = "{"x" * 300}"\n', "300 letters"),
+        ('[stimulus.x]\nwords = "{you praised me"\n', "has a brace too many"),
+        ('[stimulus.x]\nwords = "{} praised me"\n', "has a brace too many"),
         (TICKLED + "intensity = 2\n", "from 0 to 1"),
         (TICKLED + "intensity = true\n", "true or false"),
         (TICKLED + 'intensity = "value ** 2"\n', "has no place in a formula"),

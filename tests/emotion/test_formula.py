@@ -102,6 +102,13 @@ def test_a_deep_formula_within_the_limits_is_fine() -> None:
     assert parse_formula(text).value({}) == 1.0
 
 
+@pytest.mark.parametrize("operator", "+-*")
+def test_a_long_row_is_not_deep(operator: str) -> None:
+    text = operator.join(["value"] * 33)
+    assert math.isfinite(parse_formula(text).value({"value": 1.0}))
+    assert parse_formula("+".join(["1"] * 100)).value({}) == 100.0
+
+
 @pytest.mark.parametrize(
     ("text", "what"),
     [

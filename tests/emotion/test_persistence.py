@@ -151,6 +151,7 @@ DAMAGE: list[tuple[Callable[[Any], object], str]] = [
     (lambda data: data["affect"]["relations"].update(Ann={}), "relations.Ann has no before"),
     (lambda data: data["affect"]["causes"][0].update(name=1), "causes[0].name is no text"),
     (lambda data: data["affect"].update(causes="all"), "affect.causes is no list"),
+    (lambda data: data.update(has_ended=1), "the file.has_ended is neither true nor false"),
 ]
 
 
@@ -278,6 +279,51 @@ def test_a_robot_wakes_up_as_it_would_have_felt_by_then(tmp_path: Path) -> None:
     assert awake.valence < -0.05
     assert awake.drives == pytest.approx(on.drives, abs=1e-9)
     assert second.model.why_words() == first.model.why_words()
+
+
+def test_who_reads_the_file_knows_whether_the_robot_runs(tmp_path: Path) -> None:
+    path = tmp_path / "feelings.json"
+    run = Run(path)
+
+    def is_running() -> bool:
+        memory = recall(path)
+        assert memory is not None
+        return memory.is_running(run.clock.wall().timestamp())
+
+    for _ in range(10):
+        run.live(30)
+        assert is_running()
+    run.clock.advance(1000.0)
+    assert not is_running(), "its plug was pulled"
+    run.live(30)
+    assert is_running()
+    run.model.stop()
+    assert not is_running()
+
+
+def test_whose_name_is_not_known_is_a_stranger_the_next_time(tmp_path: Path) -> None:
+    path = tmp_path / "feelings.json"
+    first = Run(path)
+    for person in ("p1", "Ann"):
+        first.model.feel("praise", 1.0, person)
+    first.live(1)
+    first.model.stop()
+    second = Run(path)
+    assert {cause.person for cause in second.model.why()} == {"Ann", None}
+    second.model.stop()
+    assert (memory := recall(path)) is not None
+    assert set(memory.imprint.relations) == {"Ann"}
+
+
+def test_a_link_to_nothing_is_put_aside(tmp_path: Path) -> None:
+    path = tmp_path / "feelings.json"
+    path.symlink_to(tmp_path / "gone")
+    run = Run(path)
+    (event,) = run.events
+    assert f"links to {tmp_path / 'gone'}, which is not there" in event.properties["reason"]
+    assert "feelings.unusable-1.json" in event.properties["reason"]
+    run.model.stop()
+    assert recall(path) is not None
 
 
 def test_what_happens_is_kept_soon_for_the_day_the_plug_is_pulled(tmp_path: Path) -> None:

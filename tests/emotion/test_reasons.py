@@ -25,6 +25,16 @@ def test_of_two_causes_the_larger_weighs_more_and_each_has_its_age() -> None:
     assert told == "I am sad because you scolded me, and because I bumped into something."
 
 
+@pytest.mark.parametrize(
+    ("person", "told"),
+    [("Anna", "Anna praised me"), (None, "you praised me"), ("p12", "you praised me")],
+)
+def test_who_has_a_name_is_named(person: str | None, told: str) -> None:
+    words = {"praise": "{you} praised me"}
+    causes = [Cause("praise", 1.0, 0.0, person)]
+    assert why_words("happy", causes, words, {}) == f"I am happy because {told}."
+
+
 def test_a_cause_that_is_most_of_it_is_told_so() -> None:
     causes = [Cause("scold", 0.8, 0.0), Cause("bump", 0.15, 0.0)]
     assert why_words("sad", causes, WORDS, {}) == "I am sad mostly because you scolded me."

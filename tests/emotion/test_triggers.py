@@ -106,6 +106,25 @@ def test_triggers_that_take_the_place_of_others_feel_nothing_twice() -> None:
     assert robot.felt == [("hungry", 1.0, None), ("hungry", 1.0, None)]
 
 
+def test_a_port_is_felt_after_its_network_was_swapped_or_started_anew() -> None:
+    robot = Touched(stimulus("hungry", "battery.level", "value < 0.2"))
+    robot.start_gauge()
+    robot.read(0.1, 0.5)
+    robot.gauge = Gauge("battery")
+    networks = robot.context.networks
+    robot.tick = networks.swap("moving", Network("moving", 0.1, [robot.gauge])).tick
+    robot.triggers.connect()
+    robot.read(0.1, 0.5)
+    assert len(robot.felt) == 2
+    networks.stop("moving")
+    robot.triggers.connect()
+    robot.gauge = Gauge("battery")
+    robot.start_gauge()
+    robot.triggers.connect()
+    robot.read(0.1, 0.1)
+    assert len(robot.felt) == 3
+
+
 def test_what_the_formula_cannot_tell_is_refused_once() -> None:
     robot = Touched(stimulus("bump", "drive.bumped", "speed"))
     for _ in range(3):

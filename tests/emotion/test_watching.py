@@ -1,4 +1,5 @@
 import json
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -16,11 +17,13 @@ def dynamics(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Dynamics:
     return load_emotions("neutral").dynamics()
 
 
-def remember(dynamics: Dynamics, seconds_ago: float) -> None:
+def remember(
+    dynamics: Dynamics, seconds_ago: float, personality: str = "neutral", has_ended: bool = False
+) -> None:
     """A robot was scolded by Bob so many seconds ago, and keeps it."""
     affect = dynamics.feel(dynamics.rest(500.0), "scold", 1.0, 500.0, "Bob")
-    wall = RealClock().wall().timestamp()
-    keep(memory_file(), Memory(affect.imprint, 500.0, wall - seconds_ago))
+    wall = RealClock().wall().timestamp() - seconds_ago
+    keep(memory_file(), Memory(affect.imprint, 500.0, wall, personality, has_ended=has_ended))
 
 
 def test_one_sees_what_a_robot_feels_now_not_what_it_felt_when_it_was_kept(
@@ -45,8 +48,65 @@ def test_people_are_told_in_words(dynamics: Dynamics, capsys: pytest.CaptureFixt
     assert main(["emotion", "watch", "--once"]) == 0
     line = capsys.readouterr().out
     assert "sadness" in line
-    assert "I am sad because you scolded me" in line
+    assert "I am sad because Bob scolded me" in line
     assert "company 0.60" in line
+    assert "ended" not in line
+
+
+@pytest.mark.parametrize(
+    ("seconds_ago", "has_ended", "told"),
+    [(0.0, True, "just now"), (130.0, True, "2 minutes ago"), (4000.0, False, "an hour ago")],
+)
+def test_one_sees_that_a_robot_has_ended_or_that_its_plug_was_pulled(
+    dynamics: Dynamics,
+    capsys: pytest.CaptureFixture[str],
+    seconds_ago: float,
+    has_ended: bool,
+    told: str,
+) -> None:
+    remember(dynamics, seconds_ago, has_ended=has_ended)
+    assert main(["emotion", "watch", "--once"]) == 0
+    assert f"(it ended {told})" in capsys.readouterr().out
+    assert main(["emotion", "watch", "--once", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["running"] is False
+
+
+class Patience(RealClock):
+    """A clock that does not wait; something happens in each pause, and after the last it ends."""
+
+    def __init__(self, *happenings: Callable[[], object]) -> None:
+        super().__init__()
+        self._happenings = list(happenings)
+
+    def advance(self, seconds: float) -> None:
+        if not self._happenings:
+            raise KeyboardInterrupt
+        self._happenings.pop(0)()
+
+
+def test_watching_goes_on_while_files_are_broken_or_gone(
+    dynamics: Dynamics,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    mine = tmp_path / "mine.toml"
+    mine.write_text("[baseline]\npleasure = 7", encoding="utf-8")
+    remember(dynamics, 0.0, personality=str(mine))
+    clock = Patience(
+        lambda: None,
+        lambda: mine.write_text("[baseline]\npleasure = 0.5", encoding="utf-8"),
+        memory_file().unlink,
+        lambda: remember(dynamics, 0.0, personality=str(mine)),
+    )
+    monkeypatch.setattr("hri.cli.emotion.watch.RealClock", lambda: clock)
+    assert main(["emotion", "watch"]) == 0
+    told = capsys.readouterr()
+    assert told.out.count("I am sad because Bob scolded me") == 2
+    assert told.err.count("mine.toml:2:") == 1
+    assert told.err.count("no robot keeps here") == 1
+    mine.write_text("baseline", encoding="utf-8")
+    assert main(["emotion", "watch", "--once"]) == 2
 
 
 def test_a_robot_that_keeps_nothing_cannot_be_watched(

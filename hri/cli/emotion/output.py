@@ -8,6 +8,7 @@ from typing import Any
 from hri.core.signals import EmotionState
 from hri.emotion.affect import Affect
 from hri.emotion.dynamics import Dynamics
+from hri.emotion.ledger import Cause
 
 MOST_TOLD = 4
 """Causes in a line for people; JSON has all of them."""
@@ -17,9 +18,13 @@ def text_line(time: float, dynamics: Dynamics, affect: Affect) -> str:
     """A state for people."""
     state = dynamics.read(affect)
     causes = dynamics.why(affect)[:MOST_TOLD]
-    reasons = ", ".join(f"{cause.name} {cause.share:.0%}" for cause in causes)
+    reasons = ", ".join(f"{_named(cause)} {cause.share:.0%}" for cause in causes)
     felt = f"{state.label:15} {state.intensity:.2f}  {mood_words(state)}"
     return f"{time:8.2f} s  {felt}  {reasons}".rstrip()
+
+
+def _named(cause: Cause) -> str:
+    return cause.name if cause.person is None else f"{cause.name} by {cause.person}"
 
 
 def mood_words(state: EmotionState) -> str:
@@ -27,8 +32,8 @@ def mood_words(state: EmotionState) -> str:
     return f"mood {state.valence:+.3f} {state.arousal:+.3f} {state.dominance:+.3f}"
 
 
-def json_line(time: float, dynamics: Dynamics, affect: Affect) -> str:
-    """A state for programs."""
+def json_line(time: float, dynamics: Dynamics, affect: Affect, **more: bool) -> str:
+    """A state for programs, and more to know about it."""
     state = dynamics.read(affect)
     line: dict[str, Any] = {
         "t": time,
@@ -47,5 +52,6 @@ def json_line(time: float, dynamics: Dynamics, affect: Affect) -> str:
             }
             for cause in dynamics.why(affect)
         ],
+        **more,
     }
     return json.dumps(line)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import bisect
-from collections.abc import Sequence
+import math
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from matplotlib.axes import Axes
@@ -23,8 +24,14 @@ FADES_S = 60.0
 """Seconds that are drawn after the last event, so that one sees it fade."""
 MOST_CURVES = 8
 """Emotions that are drawn, the strongest ones."""
-MOST_NAMES = 40
-"""Events, and labels, that are written; with more one could read none."""
+DPI = 100
+"""Pixels an inch of the picture, which is 12 inches wide."""
+ROWS = 5
+"""Names of events, and of labels, above each other."""
+LETTER = 0.0073
+"""Width of a letter, of the plot's."""
+LONGEST_NAME = 38
+"""Letters of an event's name that are written."""
 _MOOD = {"pleasure": "#2e8b57", "arousal": "#c46210", "dominance": "#6a5acd"}
 
 
@@ -32,7 +39,18 @@ def plot_affects(
     dynamics: Dynamics, affects: Sequence[Affect], timeline: Sequence[Happening], path: Path
 ) -> None:
     """Draw a simulation to a PNG file. Raises HriError when it cannot be written."""
-    figure = Figure(figsize=(12, 9), layout="constrained")
+    figure = figure_of(dynamics, affects, timeline)
+    try:
+        figure.savefig(path, dpi=DPI, format="png", metadata={"Software": "hri"})
+    except OSError as error:
+        raise HriError(f"{path}: {error.strerror} - choose another file") from error
+
+
+def figure_of(
+    dynamics: Dynamics, affects: Sequence[Affect], timeline: Sequence[Happening]
+) -> Figure:
+    """Mood, emotions and drives over the time of a simulation."""
+    figure = Figure(figsize=(12, 9), dpi=DPI, layout="constrained")
     FigureCanvasAgg(figure)
     mood, emotions, drives = figure.subplots(3, 1, sharex=True, height_ratios=[2, 2, 1])
     times, states = _sampled(dynamics, affects, timeline)
@@ -44,19 +62,16 @@ def plot_affects(
     for name, values in axes.items():
         mood.plot(times, values, color=_MOOD[name], label=name)
     _finish(mood, "mood", -1.05)
-    _write_labels(mood, times, states)
+    _write(mood, _changes(times, states))
     for name in _strongest(states):
         emotions.plot(times, [state.emotions[name] for state in states], label=name)
     _finish(emotions, "emotions", -0.02)
-    _write_events(emotions, timeline)
+    _write(emotions, ((event.time, _name_of(event)[:LONGEST_NAME]) for event in timeline))
     for name in states[0].drives if states else ():
         drives.plot(times, [state.drives[name] for state in states], label=name)
     _finish(drives, "drives", -0.02)
     drives.set_xlabel("seconds")
-    try:
-        figure.savefig(path, dpi=100, format="png", metadata={"Software": "hri"})
-    except OSError as error:
-        raise HriError(f"{path}: {error.strerror} - choose another file") from error
+    return figure
 
 
 def _sampled(
@@ -87,22 +102,35 @@ def _strongest(states: Sequence[EmotionState]) -> list[str]:
     return felt[:MOST_CURVES]
 
 
-def _write_labels(axes: Axes, times: Sequence[float], states: Sequence[EmotionState]) -> None:
-    changes = [
-        (time, state.label)
-        for time, state, before in zip(times, states, [None, *states], strict=False)
-        if before is None or state.label != before.label
-    ]
-    for time, label in changes[:MOST_NAMES]:
+def _changes(times: Sequence[float], states: Sequence[EmotionState]) -> Iterator[tuple[float, str]]:
+    """When the label changes, and to what."""
+    before = ""
+    for time, state in zip(times, states, strict=True):
+        if state.label != before:
+            yield time, state.label
+        before = state.label
+
+
+def _write(axes: Axes, names: Iterable[tuple[float, str]]) -> None:
+    """Names above a plot, at their times; a name for which there is no room is left out."""
+    left, right = axes.get_xlim()
+    ends = [-math.inf] * ROWS
+    for time, name in names:
+        at = (time - left) / (right - left)
+        row = next((row for row, end in enumerate(ends) if end <= at), None)
+        if row is None:
+            continue
+        ends[row] = at + LETTER * (len(name) + 1)
         axes.axvline(time, color="#dddddd", zorder=0)
-        axes.text(time, 1.0, label, fontsize=8, rotation=35, ha="left", va="bottom")
-
-
-def _write_events(axes: Axes, timeline: Sequence[Happening]) -> None:
-    for event in timeline[:MOST_NAMES]:
-        axes.axvline(event.time, color="#dddddd", zorder=0)
-        name = _name_of(event)[:38]
-        axes.text(event.time, 1.0, name, fontsize=7, rotation=35, va="bottom", parse_math=False)
+        axes.annotate(
+            name,
+            xy=(time, 1.0),
+            xycoords=("data", "axes fraction"),
+            xytext=(0, 2 + 10 * row),
+            textcoords="offset points",
+            fontsize=8,
+            parse_math=False,
+        )
 
 
 def _name_of(event: Happening) -> str:
@@ -115,4 +143,4 @@ def _finish(axes: Axes, title: str, bottom: float) -> None:
     axes.set_ylim(bottom, 1.05)
     axes.grid(alpha=0.3)
     if axes.lines:
-        axes.legend(loc="upper right", fontsize=8, ncols=4)
+        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=8)

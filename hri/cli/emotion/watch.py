@@ -11,14 +11,14 @@ import sys
 from pathlib import Path
 
 from hri.cli.emotion.output import json_line, mood_words
-from hri.core.clock import Clock, RealClock
+from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.emotion.affect import Affect
 from hri.emotion.dynamics import Dynamics
 from hri.emotion.files import EmotionFiles
 from hri.emotion.model import EmotionModelSpec
 from hri.emotion.persistence import Memory, memory_file, recall
-from hri.emotion.reasons import why_words
+from hri.emotion.reasons import age_words, why_words
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -31,36 +31,74 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Until Ctrl-C."""
-    personality = options.personality or kept(memory_file()).personality
-    files, clock = EmotionFiles(personality), RealClock()
-    dynamics = files.model.dynamics()
+    watch = _Watch(options, memory_file(), RealClock())
     try:
-        while True:
-            if _is_new(files):
-                dynamics = files.model.dynamics()
-            affect = remembered(dynamics, memory_file(), clock)
-            if options.json:
-                line = json_line(clock.wall().timestamp(), dynamics, affect)
-                print(line, flush=True)
-            else:
-                _show(
-                    f"{clock.wall():%H:%M:%S}  {_told(files.model, dynamics, affect)}", options.once
-                )
-            if options.once:
-                return 0
-            clock.advance(options.every)
+        watch.look()
+        while not options.once:
+            watch.clock.advance(options.every)
+            watch.look()
     except KeyboardInterrupt:
         print()
-        return 0
+    return 0
 
 
-def _is_new(files: EmotionFiles) -> bool:
-    """Whether the robot has read its files anew; as it does, a wrong one is told once."""
-    try:
-        return files.reload()
-    except HriError as error:
-        print(f"\n{error}", file=sys.stderr)
-        return False
+class _Watch:
+    """One robot, by its memory file; what is wrong with that or with its files is told once."""
+
+    def __init__(self, options: argparse.Namespace, path: Path, clock: RealClock) -> None:
+        """Raises HriError when no robot keeps this file."""
+        self.clock = clock
+        self._options = options
+        self._path = path
+        kept(path)
+        self._personality = ""
+        self._files: EmotionFiles | None = None
+        self._told = ""
+
+    def look(self) -> None:
+        """Print what it feels, or what keeps one from knowing. Raises HriError if asked but once.
+
+        A robot goes on when its files are broken, with what was last all right; and so does this.
+        """
+        try:
+            memory = kept(self._path)
+            self._show(self._model_of(memory), memory)
+        except HriError as error:
+            if self._options.once:
+                raise
+            self._tell(error)
+
+    def _model_of(self, memory: Memory) -> EmotionModelSpec:
+        """What the files say for the robot that has written this."""
+        personality = self._options.personality or memory.personality
+        if self._files is None or personality != self._personality:
+            self._files, self._personality = EmotionFiles(personality), personality
+        try:
+            self._files.reload()
+        except HriError as error:
+            self._tell(error)
+        return self._files.model
+
+    def _tell(self, error: HriError) -> None:
+        if str(error) != self._told:
+            self._told = str(error)
+            print(f"\n{error}", file=sys.stderr)
+
+    def _show(self, model: EmotionModelSpec, memory: Memory) -> None:
+        now, wall = self.clock.now(), self.clock.wall().timestamp()
+        dynamics, is_running = model.dynamics(), memory.is_running(wall)
+        affect = dynamics.resume(memory.awakened(now, wall), now)
+        if self._options.json:
+            print(json_line(wall, dynamics, affect, running=is_running), flush=True)
+            return
+        line = f"{self.clock.wall():%H:%M:%S}  {_told(model, dynamics, affect)}"
+        if not is_running:
+            line += f"  (it ended {age_words(wall - memory.wall) or 'just now'})"
+        if sys.stdout.isatty() and not self._options.once:
+            # On a terminal each look is written over the last one.
+            print(f"\r\x1b[K{line}", end="", flush=True)
+        else:
+            print(line, flush=True)
 
 
 def kept(path: Path) -> Memory:
@@ -72,27 +110,12 @@ def kept(path: Path) -> Memory:
     return memory
 
 
-def remembered(dynamics: Dynamics, path: Path, clock: Clock) -> Affect:
-    """What the robot that keeps this file feels now. Raises HriError when there is none."""
-    memory, now = kept(path), clock.now()
-    return dynamics.resume(memory.awakened(now, clock.wall().timestamp()), now)
-
-
 def _told(model: EmotionModelSpec, dynamics: Dynamics, affect: Affect) -> str:
     state = dynamics.read(affect)
     words = {name: spec.words for name, spec in model.stimuli.items()}
     why = why_words(model.words(state.label), dynamics.why(affect), words, state.drives)
     drives = " ".join(f"{name} {level:.2f}" for name, level in state.drives.items())
     return f"{state.label} {state.intensity:.2f}  {mood_words(state)}  {drives}  {why}"
-
-
-def _show(line: str, once: bool) -> None:
-    """On a terminal each look is written over the last one."""
-    if sys.stdout.isatty() and not once:
-        sys.stdout.write(f"\r\x1b[K{line}")
-        sys.stdout.flush()
-    else:
-        print(line, flush=True)
 
 
 def _seconds(text: str) -> float:
