@@ -80,6 +80,7 @@ class Doctor:
             "base": self._base,
             "voice": self._voice,
             "recognizer": self._recognizer,
+            "faces": self._faces,
         }
         failures = 0
         for name, check in checks.items():
@@ -136,7 +137,7 @@ class Doctor:
         height, width = frame.image.shape[:2]
         if frame.image.max() < 16:
             return Finding(False, f"{width} x {height}, but black - take off the lens cover")
-        return Finding(True, f"{camera.describe()}, {width} x {height}")
+        return Finding(True, camera.describe())
 
     def _screen(self) -> Finding:
         screen = self.resources.obtain("screen", Screen)
@@ -160,6 +161,14 @@ class Doctor:
         recognizer = self.resources.obtain("recognizer", Recognizer)
         recognizer.start(load_grammar(paths.find("grammars", "companion.jsgf")))
         return Finding(True, f"{recognizer.describe()}, its model loads")
+
+    def _faces(self) -> Finding:
+        from hri.vision.detectors.chain import load_detectors
+
+        problems = load_detectors().problems
+        if problems:
+            return Finding(False, f"{problems[0]} (until then boxes and coarse motion only)")
+        return Finding(True, "BlazeFace and the face mesh, both load")
 
 
 def _dbfs(samples: Any) -> float:

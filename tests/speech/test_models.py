@@ -1,20 +1,10 @@
-"""Fetching models, from a server on this machine that misbehaves in every way servers do."""
-
-from __future__ import annotations
-
-import hashlib
-import io
-import stat
-import threading
-import zipfile
-from http.server import BaseHTTPRequestHandler, HTTPServer
+"""Which models the engines of speech take."""
 
 import pytest
 
-from hri.cli import main
 from hri.core.errors import HriError
-from hri.speech import models
-from hri.speech.models import Download, bring, fetch, fetched, find_model, find_vosk, models_folder
+from hri.core.models import Catalog, bring
+from hri.speech.models import MODELS, find_vosk
 from hri.speech.recognizers import vosk
 
 
@@ -26,240 +16,22 @@ def home(tmp_path, monkeypatch):
     return tmp_path
 
 
-def archive(files, links=()):
-    packed = io.BytesIO()
-    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as opened:
-        for name, content in files.items():
-            opened.writestr(name, content)
-        for name in links:
-            entry = zipfile.ZipInfo(name)
-            entry.external_attr = (stat.S_IFLNK | 0o777) << 16
-            opened.writestr(entry, "/etc/passwd")
-    return packed.getvalue()
-
-
-NOISE = bytes(range(256)) * 40
-MODEL = archive(
-    {"small-model/conf/model.conf": "rate = 16000\n", "small-model/am/final.mdl": NOISE}
-)
-
-
-class Server(HTTPServer):
-    """Serves one content, and keeps what it was asked."""
-
-    def __init__(self):
-        super().__init__(("127.0.0.1", 0), Handler)
-        self.content = MODEL
-        self.breaks_after = [len(MODEL) * 10]
-        """Bytes that each connection brings before it breaks; the last stands for all others."""
-        self.knows_ranges = True
-        self.status = 200
-        self.asked = []
-
-
-class Handler(BaseHTTPRequestHandler):
-    server: Server
-
-    def do_GET(self):
-        server = self.server
-        asked = self.headers.get("Range", "bytes=0-")
-        server.asked.append(asked)
-        if server.status != 200:
-            self.send_error(server.status)
-            return
-        begin = int(asked[6:-1]) if server.knows_ranges else 0
-        content = server.content[begin:]
-        self.send_response(206 if server.knows_ranges else 200)
-        self.send_header("Content-Length", str(len(content)))
-        if server.knows_ranges:
-            last = len(server.content) - 1
-            self.send_header("Content-Range", f"bytes {begin}-{last}/{last + 1}")
-        self.end_headers()
-        limits = server.breaks_after
-        limit = limits.pop(0) if len(limits) > 1 else limits[0]
-        self.wfile.write(content[:limit])
-
-    def log_message(self, *_):
-        pass
-
-
-@pytest.fixture
-def server():
-    with Server() as server:
-        thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.01})
-        thread.start()
-        yield server
-        server.shutdown()
-        thread.join()
-
-
-def download(server, content=MODEL, **changes):
-    values = {
-        "name": "small-model",
-        "about": "for tests",
-        "license": "none",
-        "url": f"http://127.0.0.1:{server.server_port}/small-model.zip",
-        "size": len(content),
-        "sha256": hashlib.sha256(content).hexdigest(),
-    }
-    server.content = content
-    return Download(**{**values, **changes})
-
-
-def no_progress(here, all_of_it):
-    pass
-
-
-def leftovers():
-    return sorted(entry.name for entry in models_folder().iterdir())
-
-
-def test_a_model_is_fetched_checked_and_unpacked(server):
-    told = []
-    folder = fetch(download(server), lambda here, all_of_it: told.append((here, all_of_it)))
-    assert folder == models_folder() / "small-model" == find_model("small-model")
-    assert (folder / "am" / "final.mdl").read_bytes() == NOISE
-    assert told[-1] == (len(MODEL), len(MODEL))
-    assert leftovers() == ["small-model"]
-    assert find_vosk() == folder
-    assert vosk.find_model() == folder
-
-
-def test_a_connection_that_breaks_is_taken_up_where_it_broke(server):
-    server.breaks_after = [100, 100, len(MODEL)]
-    fetch(download(server), no_progress)
-    assert server.asked == ["bytes=0-", "bytes=100-", "bytes=200-"]
-
-
-def test_a_download_that_was_given_up_goes_on_at_the_next_call(server):
-    server.breaks_after = [50, 0]
-    with pytest.raises(HriError, match=r"(ends )?after 50 (of|bytes)"):
-        fetch(download(server), no_progress)
-    server.breaks_after = [len(MODEL)]
-    server.asked.clear()
-    fetch(download(server), no_progress)
-    assert server.asked == ["bytes=50-"]
-
-
-def test_a_server_without_ranges_is_asked_from_the_start(server):
-    server.knows_ranges = False
-    server.breaks_after = [100, len(MODEL)]
-    assert fetch(download(server), no_progress).is_dir()
-
-
-def test_a_wrong_checksum_is_refused_and_nothing_stays(server):
-    with pytest.raises(HriError, match="checksum is wrong - fetch it again"):
-        fetch(download(server, sha256="0" * 64), no_progress)
-    assert leftovers() == []
-
-
-def test_a_server_that_sends_too_much_is_cut_off(server):
-    with pytest.raises(HriError, match="larger than the 100 bytes"):
-        fetch(download(server, size=100), no_progress)
-
-
-def test_what_the_server_refuses_is_told_with_what_to_do(server):
-    server.status = 404
-    with pytest.raises(HriError, match=r"answers 404 .* hri models fetch small-model --from FILE"):
-        fetch(download(server), no_progress)
-
-
-def test_without_a_network_the_error_says_what_to_do(server):
-    nobody = download(server, url="http://127.0.0.1:1/small-model.zip")
-    with pytest.raises(HriError, match=r"try again when you are online, or download it elsewhere"):
-        fetch(nobody, no_progress)
-
-
-@pytest.mark.parametrize(
-    "content",
-    [
-        archive({"../outside": "x"}),
-        archive({"model/../../outside": "x"}),
-        archive({"/outside": "x"}),
-        archive({"model\\..\\outside": "x"}),
-        archive({"model/conf": "x"}, links=["model/link"]),
-    ],
-    ids=["up", "up later", "absolute", "backslash", "link"],
-)
-def test_an_archive_that_leads_elsewhere_is_refused(server, home, content):
-    with pytest.raises(HriError, match="leads elsewhere"):
-        fetch(download(server, content), no_progress)
-    assert fetched() == []
-    assert not list(home.rglob("outside"))
-
-
-@pytest.mark.parametrize(
-    ("content", "reason"),
-    [
-        (archive({"model/bomb": bytes(20_000_000)}), "swells to 20000000 bytes"),
-        (archive({}), "0 files are no model"),
-        (b"PK no archive at all", "cannot be unpacked"),
-        (MODEL[:60] + bytes(40) + MODEL[100:], "cannot be unpacked"),
-    ],
-    ids=["bomb", "empty", "no archive", "damaged"],
-)
-def test_a_broken_archive_is_refused_and_leaves_nothing(server, content, reason):
-    with pytest.raises(HriError, match=reason):
-        fetch(download(server, content), no_progress)
-    assert fetched() == []
-    assert not [name for name in leftovers() if name.startswith(".new")]
-
-
-def test_a_model_of_too_many_files_is_refused(server, monkeypatch):
-    monkeypatch.setattr(models, "MOST_FILES", 1)
-    with pytest.raises(HriError, match="2 files are no model"):
-        fetch(download(server), no_progress)
-
-
-def test_the_user_brings_a_folder_or_an_archive(home):
-    folder = home / "mine"
-    (folder / "conf").mkdir(parents=True)
-    (folder / "conf" / "model.conf").write_text("")
-    packed = home / "mine.zip"
-    packed.write_bytes(MODEL)
-    assert (bring("from-folder", folder) / "conf" / "model.conf").is_file()
-    assert (bring("from-archive", packed) / "am" / "final.mdl").is_file()
-    assert fetched() == ["from-archive", "from-folder"]
-    with pytest.raises(HriError, match="is there already - delete it"):
-        bring("from-folder", folder)
-
-
-def test_what_is_neither_folder_nor_archive_is_not_taken(home):
-    (home / "text").write_text("no archive")
-    for source in (home / "text", home / "nowhere"):
-        with pytest.raises(HriError, match="mend the path"):
-            bring("mine", source)
-    assert fetched() == []
-
-
-@pytest.mark.parametrize("name", ["", "../up", "a/b", ".hidden", "x" * 200])
-def test_a_name_that_would_leave_the_folder_is_refused(name, home):
-    with pytest.raises(HriError, match="no name of a model"):
-        bring(name, home)
+def test_vosk_takes_a_model_that_was_fetched_and_no_other(home):
+    assert find_vosk() is None
+    other, model = home / "other", home / "model"
+    other.mkdir()
+    (model / "conf").mkdir(parents=True)
+    bring("another", other)
+    assert find_vosk() is None
+    folder = bring("small", model)
+    assert find_vosk() == vosk.find_model() == folder
 
 
 def test_an_unknown_model_is_answered_with_the_nearest_one():
+    catalog = Catalog(MODELS)
     with pytest.raises(HriError, match=r'did you mean "vosk-model-small-en-us-0\.15"'):
-        find_model("vosk-model-small-en-us")
+        catalog.find("vosk-model-small-en-us")
     with pytest.raises(HriError, match="hri models fetch vosk-model-small-ko"):
-        find_model("vosk-model-small-ko-0.22")
+        catalog.find("vosk-model-small-ko-0.22")
     with pytest.raises(HriError, match=r"comes with its package - pip install hama==1\.7\.0"):
-        models.download_named("ctc")
-
-
-def test_the_command_lists_fetches_and_tells_where(server, monkeypatch, capsys):
-    monkeypatch.setattr(models, "DOWNLOADS", (download(server),))
-    monkeypatch.setattr("hri.cli.models.DOWNLOADS", models.DOWNLOADS)
-    assert main.main(["models", "list"]) == 0
-    listed = capsys.readouterr().out
-    assert main.main(["models"]) == 0
-    assert capsys.readouterr().out == listed
-    assert "small-model" in listed
-    assert "to fetch" in listed
-    assert main.main(["models", "fetch", "small-model"]) == 0
-    assert capsys.readouterr().out.strip() == str(models_folder() / "small-model")
-    assert main.main(["models", "path", "small-model"]) == 0
-    assert main.main(["models", "path", "ctc"]) == 0
-    assert capsys.readouterr().out.splitlines()[1].endswith("asr_waveform.hama")
-    assert main.main(["models", "path", "nonsense"]) == 2
-    assert 'no model "nonsense"' in capsys.readouterr().err
+        catalog.download("ctc")

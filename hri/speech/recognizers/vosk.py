@@ -9,9 +9,10 @@ from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import Any
 
+from hri.core.models import models_folder
 from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, Hypothesis, Segment
-from hri.speech.models import DOWNLOADS, find_vosk, models_folder
+from hri.speech.models import DOWNLOADS, find_vosk
 from hri.speech.recognizers.sound import SoundRecognizer
 
 VARIABLE = "HRI_VOSK_MODEL"
