@@ -24,7 +24,11 @@ from typing import Generic, TypeVar
 
 import trio
 
+from hri.core.service import InlineService, ProcessService, Service
+
 T = TypeVar("T")
+Q = TypeVar("Q")
+A = TypeVar("A")
 
 NAP = 0.005
 """Seconds; how often a program without a robot loop looks whether what it waits for is there."""
@@ -135,6 +139,16 @@ class Clock(ABC):
     def worker(self, latency: float) -> Worker[T]:
         """A worker. On the fake clock a result shows up `latency` seconds after its job began."""
 
+    @abstractmethod
+    def service(self, factory: Callable[[], Callable[[Q], A]], latency: float) -> Service[Q, A]:
+        """What `factory()` makes, in a process of its own, to be asked one question at a time.
+
+        For work that needs a memory and much time, such as following people through pictures. The
+        factory must be a function or class of a module (or a `partial` of one), and questions and
+        answers must pickle. On the fake clock it answers within this process, each time `latency`
+        seconds after it was asked.
+        """
+
     def call_at(self, when: float, callback: Callable[[], object]) -> Timer:
         """Call back at a time, from the robot loop; a time that has passed means now.
 
@@ -233,6 +247,9 @@ class RealClock(Clock):
     def worker(self, latency: float) -> Worker[T]:
         return _ThreadWorker()
 
+    def service(self, factory: Callable[[], Callable[[Q], A]], latency: float) -> Service[Q, A]:
+        return ProcessService(factory, self.now)
+
     def advance_until(self, is_over: Callable[[], bool], timeout: float = math.inf) -> bool:
         if self.is_driven:
             raise RuntimeError("a robot loop runs this clock - await, in place of waiting")
@@ -307,6 +324,10 @@ class FakeClock(Clock):
 
     def worker(self, latency: float) -> Worker[T]:
         return _InlineWorker(self, latency)
+
+    def service(self, factory: Callable[[], Callable[[Q], A]], latency: float) -> Service[Q, A]:
+        worker: _InlineWorker[A] = _InlineWorker(self, latency)
+        return InlineService(factory, worker.submit, worker.poll)
 
     def advance_until(self, is_over: Callable[[], bool], timeout: float = math.inf) -> bool:
         # Not refused inside a robot loop: so a test lets a tick take its time.
