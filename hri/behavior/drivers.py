@@ -54,19 +54,38 @@ class DeviceBehavior(Behavior):
 
 
 class CameraFrames(DeviceBehavior):
-    """Sends each new picture of a camera."""
+    """Sends each new picture of a camera.
+
+    Raises `camera.switched` (`camera`, `on`) when somebody turns it off or on, `camera.lost` when
+    no picture comes any more, and `camera.found` once they come again.
+    """
 
     is_sensor = True
     camera_id = Param("camera", "id of the camera")
     raw_image = Output[Frame]("image", "the picture, when a new one was taken")
+    is_watching = Output[bool]("boolean", "true while it is switched on and gives pictures")
 
     def start(self, context: Context) -> None:
         super().start(context)
+        self._events = context.events
         self._camera = self.obtain(self.camera_id, Camera)
+        self._is_on, self._is_lost = True, False
 
     def compute(self, now: float, dt: float) -> None:
         if (frame := self._camera.read(now)) is not None:
             self.raw_image.send(frame)
+        self.is_watching.send(self._camera.is_watching)
+        self._tell(self._camera.is_on, self._camera.is_lost)
+
+    def _tell(self, is_on: bool, is_lost: bool) -> None:
+        camera = self._camera.id
+        if is_on != self._is_on:
+            self._events.raise_event("camera.switched", camera=camera, on=is_on)
+        self._is_on = is_on
+        if is_on and is_lost != self._is_lost:
+            name = "camera.lost" if is_lost else "camera.found"
+            self._events.raise_event(name, camera=camera)
+            self._is_lost = is_lost
 
 
 class RangeSensorReading(DeviceBehavior):

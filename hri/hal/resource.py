@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from abc import ABC
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, TypeVar
@@ -60,6 +60,13 @@ class Description:
 
     def text(self, name: str, default: str = "") -> str:
         return self.parameters.get(name, default)
+
+    def choice(self, name: str, default: str, choices: Collection[str]) -> str:
+        """One of some words. Raises AuthoringError with its place."""
+        word = self.text(name, default)
+        if word not in choices:
+            raise self.error(name, f'{name}: "{word}"', did_you_mean(word, choices))
+        return word
 
     def number(self, name: str, default: float) -> float:
         """A number or an expression such as -5*pi/6. Raises AuthoringError with its place."""

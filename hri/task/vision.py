@@ -1,14 +1,14 @@
-"""Tasks that see: GetImage."""
+"""Tasks that see: GetImage, SwitchCamera."""
 
 from __future__ import annotations
 
-from hri.core.errors import HriError
+from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Frame
 from hri.hal.camera import Camera
 from hri.task.context import TaskContext
 from hri.task.task import task
 
-__all__ = ["GetImage"]
+__all__ = ["GetImage", "SwitchCamera"]
 
 TIMEOUT = 5.0
 """Seconds for a camera to give a picture."""
@@ -22,11 +22,28 @@ async def GetImage(context: TaskContext, camera_id: str = "") -> Frame:
     try:
         with context.clock.move_on_after(TIMEOUT):
             while (frame := camera.read(context.clock.now())) is None:
+                if not camera.is_on:
+                    context.fail(f"{camera.id} is switched off - switch it on")
                 await context.clock.sleep(LOOK_EVERY)
             return frame
     finally:
         context.resources.release(camera)
     context.fail(f"{camera.id} gave no picture within {TIMEOUT:g} s - unplug it and plug it in")
+
+
+@task("Hri.SwitchCamera")
+async def SwitchCamera(context: TaskContext, on: bool, camera_id: str = "") -> None:
+    """Turn a camera on or off, the first one without an id; off lets the device go.
+
+    It stays off for everybody until it is turned on. Fails when it cannot be opened again.
+    """
+    camera = _camera(context, camera_id)
+    try:
+        camera.switch(on)
+    except NotAvailable as error:
+        context.fail(str(error))
+    finally:
+        context.resources.release(camera)
 
 
 def _camera(context: TaskContext, id: str) -> Camera:

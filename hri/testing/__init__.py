@@ -21,15 +21,24 @@ from hri.behavior.runner import Runner
 from hri.core.clock import FakeClock
 from hri.core.events import EventBus
 from hri.core.signals import Event
-from hri.hal.drivers.memory import MemoryMicrophone, OffscreenScreen, SilentSpeaker
+from hri.hal.drivers.memory import (
+    MemoryCamera,
+    MemoryMicrophone,
+    OffscreenScreen,
+    SilentSpeaker,
+)
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
 from hri.robot import Job, Robot
 from hri.speech.synthesizers.silent import SilentVoice
 from hri.task.context import TaskContext
+from hri.testing.cameras import Fault, FaultyCamera
 
 __all__ = [
     "FakeClock",
+    "Fault",
+    "FaultyCamera",
+    "MemoryCamera",
     "MemoryMicrophone",
     "OffscreenScreen",
     "SilentSpeaker",

@@ -111,3 +111,59 @@ def test_a_camera_that_may_not_be_opened_is_one_line(tmp_path, monkeypatch):
     assert missing(device) == f"Failure opening {device} - see what else uses it, or replug it"
     monkeypatch.setattr(os, "access", lambda path, mode: False)  # root may open all
     assert missing(device) == f"Failure opening {device} - check permissions"
+
+
+class Gone(Film):
+    """Gives a picture each time it is let, until it is pulled out."""
+
+    is_gone = False
+    is_released = False
+
+    def read(self):
+        return (False, None) if self.is_gone else super().read()
+
+    def release(self):
+        self.is_released = True
+
+
+def test_a_camera_that_is_pulled_out_is_released_and_found_again(open_driver, monkeypatch):
+    monkeypatch.setattr("hri.hal.drivers.webcam.FIRST_PAUSE", 0.001)
+    found = []
+    is_back = threading.Event()
+
+    class Pulled(FilmedWebcam):
+        def _find(self):
+            if found and not is_back.is_set():
+                return None
+            self.film = Gone(self._wanted)
+            found.append(self.film)
+            return self.film
+
+    camera = open_driver(Pulled)
+    found[0].is_gone = True
+    found[0].let.release()
+    while not found[0].is_released:
+        camera.read(0.0)
+    is_back.set()
+    while (frame := camera.read(1.0)) is None:
+        if len(found) == 2:
+            found[1].let.release()
+    assert (frame.width, frame.height) == (320, 240)
+
+
+def test_off_releases_the_device_and_on_finds_it_again(open_driver):
+    films = []
+
+    class Switched(FilmedWebcam):
+        def _find(self):
+            self.film = Gone(self._wanted)
+            films.append(self.film)
+            return self.film
+
+    camera = open_driver(Switched)
+    camera.switch(False)
+    assert films[0].is_released
+    assert camera.read(0.0) is None
+    camera.switch(True)
+    assert len(films) == 2
+    assert not films[1].is_released

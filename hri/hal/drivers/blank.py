@@ -7,7 +7,7 @@ from hri.hal.camera import Camera
 class BlankCamera(Camera):
     """Stands in where there is no camera: no picture ever comes."""
 
-    def read(self, now: float) -> Frame | None:
+    def _read(self, now: float) -> Frame | None:
         return None
 
     @property

@@ -1,18 +1,49 @@
-"""Devices that live in memory, moved by code: microphone, speaker, screen, joystick."""
+"""Devices that live in memory, moved by code: camera, microphone, speaker, screen, joystick."""
 
 from __future__ import annotations
 
+from collections import deque
 from typing import TypeVar
 
 import numpy as np
 
-from hri.core.signals import Image, Samples
+from hri.core.signals import Frame, Image, Samples
+from hri.hal.camera import FIELD_OF_VIEW, Camera
 from hri.hal.joystick import Joystick
 from hri.hal.microphone import Microphone
 from hri.hal.screen import Screen
 from hri.hal.speaker import Speaker
 
 T = TypeVar("T")
+
+
+class MemoryCamera(Camera):
+    """Sees the pictures it was shown, each at its time; the newest that is due wins."""
+
+    parameters = (*Camera.parameters, "field_of_view")
+
+    def _open(self) -> None:
+        self.field_of_view = self.description.number_within("field_of_view", *FIELD_OF_VIEW)
+        self._frames: deque[Frame] = deque()
+        self._count = 0
+
+    def show(self, image: Image, time: float | None = None) -> None:
+        """Put a picture before it, taken at a time of the clock; without one, now."""
+        when = self.manager.clock.now() if time is None else time
+        self._drop_late(self.manager.clock.now())
+        self._frames.append(Frame(image, when, self._count))
+        self._count += 1
+
+    def _drop_late(self, now: float) -> None:
+        """Forget what nobody read in time, so that it does not pile up."""
+        while len(self._frames) > 1 and not self._frames[1].time > now:
+            self._frames.popleft()
+
+    def _read(self, now: float) -> Frame | None:
+        self._drop_late(now)
+        if not self._frames or self._frames[0].time > now:
+            return None
+        return self._frames.popleft()
 
 
 class MemoryMicrophone(Microphone):

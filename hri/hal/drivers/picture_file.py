@@ -11,9 +11,7 @@ from PIL import Image as PillowImage
 
 from hri.core.errors import HriError
 from hri.core.signals import Image
-
-LARGEST_SIDE = 8192
-"""Pixels; a larger picture is refused before it can fill the memory."""
+from hri.hal.picture import LARGEST_SIDE
 
 
 def write_picture(path: str | Path, image: Image, quality: float = 0.8) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import queue
 import threading
 from pathlib import Path
@@ -11,79 +12,149 @@ import numpy as np
 
 from hri.core.errors import HriError
 from hri.core.signals import Frame, Image
-from hri.hal.camera import Camera
-from hri.hal.drivers.picture_file import LARGEST_SIDE, picture_size
+from hri.hal.camera import FIELD_OF_VIEW, Camera
+from hri.hal.drivers.picture_file import picture_size
+from hri.hal.picture import LARGEST_SIDE
 from hri.hal.screen import Screen
 
 STILL_RATE = 10.0
 """Pictures a second that a single image is shown with."""
+MOST_RATE = 1000.0
+"""Pictures a second; a file that claims more is not believed."""
+ASSUMED_RATE = 30.0
+"""Of a file that does not say."""
+SLACK = 1e-6
+"""Seconds by which a picture may come early, for numbers that are not exact."""
+MOST_AT_ONCE = 60
+"""Pictures that are passed over in one go; a reader who was away for long catches up later."""
+WHOLE = 0.95
+"""Part of the pictures that a file promises; with fewer it was cut short."""
+PACES = ("real", "fast")
+"""How a file is shown: at its own pace, or each picture as soon as it is asked for."""
 
 
 def check_video(path: Path) -> None:
     """Raises HriError unless the file is a video or an image that can be decoded."""
+    _opened(path).release()
+
+
+def _opened(path: Path) -> cv2.VideoCapture:
+    """A file before its first picture, which is sure to be there. Raises HriError."""
     if not path.is_file():
         raise HriError(f"{path}: no such file - check the path")
     picture_size(path)  # raises before a giant is decoded
     capture = cv2.VideoCapture(str(path))
-    try:
-        readable, picture = capture.read()
-        if not readable or picture is None or max(picture.shape[:2]) > LARGEST_SIDE:
-            raise HriError(f"{path}: not a readable video or image - try an MP4, AVI, PNG or JPEG")
-    finally:
-        capture.release()
+    readable, picture = capture.read()
+    # Opened anew, since not every kind of file can be wound back.
+    capture.release()
+    if not readable or picture is None or max(picture.shape[:2]) > LARGEST_SIDE:
+        raise HriError(f"{path}: not a readable video or image - try an MP4, AVI, PNG or JPEG")
+    return cv2.VideoCapture(str(path))
+
+
+def _is_still(path: Path) -> bool:
+    """Whether there is a single picture; a file that does not say how many may have more."""
+    capture = cv2.VideoCapture(str(path))
+    has_more = capture.get(cv2.CAP_PROP_FRAME_COUNT) > 1 or (capture.grab() and capture.grab())
+    capture.release()
+    return not has_more
+
+
+class _Timing:
+    """When the pictures of a file were taken: as it says of each, or else at its rate."""
+
+    def __init__(self, capture: cv2.VideoCapture) -> None:
+        self._capture = capture
+        rate = capture.get(cv2.CAP_PROP_FPS)
+        self.step = 1 / rate if 0 < rate <= MOST_RATE else 1 / ASSUMED_RATE
+        self._first = self._last = math.nan
+
+    def time_of(self, sequence: int) -> float:
+        """Seconds from the first picture to the one that was read just now."""
+        told = self._capture.get(cv2.CAP_PROP_POS_MSEC) / 1000
+        if sequence == 0:
+            self._first, self._last = told, 0.0
+            return 0.0
+        time = told - self._first
+        # Phones film at a rate that changes; but not every kind of file tells times.
+        if not self._last < time < self._last + 100 * self.step:
+            time = self._last + self.step
+        self._last = time
+        return time
 
 
 class VideoFileCamera(Camera):
-    """Shows a file at its own pace, from the moment it is opened; an image stands still."""
+    """Shows a file from the moment it is opened; an image stands still.
 
-    parameters = ("file",)
+    `pace`: "real" shows each picture when it is due and passes over those that nobody read in
+    time, "fast" gives the next one each time it is asked, for work on recordings. Pictures have
+    the times that the file gives them. A file that breaks off in the middle ends there.
+    """
+
+    parameters = (*Camera.parameters, "file", "pace", "field_of_view")
 
     def _open(self) -> None:
         path = Path(self.description.text("file"))
-        check_video(path)
-        self._capture = cv2.VideoCapture(str(path))
-        self.width = int(self._capture.get(cv2.CAP_PROP_FRAME_WIDTH))
-        self.height = int(self._capture.get(cv2.CAP_PROP_FRAME_HEIGHT))
-        self._is_still = self._capture.get(cv2.CAP_PROP_FRAME_COUNT) <= 1
-        rate = self._capture.get(cv2.CAP_PROP_FPS)
-        self._rate = STILL_RATE if self._is_still or not 0 < rate <= 1000 else rate
+        self.is_recording = self.description.choice("pace", "real", PACES) == "fast"
+        self.field_of_view = self.description.number_within("field_of_view", *FIELD_OF_VIEW)
+        self._capture = _opened(path)
+        width = int(self._capture.get(cv2.CAP_PROP_FRAME_WIDTH))
+        height = int(self._capture.get(cv2.CAP_PROP_FRAME_HEIGHT))
+        self._take_size(np.empty((height, width), np.uint8))
+        self._is_still = _is_still(path)
+        self._timing = _Timing(self._capture)
         self._start = self.manager.clock.now()
-        self._next = 0
+        self._number = -1
         self._still: Image | None = None
-        self._ended = False
+        self._due: float | None = None
+        """Seconds from the start to the next picture; None at the end."""
+        self._grab()
 
-    def read(self, now: float) -> Frame | None:
-        due = int((now - self._start) * self._rate + 1e-6)
-        if due < self._next or self._ended:
-            return None
-        image = self._read_still() if self._is_still else self._read_until(due)
-        if image is None:
-            self._ended = True
-            return None
-        self._next = due + 1
-        return Frame(image, self._start + due / self._rate, due)
-
-    def _read_until(self, due: int) -> Image | None:
-        """Decode up to the picture that is due; those skipped are not converted."""
-        for _ in range(due - self._next):
-            if not self._capture.grab():
+    def _read(self, now: float) -> Frame | None:
+        elapsed = now - self._start + SLACK
+        if self._is_still:
+            return self._read_still(elapsed)
+        for _ in range(MOST_AT_ONCE):
+            if self._due is None or (self._due > elapsed and not self.is_recording):
                 return None
-        return self._decode()
+            is_late = self._due + self._timing.step <= elapsed and not self.is_recording
+            image = None if is_late else self._retrieve()
+            time, number = self._start + self._due, self._number
+            self._grab()
+            if image is not None:
+                return Frame(image, time, number)
+        return None
 
-    def _read_still(self) -> Image | None:
-        if self._still is None:
-            self._still = self._decode()
-        return self._still
+    def _grab(self) -> None:
+        """Go to the next picture; it is not converted before it is wanted."""
+        if self._capture.grab():
+            self._number += 1
+            self._due = self._timing.time_of(self._number)
+            return
+        self._due = None
+        promised = self._capture.get(cv2.CAP_PROP_FRAME_COUNT)
+        if self._number + 1 < WHOLE * promised:
+            seen = f"{self._number + 1} of {promised:.0f} pictures"
+            self._tell(f"breaks off after {seen} - copy or record the file again")
 
-    def _decode(self) -> Image | None:
-        readable, picture = self._capture.read()
+    def _retrieve(self) -> Image | None:
+        readable, picture = self._capture.retrieve()
         if not readable or picture is None:
             return None
         return np.asarray(cv2.cvtColor(picture, cv2.COLOR_BGR2RGB), np.uint8)
 
+    def _read_still(self, elapsed: float) -> Frame | None:
+        if self._still is None:
+            self._still, self._number = self._retrieve(), -1
+        due = int(elapsed * STILL_RATE)
+        if due <= self._number or self._still is None:
+            return None
+        self._number = due
+        return Frame(self._still, self._start + due / STILL_RATE, due)
+
     @property
     def has_ended(self) -> bool:
-        return self._ended or self._is_still
+        return self._due is None or self._is_still
 
     def _close(self) -> None:
         self._capture.release()

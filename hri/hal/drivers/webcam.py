@@ -5,7 +5,9 @@ from __future__ import annotations
 import os
 import sys
 import threading
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -13,17 +15,21 @@ import numpy as np
 from hri.core.errors import NotAvailable
 from hri.core.latest import Latest
 from hri.core.signals import Frame
-from hri.hal.camera import Camera
-from hri.hal.drivers.picture_file import LARGEST_SIDE
+from hri.hal.camera import FIELD_OF_VIEW, Camera
+from hri.hal.picture import LARGEST_SIDE
 
-REOPEN_AFTER = 2.0
-"""Seconds between attempts to find a camera that went away."""
+FIRST_PAUSE, LONGEST_PAUSE = 0.5, 30.0
+"""Seconds between attempts to find a camera that went away; each is twice as long as the last."""
+FAREWELL = 2.0
+"""Seconds that closing waits for the thread; a camera that hangs is let go when it comes back."""
 
 
 class Webcam(Camera):
     """The newest picture wins; a camera that is unplugged is looked for until it is back."""
 
-    parameters = ("device", "width", "height", "hres", "vres", "rate")
+    parameters = (
+        *Camera.parameters, "device", "width", "height", "hres", "vres", "rate", "field_of_view",
+    )  # fmt: skip
     is_hardware = True
 
     def _open(self) -> None:
@@ -33,18 +39,21 @@ class Webcam(Camera):
             count("height", count("vres", 240, 16, LARGEST_SIDE), 16, LARGEST_SIDE),
         )
         self._rate = self.description.number_within("rate", 30.0, 1.0, 240.0)
-        self._capture = self._find()
-        readable, picture = self._capture.read() if self._capture else (False, None)
+        self.field_of_view = self.description.number_within("field_of_view", *FIELD_OF_VIEW)
+        capture = self._find()
+        readable, picture = capture.read() if capture else (False, None)
         if not readable or picture is None:
-            if self._capture:
-                self._capture.release()
+            if capture:
+                capture.release()
             raise self._missing()
         # A camera gives the nearest size it can, not the one it was asked for.
-        self.height, self.width = picture.shape[:2]
+        self._take_size(picture)
         self._latest: Latest[Frame] = Latest()
         self._given = -1
         self._ending = threading.Event()
-        self._thread = threading.Thread(target=self._watch, name="webcam", daemon=True)
+        self._thread = threading.Thread(
+            target=self._film, args=(capture, self._ending), name="webcam", daemon=True
+        )
         self._thread.start()
 
     @property
@@ -62,7 +71,7 @@ class Webcam(Camera):
             return NotAvailable(f"Failure opening {self.path} - check permissions")
         return NotAvailable(f"Failure opening {self.path} - see what else uses it, or replug it")
 
-    def read(self, now: float) -> Frame | None:
+    def _read(self, now: float) -> Frame | None:
         frame = self._latest.value
         if frame is None or frame.sequence == self._given:
             return None
@@ -86,28 +95,40 @@ class Webcam(Camera):
         capture.set(cv2.CAP_PROP_BUFFERSIZE, 1)
         return capture
 
-    def _watch(self) -> None:
+    def _film(self, capture: Any, ending: threading.Event) -> None:
+        """Keep the newest picture; the capture belongs to this thread alone, and ends with it."""
         sequence = 0
-        while not self._ending.is_set():
-            readable, picture = self._capture.read() if self._capture else (False, None)
-            if not readable or picture is None:
-                self._look_again()
+        pauses = waits()
+        while not ending.is_set():
+            readable, picture = capture.read() if capture else (False, None)
+            if readable and picture is not None:
+                now = self.manager.clock.now()
+                self._latest.set(Frame(rgb(picture), now, sequence), now)
+                sequence += 1
+                pauses = waits()
                 continue
-            image = np.asarray(cv2.cvtColor(picture, cv2.COLOR_BGR2RGB), np.uint8)
-            now = self.manager.clock.now()
-            self._latest.set(Frame(image, now, sequence), now)
-            sequence += 1
-
-    def _look_again(self) -> None:
-        if self._capture:
-            self._capture.release()
-        self._capture = None
-        self._ending.wait(REOPEN_AFTER)
-        if not self._ending.is_set():
-            self._capture = self._find()
+            if capture:
+                capture.release()
+            ending.wait(next(pauses))
+            capture = None if ending.is_set() else self._find()
+        if capture:
+            capture.release()
 
     def _close(self) -> None:
         self._ending.set()
-        self._thread.join(timeout=REOPEN_AFTER + 1)
-        if self._capture:
-            self._capture.release()
+        self._thread.join(timeout=FAREWELL)
+
+
+def waits() -> Iterator[float]:
+    """Seconds between one attempt and the next: longer and longer, up to half a minute."""
+    pause = FIRST_PAUSE
+    while True:
+        yield pause
+        pause = min(LONGEST_PAUSE, 2 * pause)
+
+
+def rgb(picture: Any) -> Any:
+    """What OpenCV gives, in the order of colors that all others expect; gray stays gray."""
+    if picture.ndim == 3 and picture.shape[2] == 3:
+        return cv2.cvtColor(picture, cv2.COLOR_BGR2RGB)
+    return np.asarray(picture)
