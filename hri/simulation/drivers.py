@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import math
-import random
 from collections.abc import Callable
-from functools import partial
 from typing import ClassVar
 
 import numpy as np
 
 from hri.core.clock import Worker
 from hri.core.geometry import placed
-from hri.core.signals import Frame, Image, Pose2D, RangeReading, Samples, Twist
+from hri.core.signals import Frame, Pose2D, RangeReading, Samples, Twist
 from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
 from hri.hal.camera import Camera
@@ -24,16 +22,12 @@ from hri.hal.motion import Way
 from hri.hal.moving_base import MovingBase
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Description
+from hri.simulation.actors import Appearance, Optics, render_people
 from hri.simulation.device import InWorld
-from hri.simulation.head import render_head
+from hri.simulation.lens import Lens
+from hri.simulation.person import Person
 from hri.simulation.sound import RATE, Source
 
-HEAD_HEIGHT = 0.24
-"""Metres from chin to crown, of an adult."""
-NEAREST = 0.5
-"""Metres; somebody who is nearer leans back."""
-FAR_ASIDE = 1000.0
-"""Metres; where somebody who is not there is out of any picture."""
 CAMERA = {
     "width": (320.0, 64.0, 1920.0),
     "height": (240.0, 48.0, 1080.0),
@@ -44,6 +38,14 @@ CAMERA = {
 
 The lens is narrow: the face of somebody 1.3 m away must fill a good part of the picture.
 """
+LENS = {
+    "noise": (2.0, 0.0, 50.0),
+    "light": (1.0, 0.02, 3.0),
+    "flicker": (0.0, 0.0, 1.0),
+    "blur": (0.0, 0.0, 10.0),
+    "jitter": (0.0, 0.0, 10.0),
+}
+"""The same of its faults; see `lens.Lens`."""
 MAX_RANGE = (0.8, 0.1, 30.0)
 """Default, least and most of a range sensor's reach, metres; infrared ones see 80 cm."""
 RANGE_NOISE = (0.01, 0.0, 0.5)
@@ -60,10 +62,6 @@ SPEAKER_DELAY = (0.01, 0.0, 0.15)
 """Default, least and most of the seconds until it is heard there."""
 NOISES = 4099
 """How many errors a range sensor makes before they repeat."""
-GRAIN = 2.0
-"""Standard deviation of the camera's noise, of 255."""
-SHEET_MARGIN = 64
-"""Pixels that the sheet of noise is larger than a picture."""
 
 
 class SimulatedMicrophone(InWorld, Microphone):
@@ -268,23 +266,26 @@ class SimulatedRangeSensor(InWorld, RangeSensor):
 
 
 class SimulatedCamera(InWorld, Camera):
-    """Looks at the person's face, from a neck that follows the place where the person stands.
+    """Looks at the first person's face, from a neck that follows the place where they stand.
 
     `hres` and `vres` are the size of the picture in the files of 2003; `width` and `height` win.
+    The others of `CAMERA` and `LENS` are the camera and its faults.
     """
 
-    parameters: ClassVar[tuple[str, ...]] = (*CAMERA, "hres", "vres")
+    parameters: ClassVar[tuple[str, ...]] = (*Camera.parameters, *CAMERA, "hres", "vres", *LENS)
 
     @classmethod
     def check(cls, description: Description) -> None:
         super().check(description)
-        _lens(description)
+        _parameters(description)
+        _faults(description)
 
     def _open(self) -> None:
         super()._open()
-        width, height, self._rate, self.field_of_view = _lens(self.description)
+        width, height, self._rate, self.field_of_view = _parameters(self.description)
         self.width, self.height = round(width), round(height)
-        self._grain = Grain(self.width, self.height, self.world.seed_for(self.id))
+        self._optics = Optics(self.width, self.height, self.field_of_view)
+        self._lens = Lens(**_faults(self.description), seed=self.world.seed_for(self.id))
         self._given = math.floor(self.manager.clock.now() * self._rate) - 1
         # Drawing takes many milliseconds, which the loop does not have. In fake time a picture is
         # there at once, as if a camera had taken it.
@@ -294,37 +295,40 @@ class SimulatedCamera(InWorld, Camera):
         self._worker.close()
         super()._close()
 
-    def read(self, now: float) -> Frame | None:
+    def pan(self, now: float) -> float:
+        return self.world.bearing_of(self.world.person, now)
+
+    def _read(self, now: float) -> Frame | None:
+        drawn = self._worker.poll()
         sequence = math.floor(now * self._rate + 1e-6)
         if sequence > self._given and not self._worker.is_busy:
             self._given = sequence
             self.world.advance(now)
             self._worker.submit(self._picture(sequence))
-        return next(iter(self._worker.poll()), None)
+            drawn += self._worker.poll()
+        return drawn[-1] if drawn else None
 
     def _picture(self, sequence: int) -> Callable[[], Frame]:
-        """What draws a picture of the person as it is now."""
+        """What draws a picture of the people as they are now."""
         time = sequence / self._rate
-        person = self.world.person
-        pose = person.head(time)
-        aside = person.aside(time) if person.is_present(time) else FAR_ASIDE
-        focal = self.width / 2 / math.tan(self.field_of_view / 2)
-        pixels_per_metre = focal / max(NEAREST, self.world.distance_to_person())
-        draw = partial(
-            render_head,
-            pose.pitch,
-            pose.yaw,
-            pose.roll,
-            center=(self.width / 2 + aside * pixels_per_metre, self.height / 2),
-            height=HEAD_HEIGHT * pixels_per_metre,
-            size=(self.width, self.height),
-            mouth=person.mouth(time),
-            lids=person.lids(time),
-        )
-        return lambda: Frame(self._grain.on(draw(), sequence), time, sequence)
+        there = (person for person in self.world.people if person.is_present(time))
+        shown = [looks for person in there if (looks := self._appearance(person, time))]
+        size, lens = self._optics.size, self._lens
+        return lambda: Frame(lens.take(render_people(shown, size), sequence), time, sequence)
+
+    def _appearance(self, person: Person, time: float) -> Appearance | None:
+        """How somebody looks in the picture; None for who is beside or behind the camera."""
+        held = person.posture(time)
+        turn = self.pan(time) - self.world.bearing_of(person, time)
+        distance = self.world.distance_to(person, time)
+        ahead, right = distance * math.cos(turn), distance * math.sin(turn)
+        if ahead <= 0:
+            return None
+        held, lids = person.posture(time), person.lids(time)
+        return self._optics.show(person.actor, held, right + person.aside(time), ahead, lids)
 
 
-def _lens(description: Description) -> tuple[float, ...]:
+def _parameters(description: Description) -> tuple[float, ...]:
     """The values of CAMERA that a description asks for. Raises AuthoringError."""
     given = description.parameters
     spellings = {"width": "hres", "height": "vres"}
@@ -332,20 +336,6 @@ def _lens(description: Description) -> tuple[float, ...]:
     return tuple(description.number_within(names[name], *CAMERA[name]) for name in CAMERA)
 
 
-class Grain:
-    """The noise of a camera's sensor, cut for each picture at another place from one big sheet."""
-
-    def __init__(self, width: int, height: int, seed: int) -> None:
-        self._size = (height, width)
-        self._seed = seed
-        shape = (height + SHEET_MARGIN, width + SHEET_MARGIN, 3)
-        noise = np.random.default_rng(seed).normal(0.0, GRAIN, shape)
-        self._sheet = np.rint(noise).astype(np.int16)
-
-    def on(self, image: Image, sequence: int) -> Image:
-        """The picture with the noise of that number in the sequence."""
-        down, right = random.Random(f"{self._seed}/{sequence}").choices(range(SHEET_MARGIN), k=2)
-        height, width = self._size
-        grain = self._sheet[down : down + height, right : right + width]
-        grainy: Image = np.clip(image + grain, 0, 255).astype(np.uint8)
-        return grainy
+def _faults(description: Description) -> dict[str, float]:
+    """The values of LENS that it asks for. Raises AuthoringError."""
+    return {name: description.number_within(name, *bounds) for name, bounds in LENS.items()}

@@ -1,4 +1,4 @@
-"""World files: where the walls and the furniture are, where the robot and the person start."""
+"""World files: where the walls and the furniture are, where the robot and the people start."""
 
 from __future__ import annotations
 
@@ -11,11 +11,14 @@ from hri.core import paths
 from hri.core.errors import Place
 from hri.core.signals import Pose2D
 from hri.core.toml import Table, load_toml
+from hri.simulation.actors import ACTORS
+from hri.simulation.looks import DEFAULT_ACTOR
 from hri.simulation.person import RADIUS
 from hri.simulation.room import Box, Circle, Obstacle, Room, Segment
 
 KIND = "config/worlds"
 MOST_OBSTACLES = 500
+MOST_PEOPLE = 8
 CLEAR_VOICE, CLEAR_RATE = "en-us+m5", 125.0
 """The voice and words a minute that PocketSphinx heard best of 18 that were tried."""
 _FARTHEST = 100.0
@@ -36,10 +39,14 @@ class RobotStart:
 
 @dataclass(frozen=True)
 class PersonStart:
-    """The person as the file gives it."""
+    """A person as the file gives it."""
 
     x: float
     y: float
+    name: str
+    """What a visit calls them; empty for the only one."""
+    actor: str
+    """Whom they look like; see `actors.ACTORS`."""
     voice: str
     """A voice of espeak-ng."""
     words_per_minute: float
@@ -61,7 +68,8 @@ class Layout:
 
     room: Room
     robot: RobotStart
-    person: PersonStart
+    people: tuple[PersonStart, ...]
+    """The camera follows the first."""
     noise_db: float
     """Level of the room's noise against full scale."""
     items: tuple[Item, ...] = ()
@@ -82,7 +90,7 @@ def load_layout(path: Path) -> Layout:
     layout = Layout(
         room=Room(obstacles),
         robot=_robot(root.table("robot")),
-        person=_person(root.table("person")),
+        people=tuple(_person(table) for table in _people(root)),
         noise_db=float(root.number("noise_db", -62.0, minimum=-120.0, maximum=-20.0)),
         items=tuple(_item(table) for table in root.array("object")),
         drops=tuple(_drop(table) for table in root.array("drop")),
@@ -155,11 +163,28 @@ def _robot(table: Table) -> RobotStart:
     return start
 
 
+def _people(root: Table) -> list[Table]:
+    """`[person]`, or `[[person]]` for each of several."""
+    if not isinstance(root.data.get("person"), list):
+        return [root.table("person")]
+    tables = root.array("person")
+    if not 1 <= len(tables) <= MOST_PEOPLE:
+        raise root.error("person", f"{len(tables)} people", f"write 1 to {MOST_PEOPLE}")
+    names = [table.data.get("name", "") for table in tables]
+    for number, (name, table) in enumerate(zip(names, tables, strict=True)):
+        if len(tables) > 1 and name in ("", *names[:number]):
+            what = f'another person is named "{name}"' if name else "this person has no name"
+            raise table.error("name", what, "give each of them a name of their own")
+    return tables
+
+
 def _person(table: Table) -> PersonStart:
     x, y = _point(table, "at")
     start = PersonStart(
         x,
         y,
+        name=str(table.string("name", "")),
+        actor=str(table.string("actor", DEFAULT_ACTOR, among=tuple(ACTORS))),
         voice=str(table.string("voice", CLEAR_VOICE)),
         words_per_minute=float(
             table.number("words_per_minute", CLEAR_RATE, minimum=80, maximum=450)
@@ -191,6 +216,7 @@ def _check_start(layout: Layout, root: Table) -> None:
     if layout.room.clearance(pose.x, pose.y) <= radius:
         remedy = "move the robot's start or what stands there"
         raise root.table("robot").error("start", "the robot starts inside an obstacle", remedy)
-    if math.dist((pose.x, pose.y), (layout.person.x, layout.person.y)) <= radius + RADIUS:
-        remedy = "move the person away from the robot's start"
-        raise root.table("person").error("at", "the person stands inside the robot", remedy)
+    for person, table in zip(layout.people, _people(root), strict=True):
+        if math.dist((pose.x, pose.y), (person.x, person.y)) <= radius + RADIUS:
+            remedy = "move the person away from the robot's start"
+            raise table.error("at", "the person stands inside the robot", remedy)

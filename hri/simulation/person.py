@@ -1,4 +1,4 @@
-"""The person: where they are, how they hold the head, what they say.
+"""A person: where they are, how they hold themselves, what they say.
 
 What is asked of them is put on a schedule; from then on every answer is a function of time, so
 pictures and sound do not depend on how often anybody looked or listened.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +16,8 @@ import numpy as np
 from hri.core.signals import HeadPose, Speech
 from hri.hal.synthesizer import Synthesizer
 from hri.simulation import motion
-from hri.simulation.motion import Angles
+from hri.simulation.looks import DEFAULT_ACTOR
+from hri.simulation.motion import MOTIONS, Motion, Posture
 
 RADIUS = 0.22
 """Metres, of the place a standing person takes."""
@@ -24,6 +25,8 @@ WALK_TIME = 1.5
 """Seconds to come into view or to walk out of it."""
 WALK_WAY = 1.0
 """Metres between the person's place and where they are out of view."""
+SPEED = 0.7
+"""Metres a second of somebody who comes nearer or steps back."""
 PAUSE = 0.3
 """Seconds between two sentences that were asked for at the same time."""
 
@@ -35,16 +38,33 @@ _OPEN_MOUTH = 6000.0
 
 @dataclass(frozen=True, slots=True)
 class Movement:
-    """A movement of the head that begins at a time and ends where it began."""
+    """A movement that begins at a time and ends where it began."""
 
     start: float
-    duration: float
-    angles: Callable[[float], Angles]
-    """The angles, seconds after the start."""
+    motion: Motion
+    seed: int
 
-    def at(self, time: float) -> Angles:
-        elapsed = time - self.start
-        return self.angles(elapsed) if 0 <= elapsed <= self.duration else (0.0, 0.0, 0.0)
+    def at(self, time: float) -> Posture:
+        return self.motion.at(time - self.start, self.seed)
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """A way through the room, at the speed of a walk."""
+
+    start: float
+    """Seconds."""
+    origin: tuple[float, float]
+    goal: tuple[float, float]
+
+    @property
+    def duration(self) -> float:
+        return math.dist(self.origin, self.goal) / SPEED
+
+    def at(self, time: float) -> tuple[float, float]:
+        part = motion.eased((time - self.start) / self.duration) if self.duration else 1.0
+        x, y = (a + (b - a) * part for a, b in zip(self.origin, self.goal, strict=True))
+        return x, y
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +90,7 @@ class Spoken:
 
 
 class Person:
-    """Stands at (x, y), faces the robot, and does what is put on the schedule."""
+    """Stands somewhere, faces the robot, and does what is put on the schedule."""
 
     def __init__(
         self,
@@ -79,14 +99,19 @@ class Person:
         synthesizer: Synthesizer | None = None,
         seed: int = 0,
         starts_present: bool = True,
+        name: str = "",
+        actor: str = DEFAULT_ACTOR,
     ) -> None:
-        """Without a synthesizer the person cannot speak."""
+        """`x` and `y` are where they stand at first; `actor` is whom they look like (see
+        `actors.ACTORS`). Without a synthesizer the person cannot speak."""
         self.x, self.y = x, y
+        self.name, self.actor = name, actor
         self.spoken: list[Spoken] = []
         self._synthesizer = synthesizer
         self._seed = seed
         self.starts_present = starts_present
         self._walks: list[tuple[float, bool]] = []
+        self._ways: list[Way] = []
         self._movements: list[Movement] = []
         self._known: dict[str, Speech] = {}
 
@@ -105,15 +130,31 @@ class Person:
         self.spoken.append(Spoken(start, self._known[text]))
         return self.spoken[-1]
 
+    def move(self, name: str, at: float) -> None:
+        """Do something of `motion.MOTIONS`."""
+        seed = self._seed + len(self._movements)
+        self._movements.append(Movement(at, MOTIONS[name], seed))
+
     def nod(self, at: float) -> None:
-        self._movements.append(Movement(at, motion.NOD_TIME, motion.nod_angles))
+        """Nod the head."""
+        self.move("nod", at)
 
     def shake(self, at: float) -> None:
-        self._movements.append(Movement(at, motion.SHAKE_TIME, motion.shake_angles))
+        """Shake the head."""
+        self.move("shake", at)
 
     def look_aside(self, at: float) -> None:
         """Glance to the side and back."""
-        self._movements.append(Movement(at, motion.GLANCE_TIME, motion.glance_angles))
+        self.move("look_aside", at)
+
+    def go(self, x: float, y: float, at: float) -> None:
+        """Walk to another place of the room."""
+        self._ways.append(Way(at, self.place(at), (x, y)))
+
+    def place(self, time: float) -> tuple[float, float]:
+        """Where they stand, or would if they were there: x and y, metres."""
+        begun = [way for way in self._ways if way.start <= time]
+        return begun[-1].at(time) if begun else (self.x, self.y)
 
     def enter(self, at: float) -> None:
         """Walk into view; nothing for someone who is there."""
@@ -134,16 +175,24 @@ class Person:
         part = motion.eased((time - begin) / WALK_TIME)
         return WALK_WAY * (1 - part if comes else part)
 
+    def posture(self, time: float) -> Posture:
+        """How they hold themselves: all that they do at once, over the sway of rest."""
+        held = Posture(*motion.idle_angles(time, self._seed))
+        for movement in self._movements:
+            held += movement.at(time)
+        if self._is_walking(time):
+            held += motion.steps(time)
+        voice = (s.loudness(time) for s in self.spoken if s.start <= time <= s.end)
+        return held + Posture(mouth=max(voice, default=0.0))
+
     def head(self, time: float) -> HeadPose:
         """How the head is held; all angles 0 look at the robot."""
-        moved = (movement.at(time) for movement in self._movements)
-        sway = motion.idle_angles(time, self._seed)
-        pitch, yaw, roll = (sum(parts) for parts in zip(sway, *moved, strict=True))
-        return HeadPose(time, pitch, yaw, roll)
+        held = self.posture(time)
+        return HeadPose(time, held.pitch, held.yaw, held.roll)
 
     def mouth(self, time: float) -> float:
         """How far the mouth is open, 0 to 1."""
-        return max((s.loudness(time) for s in self.spoken if s.start <= time <= s.end), default=0.0)
+        return self.posture(time).mouth
 
     def lids(self, time: float) -> float:
         """How far the eyes are open, 0 to 1: one blink in each stretch of a few seconds."""
@@ -151,6 +200,11 @@ class Person:
         dice = random.Random(f"{self._seed}/{stretch}")
         blink = (stretch + dice.uniform(0.1, 0.9)) * _BLINK_EVERY
         return min(1.0, abs(time - blink) / (_BLINK_TIME / 2))
+
+    def _is_walking(self, time: float) -> bool:
+        walks = [(self._last_walk(time)[0], WALK_TIME)]
+        walks += [(way.start, way.duration) for way in self._ways]
+        return any(start <= time <= start + duration for start, duration in walks)
 
     def _walk(self, at: float, comes: bool) -> None:
         if self._last_walk(at)[1] != comes:

@@ -81,9 +81,9 @@ class Room:
         self._cx, self._cy, self._radius = rounds.T.copy()
         self._radius_squared = self._radius**2
 
-    def with_one_more(self, obstacle: Obstacle) -> Room:
+    def with_more(self, obstacles: Iterable[Obstacle]) -> Room:
         """This room with something else in it."""
-        return Room((*self.obstacles, obstacle))
+        return Room((*self.obstacles, *obstacles))
 
     def clearance(self, x: float, y: float) -> float:
         """Distance from a point to the nearest surface; negative inside a circle, inf if empty."""

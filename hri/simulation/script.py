@@ -1,4 +1,4 @@
-"""Visits: what the simulated person does and when, read from a file.
+"""Visits: what the simulated people do and when, read from a file.
 
     [[step]]
     at = 3
@@ -13,7 +13,8 @@ Each step does one thing. `at` is in seconds from the start of the visit; a step
 with the step above, and `wait = 2` lets two seconds pass before the steps below. A step with
 `after` waits, from its time on, for an event of that name; each event sets off one step, the first
 in the file that waits for it. It is left out when the event does not come `within` that many
-seconds. `delay` seconds lie between the event, or the time, and what is done.
+seconds. `delay` seconds lie between the event, or the time, and what is done. Where the world
+has several people, `who = "anna"` names the one; else it is the first.
 """
 
 from __future__ import annotations
@@ -28,6 +29,8 @@ from hri.core.errors import did_you_mean
 from hri.core.events import EventBus, Subscription, matches
 from hri.core.signals import Event
 from hri.core.toml import REQUIRED, Table, load_toml
+from hri.simulation.motion import MOTIONS
+from hri.simulation.person import Person
 from hri.simulation.world import SimulatedWorld
 
 LONGEST = 24 * 3600.0
@@ -38,25 +41,33 @@ _ENDING = 5.0
 """Seconds that a visit lasts after its last step when the file gives no duration."""
 
 Value = str | float | bool
-Deed = Callable[[SimulatedWorld, Value, float], object]
+Deed = Callable[[SimulatedWorld, Person, Value, float], object]
+
+
+def _moves(name: str) -> Deed:
+    return lambda world, person, _, now: person.move(name, now)
+
 
 DEEDS: dict[str, Deed] = {
-    "say": lambda world, text, now: world.say(str(text), now),
-    "nod": lambda world, _, now: world.person.nod(now),
-    "shake": lambda world, _, now: world.person.shake(now),
-    "look_aside": lambda world, _, now: world.person.look_aside(now),
-    "enter": lambda world, _, now: world.person.enter(now),
-    "leave": lambda world, _, now: world.person.leave(now),
-    "bump": lambda world, _, now: world.bump(now),
-    "battery": lambda world, level, now: world.set_battery(float(level), now),
+    "say": lambda world, person, text, now: world.say(str(text), now, person),
+    **{name: _moves(name) for name in MOTIONS if name != "still"},
+    "enter": lambda world, person, _, now: person.enter(now),
+    "leave": lambda world, person, _, now: person.leave(now),
+    "approach": lambda world, person, meters, now: world.stand_at(person, float(meters), now),
+    "move_away": lambda world, person, meters, now: world.stand_at(person, float(meters), now),
+    "bump": lambda world, person, _, now: world.bump(now),
+    "battery": lambda world, person, level, now: world.set_battery(float(level), now),
 }
 """What a step can do, by its key in the file."""
-TIMES = ("at", "after", "within", "delay")
+NUMBERS = {"battery": (0.0, 1.0), "approach": (0.5, 20.0), "move_away": (0.5, 20.0)}
+"""Least and most of those that take a number: a level; meters from the robot to stand at then."""
+MODIFIERS = ("at", "after", "within", "delay", "who")
+"""What a step can say besides."""
 
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One thing that the person does."""
+    """One thing that somebody does."""
 
     at: float
     """Seconds from the start: when it is done, or from when on its event counts."""
@@ -69,6 +80,8 @@ class Step:
     """Seconds from `at` in which the event must come."""
     delay: float = 0.0
     """Seconds."""
+    who: str = ""
+    """Name of who does it; empty for the first."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +93,7 @@ class Visit:
     """Seconds."""
 
     def start(self, world: SimulatedWorld, clock: Clock, events: EventBus) -> VisitRun:
-        """Let the visit begin now."""
+        """Let the visit begin now. Raises HriError when it names somebody the world has not."""
         return VisitRun(self, world, clock, events)
 
 
@@ -92,10 +105,13 @@ class VisitRun:
         self._start = clock.now()
         self._waiting = [step for step in visit.steps if step.after]
         self._timers: list[Timer] = []
+        doers = {step.who: world.find_person(step.who) for step in visit.steps}
+        for person in world.people:
+            own = [step for step in visit.steps if doers[step.who] is person]
+            person.rehearse(str(step.value) for step in own if step.deed == "say")
+            walks = [step.deed for step in own if step.deed in ("enter", "leave")]
+            person.starts_present = walks[:1] != ["enter"]
         self._subscription: Subscription = events.subscribe("*", self._hear)
-        world.person.rehearse(str(step.value) for step in visit.steps if step.deed == "say")
-        walks = [step.deed for step in visit.steps if step.deed in ("enter", "leave")]
-        world.person.starts_present = walks[:1] != ["enter"]
         for step in visit.steps:
             if not step.after:
                 self._schedule(step, self._start + step.at)
@@ -121,8 +137,10 @@ class VisitRun:
         self._timers.append(timer)
 
     def _do(self, step: Step) -> None:
-        DEEDS[step.deed](self._world, step.value, self._clock.now())
-        self._events.raise_event("visitor.acted", deed=step.deed, value=step.value)
+        person = self._world.find_person(step.who)
+        DEEDS[step.deed](self._world, person, step.value, self._clock.now())
+        told = {"who": step.who} if step.who else {}
+        self._events.raise_event("visitor.acted", deed=step.deed, value=step.value, **told)
 
 
 def load_visit(path: Path) -> Visit:
@@ -156,9 +174,11 @@ def _steps(tables: list[Table]) -> list[Step]:
 def _deed(table: Table) -> str:
     """The one key that says what is done."""
     for name in table.data:
-        if name not in (*TIMES, *DEEDS, "wait"):
-            raise table.error(name, f'unknown key "{name}"', did_you_mean(name, (*DEEDS, *TIMES)))
-    found = [name for name in table.data if name not in TIMES]
+        if name not in (*MODIFIERS, *DEEDS, "wait"):
+            raise table.error(
+                name, f'unknown key "{name}"', did_you_mean(name, (*DEEDS, *MODIFIERS))
+            )
+    found = [name for name in table.data if name not in MODIFIERS]
     if not found:
         raise table.error(None, "this step does nothing", f"add one of {', '.join(DEEDS)}, wait")
     if len(found) > 1:
@@ -186,12 +206,14 @@ def _step(table: Table, deed: str, at: float) -> Step:
         after=after,
         within=_seconds(table, "within", math.inf),
         delay=_seconds(table, "delay", 0.0),
+        who=str(table.string("who", "")),
     )
 
 
 def _value(table: Table, deed: str) -> Value:
-    if deed == "battery":
-        return float(table.number(deed, minimum=0.0, maximum=1.0))
+    if deed in NUMBERS:
+        least, most = NUMBERS[deed]
+        return float(table.number(deed, minimum=least, maximum=most))
     if deed == "say":
         return _sentence(table)
     if not table.flag(deed):

@@ -1,8 +1,8 @@
-"""The simulated world: a room, a base in it, a person, what sounds, and a battery.
+"""The simulated world: a room, a base in it, people, what sounds, and a battery.
 
 It is a bus of the configuration; the simulated devices sit on it. Its parameters are `file` (a
 world of `config/worlds`), `seed`, `battery` (0 to 1 at the start) and `voice`, the id of the
-synthesiser that speaks for the person (without it the world brings one of its own).
+synthesiser that speaks for the people (without it the world brings one of its own).
 """
 
 from __future__ import annotations
@@ -13,7 +13,8 @@ import zlib
 from typing import ClassVar
 
 from hri.core import registry
-from hri.core.errors import HriError, NotAvailable
+from hri.core.errors import HriError, NotAvailable, did_you_mean
+from hri.core.geometry import seen_from
 from hri.core.signals import Twist
 from hri.hal.resource import Description, Resource
 from hri.hal.synthesizer import Synthesizer
@@ -41,7 +42,8 @@ class SimulatedWorld(Resource):
     room: Room
     base: Base
     axle: Axle
-    person: Person
+    people: tuple[Person, ...]
+    """The camera follows the first."""
     sound: Sound
     beams: Beams
 
@@ -117,11 +119,28 @@ class SimulatedWorld(Resource):
         """Whether there is no floor at a point of the room."""
         return any(math.dist((x, y), (drop.x, drop.y)) < drop.radius for drop in self._drops)
 
-    def say(self, text: str, at: float) -> Spoken | None:
-        """Let the person speak; the sound gets quieter with the distance to the robot."""
-        spoken = self.person.say(text, at)
+    @property
+    def person(self) -> Person:
+        """The first of the people."""
+        return self.people[0]
+
+    def find_person(self, name: str) -> Person:
+        """The one of this name; without one, the first. Raises HriError when there is none."""
+        if not name:
+            return self.person
+        found = next((person for person in self.people if person.name == name), None)
+        if found is None:
+            names = [person.name for person in self.people if person.name]
+            remedy = did_you_mean(name, names, "give somebody this name in [[person]]")
+            raise HriError(f'nobody in this world is named "{name}" - {remedy}')
+        return found
+
+    def say(self, text: str, at: float, person: Person | None = None) -> Spoken | None:
+        """Let a person speak, or the first; it gets quieter with the distance to the robot."""
+        speaker = person or self.person
+        spoken = speaker.say(text, at)
         if spoken is not None:
-            gain = 1.0 / max(_NEAREST, self.distance_to_person())
+            gain = 1.0 / max(_NEAREST, self.distance_to(speaker, at))
             self.sound.add(spoken.speech.samples, spoken.speech.rate, spoken.start, gain)
         return spoken
 
@@ -145,9 +164,20 @@ class SimulatedWorld(Resource):
         self.advance(now)
         self._charge = Charge(level, now, self.base.way)
 
-    def distance_to_person(self) -> float:
+    def distance_to(self, person: Person, now: float) -> float:
         """Metres from the middle of the robot."""
-        return math.hypot(self.person.x - self.base.pose.x, self.person.y - self.base.pose.y)
+        return math.hypot(*seen_from(self.base.pose, *person.place(now)))
+
+    def bearing_of(self, person: Person, now: float) -> float:
+        """Radians from the robot's straight ahead to the left."""
+        ahead, left = seen_from(self.base.pose, *person.place(now))
+        return math.atan2(left, ahead)
+
+    def stand_at(self, person: Person, distance: float, now: float) -> None:
+        """Let somebody walk straight until they are so many metres from the robot."""
+        (x, y), pose = person.place(now), self.base.pose
+        part = distance / max(self.distance_to(person, now), RADIUS)
+        person.go(pose.x + (x - pose.x) * part, pose.y + (y - pose.y) * part, now)
 
     def beam_length(self, number: int, now: float) -> float:
         """How far a beam of `beams` gets; infinity for never."""
@@ -168,12 +198,12 @@ class SimulatedWorld(Resource):
 
     def _open(self) -> None:
         layout = _layout(self.description)
-        robot, person = layout.robot, layout.person
-        self._voice = self._person_voice(person)
-        self.person = Person(person.x, person.y, self._voice, self.seed_for("person"))
+        robot = layout.robot
+        self._voices: list[Synthesizer] = []
+        self.people = tuple(self._person(start) for start in layout.people)
         self.room = layout.room
         self._items = {item.name: item for item in layout.items}
-        self._furnished = layout.room.with_one_more(Circle(person.x, person.y, RADIUS))
+        self._peopled: tuple[tuple[Circle, ...], Room] = ((), self.room)
         limits = Limits(radius=robot.radius)
         self.base = Base(self._clearance, robot.pose, limits, robot.slip, self.seed_for("slip"))
         self.axle = Axle(self.base)
@@ -188,18 +218,32 @@ class SimulatedWorld(Resource):
         return self._room_at(time).clearance(x, y)
 
     def _room_at(self, time: float) -> Room:
-        return self._furnished if self.person.is_present(time) else self.room
+        there = tuple(
+            Circle(round(x, 2), round(y, 2), RADIUS)
+            for person in self.people
+            if person.is_present(time)
+            for x, y in [person.place(time)]
+        )
+        # The same room for the same places: what was cast in it is not cast again.
+        if there != self._peopled[0]:
+            self._peopled = there, self.room.with_more(there)
+        return self._peopled[1]
 
     def _close(self) -> None:
-        if self._voice is not None and not self.description.text("voice"):
-            self._voice.deactivate()
+        for voice in self._voices:
+            voice.deactivate()
+
+    def _person(self, start: PersonStart) -> Person:
+        seed = self.seed_for(f"person {start.name}" if start.name else "person")
+        voice = self._person_voice(start)
+        return Person(start.x, start.y, voice, seed, name=start.name, actor=start.actor)
 
     def _person_voice(self, start: PersonStart) -> Synthesizer | None:
-        """The person's voice; None, a person who cannot speak, where there is no library."""
+        """A person's voice; None, somebody who cannot speak, where there is no library."""
         if chosen := self.description.text("voice"):
             return self.manager.obtain(chosen, Synthesizer)
         own = Description(
-            f"{self.id}_voice",
+            "_".join(part for part in (self.id, start.name, "voice") if part),
             "Hri.EspeakVoice",
             {"voice": start.voice, "rate_wpm": str(start.words_per_minute)},
             places={"voice": start.voice_place},
@@ -209,6 +253,7 @@ class SimulatedWorld(Resource):
             voice.activate()
         except NotAvailable:
             return None
+        self._voices.append(voice)
         return voice
 
 

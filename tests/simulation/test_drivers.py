@@ -150,6 +150,8 @@ def test_the_battery_and_the_bumper_ask_the_world(build: Build) -> None:
         (SimulatedCamera, {"rte": "15"}, 'did you mean "rate"'),
         (SimulatedRangeSensor, {"max_range": "0"}, "from 0.1 to 30"),
         (SimulatedRangeSensor, {"yaw": "left"}, "such as 0.5 or -pi/4"),
+        (SimulatedCamera, {"noise": "-1"}, "noise"),
+        (SimulatedCamera, {"light": "0"}, "light"),
     ],
 )
 def test_wrong_parameters_are_refused(

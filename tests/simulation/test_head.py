@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hri.core.signals import Image
-from hri.simulation.head import render_head
+from hri.simulation.actors import render_head
 from hri.simulation.motion import idle_angles, nod_angles, shake_angles
 
 

@@ -13,8 +13,8 @@ START = "[robot]\nstart = [0, 0]\n[person]\nat = [1, 1]\n"
 
 def test_home_has_twelve_metres_free_ahead_and_the_person_leaves_the_lane_free() -> None:
     layout = load_layout(find_layout("home"))
-    person = Circle(layout.person.x, layout.person.y, 0.22)
-    room = layout.room.with_one_more(person)
+    person = Circle(layout.people[0].x, layout.people[0].y, 0.22)
+    room = layout.room.with_more([person])
     start, radius = layout.robot.pose, layout.robot.radius
     assert all(room.clearance(start.x + x / 10, start.y) > radius + 0.1 for x in range(120))
     assert room.cast(start.x, start.y, start.heading) > 12

@@ -14,8 +14,10 @@ from hri.hal.recognizer import Recognizer
 from hri.hal.resource import Description
 from hri.simulation.world import SimulatedWorld
 from hri.speech.grammar import load_grammar
+from hri.vision.detectors.chain import load_detectors
 from hri.vision.gesture import GestureRecognizer
-from hri.vision.tracking import HeadFinder
+from hri.vision.patterns import answer_patterns
+from hri.vision.people import PeopleTracker
 
 from .conftest import Build
 
@@ -53,13 +55,15 @@ def gestures(build: Build, movement: str) -> list[HeadGesture]:
     manager = build(None, camera={"rate": "15"})
     camera = manager.obtain("camera", Camera)
     getattr(manager.obtain("world", SimulatedWorld).person, movement)(1.5)
-    finder, recognizer = HeadFinder(), GestureRecognizer()
+    tracker = PeopleTracker(load_detectors("haar"))
+    recognizer = GestureRecognizer(answer_patterns())
     found = []
     for tick in range(4 * 15):
-        frame = camera.read(tick / 15)
-        pose = finder.see(frame) if frame is not None else None
-        if pose is not None and (gesture := recognizer.update(pose)) is not None:
-            found.append(gesture)
+        if (frame := camera.read(tick / 15)) is None:
+            continue
+        for person in tracker.see(frame).persons:
+            if (gesture := recognizer.update(person.pose)) is not None:
+                found.append(gesture)
     return found
 
 
