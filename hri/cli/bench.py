@@ -10,13 +10,15 @@ from typing import Any
 
 from hri.core.errors import HriError
 
-BENCHES = ("behavior", "companion", "emotion", "face", "net", "speech")
+BENCHES = ("behavior", "companion", "drive", "emotion", "face", "net", "speech", "vision")
 """Each is a module of `hri.bench` with `measure() -> dict`."""
 TAKES = {
     "behavior": ("seconds",),
     "companion": ("seconds",),
+    "drive": ("quick",),
     "face": ("quick",),
     "speech": ("quick", "recordings"),
+    "vision": ("quick",),
 }
 """The options that the `measure` of some of them takes."""
 
@@ -25,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("name", choices=BENCHES, help="what to measure")
     about = "how long each case runs (behavior, companion)"
     parser.add_argument("--seconds", type=_seconds, metavar="S", help=about)
-    about = "take every sixth sentence and recording (speech), a tenth of the time (face)"
+    about = "take every sixth sentence and recording (speech), a tenth (drive, face, vision)"
     parser.add_argument("--quick", action="store_true", default=None, help=about)
     about = "recordings of people, a folder with a manifest.tsv (speech)"
     parser.add_argument("--recordings", type=Path, metavar="DIR", help=about)

@@ -17,6 +17,7 @@ from hri.speech.behaviors import Listener
 from hri.speech.tasks import answers_of, listener_of, next_heard, say, wait_for_speech
 from hri.speech.turn import QUESTION
 from hri.task.context import TaskContext
+from hri.vision.behaviors import PersonTracker
 
 __all__ = [
     "appraise",
@@ -115,11 +116,11 @@ async def ask(
     """Ask a question; the answer, or None without one.
 
     Without a grammar it is a yes/no question: a nod, a shake, "yes" and "no" are answers, and
-    anything else that is heard changes the subject. With the name or path of a `grammar`, that one
-    is in force while the question is open, and the first thing heard is the answer. `timeout`
-    seconds count from the end of the question, and who speaks by then is heard out; it is asked
-    again up to `retries` times. Raises
-    `question.asked` when it has been spoken and `question.answered` with the answer. Raises
+    anything else that is heard changes the subject. Of several people, only the one attended to
+    answers with the head. With the name or path of a `grammar`, that one is in force while the
+    question is open, and the first thing heard is the answer. `timeout` seconds count from the end
+    of the question, and who speaks by then is heard out; it is asked again up to `retries` times.
+    Raises `question.asked` when it has been spoken and `question.answered` with the answer. Raises
     HriError for a grammar that cannot be used.
     """
     if grammar:
@@ -172,9 +173,18 @@ def _tell_answer(context: TaskContext, question: str, answer: object, event: Eve
 
 def _plain_answer(context: TaskContext, event: Event) -> tuple[bool | None] | None:
     key = event.properties.get("rule", event.name)
+    if not _is_asked(context, event.properties.get("person", "")):
+        return None
     if key in ANSWERS:
         return (ANSWERS[key],)
     return (None,) if event.name == "speech.heard" else None
+
+
+def _is_asked(context: TaskContext, person: str) -> bool:
+    """Whether it is the one attended to; so is anybody while they are not told apart."""
+    tracker = context.find_behavior(PersonTracker)
+    attended = tracker.last.attended if tracker is not None else ""
+    return not person or not attended or person == attended
 
 
 def _heard_answer(context: TaskContext, event: Event) -> tuple[Utterance | None] | None:

@@ -1,126 +1,233 @@
-"""Seeing in a network: where a person is, whether they nod or shake the head."""
+"""Seeing people in a network: who is there, whom to look at, who takes part."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
-from hri.core.clock import Worker
-from hri.core.events import EventBus
-from hri.core.signals import FaceBox, Frame, Gaze, HeadGesture, HeadPose
-from hri.vision.gesture import NOD, SHAKE, GestureRecognizer
-from hri.vision.tracking import HeadFinder
+from hri.core.errors import HriError, NotAvailable
+from hri.core.signals import Frame, Gaze, HeadPose, People, Person
+from hri.hal.camera import Camera
+from hri.vision.engagement import DISENGAGING, ENGAGED, UNENGAGED, Zones
+from hri.vision.people import MEMORY, Seeing
+from hri.vision.presence import Presence
+from hri.vision.view import CameraView
 
-ABSENCE = 3.0
-"""Seconds without a face after which a person is gone."""
-MEMORY = 1.0
-"""Seconds for which a face counts as seen after it was seen last."""
-EVENTS = {NOD: "head.nodded", SHAKE: "head.shaken"}
+FRESH = 1.0
+"""Seconds for which somebody counts as seen after they were seen last."""
+GLANCE = 0.8
+"""Seconds for which a newcomer is looked at."""
+USUAL_DISTANCE = 1.5
+"""Meters, of somebody whose distance is unknown."""
+ZONES = Zones()
 
 
-class HeadTracker(Behavior):
-    """Follows a person's head; raises `person.seen` and, once they are away, `person.lost`."""
+class PersonTracker(Behavior):
+    """Follows everybody the camera sees, and tells by events who comes, goes and looks.
+
+    It sees in a process of its own. When that fails, `vision.failed` tells the `reason`, whoever
+    was there has left, and it starts anew by itself.
+    """
 
     category = "vision"
 
+    camera_id = Param("camera", "id of the camera that takes the pictures; tells where it looks")
+    detector = Param(
+        "auto", "what finds faces: auto, haar, or the path of a file with the network YuNet"
+    )
+    inner_zone = Param(ZONES.inner, "meters; who is nearer and looks is engaged", minimum=0.1)
+    outer_zone = Param(ZONES.outer, "meters; nobody farther away is engaged", minimum=0.1)
     latency = Param(0.05, "seconds that seeing takes on a fake clock", minimum=0, maximum=1)
 
     image = Input[Frame]("image", "pictures; the newest is seen when there is no time for all")
-    pose = Output[HeadPose]("headpose", "the head, once for each picture it is seen in")
-    gaze = Output[Gaze]("gaze", "where the robot's eyes must look to meet those of the person")
+    people = Output[People]("people", "everybody, once for each picture that was seen")
+    pose = Output[HeadPose]("headpose", "the head of the one attended to, when it was seen anew")
     is_seen = Output[bool]("boolean", "true while a face is there, or was a second ago")
 
     def start(self, context: Context) -> None:
-        self._worker: Worker[tuple[HeadPose | None, Gaze]] = context.clock.worker(self.latency)
-        self._finder = HeadFinder()
+        self._events = context.events
+        self._resources = context.resources
+        self._camera = camera_of(context, self.camera_id)
+        try:
+            view = CameraView.of(self._camera) if self._camera else CameraView()
+            zones = Zones(inner=self.inner_zone, outer=max(self.inner_zone, self.outer_zone))
+            self._seeing = Seeing(self.detector, view, zones)
+            self._service = context.clock.service(self._seeing, self.latency)
+        except HriError:
+            self._give_back()  # who cannot start is not stopped either
+            raise
+        self._presence = Presence()
         self._frame: Frame | None = None
-        self._gaze = Gaze()
-        self._presence = Presence(context.events)
+        self._pan = 0.0
+        self._told = self._seen = self._pictured = -math.inf
+        self._posed = "", -math.inf
+        self.last = People(-math.inf)
+        """Everybody, as they were seen last."""
 
     def compute(self, now: float, dt: float) -> None:
         """Take what was seen, say so, and hand over the newest picture."""
-        for pose, gaze in self._worker.poll():
-            if pose is not None:
-                self._gaze = gaze
-                self._presence.see(now)
-                self.pose.send(pose)
-        self._presence.pass_time(now)
-        is_seen = self._presence.is_recent(now)
-        self.is_seen.send(is_seen)
-        if is_seen:
-            self.gaze.send(self._gaze)
+        try:
+            for people in self._service.poll():
+                self._take(people, now)
+        except NotAvailable as error:
+            self._events.raise_event("vision.failed", reason=str(error))
+            self._tell(People(now), now)
+        if self.last.persons and now - self._told >= MEMORY:
+            # No picture has come for so long: whoever was there is there no more.
+            self._tell(People(now), now)
+        self.is_seen.send(now - self._seen <= FRESH)
         self._frame = self.image.value or self._frame
-        if self._frame is not None and not self._worker.is_busy:
-            frame, self._frame = self._frame, None
-            self._worker.submit(lambda: self._see(frame))
+        if self._frame is not None and not self._service.is_busy:
+            self._pan = self._camera.pan(self._frame.time) if self._camera else 0.0
+            self._service.ask(self._frame)
+            self._frame = None
 
     def stop(self) -> None:
-        self._worker.close()
+        self._service.close()
+        self._give_back()
 
-    def _see(self, frame: Frame) -> tuple[HeadPose | None, Gaze]:
-        pose = self._finder.see(frame)
-        if pose is None or pose.box is None:
-            return None, Gaze()
-        height, width = frame.image.shape[:2]
-        return pose, gaze_at(pose.box, width, height)
+    def _give_back(self) -> None:
+        if self._camera is not None:
+            self._resources.release(self._camera)
+            self._camera = None
 
+    def _take(self, people: People, now: float) -> None:
+        """Tell of a picture; of one in which nothing could be seen there is nothing to tell."""
+        if people.time == self._pictured:
+            return
+        self._pictured = people.time
+        self._seeing.note(people)
+        self._tell(panned(people, self._pan), now)
 
-class Presence:
-    """Whether somebody is there, told by events when it changes."""
-
-    def __init__(self, events: EventBus) -> None:
-        self._events = events
-        self._last = -math.inf
-        self._is_there = False
-
-    def see(self, now: float) -> None:
-        """A face is there now."""
-        self._last = now
-        if not self._is_there:
-            self._is_there = True
-            self._events.raise_event("person.seen")
-
-    def pass_time(self, now: float) -> None:
-        if self._is_there and now - self._last >= ABSENCE:
-            self._is_there = False
-            self._events.raise_event("person.lost")
-
-    def is_recent(self, now: float) -> bool:
-        return now - self._last <= MEMORY
+    def _tell(self, people: People, now: float) -> None:
+        self.last, self._told = people, now
+        if any(person.is_visible for person in people.persons):
+            self._seen = now
+        for happening in self._presence.update(people):
+            told = {"person": happening.person, **happening.properties}
+            self._events.raise_event(happening.name, **told)
+        self.people.send(people)
+        person = people.person(people.attended)
+        if person is not None and (person.id, person.pose.time) != self._posed:
+            self._posed = person.id, person.pose.time
+            self.pose.send(person.pose)
 
 
-class HeadGestures(Behavior):
-    """Takes nods and shakes from poses; raises `head.nodded` and `head.shaken`."""
+class Attention(Behavior):
+    """Chooses whom the eyes look at: who is attended to, and for a moment who comes in."""
 
     category = "vision"
 
-    pose = Input[HeadPose]("headpose", "the poses of one head")
-    prompted = Input[bool](
-        "boolean", "true while an answer is expected: a single nod will do", is_optional=True
+    people = Input[People]("people", "everybody who is seen")
+    gaze = Output[Gaze]("gaze", "where the robot's eyes must look to meet those of the person")
+    person = Output[str]("string", "id of who is looked at")
+
+    def start(self, context: Context) -> None:
+        self._asked = ""
+        self._known: set[str] = set()
+        self._newcomer, self._glance_ends = "", -math.inf
+        self._target: Person | None = None
+        self._seen = -math.inf
+
+    def look_at(self, person: str) -> None:
+        """Look at this person for as long as they are there; at whom it likes for an empty id."""
+        self._asked = person
+
+    def compute(self, now: float, dt: float) -> None:
+        if (people := self.people.value) is not None:
+            self._choose(people, now)
+        if self._target is None or now - self._seen > FRESH:
+            return
+        self.gaze.send(gaze_at(self._target))
+        self.person.send(self._target.id)
+
+    def _choose(self, people: People, now: float) -> None:
+        self._glance(people, now)
+        for id in (self._asked, self._newcomer, people.attended):
+            person = people.person(id)
+            if person is not None and person.is_visible:
+                self._target, self._seen = person, now
+                return
+
+    def _glance(self, people: People, now: float) -> None:
+        """A newcomer draws a look, but not away from nobody."""
+        here = {person.id for person in people.persons}
+        new = [person.id for person in people.persons if person.id not in self._known]
+        if new and self._known & here:
+            self._newcomer, self._glance_ends = new[-1], now + GLANCE
+        if now >= self._glance_ends:
+            self._newcomer = ""
+        self._known = here
+
+
+class EngagementLevel(Behavior):
+    """Tells how far people take part; raises `person.engaged` and `person.disengaged`."""
+
+    category = "vision"
+
+    people = Input[People]("people", "everybody who is seen")
+    level = Output[str](
+        "string", "of who is attended to: unengaged, engaging, engaged, disengaging"
     )
-    gesture = Output[HeadGesture]("gesture", "the nod or shake, while it is made")
+    is_engaged = Output[bool]("boolean", "true while anybody is engaged")
+    count = Output[float]("double", "how many are engaged")
 
     def start(self, context: Context) -> None:
         self._events = context.events
-        self._recognizer = GestureRecognizer()
+        self._engaged: set[str] = set()
+        self._level = UNENGAGED
 
     def compute(self, now: float, dt: float) -> None:
-        if (pose := self.pose.value) is None:
-            return
-        gesture = self._recognizer.update(pose, any(self.prompted.values))
-        if gesture is not None:
-            self.gesture.send(gesture)
-            self._events.raise_event(EVENTS[gesture.kind], confidence=round(gesture.confidence, 2))
+        if (people := self.people.value) is not None:
+            self._take(people)
+        self.level.send(self._level)
+        self.is_engaged.send(bool(self._engaged))
+        self.count.send(float(len(self._engaged)))
+
+    def _take(self, people: People) -> None:
+        attended = people.person(people.attended)
+        self._level = attended.engagement if attended else UNENGAGED
+        levels = {person.id: person.engagement for person in people.persons}
+        # Who is on the way out comes back without having been away.
+        now = {id for id, level in levels.items() if level == ENGAGED}
+        now |= {id for id in self._engaged if levels.get(id) == DISENGAGING}
+        before, self._engaged = self._engaged, now
+        for id in sorted(now - before):
+            self._events.raise_event("person.engaged", person=id)
+        for id in sorted(before - now):
+            self._events.raise_event("person.disengaged", person=id)
 
 
-def gaze_at(box: FaceBox, width: int, height: int) -> Gaze:
-    """Where a face on a screen beside the camera must look to meet a face in the picture.
+def gaze_at(person: Person) -> Gaze:
+    """Where a face beside the camera must look to meet the eyes of a person."""
+    distance = person.distance if math.isfinite(person.distance) else USUAL_DISTANCE
+    level = distance * math.cos(person.elevation)
+    point = (
+        level * math.cos(person.bearing),
+        level * math.sin(person.bearing),
+        distance * math.sin(person.elevation),
+    )
+    return Gaze(point=point)
 
-    Camera and screen look the same way, at the person. Who stands at the left of the picture
-    stands at the robot's left, and that is to the right of somebody who looks at the screen; so
-    x changes its sign. A face at the edge of the picture asks for all the way, 1.
-    """
-    x = 1 - 2 * (box.x + box.width / 2) / width
-    y = 1 - 2 * (box.y + box.height / 2) / height
-    return Gaze(min(1.0, max(-1.0, x)), min(1.0, max(-1.0, y)))
+
+def camera_of(context: Context, id: str) -> Camera | None:
+    """A camera of the configuration, to be released; None for pictures that come from no camera."""
+    if id not in context.resources.descriptions:
+        return None
+    try:
+        return context.resources.obtain(id, Camera)
+    except HriError:
+        return None  # who takes the pictures will say what is wrong with it
+
+
+def panned(people: People, pan: float) -> People:
+    """The same people, seen by a camera that was turned to the left by so many radians."""
+    if not pan:
+        return people
+    turned = (
+        replace(person, bearing=math.remainder(person.bearing + pan, math.tau))
+        for person in people.persons
+    )
+    return replace(people, persons=tuple(turned))

@@ -34,6 +34,7 @@ class Share(_OnBoard):
     twist = Input[Any]("twist", "a velocity")
     pose = Input[Any]("pose", "a pose")
     head = Input[Any]("headpose", "the head that is seen")
+    people = Input[Any]("people", "everybody who is seen")
 
     def start(self, context: Context) -> None:
         self._slot: Latest[Any] = context.board.slot(self.slot)
@@ -61,6 +62,7 @@ class Shared(_OnBoard):
     twist = Output[Any]("twist", "a velocity")
     pose = Output[Any]("pose", "a pose")
     head = Output[Any]("headpose", "the head that is seen")
+    people = Output[Any]("people", "everybody who is seen")
 
     def start(self, context: Context) -> None:
         self._slot: Latest[Any] = context.board.slot(self.slot)

@@ -1,1 +1,1 @@
-"""Seeing with OpenCV: pictures made ready, faces found, motion followed."""
+"""Seeing with OpenCV: pictures made ready, faces found, meshes fitted, motion followed."""

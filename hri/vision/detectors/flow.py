@@ -55,17 +55,15 @@ class FaceFlow:
     def start(self, gray: Gray, box: FaceBox) -> None:
         """Choose the points to follow from this picture on."""
         left, top, right, bottom = FACE
-        mask = np.zeros_like(gray)
-        rows = slice(
-            max(0, int(box.y + top * box.height)), max(0, int(box.y + bottom * box.height))
-        )
-        columns = slice(
-            max(0, int(box.x + left * box.width)), max(0, int(box.x + right * box.width))
-        )
-        mask[rows, columns] = 255
-        points = cv2.goodFeaturesToTrack(gray, POINTS, 0.01, max(2.0, box.width / 18), mask=mask)
-        self._gray = gray
-        self._points = _none() if points is None else points.astype(np.float32)
+        x, y = max(0, int(box.x + left * box.width)), max(0, int(box.y + top * box.height))
+        end_x, end_y = int(box.x + right * box.width), int(box.y + bottom * box.height)
+        part = gray[y : max(y, end_y), x : max(x, end_x)]
+        self._gray, self._points = gray, _none()
+        if not part.size:
+            return
+        points = cv2.goodFeaturesToTrack(part, POINTS, 0.01, max(2.0, box.width / 18))
+        if points is not None:
+            self._points = (points + np.array((x, y))).astype(np.float32)
 
     def follow(self, gray: Gray) -> Shift | None:
         """The motion since the picture before; None when too few points could be followed."""

@@ -10,8 +10,9 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from hri.core.signals import FaceBox
-from hri.vision.detectors.picture import Gray
+from hri.core.signals import FaceBox, Image
+from hri.vision.detectors.face import FoundFace, merged
+from hri.vision.detectors.picture import gray_picture
 
 FOLDER = Path(cv2.__file__).parent / "data"
 CASCADE = "haarcascade_frontalface_alt2.xml"
@@ -21,10 +22,6 @@ NEIGHBORS = 3
 """How many findings nearly on top of each other make a face."""
 SMALLEST = 40
 """Pixels, width of the smallest face."""
-AROUND = 0.4
-"""Part of a box by which the search around it reaches further on each side."""
-SHRINK = 0.7
-"""The search around a box takes faces of at least this part of its width."""
 
 
 class HaarDetector:
@@ -33,31 +30,17 @@ class HaarDetector:
     def __init__(self) -> None:
         self._cascade = cv2.CascadeClassifier(str(FOLDER / CASCADE))
 
-    def largest(self, gray: Gray) -> FaceBox | None:
-        """The largest face of the picture, in its pixels."""
-        return self._search(gray, 0, 0, SMALLEST)
-
-    def near(self, gray: Gray, box: FaceBox) -> FaceBox | None:
-        """The face that is now where one has been; much faster than a search everywhere."""
-        left, top = (
-            max(0, int(box.x - AROUND * box.width)),
-            max(0, int(box.y - AROUND * box.height)),
+    def find(self, image: Image) -> list[FoundFace]:
+        """All faces, the surest first; none for what is no picture."""
+        picture = gray_picture(image)
+        if picture is None or min(picture.gray.shape) < SMALLEST:
+            return []
+        boxes, neighbors = self._cascade.detectMultiScale2(
+            picture.gray, SCALE_STEP, NEIGHBORS, minSize=(SMALLEST, SMALLEST)
         )
-        right = int(box.x + (1 + AROUND) * box.width)
-        bottom = int(box.y + (1 + AROUND) * box.height)
-        part = gray[top : max(top, bottom), left : max(left, right)]
-        return self._search(part, left, top, max(SMALLEST, int(SHRINK * box.width)))
-
-    def _search(self, gray: Gray, left: int, top: int, smallest: int) -> FaceBox | None:
-        if min(gray.shape) < smallest:
-            return None
-        found = self._cascade.detectMultiScale(
-            gray, SCALE_STEP, NEIGHBORS, minSize=(smallest, smallest)
+        rows = np.asarray(boxes, np.float64).reshape(-1, 4) * picture.scale
+        # The more findings there are around a face, the surer it is: half at the least of them.
+        return merged(
+            FoundFace(FaceBox(*row), count / (count + NEIGHBORS))
+            for row, count in zip(rows.tolist(), np.ravel(neighbors).tolist(), strict=True)
         )
-        if not len(found):
-            return None
-        # Position decides between faces of one size: the order they come in is not fixed.
-        x, y, width, height = max(
-            np.asarray(found).tolist(), key=lambda face: (face[2] * face[3], *face)
-        )
-        return FaceBox(float(left + x), float(top + y), float(width), float(height))

@@ -1,0 +1,201 @@
+"""`hri watch`: what the robot sees: everybody's box, id, pose, gaze and gestures, drawn live."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from hri.cli.watching import (
+    FILM_RATE,
+    LOOK,
+    add_source,
+    frames_of,
+    interruption,
+    opened_camera,
+    paced,
+)
+from hri.core.clock import FakeClock, RealClock
+from hri.core.errors import NotAvailable
+from hri.core.signals import Frame, HeadGesture, Image, People
+from hri.hal.camera import Camera
+from hri.hal.manager import ResourceManager
+from hri.hal.resource import Description
+from hri.hal.screen import Screen
+
+SHOWN = 1.5
+"""Seconds that a gesture stays in the picture."""
+IDLE = 0.1
+"""Seconds between two looks at the keys while no picture comes."""
+KEYS = "escape: end; space: hold; l: landmarks; c: camera off and on"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_source(parser)
+    add = parser.add_argument
+    add("--out", type=Path, metavar="FILM.mp4", help="write a film in place of opening a window")
+    add(
+        "--detector", default="auto", metavar="NAME", help="auto, haar, or the path of a YuNet file"
+    )
+    add("--prompted", action="store_true", help="an answer is expected: a single nod will do")
+    add("--patterns", action="store_true", help="all gestures of gestures.toml, not nod and shake")
+    add("--no-landmarks", action="store_true", help="leave out the points of the faces")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Until the source has ended, the window is closed, or Ctrl-C."""
+    is_live = options.out is None or _is_device(options)
+    clock = RealClock() if is_live else FakeClock()
+    with opened_camera(options, clock) as camera:
+        watcher = Watcher.of(camera, options)
+        if options.out is not None:
+            with interruption() as is_over:
+                write(options.out, watcher, frames_of(camera, options.seconds, is_over))
+            return 0
+        try:
+            with opened_window(camera) as screen:
+                print(KEYS)
+                show(watcher, camera, screen, options.seconds)
+        except KeyboardInterrupt:
+            print()
+    return 0
+
+
+def _is_device(options: argparse.Namespace) -> bool:
+    return options.video is None and options.images is None and not options.simulated
+
+
+@dataclass
+class Watcher:
+    """Sees frames, tells the gestures in them, and draws what it sees."""
+
+    see: Callable[[Frame], People]
+    recognize: Callable[[People], Iterable[HeadGesture]]
+    has_landmarks: bool = True
+    _recent: list[HeadGesture] = field(default_factory=list)
+
+    @classmethod
+    def of(cls, camera: Camera, options: argparse.Namespace) -> Watcher:
+        """What the options ask for; tells what is lost where models are missing."""
+        from hri.vision.detectors.chain import load_detectors
+        from hri.vision.gesturing import PeopleGestures
+        from hri.vision.patterns import ANSWERS, chosen, load_patterns
+        from hri.vision.people import PeopleTracker
+        from hri.vision.view import CameraView
+
+        detectors = load_detectors(options.detector)
+        for problem in detectors.problems:
+            print(problem, file=sys.stderr)
+        tracker = PeopleTracker(detectors, CameraView.of(camera))
+        known = load_patterns()
+        gestures = PeopleGestures(chosen(known, known if options.patterns else ANSWERS))
+
+        def recognize(people: People) -> Iterable[HeadGesture]:
+            return gestures.update(people, options.prompted)
+
+        return cls(tracker.see, recognize, not options.no_landmarks)
+
+    def look(self, frame: Frame) -> Image:
+        """The frame with everything drawn in that is seen in it; gestures are printed."""
+        from hri.vision.detectors.overlay import draw
+
+        people = self.see(frame)
+        for gesture in self.recognize(people):
+            self._recent.append(gesture)
+            who = gesture.person or "somebody"
+            print(
+                f"{frame.time:7.2f} s  {who}  {gesture.kind}  {gesture.confidence:.2f}", flush=True
+            )
+        self._recent = [g for g in self._recent if 0 <= frame.time - g.time <= SHOWN]
+        return draw(frame.image, people, self._recent, self.has_landmarks)
+
+
+def write(path: Path, watcher: Watcher, frames: Iterator[Frame]) -> None:
+    """Write the film of what is seen. Raises HriError."""
+    from hri.face.renderers.movie import check_movie, write_movie
+
+    check_movie(path, FILM_RATE)
+    pictures = ((frame.time, watcher.look(frame)) for frame in frames)
+    write_movie(path, paced(pictures), FILM_RATE)
+    print(f"wrote {path}")
+
+
+def show(watcher: Watcher, camera: Camera, screen: Screen, seconds: float = math.inf) -> None:
+    """Show it on a screen until that is closed, or Escape is pressed."""
+    clock = camera.manager.clock
+    window = _Window(watcher, camera, screen)
+    end, shown = clock.now() + seconds, -IDLE
+    while window.is_open and clock.now() < end:
+        frame = None if window.is_held else camera.read(clock.now())
+        if frame is None and clock.now() - shown < IDLE:
+            clock.advance(LOOK)
+            continue
+        shown = clock.now()
+        window.show(frame)
+
+
+@contextmanager
+def opened_window(camera: Camera) -> Iterator[Screen]:
+    """A window for the pictures of a camera. Raises NotAvailable without a display."""
+    shape = {"width": str(max(320, camera.width)), "height": str(max(240, camera.height))}
+    device = Description("window", "Hri.Screen", shape | {"title": f"hri watch - {camera.id}"})
+    with ResourceManager([device], camera.manager.clock) as resources:
+        try:
+            yield resources.obtain("window", Screen)
+        except NotAvailable as error:
+            raise NotAvailable(f"{error}, or write a film with --out film.mp4") from error
+
+
+@dataclass
+class _Window:
+    """The window and its keys."""
+
+    watcher: Watcher
+    camera: Camera
+    screen: Screen
+    is_held: bool = False
+    is_open: bool = True
+    _picture: Image | None = None
+
+    def show(self, frame: Frame | None) -> None:
+        """A new frame, or the last one again while none has come."""
+        from hri.vision.detectors.overlay import draw_words
+
+        clock = self.camera.manager.clock
+        if frame is not None:
+            begun = clock.now()
+            picture = self.watcher.look(frame)
+            footage, took = self.camera.footage(), clock.now() - begun
+            words = (
+                f"{footage.rate:.0f} pictures a second, {footage.lost} lost, {1000 * took:.0f} ms"
+            )
+            self._picture = draw_words(picture, words)
+        if self._picture is not None:
+            if not self.camera.is_on:
+                self._picture = draw_words(np.zeros_like(self._picture), "the camera is off")
+            self.screen.show(self._picture, clock.now())
+        for key in self.screen.pressed_keys():
+            self._press(key)
+        self.is_open = self.is_open and not self.screen.is_closed
+
+    def _press(self, key: str) -> None:
+        if key == "escape":
+            self.is_open = False
+        elif key == "space":
+            self.is_held = not self.is_held
+        elif key == "l":
+            self.watcher.has_landmarks = not self.watcher.has_landmarks
+        elif key == "c":
+            self._switch()
+
+    def _switch(self) -> None:
+        try:
+            self.camera.switch(not self.camera.is_on)
+        except NotAvailable as error:
+            print(error, file=sys.stderr)

@@ -1,0 +1,178 @@
+"""Where the commands that see take their pictures from, and how they make a film of them."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import signal
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+from hri.core import paths
+from hri.core.clock import Clock
+from hri.core.errors import HriError
+from hri.core.signals import Frame, Image
+from hri.hal.camera import Camera
+from hri.hal.choices import apply_choices, load_choices
+from hri.hal.configuration import load_configuration
+from hri.hal.drivers.video_file import check_video
+from hri.hal.manager import ResourceManager
+from hri.hal.resource import Description
+from hri.simulation.world import SimulatedWorld
+
+LOOK = 0.002
+"""Seconds between two looks for the next picture."""
+SIZE = {"width": "640", "height": "480"}
+"""What a camera is asked for here; the robot itself is content with less."""
+VIEWS = 12.0, 140.0
+"""Least and most degrees of a view; a wider one is that of a fisheye, which bends the picture."""
+SHOW = (("nod", 2.0), ("look_aside", 5.0), ("shake", 8.0))
+"""What the simulated person does, and at which second."""
+FILM_RATE = 30.0
+"""Pictures a second of a film that is written."""
+MOST_REPEATS = 300
+"""How often one picture is repeated in a film while nothing comes; longer breaks are cut."""
+
+
+def add_source(parser: argparse.ArgumentParser) -> None:
+    """The options that choose a camera; without any, that of the configuration."""
+    add = parser.add_mutually_exclusive_group().add_argument
+    add("--video", type=Path, metavar="FILE", help="a video or an image")
+    add("--images", type=Path, metavar="FOLDER", help="a folder of pictures, in order")
+    add("--camera", metavar="N", help="a camera of this machine: 0, 1 ... or its path")
+    add("--simulated", action="store_true", help="a simulated person, who nods and shakes")
+    add = parser.add_argument
+    add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
+    add("--mirror", action="store_true", help="the view is mirrored: set it right")
+    add("--rotate", choices=("0", "90", "180", "270"), default="0", help="degrees clockwise")
+    add("--view", type=_degrees, metavar="DEGREES", help="how wide the camera sees, across")
+    add("--seconds", type=_seconds, default=math.inf, metavar="S", help="how long")
+
+
+@contextmanager
+def opened_camera(options: argparse.Namespace, clock: Clock) -> Iterator[Camera]:
+    """The camera that the options choose; on a fake clock files are read as fast as can be.
+
+    Raises HriError for a bad file, NotAvailable when there is no camera.
+    """
+    pace = "fast" if clock.is_fake else "real"
+    # Standard output is for what is seen, perhaps as JSON.
+    notice = partial(print, file=sys.stderr)
+    with ResourceManager(_devices(options, pace), clock, notice) as resources:
+        resources.check()
+        camera = resources.obtain("camera", Camera)
+        if options.simulated:
+            person = resources.obtain("world", SimulatedWorld).person
+            for name, at in SHOW:
+                person.move(name, at)
+        yield camera
+
+
+def _devices(options: argparse.Namespace, pace: str) -> list[Description]:
+    view = {"mirror": "true"} if options.mirror else {}
+    if options.rotate != "0":
+        view["rotate"] = options.rotate
+    if options.view is not None:
+        view["field_of_view"] = f"{math.radians(options.view):.6f}"
+    if options.video is not None:
+        if options.video.is_dir():
+            raise HriError(f"{options.video}: a folder - give it to --images")
+        check_video(options.video)
+        file = {"file": str(options.video), "pace": pace}
+        return [Description("camera", "Hri.VideoFileCamera", file | view)]
+    if options.images is not None:
+        folder = {"folder": str(options.images), "pace": pace}
+        return [Description("camera", "Hri.ImageFolderCamera", folder | view)]
+    if options.camera is not None:
+        device = {"device": options.camera}
+        return [Description("camera", "Hri.Webcam", device | SIZE | view)]
+    if options.simulated:
+        world = Description("world", "Hri.SimulatedWorld")
+        return [world, Description("camera", "Hri.SimulatedCamera", SIZE | view, bus="world")]
+    configuration = load_configuration(paths.find("config", options.config))
+    devices = list(apply_choices(configuration.devices, load_choices()))
+    if all(device.id != "camera" for device in devices):
+        raise HriError(f'{options.config}: no device "camera" - add one, or give --video FILE')
+    return [
+        replace(device, parameters={**device.parameters, **view})
+        if device.id == "camera"
+        else device
+        for device in devices
+    ]
+
+
+@contextmanager
+def interruption() -> Iterator[Callable[[], bool]]:
+    """Whether Ctrl-C was pressed, so that a film is finished first; pressed again, it ends all."""
+    is_pressed = False
+
+    def press(*_: object) -> None:
+        nonlocal is_pressed
+        is_pressed = True
+        signal.signal(signal.SIGINT, before)
+
+    before = signal.signal(signal.SIGINT, press)
+    try:
+        yield lambda: is_pressed
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def frames_of(
+    camera: Camera, seconds: float = math.inf, is_over: Callable[[], bool] = lambda: False
+) -> Iterator[Frame]:
+    """The newest picture of a camera each time, until it has ended, or it or the time is over."""
+    clock = camera.manager.clock
+    begun, first = clock.now(), math.nan
+    while not is_over():
+        frame = camera.read(clock.now())
+        if frame is None:
+            if camera.has_ended or clock.now() - begun > seconds:
+                return
+            clock.advance(LOOK)
+            continue
+        first = frame.time if math.isnan(first) else first
+        if frame.time - first > seconds:
+            return
+        yield frame
+
+
+def paced(pictures: Iterable[tuple[float, Image]], rate: float = FILM_RATE) -> Iterator[Image]:
+    """Pictures with their times in seconds, repeated or left out so that they come at a rate."""
+    count, begin, last = 0, math.nan, None
+    for time, picture in pictures:
+        begin = time if math.isnan(begin) else begin
+        due = round((time - begin) * rate)
+        if last is not None:
+            for _ in range(min(due - count, MOST_REPEATS)):
+                yield last
+            count = max(count, due)
+        last = picture
+    if last is not None:
+        yield last
+
+
+def _seconds(text: str) -> float:
+    value = _number(text)
+    if not 0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"{text} - write seconds above 0")
+    return value
+
+
+def _degrees(text: str) -> float:
+    value = _number(text)
+    least, most = VIEWS
+    if not least <= value <= most:
+        raise argparse.ArgumentTypeError(f"{text} - write degrees, {least:g} to {most:g}")
+    return value
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f'"{text}" is no number') from error

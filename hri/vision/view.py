@@ -1,0 +1,73 @@
+"""How a camera sees: where on the robot it is, how wide its view, and what that makes of pixels."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from hri.core.errors import HriError
+from hri.core.geometry import ROBOT_FROM_CAMERA, Matrix, Pose3D
+from hri.hal.camera import Camera
+
+EYE_DISTANCE = 0.063
+"""Meters between the pupils of an adult, in the mean; people differ by 10 % (Dodgson, "Variation
+and extrema of human interpupillary distance", 2004)."""
+FACE_SIZE = 0.178
+"""Meters from chin to hairline, which the box of a face takes."""
+
+Size = tuple[int, int]
+"""Width and height of a picture in pixels."""
+
+
+@dataclass(frozen=True, slots=True)
+class CameraView:
+    """A pinhole camera on the robot; pictures of it may come in any size.
+
+    Raises HriError for a field of view that no lens has.
+    """
+
+    field_of_view: float = Camera.field_of_view
+    """Radians across the whole width of the picture."""
+    mount: Pose3D = field(default_factory=Pose3D)
+    """Where it is fixed to the robot and how it is turned."""
+
+    def __post_init__(self) -> None:
+        if not 0 < self.field_of_view < math.pi:
+            what = f"a field of view of {self.field_of_view:g} rad"
+            raise HriError(f"{what} is none - give the angle across the picture, above 0, below pi")
+
+    @classmethod
+    def of(cls, camera: Camera) -> CameraView:
+        """The view of a camera, as its configuration has it. Raises HriError."""
+        return cls(camera.field_of_view, camera.manager.pose_of(camera.id))
+
+    def focal_length(self, size: Size) -> float:
+        """Pixels."""
+        return size[0] / 2 / math.tan(self.field_of_view / 2)
+
+    def toward(self, x: float, y: float, size: Size) -> tuple[float, float]:
+        """Bearing (to the left) and elevation (up) of a pixel from the camera, radians.
+
+        Against the robot's straight ahead, whatever way the camera is turned.
+        """
+        ahead, left, up = self._ray(x, y, size)
+        return math.atan2(left, ahead), math.atan2(up, math.hypot(ahead, left))
+
+    def distance(self, x: float, y: float, pixels: float, meters: float, size: Size) -> float:
+        """Meters to something of a known size that takes so many pixels there; NaN for none.
+
+        The size is measured across the line of sight.
+        """
+        if pixels <= 0:
+            return math.nan
+        focal = self.focal_length(size)
+        depth = focal * meters / pixels
+        return depth * math.hypot(x - size[0] / 2, y - size[1] / 2, focal) / focal
+
+    def _ray(self, x: float, y: float, size: Size) -> Matrix:
+        """From the camera through a pixel, in the robot's axes; of any length."""
+        in_camera = np.array([x - size[0] / 2, y - size[1] / 2, self.focal_length(size)])
+        ray: Matrix = self.mount.rotation() @ (ROBOT_FROM_CAMERA @ in_camera)
+        return ray
