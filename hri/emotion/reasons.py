@@ -56,11 +56,13 @@ def why_words(
     where it was Anna. Goals, actions and objects of an appraisal are called by their own name; any
     other cause without words is not mentioned.
     """
-    told = [
-        (cause.share, reason)
-        for cause in causes
-        if cause.share >= WORTH_SAYING and (reason := _reason(cause, words, needs))
-    ][:MOST_CAUSES]
+    shares: dict[str, float] = {}
+    for cause in causes:
+        # What two people did may be one reason in words: "because you praised me".
+        if reason := _reason(cause, words, needs):
+            shares[reason] = shares.get(reason, 0.0) + cause.share
+    largest = sorted(shares, key=lambda reason: -shares[reason])
+    told = [(shares[r], r) for r in largest if shares[r] >= WORTH_SAYING][:MOST_CAUSES]
     if not told:
         return f"I am {feeling}, and there is no special reason."
     share, first = told[0]

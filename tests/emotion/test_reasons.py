@@ -35,6 +35,12 @@ def test_who_has_a_name_is_named(person: str | None, told: str) -> None:
     assert why_words("happy", causes, words, {}) == f"I am happy because {told}."
 
 
+def test_what_two_people_did_is_one_reason_where_the_words_are_the_same() -> None:
+    causes = [Cause("praise", 0.6, 0.0, "p1"), Cause("praise", 0.35, 0.0, "p2")]
+    told = why_words("happy", causes, {"praise": "{you} praised me"}, {})
+    assert told == "I am happy because you praised me."
+
+
 def test_a_cause_that_is_most_of_it_is_told_so() -> None:
     causes = [Cause("scold", 0.8, 0.0), Cause("bump", 0.15, 0.0)]
     assert why_words("sad", causes, WORDS, {}) == "I am sad mostly because you scolded me."
