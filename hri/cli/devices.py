@@ -1,17 +1,22 @@
-"""`hri devices`: what a configuration names, what of it is present, and why something is not."""
+"""`hri devices`: what a configuration names, what of it is present, and why something is not.
+
+With `--probe` it looks for bases on the serial ports in place of that.
+"""
 
 from __future__ import annotations
 
 import argparse
 import json
 import threading
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 
 from hri.cli.diagnostic import without_stand_ins
+from hri.cli.probe import Answer, ask_ports
 from hri.core import paths
 from hri.core.clock import RealClock
 from hri.core.errors import AuthoringError, HriError
+from hri.hal.camera import Camera
 from hri.hal.configuration import Configuration, load_configuration
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description, Resource
@@ -41,16 +46,40 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
     add("--json", action="store_true", help="print JSON")
+    add(
+        "--probe",
+        nargs="*",
+        metavar="PORT",
+        help="ask at these serial ports, or at all, whether a base is there; no wheel moves",
+    )
 
 
 def run(options: argparse.Namespace) -> int:
     """Exit status 0, whatever is missing."""
+    if options.probe is not None:
+        return _probe(options.probe, options.json)
     found = examine(load_configuration(paths.find("config", options.config)))
     if options.json:
         print(json.dumps([asdict(device) for device in found], indent=2))
     else:
         print(_table(found))
     return 0
+
+
+def _probe(ports: Sequence[str], as_json: bool) -> int:
+    answers = ask_ports(ports)
+    if as_json:
+        print(json.dumps([asdict(answer) for answer in answers], indent=2))
+    elif answers:
+        rows = [("port", "base", ""), *((a.port, a.type or "-", _heard(a)) for a in answers)]
+        print(_aligned(rows))
+    else:
+        print("no serial port is there - plug the base in")
+    return 0
+
+
+def _heard(answer: Answer) -> str:
+    return f"{answer.says} ({answer.about})" if answer.about else answer.says
 
 
 def examine(configuration: Configuration, patience: float = PATIENCE) -> list[Found]:
@@ -94,6 +123,8 @@ class _Probe:
             driver = self._resources.driver_of(device)
             self._driver = driver.__name__
             resource = self._resources.obtain(device.id, Resource)
+            if isinstance(resource, Camera):
+                resource.try_out()
         except AuthoringError as error:
             state = "missing" if self._driver else "unknown"
             self._state, self._says = state, f"{error.what} - {error.remedy}"
@@ -114,5 +145,10 @@ def _table(found: Iterable[Found]) -> str:
         rows.append(
             (device.id, device.type, device.bus or "-", device.driver or "-", device.state, says)
         )
-    widths = [max(len(row[column]) for row in rows) for column in range(5)]
+    return _aligned(rows)
+
+
+def _aligned(rows: Sequence[tuple[str, ...]]) -> str:
+    """A table; the last column is as long as it is."""
+    widths = [max(map(len, column)) for column in list(zip(*rows, strict=True))[:-1]]
     return "\n".join("  ".join(map(str.ljust, row, [*widths, 0])).rstrip() for row in rows)

@@ -27,9 +27,12 @@ def has_display() -> bool:
 
 
 class Window(Screen):
-    """A window; closing it, or Escape, ends the program that watches `is_closed`."""
+    """A window; closing it, or Escape, ends the program that watches `is_closed`.
 
-    parameters = ("width", "height", "fullscreen", "title")
+    With `key_repeat` a key that is held counts as pressed again after each so many seconds.
+    """
+
+    parameters = ("width", "height", "fullscreen", "title", "key_repeat")
     is_hardware = True
 
     def _open(self) -> None:
@@ -51,6 +54,9 @@ class Window(Screen):
             pygame.display.quit()
             raise self.not_available("no display", "connect one, or set DISPLAY")
         pygame.display.set_caption(self.description.text("title", "hri"))
+        repeat = self.description.number_within("key_repeat", 0.0, 0.0, 10.0)
+        if repeat:
+            pygame.key.set_repeat(round(repeat * 1000))
         self._keys: list[str] = []
         self._is_closed = False
 

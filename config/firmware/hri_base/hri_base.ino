@@ -1,0 +1,257 @@
+// Firmware of a small base with two driven wheels, for any Arduino and for the Pico.
+//
+// It speaks the text protocol of ROSArduinoBridge: a letter, up to two numbers, a carriage return;
+// the answer is one line. What the letters mean is in the table at `run`. The board looks after
+// itself as well: without a new velocity it stops after AUTO_STOP_MS, and it does not drive ahead
+// while a bumper is pressed or a cliff sensor sees no floor, whoever asks for it.
+//
+// Wiring and calibration: README.md beside this folder.
+
+#include <Arduino.h>
+
+// --- what your base looks like: change this ---
+
+const long BAUD = 57600;
+
+// Left wheel, right wheel.
+const int PWM_PINS[2] = {5, 6};          // speed of the motor
+const int DIRECTION_PINS[2] = {4, 7};    // LOW is ahead
+const int ENCODER_A_PINS[2] = {2, 3};    // need to be interrupt pins: 2 and 3 of an Uno
+const int ENCODER_B_PINS[2] = {8, 9};
+const bool IS_MOTOR_REVERSED[2] = {false, false};
+const bool IS_ENCODER_REVERSED[2] = {false, false};
+
+// Bumpers: switches from a digital pin to ground.
+const int BUMPER_PINS[] = {10, 11};
+
+// Cliff sensors: infrared, looking down, on analog inputs (0 is A0). Less than CLIFF_COUNTS of
+// light that comes back is no floor.
+const int CLIFF_INPUTS[] = {0, 1};
+const int CLIFF_COUNTS = 200;
+
+const int FRAME_RATE = 30;               // control frames a second; `m` counts in them
+const unsigned long AUTO_STOP_MS = 500;
+const unsigned long ECHO_MICROSECONDS = 6000;  // of a sonar: a meter there and back
+
+// Gains, as the command `u` sets them: each frame changes the power by
+// (KP error - KD change + KI sum of errors) / KO. A wheel starts with FEED for each count a frame.
+int KP = 20, KD = 12, KI = 0, KO = 50;
+const int FEED = 2;
+const int MOST_POWER = 255;
+
+// --- the wheels ---
+
+volatile long counts[2] = {0, 0};
+
+struct Wheel {
+  int target;       // counts a frame
+  long before;      // counts at the last frame
+  int speed;        // counts in the last frame
+  long sum;         // of errors, while the power has room
+  int power;
+};
+
+Wheel wheels[2];
+unsigned long commanded_at = 0;
+unsigned long next_frame = 0;
+
+void turned(int side) {
+  const bool is_ahead = digitalRead(ENCODER_A_PINS[side]) == digitalRead(ENCODER_B_PINS[side]);
+  counts[side] += (is_ahead != IS_ENCODER_REVERSED[side]) ? 1 : -1;
+}
+
+void left_turned() { turned(0); }
+void right_turned() { turned(1); }
+
+long counted(int side) {
+  noInterrupts();  // four bytes do not come at once
+  const long value = counts[side];
+  interrupts();
+  return value;
+}
+
+void set_power(int side, long wanted) {
+  const int power = (int)constrain(wanted, (long)-MOST_POWER, (long)MOST_POWER);
+  wheels[side].power = power;
+  const bool is_ahead = (power >= 0) != IS_MOTOR_REVERSED[side];
+  digitalWrite(DIRECTION_PINS[side], is_ahead ? LOW : HIGH);
+  analogWrite(PWM_PINS[side], abs(power));
+}
+
+void aim(int side, int target) {
+  Wheel &wheel = wheels[side];
+  if (target == 0 || (target > 0) != (wheel.target > 0)) {
+    wheel.sum = 0;
+    set_power(side, (long)FEED * target);
+  }
+  wheel.target = target;
+}
+
+void control(int side) {
+  Wheel &wheel = wheels[side];
+  const long now = counted(side);
+  const int speed = (int)(now - wheel.before);
+  const int change = speed - wheel.speed;
+  wheel.before = now;
+  wheel.speed = speed;
+  if (wheel.target == 0) {
+    set_power(side, 0);
+    return;
+  }
+  const long error = wheel.target - speed;
+  const long step = (KP * error - (long)KD * change + KI * wheel.sum) / (KO ? KO : 1);
+  const long wanted = wheel.power + step;
+  if (labs(wanted) <= MOST_POWER) wheel.sum = constrain(wheel.sum + error, -1000L, 1000L);
+  set_power(side, wanted);
+}
+
+// --- what it feels by itself ---
+
+int input_pin(int number) {
+  return number < 8 ? A0 + number : number;
+}
+
+bool is_in_danger() {
+  for (int pin : BUMPER_PINS)
+    if (digitalRead(pin) == LOW) return true;
+  for (int number : CLIFF_INPUTS)
+    if (analogRead(input_pin(number)) < CLIFF_COUNTS) return true;
+  return false;
+}
+
+void drive(int left, int right) {
+  const bool may_go = (long)left + right <= 0 || !is_in_danger();
+  aim(0, may_go ? left : 0);
+  aim(1, may_go ? right : 0);
+  commanded_at = millis();
+}
+
+void protect() {
+  const bool is_ahead = (long)wheels[0].target + wheels[1].target > 0;
+  const bool is_silent = millis() - commanded_at > AUTO_STOP_MS;
+  if (is_silent || (is_ahead && is_in_danger())) {
+    aim(0, 0);
+    aim(1, 0);
+  }
+}
+
+int ping(int pin) {
+  pinMode(pin, OUTPUT);
+  digitalWrite(pin, LOW);
+  delayMicroseconds(2);
+  digitalWrite(pin, HIGH);
+  delayMicroseconds(10);
+  digitalWrite(pin, LOW);
+  pinMode(pin, INPUT);
+  return (int)(pulseIn(pin, HIGH, ECHO_MICROSECONDS) / 58);  // microseconds for a centimeter
+}
+
+// --- the protocol ---
+
+const int LONGEST = 40;
+char line[LONGEST + 1];
+int length = 0;
+bool is_too_long = false;
+
+void set_gains(const char *text) {
+  int *gains[] = {&KP, &KD, &KI, &KO};
+  for (int *gain : gains) {
+    *gain = atoi(text);
+    const char *colon = strchr(text, ':');
+    if (colon == NULL) return;
+    text = colon + 1;
+  }
+}
+
+void agree() { Serial.println(F("OK")); }
+
+void run(const char *command) {
+  const char *first_word = strchr(command, ' ');
+  const char *second_word = first_word ? strchr(first_word + 1, ' ') : NULL;
+  const int first = first_word ? atoi(first_word + 1) : 0;
+  const int second = second_word ? atoi(second_word + 1) : 0;
+  const bool is_refused = strchr("cpwx", command[0]) && is_wheel_pin(first);
+  switch (is_too_long || is_refused ? 0 : command[0]) {
+    case 'a': Serial.println(analogRead(input_pin(first))); break;
+    case 'b': Serial.print(' '); Serial.println(BAUD); break;
+    case 'c': pinMode(first, second == 1 ? OUTPUT : INPUT); agree(); break;
+    case 'd': Serial.println(digitalRead(first)); break;
+    case 'e': Serial.print(counted(0)); Serial.print(' '); Serial.println(counted(1)); break;
+    case 'm': drive(first, second); agree(); break;
+    case 'p': Serial.println(ping(first)); break;
+    case 'r': reset(); agree(); break;
+    case 'u': if (first_word) set_gains(first_word + 1); agree(); break;
+    case 'w':
+      // On an input it switches the pull-up, as it does by itself on boards of the first years.
+      if (is_bumper(first)) pinMode(first, second ? INPUT_PULLUP : INPUT);
+      else digitalWrite(first, second ? HIGH : LOW);
+      agree();
+      break;
+    case 'x': analogWrite(first, second); agree(); break;
+    default: Serial.println(F("Invalid Command"));
+  }
+}
+
+// What turns the wheels has to go through `drive`, which looks after the base.
+bool is_wheel_pin(int pin) {
+  for (int side = 0; side < 2; side++)
+    if (pin == PWM_PINS[side] || pin == DIRECTION_PINS[side]) return true;
+  return false;
+}
+
+bool is_bumper(int pin) {
+  for (int its_pin : BUMPER_PINS)
+    if (pin == its_pin) return true;
+  return false;
+}
+
+void reset() {
+  noInterrupts();
+  counts[0] = counts[1] = 0;
+  interrupts();
+  wheels[0].before = wheels[1].before = 0;
+}
+
+void hear() {
+  while (Serial.available() > 0) {
+    const char letter = (char)Serial.read();
+    if (letter == '\n') continue;
+    if (letter == '\r') {
+      line[length] = '\0';
+      run(line);
+      length = 0;
+      is_too_long = false;
+    } else if (length < LONGEST) {
+      line[length++] = letter;
+    } else {
+      is_too_long = true;
+    }
+  }
+}
+
+void setup() {
+  Serial.begin(BAUD);
+#if defined(ARDUINO_ARCH_RP2040) || defined(ARDUINO_ARCH_ESP32)
+  analogReadResolution(10);
+#endif
+  for (int side = 0; side < 2; side++) {
+    pinMode(PWM_PINS[side], OUTPUT);
+    pinMode(DIRECTION_PINS[side], OUTPUT);
+    pinMode(ENCODER_A_PINS[side], INPUT_PULLUP);
+    pinMode(ENCODER_B_PINS[side], INPUT_PULLUP);
+    set_power(side, 0);
+  }
+  for (int pin : BUMPER_PINS) pinMode(pin, INPUT_PULLUP);
+  attachInterrupt(digitalPinToInterrupt(ENCODER_A_PINS[0]), left_turned, CHANGE);
+  attachInterrupt(digitalPinToInterrupt(ENCODER_A_PINS[1]), right_turned, CHANGE);
+}
+
+void loop() {
+  hear();
+  protect();
+  if ((long)(millis() - next_frame) >= 0) {
+    next_frame += 1000 / FRAME_RATE;
+    control(0);
+    control(1);
+  }
+}

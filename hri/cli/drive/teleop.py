@@ -1,0 +1,77 @@
+"""Driving a base by hand: keys in, velocities through its supervisor, a picture out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from hri.cli.drive.keys import QUIT, RELEASE, STOP, Steering
+from hri.cli.drive.view import Moment, View
+from hri.core.clock import Clock
+from hri.core.signals import Twist
+from hri.drive.supervisor.client import BaseBus
+from hri.drive.supervisor.multiplexer import Level
+from hri.hal.drive import Odometry
+from hri.hal.motion import REST
+
+PERIOD = 0.05
+"""Seconds between two velocities, and between two pictures."""
+
+
+class Teleop:
+    """Turns keys into velocities until somebody quits.
+
+    The supervisor has the last word: it forgets a velocity after 0.3 s, so that the base also
+    stops when this program stands still.
+    """
+
+    def __init__(
+        self,
+        bus: BaseBus,
+        odometry: Odometry,
+        views: Sequence[View],
+    ) -> None:
+        """Keys count from all views, and all of them show the base."""
+        self._bus, self._odometry, self._views = bus, odometry, views
+        self._steering = Steering()
+        self._is_asking = False
+
+    def run(self, clock: Clock) -> None:
+        """Drive until a key quits. Raises NotAvailable when the base can no longer be reached."""
+        is_over = False
+        while not is_over:
+            now = clock.now()
+            is_over = self._take([key for view in self._views for key in view.read_keys()], now)
+            twist = REST if is_over else self._wanted(now)
+            self._ask(twist)
+            state, pose = self._bus.state, self._odometry.pose(now)
+            moment = Moment(state, pose, twist, self._steering.share, now)
+            for view in self._views:
+                view.show(moment)
+            clock.advance(PERIOD)
+
+    def _take(self, keys: Sequence[str], now: float) -> bool:
+        """Whether one of them quits."""
+        for key in keys:
+            if key in QUIT:
+                return True
+            if key in STOP:
+                self._steering.let_go()
+                self._bus.stop_latched("you pressed the space bar")
+            elif key in RELEASE:
+                self._bus.unlatch()
+            else:
+                self._steering.press(key, now)
+        return False
+
+    def _wanted(self, now: float) -> Twist:
+        allowed = self._bus.state.allowed
+        fastest = Twist(allowed.forward, allowed.angular)
+        return self._steering.twist(fastest, allowed.backward, now)
+
+    def _ask(self, twist: Twist) -> None:
+        """Repeat a velocity while a key is held, and then once tell it to rest."""
+        if twist != REST:
+            self._bus.teleop(twist)
+        elif self._is_asking:
+            self._bus.ask(Level.TELEOP, None)
+        self._is_asking = twist != REST

@@ -1,0 +1,98 @@
+"""Which bases are on the serial ports: each kind is asked in its own words, and no wheel moves.
+
+A vacuum cleaner that is at work stops; a board that its port resets starts anew.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from hri.core.clock import Clock, RealClock
+from hri.core.errors import NotAvailable
+from hri.drive.bases.arduino import ArduinoBridge
+from hri.drive.bases.create2 import Create2
+from hri.drive.bases.protocol import BaseProtocol
+from hri.hal.drivers.serial_port import Port, SerialPort, serial_ports
+
+KINDS: dict[str, type[BaseProtocol]] = {"Hri.Create2": Create2, "Hri.ArduinoBridge": ArduinoBridge}
+"""By the device type that a configuration gives."""
+ANSWER_TIME = 0.4
+"""Seconds that a base gets for its answer before it is asked again."""
+QUESTIONS = 2
+"""How often each kind is asked once it can hear."""
+MOST_ANSWER = 4096
+"""Bytes of an answer that are looked at."""
+PATIENCE = sum(kind.boot + QUESTIONS * ANSWER_TIME for kind in KINDS.values()) + 2.0
+"""Seconds after which a port that does nothing is left alone."""
+
+
+@dataclass
+class Answer:
+    """What is at a port."""
+
+    port: str
+    about: str = ""
+    """What the adapter says of itself."""
+    type: str = ""
+    """Device type of the base; empty when none answered."""
+    says: str = field(default="it does not open - is it in use?")
+    """What the base is called, or why none was found."""
+
+
+def ask_ports(paths: Sequence[str] = ()) -> list[Answer]:
+    """Ask at these ports, or at all of this machine, side by side; takes up to PATIENCE seconds."""
+    answers = [Answer(path) for path in paths] or [
+        Answer(port.path, port.about) for port in serial_ports()
+    ]
+    threads = [
+        threading.Thread(target=_ask, args=(answer,), name=f"probe {answer.port}", daemon=True)
+        for answer in answers
+    ]
+    for thread in threads:
+        thread.start()
+    clock = RealClock()
+    for thread in threads:
+        thread.join(max(0.0, PATIENCE - clock.now()))
+    return answers
+
+
+def _ask(answer: Answer) -> None:
+    """Find out what is at a port."""
+    clock = RealClock()
+    for type, kind in KINDS.items():
+        port = SerialPort(answer.port, kind.baud)
+        if not port.open(clock.now()):
+            answer.says = port.reason.removeprefix(f"{answer.port}: ")
+            return
+        try:
+            is_there = is_recognized(kind, port, clock)
+        except NotAvailable as error:
+            answer.says = str(error).removeprefix(f"{answer.port}: ")
+            return
+        finally:
+            port.close()
+        if is_there:
+            answer.type, answer.says = type, kind.title
+            return
+    answer.says = "no base answers - see that it is switched on"
+
+
+def is_recognized(kind: type[BaseProtocol], port: Port, clock: Clock) -> bool:
+    """Whether a base of that kind answers at an open port. Raises NotAvailable when it is lost."""
+    heard = bytearray()
+
+    def is_heard() -> bool:
+        heard.extend(port.read(clock.now()))
+        del heard[:-MOST_ANSWER]
+        return kind.recognizes(bytes(heard))
+
+    # Asked at once as well, since not every port resets its board.
+    deaf = [kind.boot] if kind.boot else []
+    for wait in [*deaf, *[ANSWER_TIME] * QUESTIONS]:
+        port.write(kind.question, clock.now())
+        if clock.advance_until(is_heard, wait):
+            port.write(kind.farewell, clock.now())
+            return True
+    return False

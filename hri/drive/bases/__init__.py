@@ -1,0 +1,1 @@
+"""What the bases speak: bytes out, bytes in. No port, no clock; one base is one file."""

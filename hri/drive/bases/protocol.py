@@ -1,0 +1,186 @@
+"""What a base on a serial line has to speak, and what it reports.
+
+A protocol is arithmetic on bytes: it owns no port and no clock, and time is an argument. Whoever
+holds the port writes `greeting`, `velocity`, `stop` and `poll`, and passes what arrives to `feed`.
+What arrives may be late, lost, damaged or not from a base at all.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import ClassVar, Self
+
+from hri.core.errors import HriError, NotAvailable
+from hri.core.signals import Twist
+from hri.hal.motion import Way
+from hri.hal.resource import Description
+from hri.hal.wheels import WheelPair
+
+OBEYING = ("safe", "full", "ready")
+"""The modes in which a base follows velocities."""
+
+
+@dataclass(frozen=True, slots=True)
+class BaseReport:
+    """What a base says of itself at a moment; a mapping has only the sensors that it has."""
+
+    time: float
+    """Seconds, when its last byte came."""
+    rolled: Way
+    """How far the wheels have carried the base since the protocol was made."""
+    velocity: Twist | None
+    """What the wheels measure; None while that is not known."""
+    bumps: Mapping[str, bool] = field(default_factory=dict)
+    """By place: "left", "right"; true when something presses."""
+    cliffs: Mapping[str, bool] = field(default_factory=dict)
+    """By place: "left", "front_left", "front_right", "right"; true when there is no floor."""
+    cliff_signals: Mapping[str, int] = field(default_factory=dict)
+    """What the same sensors count of the light from the floor, where the base tells it."""
+    wheel_drops: Mapping[str, bool] = field(default_factory=dict)
+    """By place: "left", "right"; true when the wheel hangs in the air."""
+    ranges: Mapping[str, float] = field(default_factory=dict)
+    """Meters from the sensor; infinity when it sees nothing."""
+    battery: float | None = None
+    """0 (empty) to 1 (full); None while that is not known."""
+    voltage: float | None = None
+    """Volts."""
+    is_charging: bool = False
+    mode: str = "off"
+    """"off", "passive", or one of OBEYING."""
+
+    @property
+    def obeys(self) -> bool:
+        """Whether the base follows velocities."""
+        return self.mode in OBEYING
+
+
+@dataclass(frozen=True, slots=True)
+class Greeting:
+    """A step that brings a base into the state in which it obeys."""
+
+    data: bytes
+    pause: float = 0.0
+    """Seconds to wait before the next step."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sensors:
+    """The names of what a base will report."""
+
+    bumps: tuple[str, ...] = ()
+    cliffs: tuple[str, ...] = ()
+    cliff_signals: tuple[str, ...] = ()
+    wheel_drops: tuple[str, ...] = ()
+    ranges: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """A note of a song."""
+
+    pitch: int
+    """As in MIDI: 60 is the middle C, 69 is 440 Hz; 31 to 127."""
+    duration: float
+    """Seconds."""
+
+
+class BaseProtocol(ABC):
+    """One kind of base. A new object for each opening of the port: it remembers what came."""
+
+    title: ClassVar[str]
+    """What people call it."""
+    parameters: ClassVar[tuple[str, ...]] = ()
+    """Names of the parameters that `described` understands."""
+    baud: ClassVar[int]
+    period: ClassVar[float]
+    """Seconds between two reports when all goes well, and the least between two velocities."""
+    timeout: ClassVar[float | None]
+    """Seconds without a velocity after which the base stops by itself; None when it never does."""
+    boot: ClassVar[float] = 0.0
+    """Seconds that a base may be deaf after its port was opened."""
+    question: ClassVar[bytes]
+    """Asks what base is there; it never moves one."""
+    resync: ClassVar[bytes] = b""
+    """Ends a command whose rest was lost, so that the next one is not taken for it; goes before
+    each velocity. Alone it means nothing."""
+    farewell: ClassVar[bytes] = b""
+    """Leaves the base to itself, standing and silent."""
+    track: float
+    """Meters between the wheels."""
+    limits: Twist
+    """The fastest that the hardware goes straight on and on the spot, m/s and rad/s."""
+    sensors: Sensors
+
+    @classmethod
+    @abstractmethod
+    def described(cls, description: Description) -> Self:
+        """The protocol of the base that a configuration describes. Raises AuthoringError."""
+
+    @classmethod
+    @abstractmethod
+    def recognizes(cls, answer: bytes) -> bool:
+        """Whether what came after the question can only be from such a base."""
+
+    @abstractmethod
+    def greeting(self) -> Sequence[Greeting]:
+        """What brings it into the state in which it obeys, standing still.
+
+        To be said when the port is open, and again when reports cease or the base does not obey.
+        """
+
+    @abstractmethod
+    def velocity(self, twist: Twist) -> bytes:
+        """Go on with this velocity, along the same curve where the hardware is slower.
+
+        Raises HriError for what is not finite.
+        """
+
+    @property
+    @abstractmethod
+    def stop(self) -> bytes:
+        """Stand still."""
+
+    @property
+    @abstractmethod
+    def emergency_stop(self) -> bytes:
+        """Stand still, even after a command whose writer was killed halfway."""
+
+    def _rims(self, twist: Twist) -> tuple[float, float]:
+        """Velocities of the left and the right wheel, m/s, for a velocity cut to `limits`.
+
+        The faster one rolls with |v| + |w| track / 2; where that is too fast, both are slowed down
+        alike, which keeps the curve.
+        """
+        if not (math.isfinite(twist.linear) and math.isfinite(twist.angular)):
+            what = f"a velocity of {twist.linear} m/s and {twist.angular} rad/s"
+            raise HriError(f"{self.title}: {what} - send finite numbers")
+        half = self.track / 2
+        faster = abs(twist.linear) + abs(twist.angular) * half
+        share = min(1.0, self.limits.linear / faster) if faster else 1.0
+        return WheelPair(half, -half).rolling(twist.linear * share, twist.angular * share)
+
+    def poll(self, now: float) -> bytes:
+        """What to ask now; nothing when the base speaks by itself, or still owes an answer."""
+        return b""
+
+    @abstractmethod
+    def feed(self, data: bytes, now: float) -> list[BaseReport]:
+        """The reports that these bytes complete; what is lost or damaged is left out.
+
+        Never raises, whatever comes, and remembers less than a kilobyte of it.
+        """
+
+    def song(self, notes: Sequence[Note]) -> bytes:
+        """Play a tune. Raises NotAvailable without a loudspeaker, HriError for what it cannot."""
+        raise NotAvailable(f"{self.title}: it has no loudspeaker - leave the song out")
+
+    def leds(self, power: float, is_dock_lit: bool = False) -> bytes:
+        """Light the power lamp from green (0) to red (1), and the dock's. Raises NotAvailable."""
+        raise NotAvailable(f"{self.title}: it has no lamps - leave them out")
+
+    def dock(self) -> bytes:
+        """Drive to the charging station by itself; it then no longer obeys. Raises NotAvailable."""
+        raise NotAvailable(f"{self.title}: it finds no dock by itself - drive it there")

@@ -1,0 +1,200 @@
+"""A serial port that never blocks, belongs to us alone, and is opened again after it was lost."""
+
+from __future__ import annotations
+
+import errno
+import os
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+
+import serial
+from serial.tools import list_ports
+
+from hri.core.errors import NotAvailable
+
+SOONEST, LATEST = 0.1, 2.0
+"""Seconds to the first and to any later attempt to open a port again."""
+CHUNK = 4096
+"""Bytes that are read at once at most; the kernel keeps no more of a port."""
+_BUSY = (errno.EAGAIN, errno.EWOULDBLOCK, errno.EINTR)
+_WHY = {
+    errno.ENOENT: ("it is not there", "plug it in, or name another port"),
+    errno.EACCES: ("no permission", "add yourself to the group of the port, such as dialout"),
+    errno.EBUSY: ("something else uses it", "close the other program"),
+    errno.EAGAIN: ("something else uses it", "close the other program"),
+}
+
+
+class Port(ABC):
+    """A line to a device: bytes out, bytes in, as they are ready."""
+
+    @property
+    @abstractmethod
+    def is_open(self) -> bool:
+        """Whether it can be read and written."""
+
+    @abstractmethod
+    def open(self, now: float) -> bool:
+        """Open it, when it is time for another attempt; whether it is open now.
+
+        `reason` tells why it is not. Opening an open port does nothing.
+        """
+
+    @property
+    @abstractmethod
+    def reason(self) -> str:
+        """Why it is closed: what is wrong - what to do; empty while nothing is."""
+
+    @abstractmethod
+    def read(self, now: float) -> bytes:
+        """What has come since the last call, perhaps nothing; at most CHUNK bytes.
+
+        Raises NotAvailable, and is closed, when the device has gone.
+        """
+
+    @abstractmethod
+    def write(self, data: bytes, now: float) -> bool:
+        """Send these bytes; false when the line is full and some, or all, did not fit.
+
+        What did not fit is forgotten: after false, begin with what ends half a command, such as
+        the emergency stop of a base. Raises NotAvailable, and is closed, when the device has gone.
+        """
+
+    def discard(self) -> None:  # noqa: B027 - many keep nothing
+        """Forget what was written and is not on the line yet, such as old velocities."""
+
+    @abstractmethod
+    def close(self) -> None:
+        """Let it go; a second call does nothing."""
+
+
+class Backoff:
+    """When to try again: soon at first, then ever more seldom."""
+
+    def __init__(self, soonest: float = SOONEST, latest: float = LATEST) -> None:
+        self._soonest, self._latest = soonest, latest
+        self.reset()
+
+    def reset(self) -> None:
+        """It worked: the next failure is a first one."""
+        self._wait, self._due = self._soonest, float("-inf")
+
+    def is_due(self, now: float) -> bool:
+        return now >= self._due
+
+    def fail(self, now: float) -> None:
+        self._due = now + self._wait
+        self._wait = min(self._latest, 2 * self._wait)
+
+
+class SerialPort(Port):
+    """A port of this machine, through pyserial: eight bits, no parity, one stop bit."""
+
+    def __init__(self, path: str, baud: int) -> None:
+        self.path, self.baud = path, baud
+        self._serial: serial.Serial | None = None
+        self._reason = ""
+        self._backoff = Backoff()
+
+    @property
+    def is_open(self) -> bool:
+        return self._serial is not None
+
+    @property
+    def reason(self) -> str:
+        return self._reason
+
+    def open(self, now: float) -> bool:
+        if self.is_open or not self._backoff.is_due(now):
+            return self.is_open
+        try:
+            # Without a timeout of 0 pyserial would wait for the bytes that we ask for.
+            self._serial = serial.Serial(self.path, self.baud, timeout=0, exclusive=True)
+            _hasten(self._serial)
+            self._reason = ""
+            self._backoff.reset()
+        except (OSError, ValueError, OverflowError) as error:
+            self._reason = self._said(error)
+            self._backoff.fail(now)
+        return self.is_open
+
+    def read(self, now: float) -> bytes:
+        try:
+            return bytes(self._opened.read(CHUNK))
+        except (OSError, TypeError, ValueError) as error:
+            # TypeError: closed by another thread; ValueError: a descriptor too high for select.
+            raise self._lost(error, now) from error
+
+    def write(self, data: bytes, now: float) -> bool:
+        # Not by pyserial: where the line is full its `write` spins, timeout or not.
+        try:
+            return os.write(self._opened.fileno(), data) == len(data)
+        except OSError as error:
+            if error.errno in _BUSY:
+                return False
+            raise self._lost(error, now) from error
+
+    def discard(self) -> None:
+        """Forget what was written and is not on the line yet, such as old velocities."""
+        try:
+            self._opened.reset_output_buffer()
+        except OSError:
+            return  # reading and writing tell that it has gone
+
+    def fileno(self) -> int:
+        """Its descriptor, to wait for. Raises NotAvailable while it is closed."""
+        return int(self._opened.fileno())
+
+    def close(self) -> None:
+        port, self._serial = self._serial, None
+        if port is not None:
+            try:
+                port.close()
+            except OSError:
+                return  # it has gone by itself
+
+    @property
+    def _opened(self) -> serial.Serial:
+        if self._serial is None:
+            raise NotAvailable(f"{self.path}: the port is closed - open it first")
+        return self._serial
+
+    def _lost(self, error: Exception, now: float) -> NotAvailable:
+        self.close()
+        self._reason = f"{self.path}: the device has gone - see that it is plugged in"
+        self._backoff.fail(now)
+        return NotAvailable(self._reason)
+
+    def _said(self, error: Exception) -> str:
+        number = getattr(error, "errno", None)
+        cause = error.__context__ if number is None else None
+        number = getattr(cause, "errno", number)
+        why, remedy = _WHY.get(number or 0, (str(error), "name a serial port"))
+        return f"{self.path}: {why} - {remedy}"
+
+
+def _hasten(port: serial.Serial) -> None:
+    """Let an adapter pass bytes on at once, in place of collecting them for up to 16 ms."""
+    # Few kinds of ports know what that is; all of them work without.
+    with suppress(AttributeError, NotImplementedError, OSError, ValueError):
+        port.set_low_latency_mode(True)
+
+
+@dataclass(frozen=True, slots=True)
+class Listed:
+    """A serial port of this machine."""
+
+    path: str
+    about: str
+    """What its adapter says that it is; empty when it says nothing."""
+
+
+def serial_ports() -> Sequence[Listed]:
+    """The ports that a device seems to be connected to, sorted by path."""
+    listed = []
+    for port in sorted(list_ports.comports()):
+        about = port.description if port.description not in (None, "n/a", port.name) else ""
+        listed.append(Listed(port.device, about))
+    return listed

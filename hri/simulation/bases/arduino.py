@@ -1,0 +1,156 @@
+"""An emulated board with the firmware of ROSArduinoBridge, or with that of `config/firmware`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+from hri.drive.bases.arduino import BUMPER_PRESSED, SHAPE, Wiring
+from hri.simulation.base import Limits
+from hri.simulation.bases.body import Body
+from hri.simulation.bases.emulator import Emulator, Wire
+
+LONGEST = 48
+"""Characters of a command; what is longer is no command."""
+FLOOR, NO_FLOOR = 700, 30
+"""Counts of a cliff sensor."""
+SONAR_REACH = 4.0
+"""Meters; beyond it no echo comes back, and the answer is 0."""
+BATTERY_COUNTS = (440, 573)
+"""What the battery's pin reads when it is empty and full."""
+
+
+def limits(shape: Mapping[str, float]) -> Limits:
+    """What a base of this shape can do; its radius and its acceleration are guesses."""
+    track, fastest = shape["track_cm"] / 100, shape["max_speed"]
+    return Limits(
+        linear=fastest,
+        angular=2 * fastest / track,
+        acceleration=1.5,
+        angular_acceleration=3.0 / track,
+        wheel=fastest,
+        track=track,
+        radius=0.6 * track,
+    )
+
+
+class EmulatedArduino(Emulator):
+    """Counts, switches and sonars on the pins that the wiring names; all other pins read 0."""
+
+    baud = 57_600
+
+    def __init__(
+        self,
+        wiring: Wiring | None = None,
+        body: Body | None = None,
+        battery_pin: int = -1,
+        auto_stop: float = 2.0,
+        shape: Mapping[str, float] | None = None,
+    ) -> None:
+        """`auto_stop`: seconds without a velocity after which the wheels stop; `shape`: what
+        differs from the defaults of SHAPE."""
+        self._wiring = wiring or Wiring()
+        shape = {name: value[0] for name, value in SHAPE.items()} | dict(shape or {})
+        self.body = body or Body(limits(shape))
+        self._battery_pin, self._auto_stop = battery_pin, auto_stop
+        self._meters_per_count = (
+            math.pi * shape["wheel_diameter_cm"] / 100 / shape["counts_per_turn"]
+        )
+        self._rim_speed = self._meters_per_count * shape["frame_rate"]
+        self._wire = Wire(self.baud)
+        self._command = bytearray()
+        self._commanded = 0.0
+        self._now = 0.0
+        self._origin = (0.0, 0.0)
+        self.is_rolling = False
+        """Whether it tells its motors to roll."""
+
+    def feed(self, data: bytes, now: float) -> bytes:
+        if self.is_rolling and now - self._commanded > self._auto_stop:
+            self._roll(0, 0, max(self._now, self._commanded + self._auto_stop))
+        self._now = now
+        self.body.advance(now)
+        for byte in data:
+            if byte == 13:
+                self._run(bytes(self._command), now)
+                self._command.clear()
+            elif len(self._command) < LONGEST:
+                self._command.append(byte)
+        return self._wire.arrived(now)
+
+    def _run(self, command: bytes, now: float) -> None:
+        words = command.split(b" ")
+        numbers = [_atoi(word) for word in words[1:3]] + [0, 0]
+        actions: dict[bytes, Callable[[int, int, float], str]] = {
+            b"a": self._analog,
+            b"b": self._baud,
+            b"c": self._agree,
+            b"d": self._digital,
+            b"e": self._counts,
+            b"m": self._roll,
+            b"p": self._ping,
+            b"r": self._reset_counts,
+            b"u": self._agree,
+            b"w": self._agree,
+            b"x": self._agree,
+        }
+        action = actions.get(words[0][:1], self._refuse)
+        self._wire.send(action(numbers[0], numbers[1], now).encode() + b"\r\n", now)
+
+    def _roll(self, left: int, right: int, now: float) -> str:
+        self._commanded = now
+        self.is_rolling = (left, right) != (0, 0)
+        fastest = self.body.base.limits.wheel
+        rims = [max(-fastest, min(fastest, n * self._rim_speed)) for n in (left, right)]
+        self.body.roll(rims[0], rims[1], now)
+        return "OK"
+
+    def _agree(self, _first: int, _second: int, _now: float) -> str:
+        return "OK"
+
+    def _refuse(self, _first: int, _second: int, _now: float) -> str:
+        return "Invalid Command"
+
+    def _baud(self, _first: int, _second: int, _now: float) -> str:
+        return f" {self.baud}"
+
+    def _counts(self, _first: int, _second: int, _now: float) -> str:
+        return " ".join(
+            str(int((rolled - origin) / self._meters_per_count))
+            for rolled, origin in zip(self.body.rolled, self._origin, strict=True)
+        )
+
+    def _reset_counts(self, _first: int, _second: int, _now: float) -> str:
+        self._origin = self.body.rolled
+        return "OK"
+
+    def _digital(self, pin: int, _: int, now: float) -> str:
+        pressed = self.body.bumps(now)
+        for place, its_pin in self._wiring.bumps.items():
+            if its_pin == pin:
+                return str(BUMPER_PRESSED if place in pressed else 1 - BUMPER_PRESSED)
+        return "0"
+
+    def _analog(self, pin: int, _: int, now: float) -> str:
+        for place, its_pin in self._wiring.cliffs.items():
+            if its_pin == pin:
+                return str(NO_FLOOR if self.body.is_over_edge(place) else FLOOR)
+        if pin != self._battery_pin:
+            return "0"
+        empty, full = BATTERY_COUNTS
+        return str(round(empty + (full - empty) * self.body.battery(now)))
+
+    def _ping(self, pin: int, _: int, now: float) -> str:
+        for place, its_pin in self._wiring.sonars.items():
+            if its_pin == pin:
+                distance = self.body.distance(place, now)
+                return str(round(distance * 100)) if distance < SONAR_REACH else "0"
+        return "0"
+
+
+def _atoi(word: bytes) -> int:
+    """A number as C reads it: as far as there are digits, in 16 bits."""
+    sign, digits = (-1, word[1:]) if word[:1] == b"-" else (1, word)
+    count = next((i for i, byte in enumerate(digits) if not 48 <= byte <= 57), len(digits))
+    value = sign * int(digits[: min(count, 9)] or b"0")
+    return (value + 0x8000) % 0x10000 - 0x8000

@@ -1,0 +1,131 @@
+"""The text protocol of ROSArduinoBridge."""
+
+import math
+
+import pytest
+
+from hri.core.errors import AuthoringError
+from hri.core.signals import Twist
+from hri.drive.bases.arduino import ArduinoBridge
+from hri.hal.resource import Description
+from hri.simulation.bases.arduino import EmulatedArduino
+from hri.simulation.bases.line import Line
+from tests.drive.bases.talk import WIRING, Talk
+
+
+@pytest.fixture
+def talk():
+    return Talk(ArduinoBridge(WIRING), Line(EmulatedArduino(WIRING)))
+
+
+def test_a_velocity_is_counts_a_frame():
+    """0.2 m/s with a wheel of 65 mm and 1440 counts a turn, 30 frames a second."""
+    counts = 0.2 / (math.pi * 0.065 / 1440) / 30
+    assert ArduinoBridge().velocity(Twist(0.2, 0.0)) == b"m %d %d\r" % ((round(counts),) * 2)
+
+
+def test_the_wheel_inside_a_curve_is_slower():
+    _, left, right = ArduinoBridge().velocity(Twist(0.2, 0.5)).split()
+    assert 0 < int(left) < int(right)
+
+
+def test_it_stops_by_itself_when_nobody_speaks_to_it(talk):
+    talk.greet()
+    talk.run(1.0, Twist(0.2, 0.0))
+    talk.run(2.5)
+    assert not talk.line.emulator.is_rolling
+    assert talk.last.velocity == Twist()
+
+
+def test_everything_is_asked_in_one_go_and_only_one_sonar():
+    asked = ArduinoBridge(WIRING).poll(1.0)
+    assert asked == b"e\rd 7\rd 8\ra 0\ra 1\rp 4\r"
+
+
+def test_nothing_is_asked_while_an_answer_is_due():
+    protocol = ArduinoBridge(WIRING)
+    assert protocol.poll(1.0)
+    assert not protocol.poll(1.05)
+
+
+def test_a_late_answer_is_not_taken_for_that_to_the_next_question():
+    protocol = ArduinoBridge(WIRING)
+    protocol.poll(1.0)
+    assert not protocol.poll(1.11)
+    assert protocol.feed(b"10 10\r\n1\r\n1\r\n700\r\n700\r\n0\r\n", 1.12) == []
+    assert not protocol.poll(1.15)
+    assert protocol.poll(1.2)
+    assert protocol.feed(b"10 10\r\n1\r\n0\r\n700\r\n700\r\n0\r\n", 1.21)[0].bumps["right"]
+
+
+def test_answers_to_velocities_come_in_between():
+    protocol = ArduinoBridge(WIRING)
+    protocol.poll(1.0)
+    reports = protocol.feed(b"OK\r\n10 10\r\n1\r\nOK\r\n1\r\n700\r\n50\r\n25\r\n", 1.01)
+    assert reports[0].cliffs == {"left": False, "right": True}
+    assert reports[0].ranges == {"front_left": 0.25}
+
+
+def test_a_lost_answer_is_asked_for_again_while_velocities_go_on():
+    protocol = ArduinoBridge(WIRING)
+    protocol.poll(1.0)
+    asked = []
+    for step in range(1, 30):
+        now = 1.0 + step * 0.01
+        protocol.feed(b"OK\r\n", now)
+        asked.append(protocol.poll(now))
+    assert any(asked)
+
+
+@pytest.mark.parametrize("answer", [b"Invalid Command", b"1 2 3", b"7", b"x", b"1" * 500, b"\xff"])
+def test_an_answer_that_makes_no_sense_ends_the_round(answer):
+    protocol = ArduinoBridge(WIRING)
+    protocol.poll(1.0)
+    assert protocol.feed(answer + b"\r\n10 10\r\n1\r\n1\r\n700\r\n700\r\n0\r\n", 1.01) == []
+    assert protocol.poll(1.2)
+
+
+def test_a_reset_of_the_counts_moves_nothing(talk):
+    talk.greet()
+    talk.run(2.0, Twist(0.3, 0.0))
+    rolled = talk.last.rolled.linear
+    talk.say(b"m 0 0\rr\r")
+    talk.run(0.5)
+    assert talk.last.rolled.linear == pytest.approx(rolled, abs=0.1)
+
+
+def test_the_battery_is_read_now_and_then():
+    protocol = ArduinoBridge(battery={"battery_pin": 5})
+    talk = Talk(protocol, Line(EmulatedArduino(battery_pin=5)))
+    talk.run(0.1)
+    assert talk.last.voltage == pytest.approx(8.4, abs=0.02)
+    assert talk.last.battery == pytest.approx(1.0, abs=0.02)
+
+
+def test_what_a_configuration_says_is_used():
+    parameters = {
+        "bumps": "left:2 right:3",
+        "sonars": "front:9",
+        "track_cm": "30",
+        "max_speed": "1",
+    }
+    protocol = ArduinoBridge.described(Description("base", "Hri.ArduinoBridge", parameters))
+    assert protocol.sensors.bumps == ("left", "right")
+    assert protocol.sensors.ranges == ("front",)
+    assert protocol.track == pytest.approx(0.3)
+    assert protocol.limits == Twist(1.0, pytest.approx(2 / 0.3))
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("bumps", "left"),
+        ("cliffs", "left:a0"),
+        ("sonars", "left:100"),
+        ("track_cm", "0"),
+        ("full_volts", "5"),
+    ],
+)
+def test_a_parameter_that_is_wrong_has_its_place(name, value):
+    with pytest.raises(AuthoringError, match=name):
+        ArduinoBridge.described(Description("base", "Hri.ArduinoBridge", {name: value}))
