@@ -16,10 +16,6 @@ PERIOD = 0.02
 REST = Twist()
 STANDING = Twist(0.001, 0.002)
 """What is slower, in m/s and rad/s, stands."""
-GAIN = 8.0
-"""Metres a second for each metre that a motion lags behind."""
-LEAD = 0.0075
-"""Seconds a base takes to follow a command within PERIOD; the profile is read so much earlier."""
 _SETTLE = 1.0
 """Seconds after its planned end that a motion may take for the last millimetre."""
 
@@ -35,12 +31,28 @@ class Way:
 
 
 @dataclass(frozen=True, slots=True)
+class Steering:
+    """How a base follows what it is told; the defaults are those of one that follows at once."""
+
+    gain: float = 8.0
+    """Metres a second for each metre that a motion lags behind."""
+    lead: float = 0.0075
+    """Seconds a base takes to follow a command; the profile is read so much earlier."""
+    near: Way = Way(0.0005, math.radians(0.05))
+    """A motion that ends within this has arrived; not finer than the wheels measure."""
+
+
+PROMPT = Steering()
+
+
+@dataclass(frozen=True, slots=True)
 class Reading:
     """What the wheels measure."""
 
     travelled: Way
     """Since the motion began."""
     velocity: Twist
+    steering: Steering = PROMPT
 
     @property
     def stands(self) -> bool:
@@ -70,8 +82,6 @@ class _Axis:
     """What differs between driving and turning."""
 
     name: str
-    near: float
-    """Metres or radians; a motion that ends within them has arrived."""
     lag: float
     """Metres or radians; a base that is so far behind is held up."""
     scale: float
@@ -81,8 +91,8 @@ class _Axis:
         return f"{way * self.scale:.1f} {self.unit}"
 
 
-_LINEAR = _Axis("moved", 0.0005, 0.25, 100.0, "cm")
-_ANGULAR = _Axis("turned", math.radians(0.05), 0.8, math.degrees(1), "degrees")
+_LINEAR = _Axis("moved", 0.25, 100.0, "cm")
+_ANGULAR = _Axis("turned", 0.8, math.degrees(1), "degrees")
 
 
 class MoveDelta(Motion):
@@ -92,9 +102,9 @@ class MoveDelta(Motion):
         self.profile = profile
 
     def step(self, elapsed: float, reading: Reading) -> Twist | None:
-        done = reading.travelled
-        linear = _followed(self.profile, _LINEAR, elapsed, done.linear, reading)
-        return None if linear is None else Twist(linear, -GAIN * done.angular)
+        done, near = reading.travelled, reading.steering.near
+        linear = _followed(self.profile, _LINEAR, elapsed, done.linear, near.linear, reading)
+        return None if linear is None else Twist(linear, -reading.steering.gain * done.angular)
 
 
 class TurnDelta(Motion):
@@ -104,13 +114,13 @@ class TurnDelta(Motion):
         self.profile = profile
 
     def step(self, elapsed: float, reading: Reading) -> Twist | None:
-        done = reading.travelled
-        angular = _followed(self.profile, _ANGULAR, elapsed, done.angular, reading)
-        return None if angular is None else Twist(-GAIN * done.linear, angular)
+        done, near = reading.travelled, reading.steering.near
+        angular = _followed(self.profile, _ANGULAR, elapsed, done.angular, near.angular, reading)
+        return None if angular is None else Twist(-reading.steering.gain * done.linear, angular)
 
 
 def _followed(
-    profile: Trapezoid, axis: _Axis, elapsed: float, done: float, reading: Reading
+    profile: Trapezoid, axis: _Axis, elapsed: float, done: float, near: float, reading: Reading
 ) -> float | None:
     """The velocity that follows the profile; None when the base has arrived and stands.
 
@@ -122,11 +132,11 @@ def _followed(
             f"it {axis.name} {axis.told(done)} of {axis.told(profile.distance)}"
             " - see what holds it up"
         )
-    if elapsed >= profile.duration and abs(lag) <= axis.near:
+    if elapsed >= profile.duration and abs(lag) <= near:
         return None if reading.stands else 0.0
-    start = elapsed + LEAD
+    start = elapsed + reading.steering.lead
     ahead = profile.position(start + PERIOD) - profile.position(start)
-    velocity = ahead / PERIOD + GAIN * lag
+    velocity = ahead / PERIOD + reading.steering.gain * lag
     return max(-profile.velocity, min(profile.velocity, velocity))
 
 

@@ -21,12 +21,14 @@ from hri.core.signals import Twist
 from hri.hal.drive import DriveSystem, Stop
 from hri.hal.motion import (
     PERIOD,
+    PROMPT,
     Brake,
     Motion,
     MoveDelta,
     Ramp,
     Reading,
     SlowDown,
+    Steering,
     TurnDelta,
     Way,
 )
@@ -68,6 +70,9 @@ class _Here(threading.local):
 
 class MovingBase(DriveSystem):
     """Executes motions over `_send`, `_brake`, `_set_power`, `_rolled` and `_velocity`."""
+
+    steering: Steering = PROMPT
+    """How the base follows what it is told."""
 
     def __init__(self, description: Description, manager: ResourceManager) -> None:
         super().__init__(description, manager)
@@ -294,7 +299,7 @@ class MovingBase(DriveSystem):
     def _reading(self, run: _Run, now: float) -> Reading:
         rolled, origin = self._rolled(now), run.origin
         way = Way(rolled.linear - origin.linear, rolled.angular - origin.angular)
-        return Reading(way, self._velocity(now))
+        return Reading(way, self._velocity(now), self.steering)
 
     def _end(self) -> None:
         """Let the base rest, with no motion that runs."""

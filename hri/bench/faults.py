@@ -1,0 +1,197 @@
+"""Faults that a base on a line may meet: for each, whether it stands, and says why.
+
+In fake time, with an emulated Create 2 that a program drives at 0.3 m/s through the controller and
+the supervisor. What happens to processes is in `stops`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from hri.core.signals import Twist
+from hri.drive.bases.create2 import (
+    BUMPS,
+    CLIFF_SIGNALS,
+    CLIFFS,
+    LEFT_COUNT,
+    RIGHT_COUNT,
+    Create2,
+)
+from hri.drive.supervisor.controller import TURN, Controller
+from hri.drive.supervisor.governor import Body
+from hri.drive.supervisor.limiter import Limits
+from hri.drive.supervisor.link import Ask, Order, Release
+from hri.drive.supervisor.multiplexer import Level
+from hri.drive.supervisor.process import rules
+from hri.drive.supervisor.supervisor import Supervisor
+from hri.simulation.bases.create2 import EmulatedCreate2
+from hri.simulation.bases.line import EmulatedPort, Faults, Line
+
+GO = Twist(0.3)
+PATIENCE = 6.0
+"""Seconds from a fault to its name; a stuck signal shows only after a meter."""
+LATE = 1.0
+"""Seconds from the name of the cause to a base at rest; on a bad line a stop may get lost, and is
+said again."""
+
+
+class Chain:
+    """A controller that turns each TURN, and the base at the end of its line."""
+
+    def __init__(self, faults: Faults | None = None) -> None:
+        self.base = EmulatedCreate2()
+        self.port = EmulatedPort(Line(self.base, faults))
+        supervisor = Supervisor(rules(Create2(), Limits(), Body(), {}))
+        self.controller = Controller(Create2, self.port, supervisor)
+        self.now = 0.0
+
+    def turn(self, *orders: Order) -> None:
+        self.now += TURN
+        self.controller.turn(self.now, orders)
+
+    def run(self, seconds: float, twist: Twist | None = None) -> None:
+        """Let time pass, with a program that asks for a velocity."""
+        for _ in range(round(seconds / TURN)):
+            self.turn(*self.asked(twist))
+
+    def asked(self, twist: Twist | None) -> tuple[Order, ...]:
+        return () if twist is None else (Ask(Level.TASKS, twist, self.now),)
+
+    def release(self) -> None:
+        self.turn(Release(self.now, self.controller.state(self.now).reason))
+
+    def start(self) -> Chain:
+        """Greeted, released, and at 0.3 m/s."""
+        self.run(0.5)
+        self.release()
+        self.run(1.2, GO)
+        return self
+
+    @property
+    def speed(self) -> float:
+        """Of the base itself, m/s."""
+        return self.base.body.base.velocity.linear
+
+    @property
+    def causes(self) -> list[str]:
+        """Names of the last stops."""
+        return [news.cause.name for news in self.controller.state(self.now).news]
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """What goes wrong, and the cause that must be named."""
+
+    inject: Callable[[Chain], object]
+    cause: str
+    asks: Twist | None = GO
+    """What the program goes on asking for."""
+
+
+def _overridden(packet: int, value: int) -> Callable[[Chain], object]:
+    """Let the base tell something else in a packet."""
+    return lambda chain: chain.base.overrides.update({packet: value})
+
+
+def _frozen_counts(chain: Chain) -> None:
+    for packet in (LEFT_COUNT, RIGHT_COUNT):
+        chain.base.overrides[packet] = 1000
+
+
+def _spoiled(name: str, value: float) -> Callable[[Chain], object]:
+    return lambda chain: setattr(chain.port.line.faults, name, value)
+
+
+def _pulled_out_and_back(chain: Chain) -> None:
+    chain.port.is_plugged = False
+    chain.run(0.3, GO)
+    chain.port.is_plugged = True
+    chain.run(0.5, GO)
+
+
+def _full_and_free(chain: Chain) -> None:
+    chain.port.is_full = True
+    chain.run(0.1, GO)
+    chain.port.is_full = False
+    chain.run(0.05, GO)
+
+
+def _over_edge(*places: str) -> Callable[[Chain], object]:
+    return lambda chain: chain.base.body.over_edge.update(places)
+
+
+def _edge_without_flag(chain: Chain) -> None:
+    chain.base.overrides[CLIFFS["left"]] = 0
+    chain.base.body.over_edge.add("left")
+
+
+def _edge_without_signal(chain: Chain) -> None:
+    chain.base.overrides[CLIFF_SIGNALS["left"]] = 1500
+    chain.base.body.over_edge.add("left")
+
+
+def _time_passes(seconds: float) -> Callable[[Chain], object]:
+    def pass_time(chain: Chain) -> None:
+        chain.now += seconds
+
+    return pass_time
+
+
+FAULTS: Mapping[str, Fault] = {
+    "program silent": Fault(lambda chain: None, "timeout", asks=None),
+    "command not a number": Fault(lambda chain: None, "refused", Twist(math.nan)),
+    "command infinite": Fault(lambda chain: None, "refused", Twist(0.1, math.inf)),
+    "command out of range": Fault(lambda chain: None, "refused", Twist(5.0)),
+    "bump on the left": Fault(lambda chain: chain.base.body.pressed.add("left"), "bump"),
+    "bumper stuck": Fault(lambda chain: chain.base.body.pressed.update(BUMPS), "bump"),
+    "edge on the left": Fault(_over_edge("left"), "cliff"),
+    "edge ahead": Fault(_over_edge("front_left", "front_right"), "cliff"),
+    "edge, its flag dead": Fault(_edge_without_flag, "cliff"),
+    "edge, its signal dead": Fault(_edge_without_signal, "cliff"),
+    "cliff signal stuck": Fault(_overridden(CLIFF_SIGNALS["right"], 1500), "fault"),
+    "cliff signal dark": Fault(_overridden(CLIFF_SIGNALS["right"], 2), "cliff"),
+    "wheel dropped": Fault(lambda chain: chain.base.body.hanging.add("right"), "wheel drop"),
+    "wheels blocked": Fault(_frozen_counts, "fault"),
+    "one wheel blocked": Fault(_overridden(LEFT_COUNT, 1000), "fault"),
+    "base switched off": Fault(lambda chain: chain.base.feed(b"\x07", chain.now), "stale"),
+    "base made passive": Fault(lambda chain: chain.base.feed(b"\x80", chain.now), "disobeys"),
+    "port pulled out and back": Fault(_pulled_out_and_back, "lost port"),
+    "line full": Fault(_full_and_free, "jammed"),
+    "half of the bytes lost": Fault(_spoiled("lost", 0.5), "stale"),
+    "every tenth byte damaged": Fault(_spoiled("damaged", 0.1), "stale"),
+    "packets halved": Fault(_spoiled("halved", 0.9), "stale"),
+    "supervisor frozen for 0.3 s": Fault(_time_passes(0.3), "frozen"),
+    "supervisor frozen for 2 s": Fault(_time_passes(2.0), "frozen"),
+    "clock set back": Fault(_time_passes(-1.0), "frozen"),
+}
+"""By what happens."""
+
+
+def survived(fault: Fault) -> bool:
+    """Whether the base was at rest at most LATE after the cause was named."""
+    chain = Chain().start()
+    if chain.speed < 0.29:
+        return False
+    fault.inject(chain)
+    for _ in range(round(PATIENCE / TURN)):
+        chain.turn(*chain.asked(fault.asks))
+        if fault.cause in chain.causes:
+            return _rests(chain, fault)
+    return False
+
+
+def _rests(chain: Chain, fault: Fault) -> bool:
+    for _ in range(round(LATE / TURN)):
+        if not chain.base.is_rolling:
+            return True
+        chain.turn(*chain.asked(fault.asks))
+    return False
+
+
+def figures() -> dict[str, Any]:
+    """Which faults there are, and which were survived with the base stopped and the cause named."""
+    results = {name: survived(fault) for name, fault in FAULTS.items()}
+    return {"survived": sum(results.values()), "of": len(results), "faults": results}

@@ -1,0 +1,120 @@
+"""Ties the supervisor of a base to the robot: who is near, who says stop, and what it tells."""
+
+from __future__ import annotations
+
+import logging
+import math
+
+from hri.behavior.behavior import Behavior, Context
+from hri.behavior.ports import Input, Output, Param
+from hri.core.errors import HriError
+from hri.core.events import Subscription
+from hri.core.signals import Event, People
+from hri.drive.supervisor.client import BaseBus, announce
+
+TELL_EVERY = 0.5
+"""Seconds between two words about the nearest person; the supervisor believes each for longer."""
+SEEN = 1.0
+"""Seconds for which what was seen says where people are."""
+
+log = logging.getLogger("hri.drive")
+
+
+class BaseGuard(Behavior):
+    """Latches the emergency stop of a base when somebody says stop, and tells why it stopped.
+
+    "Stop" is a rule of that name that was heard, the event `drive.halt` (its `because` says why),
+    or a call of `halt`. Only `release` lets the base move again: it is for something that a person
+    did, never for a program to go on by itself. What the supervisor tells becomes the events
+    `drive.stopped`, `drive.refused` and `drive.faulty`. Without such a base it does nothing.
+    """
+
+    category = "drive"
+
+    base_id = Param("", "id of the bus of the base; the only one there is, without it")
+
+    people = Input[People]("people", "everybody who is seen: near them it drives slowly")
+    is_latched = Output[bool]("boolean", "true while the base must not move until it is released")
+
+    def start(self, context: Context) -> None:
+        self._resources = context.resources
+        self._bus = self._found(context)
+        self._told = self._seen = -math.inf
+        self._nearest = math.nan
+        self._subscriptions: list[Subscription] = []
+        if self._bus is not None:
+            announce(self._bus, context.events)
+            subscribe = context.events.subscribe
+            self._subscriptions = [
+                subscribe("speech.heard", self._hear),
+                subscribe("drive.halt", self._halt),
+            ]
+
+    def compute(self, now: float, dt: float) -> None:
+        if (people := self.people.value) is not None:
+            self._seen = now
+            self._nearest = nearest(people)
+        if self._bus is None:
+            return
+        self.is_latched.send(self.must_wait)
+        # Who sees nobody because it sees nothing says nothing: somebody may be near.
+        if now - self._told >= TELL_EVERY and now - self._seen <= SEEN:
+            self._told = now
+            if not math.isnan(self._nearest):
+                self._bus.hear_person(self._nearest)
+
+    def stop(self) -> None:
+        for subscription in self._subscriptions:
+            subscription.cancel()
+        self._subscriptions.clear()
+        if self._bus is not None:
+            self._resources.release(self._bus)
+            self._bus = None
+
+    @property
+    def must_wait(self) -> bool:
+        """Whether the base does not move until it is released."""
+        return self._bus is not None and self._bus.state.is_latched
+
+    def halt(self, because: str = "somebody said stop") -> None:
+        """The emergency stop; `because` ends the sentence "I stopped because"."""
+        if self._bus is not None:
+            self._bus.stop_latched(because)
+
+    def release(self) -> None:
+        """Let the base move again, because a person wants it."""
+        if self._bus is not None:
+            self._bus.unlatch()
+
+    def explain(self) -> str:
+        """Why it stopped last, as a sentence; empty without such a base."""
+        return self._bus.explain() if self._bus is not None else ""
+
+    def _found(self, context: Context) -> BaseBus | None:
+        """Raises HriError for an id that is none, or none of several."""
+        ids = context.resources.ids(BaseBus)
+        if self.base_id and self.base_id not in ids:
+            raise HriError(f'"{self.base_id}" is no base with a supervisor - see docs/bases.md')
+        if not self.base_id and len(ids) > 1:
+            raise HriError(f"several bases: {', '.join(ids)} - name one in base_id")
+        for id in [self.base_id] if self.base_id else ids:
+            try:
+                return context.resources.obtain(id, BaseBus)
+            except HriError as error:  # it is not there, whatever stands in for it
+                log.info("%s - nothing to guard", error)
+        return None
+
+    def _hear(self, event: Event) -> None:
+        if event.properties.get("rule") == "stop":
+            self.halt()
+
+    def _halt(self, event: Event) -> None:
+        self.halt(str(event.properties.get("because", "I was told to")))
+
+
+def nearest(people: People) -> float:
+    """Meters to the nearest person who is there; infinite with nobody, NaN when it is unknown."""
+    distances = [person.distance for person in people.persons]
+    if any(map(math.isnan, distances)):
+        return math.nan
+    return min(distances, default=math.inf)

@@ -1,0 +1,1 @@
+"""What keeps a base safe, in a process of its own below everything that wants it to move."""

@@ -1,0 +1,89 @@
+"""How fast the base may go with what its range sensors see: pure geometry.
+
+Each reading is a point in the robot's frame; what lies in the corridor that the body sweeps
+straight ahead, or straight back, bounds the speed from which it can still stop before it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+
+from hri.core.signals import Pose2D
+
+SIDE_ROOM = 0.03
+"""Meters left free beside the body."""
+START_GAP = 0.05
+"""Meters beyond the clearance that must be free before a resting base sets off, so that noise
+does not make it creep."""
+REACTION = 0.1
+"""Seconds from an obstacle to brakes: a report, a step, and what a small base takes to follow."""
+LEAST = 0.01
+"""Meters a second; slower is not worth the creeping."""
+PRUDENCE = 0.7
+"""Share of the deceleration that is counted on."""
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """What the base sweeps, meters from the middle of its axle; the defaults are a Create 2's."""
+
+    front: float = 0.17
+    back: float = 0.17
+    half_width: float = 0.17
+    clearance: float = 0.1
+    """Kept free ahead and behind."""
+
+
+@dataclass(frozen=True, slots=True)
+class Room:
+    """Meters free before the body; infinite where no sensor sees anything."""
+
+    ahead: float = math.inf
+    behind: float = math.inf
+
+
+def room(
+    ranges: Mapping[str, float],
+    mounts: Mapping[str, Pose2D],
+    body: Body,
+    faulty: Collection[str] = (),
+) -> Room:
+    """What is free by readings in meters, of sensors mounted in the robot's frame.
+
+    A sensor that is faulty, or that has no reading, might look at anything: nothing is free where
+    it looks. Readings of sensors that are not mounted say nothing.
+    """
+    ahead = behind = math.inf
+    for name, mount in mounts.items():
+        distance = ranges.get(name, math.nan)
+        looks_ahead = math.cos(mount.heading) > 0
+        if name in faulty or math.isnan(distance) or distance < 0:
+            ahead, behind = (0.0, behind) if looks_ahead else (ahead, 0.0)
+        elif math.isfinite(distance):
+            x = mount.x + distance * math.cos(mount.heading)
+            y = mount.y + distance * math.sin(mount.heading)
+            if abs(y) > body.half_width + SIDE_ROOM:
+                continue
+            if looks_ahead:
+                ahead = min(ahead, max(0.0, x - body.front))
+            else:
+                behind = min(behind, max(0.0, -x - body.back))
+    return Room(ahead, behind)
+
+
+def safe_speed(free: float, clearance: float, deceleration: float, is_moving: bool) -> float:
+    """The speed, m/s, from which it stops `clearance` before what is `free` meters away.
+
+    Solves v t + v² / 2a = d for the reaction time t and a prudent share of the deceleration.
+    """
+    left = free - clearance - (0.0 if is_moving else START_GAP)
+    if not left > 0:
+        return 0.0
+    if left == math.inf:
+        return math.inf
+    slowing = deceleration * PRUDENCE
+    delay = slowing * REACTION
+    speed = math.sqrt(delay * delay + 2 * slowing * left) - delay
+    return speed if speed >= LEAST else 0.0

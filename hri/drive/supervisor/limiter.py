@@ -1,0 +1,167 @@
+"""Limits on speed, acceleration and jerk, forward and backward: pure arithmetic on time."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from hri.core.signals import Twist
+from hri.hal.motion import REST
+
+QUANTUM = 0.005
+"""Seconds; velocities are computed in steps of this, however unevenly the limiter is asked."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cap:
+    """The fastest that is allowed just now, all at or above 0."""
+
+    forward: float
+    """Meters a second."""
+    backward: float
+    angular: float
+    """Radians a second, to either side."""
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What a base is allowed, whatever asks; its hardware may be slower.
+
+    The defaults are meant for a light base at home, and are no standard: see docs/safety.md.
+    """
+
+    forward: float = 0.5
+    """Meters a second."""
+    backward: float = 0.25
+    """Meters a second; few bases see behind them."""
+    angular: float = 1.5
+    """Radians a second."""
+    near_forward: float = 0.3
+    """Meters a second where somebody is near, or nobody knows."""
+    near_backward: float = 0.15
+    near_angular: float = 1.0
+    acceleration: float = 0.5
+    """Meters a second squared, away from rest."""
+    deceleration: float = 1.0
+    """Toward rest."""
+    jerk: float = 5.0
+    """Meters a second cubed."""
+    angular_acceleration: float = 2.0
+    """Radians a second squared."""
+    angular_deceleration: float = 4.0
+    angular_jerk: float = 20.0
+    """Radians a second cubed."""
+
+    def cap(self, is_near: bool) -> Cap:
+        """The fastest that is allowed with or without people about."""
+        if is_near:
+            return Cap(
+                min(self.near_forward, self.forward),
+                min(self.near_backward, self.backward),
+                min(self.near_angular, self.angular),
+            )
+        return Cap(self.forward, self.backward, self.angular)
+
+
+class Limiter:
+    """Follows targets; `velocity` is never beyond the cap but while it brakes down to one."""
+
+    def __init__(self, limits: Limits) -> None:
+        self._linear = _Axis(limits.acceleration, limits.deceleration, limits.jerk)
+        self._angular = _Axis(
+            limits.angular_acceleration, limits.angular_deceleration, limits.angular_jerk
+        )
+        self._left_over = 0.0
+
+    @property
+    def velocity(self) -> Twist:
+        """Where it is."""
+        return Twist(self._linear.velocity, self._angular.velocity)
+
+    def halt(self) -> Twist:
+        """Rest at once; the hardware brakes as it can."""
+        self._linear.halt()
+        self._angular.halt()
+        self._left_over = 0.0
+        return REST
+
+    def step(self, target: Twist, cap: Cap, dt: float) -> Twist:
+        """The velocity `dt` seconds later on the way to a target, cut to the cap."""
+        target = within(target, cap)
+        quanta, self._left_over = divmod(self._left_over + dt, QUANTUM)
+        for _ in range(int(quanta)):
+            self._linear.step(target.linear, -cap.backward, cap.forward)
+            self._angular.step(target.angular, -cap.angular, cap.angular)
+        return self.velocity
+
+
+def within_hardware(cap: Cap, fastest: Twist) -> Cap:
+    """The cap, cut to what the hardware can do at all, m/s and rad/s."""
+    return Cap(
+        min(cap.forward, fastest.linear),
+        min(cap.backward, fastest.linear),
+        min(cap.angular, fastest.angular),
+    )
+
+
+def within(twist: Twist, cap: Cap) -> Twist:
+    """The velocity within the cap; both parts shrink alike, so that a curve keeps its shape.
+
+    Where driving is not allowed at all, turning still is.
+    """
+    most = cap.forward if twist.linear > 0 else cap.backward
+    if most <= 0:
+        return Twist(0.0, max(-cap.angular, min(cap.angular, twist.angular)))
+    excess = max(1.0, abs(twist.linear) / most, abs(twist.angular) / max(cap.angular, 1e-9))
+    return Twist(twist.linear / excess, twist.angular / excess)
+
+
+class _Axis:
+    """A velocity whose acceleration changes evenly, in steps of QUANTUM."""
+
+    def __init__(self, acceleration: float, deceleration: float, jerk: float) -> None:
+        self._acceleration, self._deceleration = acceleration, deceleration
+        self._change = jerk * QUANTUM
+        """Most that the acceleration changes in a step."""
+        self.halt()
+
+    def halt(self) -> None:
+        self.velocity = self.acceleration = 0.0
+
+    def step(self, target: float, least: float, most: float) -> None:
+        """One QUANTUM toward a target within least and most."""
+        if not least <= self.velocity <= most:
+            self._brake(most if self.velocity > most else least)
+            return
+        if self.velocity * target < 0:
+            target = 0.0  # through rest, where the limits of the other direction begin
+        error = target - self.velocity
+        side = math.copysign(1.0, error) if error else math.copysign(1.0, self.acceleration)
+        grows = abs(target) > abs(self.velocity)
+        limit = self._acceleration if grows else self._deceleration
+        toward = self._toward(abs(error), self.acceleration * side, limit)
+        self.acceleration = toward * side
+        self.velocity += self.acceleration * QUANTUM
+        if abs(target - self.velocity) < 1e-9 and abs(self.acceleration) <= self._change:
+            self.velocity = target
+        self.velocity = max(least, min(most, self.velocity))
+
+    def _brake(self, bound: float) -> None:
+        """Come down to a cap that has fallen: safety does not wait for the jerk."""
+        most = self._deceleration * QUANTUM
+        change = max(-most, min(most, bound - self.velocity))
+        self.velocity += change
+        self.acceleration = 0.0 if self.velocity == bound else change / QUANTUM
+
+    def _toward(self, error: float, now: float, limit: float) -> float:
+        """The greatest acceleration from which it can still be taken back without overshooting.
+
+        Taken back in steps of c = _change, an acceleration between n c and (n + 1) c adds, with h
+        for QUANTUM, h ((n + 1) a - c n (n + 1) / 2) to the velocity; solved for a.
+        """
+        change = self._change
+        low = now - change
+        high = max(low, min(now + change, limit))
+        steps = math.floor((math.sqrt(1 + 8 * error / (QUANTUM * change)) - 1) / 2)
+        most = error / QUANTUM / (steps + 1) + change * steps / 2
+        return max(low, min(high, most))

@@ -1,0 +1,312 @@
+"""Decides what the wheels may do: pure arithmetic on reports, commands and time.
+
+Nobody can talk it out of anything. It begins latched; `release` is for people. It never raises for
+what it is told, and what it does not understand it takes for a reason to stand.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from hri.core.signals import Pose2D, Twist
+from hri.drive.bases.protocol import BaseReport, Sensors
+from hri.drive.supervisor.cause import (
+    DISOBEYS,
+    DONE,
+    FROZEN,
+    OBSTACLE,
+    SILENT_BASE,
+    Cause,
+)
+from hri.drive.supervisor.cliffs import Floor
+from hri.drive.supervisor.governor import Body, Room, room, safe_speed
+from hri.drive.supervisor.hazards import Fault, Hazard, Kind, dropped_wheel, hazards_of
+from hri.drive.supervisor.latch import Latch
+from hri.drive.supervisor.limiter import Cap, Limiter, Limits, within_hardware
+from hri.drive.supervisor.multiplexer import Command, Level, Multiplexer
+from hri.drive.supervisor.plausibility import Plausibility
+from hri.drive.supervisor.reflex import Reflex
+from hri.hal.motion import REST
+
+STALE = 0.1
+"""Seconds after which a report tells nothing any more; three periods of a base that is slower."""
+LOST = 1.0
+"""Seconds without a report after which only a release helps."""
+GAP = 0.1
+"""Seconds between two steps after which all that was known is old; the watchdog stops the base a
+little later. A longer one than LOST needs a release."""
+NEAR = 1.5
+"""Meters; a person who is nearer slows the base down."""
+PERSON_FRESH = 1.0
+"""Seconds that a person's distance is believed; then somebody may be near."""
+WAKING = 1.5
+"""Seconds that a base may take to obey again after its own guard has stopped it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """What is particular to one base."""
+
+    fastest: Twist
+    """What the hardware can do, m/s and rad/s."""
+    sensors: Sensors = field(default_factory=Sensors)
+    """What it promises to report."""
+    period: float = 0.015
+    """Seconds between its reports."""
+    limits: Limits = field(default_factory=Limits)
+    body: Body = field(default_factory=Body)
+    mounts: Mapping[str, Pose2D] = field(default_factory=dict)
+    """Where its range sensors are in the robot's frame, by the names in reports."""
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """What the wheels are told."""
+
+    twist: Twist
+    level: Level
+    reason: Cause
+    """Why it rests, or why it is slower than was asked."""
+    stop: Cause | None = None
+    """Set in the one step in which it comes to rest, or the latch closes for a new reason."""
+    must_wake: bool = False
+    """Whether the base is to be greeted anew, since it does not obey."""
+
+
+class Supervisor:
+    """One base's guard. Not safe to use from several threads."""
+
+    def __init__(self, rules: Rules) -> None:
+        self.rules = rules
+        self.latch = Latch()
+        self.faults: Sequence[Fault] = ()
+        """Sensors that cannot be believed."""
+        self.refusals: list[str] = []
+        """What was refused since somebody looked last, at most ten; who reads it clears it."""
+        self.room = Room()
+        """What is free before the body."""
+        self._multiplexer = Multiplexer(rules.fastest)
+        self._limiter = Limiter(rules.limits)
+        # On the spot, the wheels run as fast as straight on, half the track from the middle.
+        half_track = rules.fastest.linear / rules.fastest.angular
+        self._plausibility = Plausibility(rules.sensors, half_track)
+        self._floor = Floor()
+        self._reflex = Reflex()
+        self._hazards: Sequence[Hazard] = ()
+        self._report: BaseReport | None = None
+        self._judged = -math.inf
+        """The time of the last report that was looked at."""
+        self._time: float | None = None
+        self._sent = REST
+        self._person = math.inf, -math.inf
+        self._waking_since: float | None = None
+        self._was_released = False
+        self._news: Cause | None = None
+        self._refused: str | None = None
+        """Why the last command was."""
+
+    @property
+    def is_near(self) -> bool:
+        """Whether somebody is near, or nobody knows; as of the last step."""
+        distance, time = self._person
+        is_fresh = self._time is not None and 0 <= self._time - time <= PERSON_FRESH
+        return not (is_fresh and distance >= NEAR)
+
+    @property
+    def allowed(self) -> Cap:
+        """How fast it may go by who is near and by its hardware."""
+        return within_hardware(self.rules.limits.cap(self.is_near), self.rules.fastest)
+
+    def waiting(self, now: float) -> list[Level]:
+        """The sources that ask for something, the most important first."""
+        return self._multiplexer.waiting(now)
+
+    # --- what happens to it ---
+
+    def trip(self, cause: Cause) -> None:
+        """Stop at once, until somebody releases the base."""
+        if self.latch.trip(cause):
+            self._news = cause
+        self._multiplexer.clear()
+        self._reflex.cancel()
+
+    def release(self, now: float) -> None:
+        """Open the latch: somebody says that the base may move. What was asked before is void.
+
+        Refused while the base is silent, since nobody knows what it stands before, and while a
+        wheel hangs in the air.
+        """
+        report = self._report
+        if report is None or self._is_lost(now):
+            self._refuse("I cannot be released while my base is silent")
+            return
+        if dropped_wheel(report) is not None:
+            self._refuse("I cannot be released while a wheel hangs in the air")
+            return
+        self.latch.release()
+        self._multiplexer.clear()
+        self._was_released = True
+
+    def brake(self) -> None:
+        """Stand still at once and forget what was asked, without latching."""
+        self._multiplexer.clear()
+        self._limiter.halt()
+
+    def hear_person(self, distance: float, now: float) -> None:
+        """How far the nearest person is, meters; infinite when surely nobody is about."""
+        self._person = (distance if distance >= 0 else 0.0), now
+
+    # --- what it decides ---
+
+    def step(
+        self, now: float, report: BaseReport | None, commands: Sequence[Command] = ()
+    ) -> Decision:
+        """What the wheels are told at `now`, by the newest report and what was asked since."""
+        dt = self._step_to(now)
+        refused = self._take(commands)
+        self._judge(now, report)
+        decision = self._decided(now, dt, report, refused)
+        if decision.twist == REST != self._sent:
+            self._news = decision.reason
+        self._sent = decision.twist
+        news, self._news = self._news, None
+        return replace(decision, stop=news) if news is not None else decision
+
+    def _step_to(self, now: float) -> float:
+        before, self._time = self._time, now
+        dt = 0.0 if before is None else now - before
+        if 0 <= dt <= GAP:
+            return dt
+        # Nobody watched; a base that still goes was stopped meanwhile, or is now.
+        self._limiter.halt()
+        self._multiplexer.clear()
+        if self._sent != REST:
+            self._news, self._sent = FROZEN, REST
+        if not 0 <= dt <= LOST and not self.latch.is_closed:
+            self.trip(FROZEN)
+        return 0.0
+
+    def _take(self, commands: Sequence[Command]) -> str | None:
+        """The last refusal among these commands; what is refused again and again is told once."""
+        refused = None
+        for command in commands:
+            refused = self._multiplexer.offer(command)
+            if refused is not None and refused != self._refused:
+                self._refuse(refused)
+            self._refused = refused
+        return refused
+
+    def _refuse(self, words: str) -> None:
+        self.refusals = [*self.refusals[-9:], words]
+
+    def _judge(self, now: float, report: BaseReport | None) -> None:
+        """Look for what is wrong; a report is looked at once."""
+        if report is None or report is self._report:
+            self._trip_if_lost(now)
+            return
+        self._report, self._judged = report, report.time
+        lights = self._floor.step(report)
+        self.faults = self._plausibility.step(now, report, lights, self._sent)
+        self._hazards = hazards_of(report, lights, self.faults)
+        faulty = {f.sensor.place for f in self.faults if f.sensor.kind is Kind.RANGE}
+        self.room = room(report.ranges, self.rules.mounts, self.rules.body, faulty)
+        for cause in (dropped_wheel(report), self._dead_wheels()):
+            if cause is not None:
+                self.trip(cause)
+
+    def _trip_if_lost(self, now: float) -> None:
+        if self._is_lost(now) and not self.latch.is_closed:
+            self.trip(SILENT_BASE)
+
+    def _is_lost(self, now: float) -> bool:
+        # A report from the future, or from no time at all, tells nothing of now.
+        return not 0 <= now - self._judged <= LOST
+
+    def _dead_wheels(self) -> Cause | None:
+        fault = next((f for f in self.faults if f.sensor.kind is Kind.WHEELS), None)
+        return None if fault is None else Cause("fault", fault.words)
+
+    def _decided(
+        self, now: float, dt: float, report: BaseReport | None, refused: str | None
+    ) -> Decision:
+        if self.latch.cause is not None:
+            return self._rest(Level.LATCH, self.latch.cause)
+        if report is None or not 0 <= now - report.time <= max(STALE, 3 * self.rules.period):
+            self._reflex.cancel()
+            return self._rest(Level.REFLEX, SILENT_BASE)
+        wanted = self._reflex.step(now, self._hazards, report.rolled, self._sent)
+        if not report.obeys:
+            return self._waking(now)
+        self._waking_since, self._was_released = None, False
+        if wanted is not None:
+            return self._reflected(wanted, dt)
+        return self._obeyed(now, dt, refused)
+
+    def _rest(self, level: Level, cause: Cause) -> Decision:
+        return Decision(self._limiter.halt(), level, cause)
+
+    def _waking(self, now: float) -> Decision:
+        """The base does not obey: its own guard saw what we saw, or somebody has switched it."""
+        is_expected = self._reflex.cause is not None or self._was_released
+        if self._waking_since is None and is_expected:
+            self._waking_since = now
+            return replace(self._rest(Level.REFLEX, self._reflex.cause or DISOBEYS), must_wake=True)
+        if self._waking_since is not None and now - self._waking_since <= WAKING:
+            return self._rest(Level.REFLEX, self._reflex.cause or DISOBEYS)
+        self._waking_since, self._was_released = None, False
+        self.trip(DISOBEYS)
+        return self._rest(Level.LATCH, DISOBEYS)
+
+    def _reflected(self, wanted: Twist, dt: float) -> Decision:
+        cause = self._reflex.cause or DONE
+        if wanted == REST:
+            return self._rest(Level.REFLEX, cause)
+        cap = replace(self._cap(), forward=0.0)
+        return Decision(self._limiter.step(wanted, cap, dt), Level.REFLEX, cause)
+
+    @property
+    def _is_heading_for_a_hazard(self) -> bool:
+        moving = self._sent.linear
+        return any(moving < 0 if h.is_behind else moving > 0 for h in self._hazards)
+
+    def _obeyed(self, now: float, dt: float, refused: str | None) -> Decision:
+        command = self._multiplexer.chosen(now)
+        if command is None or command.twist is None:
+            return self._unasked(now, dt, refused)
+        cap, cause = self._cap(), DONE
+        if self._hazards:
+            cause = self._hazards[0].cause
+            if self._is_heading_for_a_hazard:
+                return self._rest(Level.REFLEX, cause)
+        elif _is_blocked(command.twist, cap):
+            cause = OBSTACLE
+        velocity = self._limiter.step(command.twist, cap, dt)
+        return Decision(velocity, command.source, cause)
+
+    def _unasked(self, now: float, dt: float, refused: str | None) -> Decision:
+        """Nobody asks for anything: at once when somebody fell silent, else gently."""
+        silent = self._multiplexer.silent(now)
+        if silent is not None:
+            return self._rest(Level.NOBODY, Cause("timeout", f"my {silent} fell silent"))
+        if refused is not None:
+            return self._rest(
+                Level.NOBODY, Cause("refused", f"I was asked for nonsense: {refused}")
+            )
+        return Decision(self._limiter.step(REST, self._cap(), dt), Level.NOBODY, DONE)
+
+    def _cap(self) -> Cap:
+        """How fast it may go now, with what is in the way."""
+        cap, limits, clearance = self.allowed, self.rules.limits, self.rules.body.clearance
+        moving = self._sent.linear
+        ahead = safe_speed(self.room.ahead, clearance, limits.deceleration, moving > 0)
+        behind = safe_speed(self.room.behind, clearance, limits.deceleration, moving < 0)
+        for hazard in self._hazards:
+            ahead, behind = (ahead, 0.0) if hazard.is_behind else (0.0, behind)
+        return replace(cap, forward=min(cap.forward, ahead), backward=min(cap.backward, behind))
+
+
+def _is_blocked(twist: Twist, cap: Cap) -> bool:
+    """Whether there is no way at all where it wants to go."""
+    return (twist.linear > 0 and cap.forward <= 0) or (twist.linear < 0 and cap.backward <= 0)

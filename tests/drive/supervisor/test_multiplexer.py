@@ -1,0 +1,74 @@
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hri.core.signals import Twist
+from hri.drive.supervisor.multiplexer import SOURCES, TIMEOUTS, Command, Level, Multiplexer
+
+FASTEST = Twist(0.5, 4.0)
+
+
+def chosen(multiplexer: Multiplexer, now: float) -> Level | None:
+    command = multiplexer.chosen(now)
+    return None if command is None else command.source
+
+
+def test_the_most_important_source_is_heard_and_the_next_when_it_falls_silent() -> None:
+    multiplexer = Multiplexer(FASTEST)
+    for source in reversed(SOURCES):
+        assert multiplexer.offer(Command(source, Twist(0.1), 0.0)) is None
+    assert multiplexer.waiting(0.1) == [Level.TELEOP, Level.BEHAVIORS, Level.TASKS]
+    multiplexer.offer(Command(Level.TASKS, Twist(0.1), 0.2))
+    assert chosen(multiplexer, 0.3) is Level.TELEOP
+    assert chosen(multiplexer, 0.35) is Level.TASKS
+    assert chosen(multiplexer, 0.45) is None
+
+
+@pytest.mark.parametrize("source", SOURCES)
+def test_each_source_has_its_timeout(source) -> None:
+    multiplexer = Multiplexer(FASTEST)
+    multiplexer.offer(Command(source, Twist(0.1), 1.0))
+    assert chosen(multiplexer, 1.0 + TIMEOUTS[source] - 0.001) is source
+    assert multiplexer.silent(1.0) is None
+    assert chosen(multiplexer, 1.0 + TIMEOUTS[source] + 0.001) is None
+    assert multiplexer.silent(1.0 + TIMEOUTS[source] + 0.001) is source
+
+
+def test_a_source_can_take_back_what_it_said() -> None:
+    multiplexer = Multiplexer(FASTEST)
+    multiplexer.offer(Command(Level.BEHAVIORS, Twist(0.1), 0.0))
+    multiplexer.offer(Command(Level.TASKS, Twist(0.2), 0.0))
+    multiplexer.offer(Command(Level.BEHAVIORS, None, 0.0))
+    assert chosen(multiplexer, 0.0) is Level.TASKS
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 0.51, -0.6, 1e300])
+def test_nonsense_is_refused_with_a_message_and_silences_its_source(value) -> None:
+    multiplexer = Multiplexer(FASTEST)
+    multiplexer.offer(Command(Level.TASKS, Twist(0.1), 0.0))
+    refusal = multiplexer.offer(Command(Level.TASKS, Twist(value), 0.0))
+    assert refusal is not None
+    assert refusal.startswith("tasks: ")
+    assert " - " in refusal
+    assert chosen(multiplexer, 0.0) is None
+
+
+@pytest.mark.parametrize("level", [Level.LATCH, Level.REFLEX, Level.NOBODY])
+def test_nobody_outside_speaks_for_the_latch_or_the_reflex(level) -> None:
+    assert "may not command" in (Multiplexer(FASTEST).offer(Command(level, Twist(), 0.0)) or "")
+
+
+@settings(deadline=None, max_examples=50)
+@given(st.lists(st.tuples(st.sampled_from(SOURCES), st.floats(), st.floats(), st.floats(0, 5))))
+def test_what_is_chosen_is_finite_fresh_and_in_range(said) -> None:
+    multiplexer = Multiplexer(FASTEST)
+    for source, linear, angular, time in said:
+        multiplexer.offer(Command(source, Twist(linear, angular), time))
+    command = multiplexer.chosen(2.0)
+    if command is not None:
+        assert command.twist is not None
+        assert abs(command.twist.linear) <= 0.501
+        assert abs(command.twist.angular) <= 4.01
+        assert 0 <= 2.001 - command.time <= TIMEOUTS[command.source] + 0.001

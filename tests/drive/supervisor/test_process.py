@@ -1,0 +1,244 @@
+"""Real processes over a pseudo-terminal: whatever is killed or stands still, the base rests.
+
+The bounds are wide, since a machine that runs tests has other things to do; `hri bench drive`
+measures.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterator
+from contextlib import suppress
+
+import psutil
+import pytest
+
+from hri.bench.stops import SLOW, Bench, drive_to, ended, settings
+from hri.core.errors import NotAvailable
+from hri.core.signals import Twist
+from hri.drive.supervisor.cause import Cause
+from hri.drive.supervisor.client import BaseBus, BaseDrive, BaseOdometry
+from hri.drive.supervisor.connection import BEAT, Remote
+from hri.drive.supervisor.link import Ask, State, Trip
+from hri.drive.supervisor.multiplexer import Level
+from hri.drive.supervisor.process import Settings
+from hri.hal.manager import ResourceManager
+from hri.hal.resource import Description
+from hri.simulation.bases.terminal import PseudoTerminal
+
+SOON = 3.0
+"""Seconds; on a quiet machine the figures are below a tenth of it."""
+
+
+class Driving:
+    """A program (this one), its supervisor, and a base that goes."""
+
+    def __init__(self, bench: Bench, port: PseudoTerminal) -> None:
+        self.bench, self.port = bench, port
+        self.connection = Remote(bench.clock, settings(port.path))
+        drive_to(bench, self.connection)
+
+    @property
+    def supervisor(self) -> psutil.Process:
+        return psutil.Process(self.connection.pid)
+
+    def watchdog(self) -> psutil.Process:
+        """Raises IndexError when there is none."""
+        return self.supervisor.children()[0]
+
+    def state(self) -> State:
+        self.connection.look()
+        return self.connection.state
+
+    def ask(self) -> State:
+        """Go on asking, as a program does that does not know what happened."""
+        state = self.state()
+        self.connection.say(Ask(Level.TASKS, Twist(SLOW), state.time))
+        return state
+
+    def stays(self, seconds: float = 0.3) -> bool:
+        """Whether the base stands, however much it is asked to go."""
+        end = self.bench.clock.now() + seconds
+        while self.bench.clock.now() < end:
+            self.ask()
+            self.bench.clock.advance(BEAT)
+        return not self.bench.line.base.is_rolling
+
+
+World = tuple[Bench, PseudoTerminal]
+
+
+@pytest.fixture(scope="module")
+def world() -> Iterator[World]:
+    bench = Bench()
+    with bench.port() as port:
+        yield bench, port
+
+
+@pytest.fixture(scope="module")
+def started(world: World) -> Iterator[list[Driving]]:
+    """The program that drives now, if any: to start a supervisor takes half a second."""
+    started: list[Driving] = []
+    yield started
+    for driving in started:
+        driving.connection.close()
+
+
+@pytest.fixture
+def driving(world: World, started: list[Driving]) -> Iterator[Driving]:
+    if not started:
+        started.append(Driving(*world))
+    driving = started[0]
+    drive_to(world[0], driving.connection)
+    yield driving
+    with suppress(ProcessLookupError):
+        os.kill(driving.connection.pid, signal.SIGCONT)
+
+
+@pytest.fixture
+def alone(started: list[Driving]) -> None:
+    """Nobody else has the port."""
+    while started:
+        started.pop().connection.close()
+
+
+def test_a_loop_that_is_blocked_no_longer_moves_the_base(driving) -> None:
+    bench = driving.bench
+    assert bench.stop_after(bench.clock.now()) < SOON
+    bench.wait(
+        "the cause", lambda: [n for n in driving.state().news if n.cause.name == "timeout"] != []
+    )
+
+
+def test_for_a_supervisor_that_is_frozen_the_watchdog_stops_the_base(driving) -> None:
+    bench = driving.bench
+    time = bench.clock.now()
+    os.kill(driving.connection.pid, signal.SIGSTOP)
+    for _ in range(3000):
+        driving.ask()  # a full line does not hold the program up
+    assert bench.clock.now() - time < SOON
+    assert bench.stop_after(time) < SOON
+    bench.clock.advance(0.1)
+    assert not bench.line.base.is_rolling
+    os.kill(driving.connection.pid, signal.SIGCONT)
+    bench.wait("an answer", lambda: driving.state().news[-1].cause.name == "frozen")
+
+
+def test_a_watchdog_that_is_killed_stops_the_base_and_another_takes_its_place(driving) -> None:
+    watchdog = driving.watchdog()
+    time = driving.bench.clock.now()
+    watchdog.kill()
+    driving.bench.wait("a latch", lambda: driving.ask().is_latched)
+    assert driving.bench.stop_after(time) < 2 * SOON
+    assert driving.state().reason.name == "watchdog"
+    driving.bench.wait("another", lambda: watchdog not in driving.supervisor.children())
+    assert driving.watchdog() != watchdog
+    drive_to(driving.bench, driving.connection)
+
+
+def test_a_port_that_vanishes_latches_and_is_found_again(driving) -> None:
+    driving.port.unplug()
+    driving.bench.wait("a latch", lambda: driving.ask().is_latched)
+    assert driving.state().reason.name == "lost port"
+    driving.port.plug()
+    driving.bench.wait("the port", lambda: driving.ask().is_open)
+    assert driving.stays()
+    drive_to(driving.bench, driving.connection)
+
+
+def test_a_port_that_takes_no_bytes_is_cleared_for_the_stop(driving) -> None:
+    bench, line = driving.bench, driving.bench.line
+    with driving.port._lock:  # nobody reads at the other end
+        for _ in range(5):  # the system makes room for some more after a moment
+            _fill(driving.port.path)
+            bench.clock.advance(0.01)
+        bench.wait("a latch", lambda: driving.ask().is_latched)
+    assert bench.stop_after(bench.clock.now() - SOON) is not None
+    bench.wait("rest", lambda: not line.base.is_rolling)
+    assert driving.stays()
+    assert driving.state().reason.name == "jammed"
+
+
+def test_a_second_program_is_refused_while_the_first_drives_on(driving) -> None:
+    with pytest.raises(NotAvailable, match="something else uses it"):
+        Remote(driving.bench.clock, settings(driving.port.path))
+    drive_to(driving.bench, driving.connection)
+    assert not driving.state().is_latched
+
+
+def test_an_emergency_stop_stays_whatever_is_asked(driving) -> None:
+    driving.connection.say(Trip(Cause("e-stop", "you said stop")))
+    driving.bench.wait("rest", lambda: not driving.bench.line.base.is_rolling)
+    assert driving.stays()
+    assert driving.state().reason.words == "I stopped because you said stop"
+
+
+def test_a_configuration_with_a_port_drives_through_the_whole_chain(world, alone) -> None:
+    bench, port = world
+    devices = (
+        Description("base", "Hri.Create2", {"port": port.path}),
+        Description("drive", "Hri.BaseDrive", bus="base"),
+        Description("odometry", "Hri.BaseOdometry", bus="base"),
+    )
+    with ResourceManager(devices, bench.clock) as manager:
+        bus, odometry = manager.obtain("base", BaseBus), manager.obtain("odometry", BaseOdometry)
+        bus.unlatch()
+        bench.wait("a release", lambda: not bus.state.is_latched)
+        drive = manager.obtain("drive", BaseDrive)
+
+        def goes() -> bool:
+            drive.set_velocity(Twist(SLOW), bench.clock.now())
+            return odometry.pose(0.0).x > 0.03
+
+        bench.wait("driving", goes)
+        assert bench.line.base.body.base.travelled > 0.02
+    assert not bench.line.base.is_rolling
+
+
+def test_without_a_port_it_is_told_what_to_do(world, tmp_path) -> None:
+    missing = Settings(settings("").base, str(tmp_path / "nothing"), -1)
+    with pytest.raises(NotAvailable, match="it is not there - plug it in"):
+        Remote(world[0].clock, missing)
+
+
+@pytest.mark.parametrize("by", [signal.SIGKILL, signal.SIGTERM])
+def test_a_supervisor_that_dies_leaves_a_base_at_rest(driving, started, by) -> None:
+    time = driving.bench.clock.now()
+    os.kill(driving.connection.pid, by)
+    assert driving.bench.stop_after(time) < SOON
+    driving.connection._process.wait(5)
+    driving.bench.wait("the end", lambda: driving.state().reason.name == "supervisor")
+    assert driving.connection.is_mute
+    started.pop().connection.close()
+
+
+@pytest.mark.parametrize("by", [signal.SIGKILL, signal.SIGSTOP])
+def test_a_program_that_is_killed_or_frozen_no_longer_moves_the_base(world, alone, by) -> None:
+    bench, port = world
+    assert ended(bench, port.path, by, SLOW) < SOON
+    assert not bench.line.base.is_rolling
+
+
+def test_no_process_is_left_behind(world, alone) -> None:
+    """After all tests above, their watchdogs have gone by themselves."""
+    bench, port = world
+    bench.wait(
+        "the end of all", lambda: not any(port.path in " ".join(c) for c in _command_lines())
+    )
+
+
+def _command_lines() -> Iterator[list[str]]:
+    for process in psutil.process_iter():
+        with suppress(psutil.Error):
+            yield process.cmdline()
+
+
+def _fill(path: str) -> None:
+    """Write what no base understands until the line takes no more."""
+    end = os.open(path, os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY)
+    for size in (1000, 1):
+        with suppress(BlockingIOError):
+            while True:
+                os.write(end, bytes(size))
+    os.close(end)
