@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from hri.core.signals import Pose2D, Twist
@@ -43,7 +43,7 @@ async def move(context: TaskContext, distance_m: float, speed: float | None = No
     Raises ValueError for a distance that is not finite or a speed (m/s) that is not above 0.
     """
     way = _Straight(distance_m, _above_0(speed, CRUISE, "m/s"))
-    with _motion(context) as motion:
+    with motion_of(context) as motion:
         return await motion.run(way)
 
 
@@ -53,13 +53,13 @@ async def turn(context: TaskContext, angle_rad: float, rate: float | None = None
     Raises ValueError for an angle that is not finite or a rate (rad/s) that is not above 0.
     """
     way = _Turn(angle_rad, _above_0(rate, TURN_RATE, "rad/s"))
-    with _motion(context) as motion:
+    with motion_of(context) as motion:
         return await motion.run(way)
 
 
 async def stop(context: TaskContext) -> None:
     """End any motion and wait until the base is at rest, two seconds at most."""
-    with _motion(context) as motion:
+    with motion_of(context) as motion:
         await motion.stop()
 
 
@@ -136,7 +136,7 @@ class _Turn(_Way):
         return Twist(0.0, velocity_for(remaining, self._rate, _ANGULAR_DECELERATION, _PERIOD))
 
 
-class _Motion:
+class Motion:
     """The one motion that may write commands, until another task claims the drive or a halt."""
 
     def __init__(self, context: TaskContext, odometry: Odometry) -> None:
@@ -158,6 +158,33 @@ class _Motion:
         except Interrupted:
             return way.gone  # the caller sees that it is not the whole way
         return way.gone
+
+    async def lead(self, steer: Callable[[float, Pose2D], Twist | None]) -> bool:
+        """Send what `steer` says for a time and a pose, until it says None.
+
+        Whether it came to that; False when another motion, a stop or a bump ended it.
+        """
+        try:
+            async with self._context.claim("drive"):
+                self._current.set(self, self._clock.now())
+                is_over = await self._led(steer)
+                await self._roll_out()
+        except Interrupted:
+            return False
+        return is_over
+
+    async def _led(self, steer: Callable[[float, Pose2D], Twist | None]) -> bool:
+        try:
+            while self._current.value is self:
+                now = self._clock.now()
+                twist = steer(now, self._pose())
+                if twist is None:
+                    return True
+                self._command.set(twist, now)
+                await self._clock.sleep(_PERIOD)
+        finally:
+            self._end()
+        return False
 
     async def stop(self) -> None:
         """End whatever motion goes on, and come to rest."""
@@ -199,11 +226,11 @@ class _Motion:
 
 
 @contextmanager
-def _motion(context: TaskContext) -> Iterator[_Motion]:
+def motion_of(context: TaskContext) -> Iterator[Motion]:
     """A motion, with the odometry for as long as it lasts."""
     odometry = context.resources.obtain("odometry", Odometry)
     try:
-        yield _Motion(context, odometry)
+        yield Motion(context, odometry)
     finally:
         context.resources.release(odometry)
 

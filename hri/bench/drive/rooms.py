@@ -1,0 +1,81 @@
+"""Fifty seeded rooms with furniture and people who walk about, for each policy and robot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+from multiprocessing import get_context
+
+import numpy as np
+
+from hri.bench.progress import progress
+from hri.bench.table import Limit, Row, amount, at_least, at_most, share
+from hri.simulation.rooms import furnished
+from hri.testing.trips import Journey, Trip
+
+ROOMS, QUICK_ROOMS = 50, 5
+CLEAN = 0.95
+"""Share of the rooms in which the goal is reached without a collision."""
+CASES = (
+    ("full", "three sensors", True),
+    ("full", "nine sensors", True),
+    ("full", "three sensors", False),
+    ("StopCrash only", "three sensors", True),
+    ("none", "three sensors", True),
+)
+"""Policy, robot, and whether people look where they go; the first has limits."""
+NO_LIMIT = at_least(0.0)
+
+
+def rows(quick: bool, workers: int) -> Iterator[Row]:
+    """Success, time, collisions and the closest distance to a person, for each case."""
+    count = QUICK_ROOMS if quick else ROOMS
+    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
+        for number, case in enumerate(CASES):
+            policy, robot, heedful = case
+            name = f"{policy}, {robot}" + ("" if heedful else ", people who look at nothing")
+            drive = partial(through, policy=policy, robot=robot, heedful=heedful)
+            trips = list(progress(pool.map(drive, range(count)), count, name))
+            yield from told(name, trips, is_limited=number == 0)
+
+
+def through(seed: int, policy: str, robot: str, heedful: bool) -> Trip:
+    """The trip through the room of a seed."""
+    return Journey(furnished(seed), policy, robot, heedful=heedful).run()
+
+
+def told(name: str, trips: Sequence[Trip], is_limited: bool) -> Iterator[Row]:
+    """The rows of one case."""
+    clean = sum(trip.is_clean for trip in trips)
+    way = sum(trip.way for trip in trips)
+    hits = sum(trip.hits for trip in trips)
+    times = [trip.time for trip in trips if trip.is_there]
+    row = _share(f"{name}: goal reached without collision", clean, len(trips), is_limited)
+    yield row | {
+        "reached": sum(trip.is_there for trip in trips),
+        "seconds_median": round(float(np.median(times)), 1) if times else None,
+        "way_m": round(way, 1),
+        "collisions": hits,
+        "collisions_per_100_m": round(100 * hits / way, 2) if way else None,
+        "closest_to_a_person_m": round(min(trip.person_gap for trip in trips), 3),
+        "closest_while_it_moved_m": round(min(trip.person_gap_moving for trip in trips), 3),
+        "met_by_people_while_it_stood": sum(trip.people_met for trip in trips),
+        "not_clean": [trip.seed for trip in trips if not trip.is_clean],
+    }
+    what = f"{name}: collisions with people while it moved"
+    count = sum(trip.people_hit for trip in trips)
+    if is_limited:
+        yield amount(what, count, "collisions", at_most(0))
+    else:
+        yield {"what": what, "value": count, "unit": "collisions"}
+
+
+def _share(what: str, count: int, total: int, is_limited: bool) -> Row:
+    limit: Limit = at_least(CLEAN) if is_limited else NO_LIMIT
+    row = share(what, count, total, limit)
+    return (
+        row
+        if is_limited
+        else {k: v for k, v in row.items() if k not in ("limit", "side", "passed")}
+    )

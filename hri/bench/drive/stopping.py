@@ -1,0 +1,36 @@
+"""How soon a base stands, and what it survives: measured by `hri.bench.stops` and `faults`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from hri.bench import faults as injected
+from hri.bench import stops
+from hri.bench.table import Row, amount, at_least, at_most, share
+
+TRIES, QUICK_TRIES = 100, 10
+HAZARD_MS, PROGRAM_MS = 15.0, 250.0
+
+
+def rows(quick: bool) -> Iterator[Row]:
+    """Real processes and an emulated base behind a pseudo-terminal."""
+    tries = QUICK_TRIES if quick else TRIES
+    figures = stops.figures(tries)
+    hazard, program = figures["hazard_to_zero_ms"], figures["program_to_zero_ms"]
+    what = "hazard input to zero velocity on the port, p99"
+    yield amount(what, hazard["p99"], "ms", at_most(HAZARD_MS), tries=tries, **_rest(hazard, "p99"))
+    what = "program killed or frozen at 0.3 m/s to zero velocity on the port, max"
+    limit = at_most(PROGRAM_MS)
+    yield amount(what, program["max"], "ms", limit, tries=tries, **_rest(program, "max"))
+
+
+def faults() -> Iterator[Row]:
+    """Each with the base stopped and the cause named."""
+    figures = injected.figures()
+    what = "faults survived with the base stopped and the cause named"
+    row = share(what, figures["survived"], figures["of"], at_least(1.0))
+    yield row | {"faults": figures["faults"]}
+
+
+def _rest(told: dict[str, float], name: str) -> dict[str, float]:
+    return {key: value for key, value in told.items() if key != name}

@@ -1,0 +1,174 @@
+"""A room seen from above: what stands there, where a robot and people went."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+import cv2
+import numpy as np
+
+from hri.core.signals import Image, Pose2D
+from hri.simulation.person import RADIUS as PERSON_RADIUS
+from hri.simulation.room import Box, Circle, Obstacle, Segment
+
+Point = tuple[float, float]
+Color = tuple[int, int, int]
+
+PAPER: Color = (250, 250, 247)
+THING: Color = (205, 200, 190)
+EDGE: Color = (96, 92, 86)
+WAY: Color = (32, 104, 176)
+ROBOT: Color = (32, 104, 176)
+PERSON: Color = (212, 112, 62)
+GOAL: Color = (44, 138, 84)
+SEEN: Color = (176, 48, 72)
+INK: Color = (40, 40, 40)
+MARGIN = 0.3
+"""Metres around all that is shown."""
+FINE = 4
+"""Bits behind the point of a pixel, with which OpenCV draws."""
+LARGEST = 1400
+"""Pixels across at most."""
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """Where everybody was at a time, seconds; metres and radians in the room."""
+
+    time: float
+    robot: Pose2D
+    people: tuple[Point, ...] = ()
+    seen: tuple[Point, ...] = ()
+    """What the beams hit."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """All that was recorded of a run."""
+
+    moments: Sequence[Moment]
+    obstacles: Sequence[Obstacle] = ()
+    goal: Point | None = None
+    radius: float = 0.2
+    """Of the robot, metres."""
+    title: str = ""
+
+
+@dataclass
+class Plan:
+    """The picture of a run, of which the room is drawn once."""
+
+    run: Run
+    _ground: Image = field(init=False)
+
+    def __post_init__(self) -> None:
+        left, bottom, right, top = _bounds(self.run)
+        self._left, self._top = left, top
+        across = max(right - left, top - bottom)
+        self._scale = min(140.0, LARGEST / across)
+        width, height = (
+            math.ceil(way * self._scale / 2) * 2 for way in (right - left, top - bottom)
+        )
+        self._ground = np.empty((height, width, 3), np.uint8)
+        self._ground[:] = PAPER
+        for obstacle in self.run.obstacles:
+            self._obstacle(self._ground, obstacle)
+
+    def whole(self) -> Image:
+        """The whole run in one picture: ways, what was seen, and where all stood at the end."""
+        picture = self._ground.copy()
+        self._history(picture, self.run.moments)
+        return self._titled(picture, self.run.moments[-1].time)
+
+    def at(self, index: int) -> Image:
+        """The run so far, at one of its moments."""
+        picture = self._ground.copy()
+        self._history(picture, self.run.moments[: index + 1])
+        return self._titled(picture, self.run.moments[index].time)
+
+    def _history(self, picture: Image, moments: Sequence[Moment]) -> None:
+        last = moments[-1]
+        for number in range(len(last.people)):
+            way = [moment.people[number] for moment in moments if len(moment.people) > number]
+            self._line(picture, way, tuple((c + 2 * 250) // 3 for c in PERSON), 1)
+        for moment in moments:
+            for point in moment.seen:
+                self._disc(picture, point, 0.012, SEEN)
+        self._line(picture, [(m.robot.x, m.robot.y) for m in moments], WAY, 2)
+        for person in last.people:
+            self._disc(picture, person, PERSON_RADIUS, PERSON)
+        first = moments[0].robot
+        self._ring(picture, (first.x, first.y), self.run.radius, WAY)
+        self._robot(picture, last.robot)
+        if self.run.goal is not None:
+            self._cross(picture, self.run.goal)
+
+    def _robot(self, picture: Image, pose: Pose2D) -> None:
+        radius = self.run.radius
+        self._disc(picture, (pose.x, pose.y), radius, ROBOT)
+        nose = (pose.x + radius * math.cos(pose.heading), pose.y + radius * math.sin(pose.heading))
+        self._line(picture, [(pose.x, pose.y), nose], PAPER, 2)
+
+    def _titled(self, picture: Image, time: float) -> Image:
+        text = f"{self.run.title}   {time:.1f} s".strip()
+        style = cv2.FONT_HERSHEY_SIMPLEX, 0.5, INK, 1, cv2.LINE_AA
+        cv2.putText(picture, text, (8, 18), *style)
+        return picture
+
+    def _obstacle(self, picture: Image, obstacle: Obstacle) -> None:
+        match obstacle:
+            case Segment(x1, y1, x2, y2):
+                self._line(picture, [(x1, y1), (x2, y2)], EDGE, 3)
+            case Circle(x, y, radius):
+                self._disc(picture, (x, y), radius, THING)
+                self._ring(picture, (x, y), radius, EDGE)
+            case Box():
+                corners = [self._pixels((side.x1, side.y1)) for side in obstacle.sides()]
+                outline = [np.array(corners, np.int32)]
+                cv2.fillPoly(picture, outline, THING, cv2.LINE_AA, FINE)
+                cv2.polylines(picture, outline, True, EDGE, 1, cv2.LINE_AA, FINE)
+
+    def _cross(self, picture: Image, point: Point) -> None:
+        x, y = point
+        for way in (0.12, -0.12):
+            self._line(picture, [(x - 0.12, y - way), (x + 0.12, y + way)], GOAL, 3)
+
+    def _disc(self, picture: Image, point: Point, radius: float, color: Color) -> None:
+        size = round(radius * self._scale * 2**FINE)
+        cv2.circle(picture, self._pixels(point), size, color, -1, cv2.LINE_AA, FINE)
+
+    def _ring(self, picture: Image, point: Point, radius: float, color: Color) -> None:
+        size = round(radius * self._scale * 2**FINE)
+        cv2.circle(picture, self._pixels(point), size, color, 1, cv2.LINE_AA, FINE)
+
+    def _line(
+        self, picture: Image, points: Sequence[Point], color: Iterable[int], thick: int
+    ) -> None:
+        pixels = np.array([self._pixels(point) for point in points], np.int32)
+        if len(pixels) > 1:
+            shade = tuple(color)
+            cv2.polylines(picture, [pixels], False, shade, thick, cv2.LINE_AA, FINE)
+
+    def _pixels(self, point: Point) -> tuple[int, int]:
+        x, y = (point[0] - self._left) * self._scale, (self._top - point[1]) * self._scale
+        return round(x * 2**FINE), round(y * 2**FINE)
+
+
+def _bounds(run: Run) -> tuple[float, float, float, float]:
+    """Left, bottom, right and top of all that is shown."""
+    points = [(m.robot.x, m.robot.y) for m in run.moments]
+    points += [person for m in run.moments for person in m.people]
+    points += [run.goal] if run.goal is not None else []
+    for obstacle in run.obstacles:
+        match obstacle:
+            case Segment(x1, y1, x2, y2):
+                points += [(x1, y1), (x2, y2)]
+            case Circle(x, y, radius):
+                points += [(x - radius, y - radius), (x + radius, y + radius)]
+            case Box():
+                points += [(side.x1, side.y1) for side in obstacle.sides()]
+    xs, ys = zip(*points, strict=True)
+    room = MARGIN + run.radius
+    return min(xs) - room, min(ys) - room, max(xs) + room, max(ys) + room

@@ -1,0 +1,128 @@
+"""Reads what was recorded of a run, or drives one through a seeded room, to draw it.
+
+A run is a file of JSON lines. The first says where it was: `world` (the text of a world file),
+`goal`, `radius`, `title`; each other one a moment: `t`, `robot` [x, y, heading], `people` [[x, y]],
+`seen` [[x, y]], all of them metres and radians in the room. Of a robot's recording
+(`hri run --record`) the events named `odometry` are read.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import tempfile
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from hri.cli.drive.plan import Moment, Point, Run
+from hri.core.errors import HriError
+from hri.core.signals import Pose2D
+from hri.simulation.layout import load_layout
+from hri.simulation.rooms import furnished
+from hri.testing.trips import Journey
+
+EVENTS = "events.jsonl"
+"""The file in a robot's recording."""
+MOST_BYTES = 100_000_000
+MOST_ROOMS = 100_000
+
+
+def read_run(name: str, policy: str) -> Run:
+    """The run of that file or folder, or one through the room of that number. Raises HriError."""
+    if name.isdecimal():
+        return _driven(int(name), policy)
+    path = Path(name)
+    if path.is_dir():
+        path = path / EVENTS
+    lines = list(_lines(path))
+    is_recording = any("event" in line for line in lines[:1])
+    run = _of_events(path, lines) if is_recording else _of_moments(path, lines)
+    if not run.moments:
+        raise HriError(f"{path}: nobody moved in it - record a run with an Hri.Odometry")
+    return run
+
+
+def _driven(number: int, policy: str) -> Run:
+    if number > MOST_ROOMS:
+        raise HriError(f"room {number} - give a number up to {MOST_ROOMS}")
+    room = furnished(number)
+    trip = Journey(room, policy, keeps_track=True).run()
+    title = f"room {number}, {policy}: {'there' if trip.is_there else 'not there'}"
+    moments = tuple(_moment(line) for line in trip.track)
+    return Run(moments, room.obstacles, room.goal, title=title)
+
+
+def _lines(path: Path) -> Iterator[Mapping[str, Any]]:
+    try:
+        if path.stat().st_size > MOST_BYTES:
+            raise HriError(f"{path}: larger than {MOST_BYTES // 10**6} MB - give a shorter run")
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise HriError(
+            f"{path}: cannot be read: {error} - name a run or a room's number"
+        ) from error
+    for number, row in enumerate(text.splitlines(), 1):
+        try:
+            line = json.loads(row)
+        except (ValueError, RecursionError) as error:
+            raise HriError(f"{path}:{number}: no JSON - give a file of a run") from error
+        if not isinstance(line, dict):
+            raise HriError(f"{path}:{number}: no JSON object - give a file of a run")
+        yield line
+
+
+def _of_events(path: Path, lines: list[Mapping[str, Any]]) -> Run:
+    moments = []
+    for number, line in enumerate(lines, 1):
+        if line.get("event") != "odometry":
+            continue
+        try:
+            x, y = float(line["x_cm"]) / 100, float(line["y_cm"]) / 100
+            pose = Pose2D(x, y, float(line["heading_rad"]))
+            moments.append(Moment(float(line["t"]), pose))
+        except (KeyError, TypeError, ValueError) as error:
+            raise HriError(f"{path}:{number}: no pose in it: {error} - record it anew") from error
+    return Run(tuple(moments), title=path.parent.name)
+
+
+def _of_moments(path: Path, lines: list[Mapping[str, Any]]) -> Run:
+    if not lines:
+        raise HriError(f"{path}: empty - give a file of a run")
+    first, moments = lines[0], []
+    for number, line in enumerate(lines[1:], 2):
+        try:
+            moments.append(_moment(line))
+        except (KeyError, TypeError, ValueError, IndexError) as error:
+            raise HriError(f"{path}:{number}: no moment: {error} - record it anew") from error
+    goal = first.get("goal")
+    try:
+        obstacles = _obstacles(str(first["world"])) if first.get("world") else ()
+        place = None if goal is None else _points([goal])[0]
+        radius = float(first.get("radius", 0.2))
+    except (TypeError, ValueError, IndexError) as error:
+        raise HriError(f"{path}:1: no description: {error} - record it anew") from error
+    return Run(tuple(moments), obstacles, place, radius, str(first.get("title", "")))
+
+
+def _obstacles(text: str) -> tuple[Any, ...]:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "world.toml"
+        path.write_text(text, encoding="utf-8")
+        return load_layout(path).room.obstacles
+
+
+def _moment(line: Mapping[str, Any]) -> Moment:
+    x, y, heading = (float(value) for value in line["robot"])
+    people, seen = (_points(line.get(name, ())) for name in ("people", "seen"))
+    moment = Moment(float(line["t"]), Pose2D(x, y, heading), people, seen)
+    if not all(map(math.isfinite, (moment.time, x, y, heading))):
+        raise ValueError("a number is not finite")
+    return moment
+
+
+def _points(values: Any) -> tuple[Point, ...]:
+    points = tuple((float(value[0]), float(value[1])) for value in values)
+    if not all(abs(x) < 1e4 and abs(y) < 1e4 for x, y in points):
+        raise ValueError("a point that is nowhere near")
+    return points

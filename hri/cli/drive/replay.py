@@ -1,0 +1,85 @@
+"""`hri drive replay RUN --out run.png`: a picture or a film of a run, seen from above."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from pathlib import Path
+
+import cv2
+
+from hri.cli.drive.plan import Plan
+from hri.cli.drive.recorded import read_run
+from hri.cli.progress import progress
+from hri.core.errors import HriError
+from hri.core.signals import Image
+from hri.testing.trips import DEFAULT_POLICY, POLICIES
+
+NAME = "replay"
+"""What stands in the place of a port."""
+RATE = 20.0
+"""Pictures a second of a film."""
+SPEED = 4.0
+"""How much faster than life a film is by default."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument_group(f"hri drive {NAME} RUN").add_argument
+    about = "a file of a run, the folder of a recording, or the number of a room to drive through"
+    add("run", nargs="?", default="", metavar="RUN", help=about)
+    add(
+        "--out", type=Path, metavar="FILE", help="a .png, or a film such as .mp4 (default: run.png)"
+    )
+    about = "how to go through the room of that number (default: full)"
+    add("--policy", choices=tuple(POLICIES), help=about)
+    about = f"how much faster than life the film is (default: {SPEED:g})"
+    add("--speed", type=_speed, default=SPEED, metavar="N", help=about)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Draw it. Exit status 0."""
+    if not options.run:
+        raise HriError(f"no run is named - hri drive {NAME} RUN --out run.png")
+    plan = Plan(read_run(options.run, options.policy or DEFAULT_POLICY))
+    out = options.out or Path("run.png")
+    if out.suffix.lower() == ".png":
+        _write_picture(out, plan.whole())
+    else:
+        _write_film(out, plan, options.speed)
+    print(f"{out}: {plan.run.title or options.run}")
+    return 0
+
+
+def _speed(text: str) -> float:
+    value = float(text)
+    if not 0.1 <= value <= 100:
+        raise argparse.ArgumentTypeError(f"{text} - write a factor from 0.1 to 100")
+    return value
+
+
+def _write_picture(path: Path, picture: Image) -> None:
+    is_written, data = cv2.imencode(".png", cv2.cvtColor(picture, cv2.COLOR_RGB2BGR))
+    try:
+        path.write_bytes(data.tobytes() if is_written else b"")
+    except OSError as error:
+        raise HriError(f"{path}: {error.strerror} - choose another place") from error
+
+
+def _write_film(path: Path, plan: Plan, speed: float) -> None:
+    from hri.face.renderers.movie import check_movie, write_movie
+
+    check_movie(path, RATE)
+    indices = list(_indices(plan, speed))
+    pictures = (plan.at(index) for index in indices)
+    write_movie(path, progress(pictures, len(indices), path.name), RATE)
+
+
+def _indices(plan: Plan, speed: float) -> Iterator[int]:
+    """The moments that a film shows, in even steps of time."""
+    moments = plan.run.moments
+    number, time = 0, moments[0].time
+    while time <= moments[-1].time:
+        while number + 1 < len(moments) and moments[number + 1].time <= time:
+            number += 1
+        yield number
+        time += speed / RATE

@@ -1,0 +1,320 @@
+"""Going to a place around what is in the way: pure arithmetic on poses and range readings.
+
+Three layers. A polar histogram over a short memory tells how far the robot could go in each
+direction (see `histogram`). The way is the free direction that costs least, after VFH+ (Ulrich and
+Borenstein 1998); where the straight way is blocked the robot goes around the obstacle on one side,
+and keeps to that side until it is nearer to the goal than where it met the obstacle and the way
+there is free, after DistBug (Kamon and Rivlin, "Sensory-based motion planning with global proofs",
+1997). A governor lets it go only so fast that it can stop before what lies ahead.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hri.core.signals import Pose2D, RangeReading, Twist
+from hri.drive.closing import Closing
+from hri.drive.gate import REST
+from hri.drive.histogram import (
+    WIDTH,
+    Array,
+    Histogram,
+    Memory,
+    free_ways,
+    sector,
+    valleys,
+)
+from hri.drive.mechanics import Mechanics
+from hri.drive.progress import Progress
+from hri.drive.route import Route, find_route
+from hri.drive.supervisor.governor import safe_speed
+
+PERSON_RADIUS = 0.25
+"""Metres that a standing person takes."""
+TURN_GAIN = 1.8
+"""Radians a second for each radian off the direction."""
+ON_THE_SPOT = 0.7
+"""Radians off the direction from which the robot turns without going."""
+BLOCKED_BELOW, FREE_ABOVE = 0.25, 0.4
+"""Metres of free way below which a direction becomes blocked, and above which free."""
+TARGET_COST, HEADING_COST, LAST_COST = 5.0, 2.0, 2.0
+"""What each radian off the goal, off the heading and off the last choice costs, as in VFH+."""
+FACING = 0.05
+"""Radians off a heading that count as facing it."""
+AHEAD_ANGLES: Array = np.radians((0.0, 6.0, -6.0, 12.0, -12.0))
+"""Directions that the governor looks at, radians from straight ahead, that one first."""
+CLOSEST = 0.2
+"""Metres of a beam that gets shorter at which it only creeps."""
+CREEPING = 0.06
+"""Metres a second."""
+BACKING, BACKING_S = 0.1, 1.5
+"""How fast, m/s, and for how many seconds it backs off."""
+LEAST_BEHIND = 0.1
+"""Metres that must be free behind it for that."""
+BLIND_S = 0.5
+"""Seconds for which a reading counts; without one of each sensor the robot does not go ahead."""
+ASIDE = 0.2
+"""Radians off the straight way at which it counts as going around something."""
+AHEAD = 1.2
+"""Metres along the route that the robot looks ahead at most."""
+REPLAN_S = 0.5
+"""Seconds until it looks for a route again."""
+WEAVE, WEAVE_S = 0.3, 2.5
+"""Radians and seconds of a swing."""
+GAIN = 0.4
+"""Metres that another route must save before the robot leaves the one it is on."""
+DOUBT_S = 15.0
+"""Seconds after which what was seen may have moved on."""
+FRESH_S = 3.0
+"""What is no older counts when all ways seem to be blocked."""
+
+
+@dataclass(frozen=True, slots=True)
+class Manner:
+    """How a robot goes."""
+
+    speed: float = 0.3
+    """Metres a second, where nothing is near."""
+    turn_rate: float = 1.0
+    """Radians a second."""
+    deceleration: float = 0.4
+    """Metres a second squared that it counts on before obstacles."""
+    margin: float = 0.05
+    """Metres kept free beside the body."""
+    person_gap: float = 0.5
+    """Metres kept free to people it knows of, while it moves."""
+    memory_s: float = 60.0
+    """How long it remembers what it saw."""
+    near: float = 0.1
+    """Metres from the goal that count as there."""
+
+
+def wrapped(angle: float) -> float:
+    """The same direction within -pi to pi."""
+    return math.remainder(angle, math.tau)
+
+
+def towards(pose: Pose2D, goal: Pose2D) -> tuple[float, float]:
+    """Direction in the odometry frame, and metres, to a goal."""
+    x, y = goal.x - pose.x, goal.y - pose.y
+    return math.atan2(y, x), math.hypot(x, y)
+
+
+def turn_to(pose: Pose2D, heading: float, rate: float) -> Twist:
+    """Turn on the spot to a heading; rest when it is reached."""
+    off = wrapped(heading - pose.heading)
+    if abs(off) < FACING:
+        return REST
+    return Twist(0.0, min(max(TURN_GAIN * off, -rate), rate))
+
+
+def straight_to(pose: Pose2D, goal: Pose2D, manner: Manner, ahead: float = math.inf) -> Twist:
+    """Toward a goal, which lies in a straight line; rest when it is reached.
+
+    `ahead` is the fastest that what is ahead allows, m/s.
+    """
+    direction, distance = towards(pose, goal)
+    if distance <= manner.near:
+        return REST
+    off = wrapped(direction - pose.heading)
+    angular = min(max(TURN_GAIN * off, -manner.turn_rate), manner.turn_rate)
+    if abs(off) > ON_THE_SPOT:
+        return Twist(0.0, angular)
+    # At the goal it is to stand: sqrt(2 a d).
+    braking = math.sqrt(2 * manner.deceleration * max(0.0, distance - manner.near / 2))
+    return Twist(min(manner.speed * math.cos(off), braking, ahead), angular)
+
+
+class Avoidance:
+    """Steers one robot; everything it knows it was told by `see`."""
+
+    def __init__(self, mechanics: Mechanics, manner: Manner | None = None) -> None:
+        self.mechanics = mechanics
+        self.manner = manner or Manner()
+        self.memory = Memory(self.manner.memory_s)
+        self._histogram = Histogram(BLOCKED_BELOW, FREE_ABOVE)
+        self._progress = Progress()
+        self._route: Route | None = None
+        self._replan_at = -math.inf
+        self._side = 0
+        self._discs: Sequence[tuple[float, float, float]] = ()
+        self._closing = Closing(mechanics.mounts)
+        self._seen = self._fresh = self.memory.points
+        self._chosen = 0.0
+        self._backing_until = -math.inf
+        self._is_moving = self._is_blind = False
+
+    def see(
+        self,
+        now: float,
+        pose: Pose2D,
+        readings: Mapping[str, RangeReading],
+        people: Sequence[tuple[float, float]] = (),
+    ) -> None:
+        """Take in range readings by sensor, and where people stand in the odometry frame.
+
+        A sensor that says nothing, nothing new or no number might look at anything: until it speaks
+        again the robot turns, but does not go ahead.
+        """
+        self.memory.see(now, pose, readings, self.mechanics)
+        reach = PERSON_RADIUS + self.manner.person_gap
+        self._discs = [(x, y, reach) for x, y in people]
+        self._closing.see(now, readings)
+        known = (readings.get(id) for id in self.mechanics.mounts)
+        self._is_blind = not all(_is_sound(reading, now) for reading in known)
+
+    def touch(self, now: float, pose: Pose2D) -> None:
+        """The bumper was pressed: remember that something is ahead, and back off."""
+        reach = self.mechanics.radius + self.manner.margin
+        for aside in (-0.5, 0.0, 0.5):
+            angle = pose.heading + aside
+            x, y = pose.x + reach * math.cos(angle), pose.y + reach * math.sin(angle)
+            self.memory.feel(x, y, now, angle)
+        self._backing_until = now + BACKING_S
+
+    def steer(self, now: float, pose: Pose2D, goal: Pose2D) -> Twist:
+        """The velocity for now on the way to a goal; rest when it is reached, or nothing is free.
+
+        The heading of the goal does not count.
+        """
+        _, distance = towards(pose, goal)
+        self._seen, self._fresh = self.memory.points, self.memory.since(now - DOUBT_S)
+        ways = free_ways(pose, self._seen, self._reach, self._discs)
+        if distance <= self.manner.near:
+            self._progress.rest()
+            self._route = None
+            twist = REST
+        elif now < self._backing_until:
+            twist = self._back_off(pose, ways)
+        else:
+            twist = self._forth(now, pose, ways, goal, distance)
+        self._is_moving = twist.linear > 0
+        return twist
+
+    @property
+    def side(self) -> int:
+        """On which side it goes around an obstacle: 1 left, -1 right, 0 for none."""
+        return self._side
+
+    @property
+    def _reach(self) -> float:
+        return self.mechanics.radius + self.manner.margin
+
+    def _forth(self, now: float, pose: Pose2D, ways: Array, goal: Pose2D, distance: float) -> Twist:
+        if self._progress.is_stuck(now, pose):
+            self._progress.rest()
+            self._route = None
+            self._backing_until = now + BACKING_S
+        direction, way = self._lead(now, pose, goal)
+        is_free = self._histogram.update(ways, way)
+        if not is_free[sector(direction)]:
+            best = self._cheapest(pose, direction)
+            if best is None:  # nothing is free: look around on the spot
+                return Twist(0.0, (self.side or 1) * self.manner.turn_rate * 0.6)
+            direction = best
+        self._chosen = direction
+        direction += self._weave(now, direction)
+        course = Pose2D(
+            pose.x + distance * math.cos(direction), pose.y + distance * math.sin(direction)
+        )
+        return straight_to(pose, course, self.manner, self._governed(pose))
+
+    def _weave(self, now: float, direction: float) -> float:
+        """Radians to the side: it swings its few beams to and fro, where there is room for that."""
+        aside = WEAVE * math.sin(math.tau * now / WEAVE_S)
+        return aside if self._histogram.is_free[sector(direction + 2 * aside)] else 0.0
+
+    def _lead(self, now: float, pose: Pose2D, goal: Pose2D) -> tuple[float, float]:
+        """Direction to the next point of the route, and metres to there."""
+        if self._route is None or now >= self._replan_at:
+            self._replan_at = now + REPLAN_S
+            self._route = self._routed(now, pose, goal)
+        x, y = self._route.ahead(pose, self._fresh, self._reach, AHEAD)
+        direction, way = towards(pose, Pose2D(x, y))
+        self._note_side(wrapped(direction - towards(pose, goal)[0]))
+        return direction, way
+
+    def _note_side(self, off: float) -> None:
+        """Remember the side on which the route leaves the straight way, until it is back on it."""
+        if abs(off) > ASIDE:
+            self._side = 1 if off > 0 else -1
+        elif abs(off) < ASIDE / 4:
+            self._side = 0
+
+    def _routed(self, now: float, pose: Pose2D, goal: Pose2D) -> Route:
+        """A new route, or the old one where the new one is hardly shorter."""
+        start, end = (pose.x, pose.y), (goal.x, goal.y)
+        route = find_route(start, end, self._obstacles(), self._reach, self._seen)
+        if not route.is_free:
+            # Something that moves has left its traces all around: only what is new counts.
+            self.memory.forget(now - FRESH_S)
+            self._seen = self._fresh = self.memory.points
+            route = find_route(start, end, self._obstacles(), self._reach, self._seen)
+        old = self._route.rest(pose) if self._route is not None else None
+        if old is None or math.dist(old.points[-1], end) > self.manner.near:
+            return route
+        if route.length <= old.length - GAIN or not old.is_clear(self._obstacles(), self._reach):
+            return route
+        return old
+
+    def _obstacles(self) -> Array:
+        """All points that a route leads around for sure, people as rings of points."""
+        rings = [
+            (x + (r - 0.01) * math.cos(a), y + (r - 0.01) * math.sin(a))
+            for x, y, r in self._discs
+            for a in np.linspace(0, math.tau, 12, endpoint=False)
+        ]
+        return np.vstack((self._fresh, *rings)) if rings else self._fresh
+
+    def _cheapest(self, pose: Pose2D, direction: float) -> float | None:
+        """The edge of a free valley that costs least, by the cost function of VFH+."""
+        edges = [
+            WIDTH * edge
+            for first, count in valleys(self._histogram.is_free)
+            for edge in (first, first + count - 1)
+        ]
+
+        def cost(candidate: float) -> float:
+            return (
+                TARGET_COST * abs(wrapped(candidate - direction))
+                + HEADING_COST * abs(wrapped(candidate - pose.heading))
+                + LAST_COST * abs(wrapped(candidate - self._chosen))
+            )
+
+        return min(edges, key=cost, default=None)
+
+    def _governed(self, pose: Pose2D) -> float:
+        """The speed from which it can stop before what lies ahead, m/s.
+
+        Straight ahead the margin counts. Slightly aside, where it may steer to next, only the body
+        does, and slow going is always allowed: it must get along something it stands beside. The
+        same holds for what a beam comes nearer to, since only a spot of it is seen yet.
+        """
+        if self._is_blind:
+            return 0.0
+        ahead = self._free(pose, AHEAD_ANGLES[:1], self._reach)
+        aside = self._free(pose, AHEAD_ANGLES[1:], self.mechanics.radius)
+        closing = self._safe(self._closing.nearest - CLOSEST)
+        return min(self._safe(ahead), max(min(self._safe(aside), closing), CREEPING))
+
+    def _free(self, pose: Pose2D, angles: Array, reach: float) -> float:
+        """Metres free in the worst of some directions, radians from straight ahead."""
+        ways = free_ways(pose, self._seen, reach, self._discs, pose.heading + angles)
+        return float(ways.min())
+
+    def _safe(self, free: float) -> float:
+        return safe_speed(free, 0.0, self.manner.deceleration, self._is_moving)
+
+    def _back_off(self, pose: Pose2D, ways: Array) -> Twist:
+        """Slowly back where it came from, as far as nothing is known to be there."""
+        behind = float(ways[sector(pose.heading + math.pi)])
+        return Twist(-BACKING) if behind > LEAST_BEHIND else REST
+
+
+def _is_sound(reading: RangeReading | None, now: float) -> bool:
+    """Whether a sensor says something that counts."""
+    return reading is not None and reading.distance >= 0 and now - reading.time <= BLIND_S

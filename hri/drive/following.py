@@ -1,0 +1,133 @@
+"""Following somebody at a distance, facing them; looking for them when they are lost.
+
+Pure: what is seen comes in with its time, goals in the odometry frame go out. A target that is lost
+is looked for where it was seen last; from there the robot turns once around, first to the side on
+which it went out of sight. Metres, radians, seconds.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import Enum
+
+from hri.core.events import EventBus
+from hri.core.geometry import placed
+from hri.core.signals import People, Person, Pose2D
+
+LOST_S = 1.0
+"""Without a sight of it for so long, a target is lost."""
+SEARCH_RATE = 0.6
+"""Radians a second while it looks around."""
+LOOK_AROUND = math.tau
+"""Radians that it turns, searching, before it gives up."""
+SLACK = 0.15
+"""Metres by which the target may come nearer or go before the robot follows again."""
+
+
+class Pursuit(Enum):
+    """How the following goes."""
+
+    WAITING = "waiting"
+    """Nobody was seen yet."""
+    FOLLOWING = "following"
+    SEARCHING = "searching"
+    LOST = "lost"
+    """It was searched for in vain."""
+
+
+@dataclass(frozen=True, slots=True)
+class Manner:
+    """How somebody is followed."""
+
+    distance: float = 1.2
+    """Between the middles of the robot and of who is followed."""
+    patience_s: float = 20.0
+    """After so long it is given up, wherever the search has got to."""
+
+
+class Following:
+    """Where to go and what to face, tick by tick."""
+
+    def __init__(self, manner: Manner | None = None) -> None:
+        self.manner = manner or Manner()
+        self.pursuit = Pursuit.WAITING
+        self._target: tuple[float, float] | None = None
+        self._side = 1.0
+        self._seen = -math.inf
+        self._turned = 0.0
+        self._last: tuple[float, float] | None = None
+        self._spot: Pose2D | None = None
+
+    def see(self, now: float, pose: Pose2D, bearing: float, distance: float) -> None:
+        """The target is there, seen from a pose; what is no number is no sight of it."""
+        if not (math.isfinite(bearing) and math.isfinite(distance) and distance >= 0):
+            return
+        away = placed(pose, distance * math.cos(bearing), distance * math.sin(bearing))
+        self._target, self._seen = away, now
+        self._side = math.copysign(1.0, bearing)
+        self.pursuit = Pursuit.FOLLOWING
+
+    def goal(self, now: float, pose: Pose2D) -> Pose2D | None:
+        """Where to go and, once there, what to face; None to stay as it is."""
+        if self._target is None or self.pursuit is Pursuit.LOST:
+            return None
+        if now - self._seen <= LOST_S:
+            return self._keep_up(pose, self._target)
+        return self._search(now, pose, self._target)
+
+    def _keep_up(self, pose: Pose2D, target: tuple[float, float]) -> Pose2D:
+        """A place at the right distance on the straight way to the target."""
+        x, y = target[0] - pose.x, target[1] - pose.y
+        apart, facing = math.hypot(x, y), math.atan2(y, x)
+        excess = apart - self.manner.distance
+        if excess < (SLACK if self._spot is None else 0.0):
+            # Near enough: stand and face. It does not drive backward, where it sees nothing.
+            self._spot = None
+            return Pose2D(pose.x, pose.y, facing)
+        self._spot = pose
+        share = excess / apart
+        return Pose2D(pose.x + x * share, pose.y + y * share, facing)
+
+    def _search(self, now: float, pose: Pose2D, target: tuple[float, float]) -> Pose2D | None:
+        """Go to where it was seen last, then turn around."""
+        if self.pursuit is not Pursuit.SEARCHING:
+            self.pursuit, self._turned, self._last = Pursuit.SEARCHING, 0.0, None
+        if now - self._seen > self.manner.patience_s:
+            self.pursuit = Pursuit.LOST
+            return None
+        if math.dist((pose.x, pose.y), target) > self.manner.distance + SLACK and not self._last:
+            return self._keep_up(pose, target)
+        return self._look_around(now, pose)
+
+    def _look_around(self, now: float, pose: Pose2D) -> Pose2D | None:
+        if self._last is not None:
+            self._turned += abs(math.remainder(pose.heading - self._last[1], math.tau))
+        self._last = (now, pose.heading)
+        if self._turned >= LOOK_AROUND:
+            self.pursuit = Pursuit.LOST
+            return None
+        # Always a little ahead of where it looks now: it goes on turning.
+        return Pose2D(pose.x, pose.y, pose.heading + self._side * SEARCH_RATE)
+
+
+def sight_of(people: People | None, id: str, now: float) -> Person | None:
+    """The person of that id, without one whoever is attended to, or the nearest of known distance.
+
+    None when they are out of sight, or nobody has looked for a while.
+    """
+    if people is None or now - people.time > LOST_S:
+        return None
+    wanted = id or people.attended
+    seen = [p for p in people.persons if p.is_visible and math.isfinite(p.distance)]
+    if wanted:
+        seen = [person for person in seen if person.id == wanted]
+    return min(seen, key=lambda person: person.distance, default=None)
+
+
+def tell(events: EventBus, pursuit: Pursuit) -> None:
+    """Raise the event of a change to this."""
+    if pursuit is Pursuit.FOLLOWING:
+        events.raise_event("target.found")
+    elif pursuit in (Pursuit.SEARCHING, Pursuit.LOST):
+        events.raise_event("target.lost", given_up=pursuit is Pursuit.LOST)

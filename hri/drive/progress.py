@@ -1,0 +1,45 @@
+"""Notices that a robot which should move gets nowhere."""
+
+from __future__ import annotations
+
+import math
+
+from hri.core.signals import Pose2D
+
+PATIENCE_S = 4.0
+"""Seconds without progress after which it is stuck."""
+LEAST = 0.1
+"""Metres; a robot that got so far from where it was has moved on."""
+LEAST_TURN = 0.6
+"""Radians; the same for turning on the spot, which is how it looks for a way."""
+MOST_TURN = math.tau
+"""Radians; more than a whole turn on one spot is no progress."""
+
+
+class Progress:
+    """Where the robot got on last, and since when it has not."""
+
+    def __init__(self) -> None:
+        self._spot: Pose2D | None = None
+        self._heading, self._since = 0.0, 0.0
+        self._turned = 0.0
+
+    def rest(self) -> None:
+        """It does not try to move: nothing is expected."""
+        self._spot = None
+
+    def is_stuck(self, now: float, pose: Pose2D) -> bool:
+        """Whether a robot that tries to move has got nowhere for too long."""
+        if self._spot is None or _apart(pose, self._spot) > LEAST:
+            self._spot, self._turned = pose, 0.0
+            self._heading, self._since = pose.heading, now
+            return False
+        turn = abs(math.remainder(pose.heading - self._heading, math.tau))
+        if turn > LEAST_TURN and self._turned < MOST_TURN:
+            self._turned += turn
+            self._heading, self._since = pose.heading, now
+        return now - self._since > PATIENCE_S
+
+
+def _apart(one: Pose2D, other: Pose2D) -> float:
+    return math.hypot(one.x - other.x, one.y - other.y)

@@ -1,0 +1,239 @@
+"""The verbs of getting about: `go_to`, `follow`, `come_here`, `wander`.
+
+All of them steer around what the range sensors of the configuration see (see `avoidance`), claim
+"drive", write to the board for the command gate, and end when they are cancelled, stopped, or
+another motion starts. People come from the board's slot "people".
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from hri.core.errors import HriError
+from hri.core.geometry import after_move
+from hri.core.signals import People, Person, Pose2D, Twist
+from hri.drive.avoidance import Avoidance, Manner, turn_to
+from hri.drive.following import Following, Pursuit, sight_of, tell
+from hri.drive.following import Manner as FollowingManner
+from hri.drive.gate import REST
+from hri.drive.going import PEOPLE, places_of
+from hri.drive.mechanics import mechanics_of, range_sensors
+from hri.drive.tasks import motion_of
+from hri.drive.wandering import Wandering
+from hri.hal.drive import Odometry
+from hri.hal.range_sensor import RangeSensor
+from hri.task.context import TaskContext
+from hri.task.task import task
+from hri.task.units import UNIT_ANGLE, UNIT_DISTANCE, UNIT_TIME, in_si
+
+PATIENCE_S = 40.0
+"""Seconds in which it must get nearer to a goal; else it gives up."""
+NEARER = 0.1
+"""Metres that count as nearer."""
+
+
+async def go_to(context: TaskContext, goal: Pose2D, *, faces: bool = False) -> bool:
+    """Go to a place of the odometry frame, around what is in the way; whether it got there.
+
+    With `faces` it turns to the heading of the goal in the end. Raises ValueError for a goal that
+    is not finite.
+    """
+    if not all(map(math.isfinite, (goal.x, goal.y, goal.heading))):
+        raise ValueError(f"cannot go to {goal} - give finite numbers")
+    with _traveler(context) as traveler:
+        patience = _Patience()
+        is_there = False
+
+        def steer(now: float, pose: Pose2D) -> Twist | None:
+            nonlocal is_there
+            twist, is_there = traveler.toward(now, pose, goal, faces)
+            distance = math.dist((pose.x, pose.y), (goal.x, goal.y))
+            return None if is_there or patience.is_over(now, distance) else twist
+
+        with motion_of(context) as motion:
+            await motion.lead(steer)
+        return is_there
+
+
+async def follow(
+    context: TaskContext, person: str = "", distance: float = 1.2, seconds: float = math.inf
+) -> bool:
+    """Follow somebody by their id, whoever is attended to without one, `distance` metres apart.
+
+    It faces them, looks for them when they are out of sight, and ends when they stay lost or after
+    so many seconds; whether it had them to the end. Raises `target.lost` and `target.found`.
+    """
+    with _traveler(context) as traveler:
+        following = Following(FollowingManner(distance=distance))
+        end = context.clock.now() + seconds
+
+        def steer(now: float, pose: Pose2D) -> Twist | None:
+            before = following.pursuit
+            if (seen := traveler.sight_of(person, now)) is not None:
+                following.see(now, pose, seen.bearing, seen.distance)
+            goal = following.goal(now, pose)
+            if following.pursuit is not before:
+                tell(context.events, following.pursuit)
+            if now >= end or following.pursuit is Pursuit.LOST:
+                return None
+            return REST if goal is None else traveler.toward(now, pose, goal, True)[0]
+
+        with motion_of(context) as motion:
+            await motion.lead(steer)
+        return following.pursuit is Pursuit.FOLLOWING
+
+
+async def come_here(context: TaskContext, person: str = "", distance: float = 1.2) -> bool:
+    """Come to whoever is seen, `distance` metres before them, and face them; whether it did."""
+    with _traveler(context) as traveler:
+        following = Following(FollowingManner(distance=distance))
+        patience = _Patience()
+        is_there = False
+
+        def steer(now: float, pose: Pose2D) -> Twist | None:
+            nonlocal is_there
+            if (seen := traveler.sight_of(person, now)) is not None:
+                following.see(now, pose, seen.bearing, seen.distance)
+                patience.is_over(now, seen.distance)
+            goal = following.goal(now, pose)
+            if following.pursuit is Pursuit.LOST or patience.is_over(now, math.inf):
+                return None
+            if goal is None:
+                return REST
+            twist, is_there = traveler.toward(now, pose, goal, True)
+            is_there = is_there and following.pursuit is Pursuit.FOLLOWING
+            return None if is_there else twist
+
+        with motion_of(context) as motion:
+            await motion.lead(steer)
+        return is_there
+
+
+async def wander(context: TaskContext, seconds: float = math.inf, seed: int = 0) -> None:
+    """Go about for so many seconds, from one place near by to the next."""
+    with _traveler(context) as traveler:
+        wandering, end = Wandering(seed), context.clock.now() + seconds
+
+        def steer(now: float, pose: Pose2D) -> Twist | None:
+            if now >= end:
+                return None
+            return traveler.toward(now, pose, wandering.goal(now, pose), False)[0]
+
+        with motion_of(context) as motion:
+            await motion.lead(steer)
+
+
+@task("Hri.GoTo")
+async def go_to_task(
+    context: TaskContext, x: float, y: float, heading: float | None = None
+) -> None:
+    """Go to a place of the odometry frame, in default units, around what is in the way.
+
+    With a heading it turns there in the end. Fails when it does not get there.
+    """
+    place = in_si(UNIT_DISTANCE, x), in_si(UNIT_DISTANCE, y)
+    faces = heading is not None
+    goal = Pose2D(*place, in_si(UNIT_ANGLE, heading or 0.0))
+    if not await go_to(context, goal, faces=faces):
+        context.fail(f"did not get to ({place[0]:.2f}, {place[1]:.2f}) m - clear the way")
+
+
+@task("Hri.GoBy")
+async def go_by(context: TaskContext, x: float, y: float) -> None:
+    """Go to a point of the robot's own frame, x ahead and y left, around what is in the way.
+
+    In the end it faces along the straight line to there, whatever way it took. Fails when it does
+    not get there.
+    """
+    with _traveler(context) as traveler:
+        start = traveler.pose(context.clock.now())
+    goal = after_move(start, in_si(UNIT_DISTANCE, x), in_si(UNIT_DISTANCE, y))
+    if not await go_to(context, goal, faces=True):
+        context.fail(f"did not get to ({goal.x:.2f}, {goal.y:.2f}) m - clear the way")
+
+
+@task("Hri.FollowPerson")
+async def follow_person(
+    context: TaskContext, person: str = "", distance: float = 0.0, seconds: float = 0.0
+) -> bool:
+    """Follow somebody, in default units; 0 is a usual distance, and no end."""
+    apart = in_si(UNIT_DISTANCE, distance) or FollowingManner().distance
+    return await follow(context, person, apart, in_si(UNIT_TIME, seconds) or math.inf)
+
+
+@task("Hri.ComeHere")
+async def come_here_task(context: TaskContext, person: str = "", distance: float = 0.0) -> None:
+    """Come to whoever is seen and face them, in default units; 0 is a usual distance."""
+    apart = in_si(UNIT_DISTANCE, distance) or FollowingManner().distance
+    if not await come_here(context, person, apart):
+        context.fail("nobody could be reached - stand where the camera sees you")
+
+
+@task("Hri.Wander")
+async def wander_task(context: TaskContext, seconds: float = 0.0) -> None:
+    """Go about, for ever when `seconds` (default units of time) is 0."""
+    await wander(context, in_si(UNIT_TIME, seconds) or math.inf)
+
+
+class _Traveler:
+    """Sensors and steering, for as long as a verb lasts."""
+
+    def __init__(self, context: TaskContext) -> None:
+        resources = context.resources
+        self._people = context.board.slot(PEOPLE)
+        self._odometry = resources.obtain("odometry", Odometry)
+        self._sensors: dict[str, RangeSensor] = {}
+        try:
+            for id in range_sensors(resources):
+                self._sensors[id] = resources.obtain(id, RangeSensor)
+        except HriError:
+            self.release(context)
+            raise
+        self._manner = Manner()
+        self._avoidance = Avoidance(mechanics_of(resources, self._sensors), self._manner)
+
+    def release(self, context: TaskContext) -> None:
+        for resource in (self._odometry, *self._sensors.values()):
+            context.resources.release(resource)
+
+    def pose(self, now: float) -> Pose2D:
+        return self._odometry.pose(now)
+
+    def toward(self, now: float, pose: Pose2D, goal: Pose2D, faces: bool) -> tuple[Twist, bool]:
+        """The velocity for now, and whether all is done."""
+        readings = {id: sensor.read(now) for id, sensor in self._sensors.items()}
+        people: People | None = self._people.value
+        self._avoidance.see(now, pose, readings, places_of(people, pose))
+        twist = self._avoidance.steer(now, pose, goal)
+        is_at = math.dist((pose.x, pose.y), (goal.x, goal.y)) <= self._manner.near
+        if is_at and faces:
+            twist = turn_to(pose, goal.heading, self._manner.turn_rate)
+        return twist, is_at and twist == REST
+
+    def sight_of(self, id: str, now: float) -> Person | None:
+        """Who is followed, by the newest of what the camera says."""
+        return sight_of(self._people.value, id, now)
+
+
+@contextmanager
+def _traveler(context: TaskContext) -> Iterator[_Traveler]:
+    traveler = _Traveler(context)
+    try:
+        yield traveler
+    finally:
+        traveler.release(context)
+
+
+class _Patience:
+    """Notices that a goal comes no nearer."""
+
+    def __init__(self) -> None:
+        self._best, self._since = math.inf, -math.inf
+
+    def is_over(self, now: float, distance: float) -> bool:
+        """Whether nothing was gained for too long."""
+        if self._since == -math.inf or distance < self._best - NEARER:
+            self._best, self._since = min(distance, self._best), now
+        return now - self._since > PATIENCE_S

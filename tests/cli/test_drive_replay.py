@@ -1,0 +1,106 @@
+import json
+from pathlib import Path
+
+import cv2
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hri.cli.drive.plan import Moment, Plan, Run
+from hri.cli.drive.recorded import read_run
+from hri.cli.main import main
+from hri.core.errors import HriError
+from hri.core.signals import Pose2D
+from hri.simulation.rooms import furnished
+from hri.testing.trips import Journey
+
+
+def run_file(folder: Path, count: int = 30) -> Path:
+    """A run that goes a metre ahead past a box."""
+    world = (
+        "[robot]\nstart = [0, 0]\n[person]\nat = [2, 1]\n"
+        "[[box]]\ncenter = [0.5, 0.8]\nlength = 0.5\nwidth = 0.5\n"
+    )
+    lines: list[object] = [{"world": world, "goal": [1.2, 0.0], "radius": 0.2, "title": "a run"}]
+    for number in range(count):
+        x = number / count
+        lines.append({"t": number * 0.1, "robot": [x, 0, 0], "people": [[2, 1]], "seen": [[x, 1]]})
+    path = folder / "run.jsonl"
+    path.write_text("\n".join(map(json.dumps, lines)))
+    return path
+
+
+def test_a_run_is_drawn_with_its_room(tmp_path: Path) -> None:
+    out = tmp_path / "run.png"
+    assert main(["drive", "replay", str(run_file(tmp_path)), "--out", str(out)]) == 0
+    picture = cv2.imread(str(out))
+    assert picture is not None
+    colors = {tuple(int(c) for c in color) for color in picture.reshape(-1, 3)[:, ::-1]}
+    assert {(32, 104, 176), (212, 112, 62), (205, 200, 190)} <= colors, "robot, person, box"
+
+
+def test_a_film_shows_the_robot_move(tmp_path: Path) -> None:
+    out = tmp_path / "run.mp4"
+    words = ["drive", "replay", str(run_file(tmp_path)), "--out", str(out), "--speed", "2"]
+    assert main(words) == 0
+    film = cv2.VideoCapture(str(out))
+    assert film.get(cv2.CAP_PROP_FRAME_COUNT) == pytest.approx(30, abs=2)
+
+
+def test_a_trip_that_was_written_is_read_again(tmp_path: Path) -> None:
+    room = furnished(2)
+    trip = Journey(room, "full", keeps_track=True).run()
+    path = tmp_path / "trip.jsonl"
+    trip.write(path, room)
+    run = read_run(str(path), "full")
+    assert len(run.moments) == len(trip.track)
+    assert run.goal == pytest.approx(room.goal)
+    assert len(run.obstacles) == len(room.obstacles)
+
+
+def test_a_recording_of_a_robot_is_drawn_by_its_odometry(tmp_path: Path) -> None:
+    lines = [
+        {"t": 0.5 * n, "event": "odometry", "x_cm": 10 * n, "y_cm": 0, "heading_rad": 0}
+        for n in range(5)
+    ]
+    (tmp_path / "events.jsonl").write_text("\n".join(map(json.dumps, lines)))
+    run = read_run(str(tmp_path), "full")
+    assert run.moments[-1].robot == Pose2D(0.4, 0.0, 0.0)
+    assert Plan(run).whole().ndim == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "what"),
+    [
+        ("", "empty"),
+        ("nonsense", "no JSON"),
+        ("[1]", "no JSON object"),
+        ('{"goal": 3}', "no description"),
+        ("{}", "nobody moved"),
+        ('{}\n{"t": 0}', ":2: no moment"),
+        ('{}\n{"t": 0, "robot": [1e999, 0, 0]}', ":2: no moment"),
+    ],
+)
+def test_a_file_that_is_no_run_says_what_is_wrong(tmp_path: Path, text: str, what: str) -> None:
+    path = tmp_path / "run.jsonl"
+    path.write_text(text)
+    with pytest.raises(HriError, match=what):
+        read_run(str(path), "full")
+
+
+def test_a_run_that_is_not_there_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["drive", "replay", "/nowhere/run.jsonl"]) != 0
+    assert "cannot be read" in capsys.readouterr().err
+
+
+@given(st.binary(max_size=200))
+def test_no_file_crashes_the_reader(tmp_path_factory: pytest.TempPathFactory, data: bytes) -> None:
+    path = tmp_path_factory.mktemp("run") / "run.jsonl"
+    path.write_bytes(data)
+    with pytest.raises(HriError):
+        read_run(str(path), "full")
+
+
+def test_a_picture_of_a_robot_far_away_stays_small() -> None:
+    moments = [Moment(0.0, Pose2D()), Moment(1.0, Pose2D(900.0, 0.0))]
+    assert max(Plan(Run(moments)).whole().shape) <= 1402

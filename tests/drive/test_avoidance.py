@@ -1,0 +1,243 @@
+import math
+from dataclasses import replace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hri.core import paths
+from hri.core.clock import FakeClock
+from hri.core.geometry import along_arc
+from hri.core.signals import Pose2D, RangeReading, Twist
+from hri.drive.avoidance import Avoidance, Manner, straight_to, turn_to
+from hri.drive.closing import Closing
+from hri.drive.gate import REST
+from hri.drive.mechanics import Mechanics, mechanics_of, swept_radius
+from hri.drive.progress import Progress
+from hri.hal.configuration import Shape, load_configuration
+from hri.hal.manager import ResourceManager
+from hri.simulation.room import Box, Circle, Room, Segment
+
+MECHANICS = Mechanics(
+    0.25,
+    {
+        "front": Pose2D(0.18, 0.0, 0.0),
+        "left": Pose2D(0.13, 0.13, math.pi / 4),
+        "right": Pose2D(0.13, -0.13, -math.pi / 4),
+    },
+)
+RADIUS = 0.2
+"""Of the body that must not touch."""
+TICK = 0.05
+
+
+class Trial:
+    """A robot that follows at once, in a room, with the three beams of MECHANICS."""
+
+    def __init__(self, room: Room, people: tuple[tuple[float, float], ...] = ()) -> None:
+        self.room, self.people = room, people
+        self.avoidance = Avoidance(MECHANICS)
+        self.pose, self.now = Pose2D(), 0.0
+        self.closest = math.inf
+        self.closest_person = math.inf
+        self.fastest = 0.0
+        self.path = [self.pose]
+
+    def go(self, goal: Pose2D, seconds: float) -> bool:
+        for _ in range(round(seconds / TICK)):
+            if math.dist((self.pose.x, self.pose.y), (goal.x, goal.y)) <= 0.1:
+                return True
+            self.tick(goal)
+        return False
+
+    def tick(self, goal: Pose2D) -> Twist:
+        self.now += TICK
+        self.avoidance.see(self.now, self.pose, self.readings(), self.people)
+        twist = self.avoidance.steer(self.now, self.pose, goal)
+        self.pose = along_arc(self.pose, twist.linear * TICK, twist.angular * TICK)
+        self.path.append(self.pose)
+        self.fastest = max(self.fastest, abs(twist.linear))
+        here = (self.pose.x, self.pose.y)
+        self.closest = min(self.closest, self.room.clearance(*here) - RADIUS)
+        for person in self.people:
+            self.closest_person = min(self.closest_person, math.dist(here, person) - RADIUS - 0.25)
+        return twist
+
+    def readings(self) -> dict[str, RangeReading]:
+        found = {}
+        for id, mount in MECHANICS.mounts.items():
+            cos, sin = math.cos(self.pose.heading), math.sin(self.pose.heading)
+            x = self.pose.x + cos * mount.x - sin * mount.y
+            y = self.pose.y + sin * mount.x + cos * mount.y
+            length = float(self.room.cast(x, y, self.pose.heading + mount.heading))
+            found[id] = RangeReading(id, length if length < 0.8 else math.inf, self.now)
+        return found
+
+
+def test_in_an_empty_room_it_goes_straight_to_the_goal() -> None:
+    trial = Trial(Room())
+    assert trial.go(Pose2D(3.0, 0.0), 3.0 / 0.3 + 3.0)
+    assert max(abs(pose.y) for pose in trial.path) < 0.2
+    assert trial.fastest == pytest.approx(0.3, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    "thing",
+    [
+        Circle(1.5, 0.05, 0.2),
+        Circle(1.5, -0.3, 0.4),
+        Box(1.5, 0.0, 0.5, 1.8),
+        Box(1.5, 0.2, 0.8, 0.8, 0.7),
+    ],
+)
+def test_it_goes_around_a_thing_without_touching_it(thing: Circle | Box) -> None:
+    trial = Trial(Room([thing]))
+    assert trial.go(Pose2D(3.0, 0.0), 40.0)
+    assert trial.closest > 0.0
+
+
+def test_it_gets_out_of_a_dead_end() -> None:
+    walls = [
+        Segment(0.5, -0.9, 1.6, -0.9),
+        Segment(1.6, -0.9, 1.6, 0.9),
+        Segment(1.6, 0.9, 0.5, 0.9),
+    ]
+    trial = Trial(Room(walls))
+    assert trial.go(Pose2D(3.0, 0.0), 120.0)
+    assert trial.closest > 0.0
+
+
+def test_before_a_wall_without_an_end_it_does_not_touch() -> None:
+    trial = Trial(Room([Segment(1.5, -50, 1.5, 50)]))
+    assert not trial.go(Pose2D(3.0, 0.0), 20.0)
+    assert trial.closest > 0.0
+
+
+def test_it_keeps_half_a_metre_to_people_it_knows_of() -> None:
+    trial = Trial(Room([Circle(1.5, 0.0, 0.22)]), people=((1.5, 0.0),))
+    assert trial.go(Pose2D(3.5, 0.0), 40.0)
+    assert trial.closest_person > 0.45
+
+
+def test_it_keeps_to_one_side() -> None:
+    trial = Trial(Room([Box(1.5, 0.0, 0.5, 1.8)]))
+    sides = []
+    while trial.pose.x < 1.5:
+        trial.tick(Pose2D(3.0, 0.0))
+        sides.append(trial.avoidance.side)
+    ys = [pose.y for pose in trial.path]
+    assert min(ys) > -0.25 or max(ys) < 0.25
+    assert len(set(sides) - {0}) == 1
+
+
+@pytest.mark.parametrize("length", [math.nan, -1.0, None])
+def test_with_a_sensor_that_says_nothing_it_does_not_go_ahead(length: float | None) -> None:
+    avoidance = Avoidance(MECHANICS)
+    readings = {id: RangeReading(id, math.inf, 0.0) for id in ("front", "left")}
+    if length is not None:
+        readings["right"] = RangeReading("right", length, 0.0)
+    avoidance.see(0.0, Pose2D(), readings)
+    assert avoidance.steer(0.0, Pose2D(), Pose2D(3.0, 0.0)).linear == 0.0
+
+
+def test_with_a_reading_that_is_old_it_does_not_go_ahead() -> None:
+    avoidance = Avoidance(MECHANICS)
+    readings = {id: RangeReading(id, math.inf, 0.0) for id in MECHANICS.mounts}
+    avoidance.see(0.4, Pose2D(), readings)
+    assert avoidance.steer(0.4, Pose2D(), Pose2D(3.0, 0.0)).linear > 0.0
+    avoidance.see(0.6, Pose2D(), readings)
+    assert avoidance.steer(0.6, Pose2D(), Pose2D(3.0, 0.0)).linear == 0.0
+
+
+def test_a_goal_that_moves_is_followed_at_once() -> None:
+    trial = Trial(Room([Box(1.5, 0.0, 0.5, 1.8)]))
+    trial.go(Pose2D(3.0, 0.0), 5.0)
+    assert trial.go(Pose2D(0.0, 1.0), 10.0)
+
+
+def test_a_touch_makes_it_back_off_and_go_around() -> None:
+    trial = Trial(Room())
+    trial.go(Pose2D(3.0, 0.0), 2.0)
+    before = trial.pose.x
+    trial.avoidance.touch(trial.now, trial.pose)
+    assert trial.tick(Pose2D(3.0, 0.0)).linear < 0
+    trial.go(Pose2D(3.0, 0.0), 1.0)
+    assert trial.pose.x < before
+    assert trial.go(Pose2D(3.0, 0.0), 40.0)
+    assert max(abs(pose.y) for pose in trial.path) > 0.25
+
+
+@settings(max_examples=4, deadline=None)
+@given(
+    st.lists(st.tuples(st.floats(0.9, 3.0), st.floats(-1.5, 1.5), st.floats(0.15, 0.5)), max_size=5)
+)
+def test_round_things_that_stand_still_are_never_touched(
+    things: list[tuple[float, float, float]],
+) -> None:
+    trial = Trial(Room([Circle(*thing) for thing in things]))
+    trial.go(Pose2D(3.5, 0.0), 10.0)
+    assert trial.closest > -0.01
+
+
+numbers = st.floats(allow_nan=True, allow_infinity=True)
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.lists(st.tuples(numbers, numbers, numbers), min_size=1, max_size=10))
+def test_whatever_the_sensors_say_speed_stays_within_the_manner(
+    lengths: list[tuple[float, float, float]],
+) -> None:
+    avoidance = Avoidance(MECHANICS)
+    for number, values in enumerate(lengths):
+        now = number * TICK
+        ids = zip(MECHANICS.mounts, values, strict=True)
+        avoidance.see(now, Pose2D(), {id: RangeReading(id, value, now) for id, value in ids})
+        twist = avoidance.steer(now, Pose2D(), Pose2D(3.0, 1.0))
+        assert -0.1 <= twist.linear <= 0.3
+        assert abs(twist.angular) <= 1.0
+
+
+def test_a_robot_turns_by_the_shorter_side_and_stops_when_it_faces() -> None:
+    assert turn_to(Pose2D(heading=3.0), -3.0, 1.0).angular > 0
+    assert turn_to(Pose2D(heading=1.0), 1.01, 1.0) == REST
+
+
+def test_straight_on_it_slows_down_before_the_goal() -> None:
+    manner = replace(Manner(), speed=1.0)
+    far, near = (straight_to(Pose2D(), Pose2D(x), manner).linear for x in (3.0, 0.3))
+    assert far == 1.0
+    assert near < 0.5
+    assert straight_to(Pose2D(), Pose2D(0.05), manner) == REST
+
+
+def test_a_beam_that_gets_shorter_is_noticed() -> None:
+    closing = Closing(MECHANICS.mounts)
+    for tick in range(10):
+        closing.see(tick * TICK, {"left": RangeReading("left", 0.6 - 0.02 * tick, tick * TICK)})
+    assert closing.nearest == pytest.approx(0.42)
+    for tick in range(10, 20):
+        closing.see(tick * TICK, {"left": RangeReading("left", 0.42, tick * TICK)})
+    assert closing.nearest == math.inf
+
+
+def test_standing_still_is_noticed_and_turning_once_around_is_not() -> None:
+    progress = Progress()
+    stuck = [progress.is_stuck(t * 0.1, Pose2D(heading=t * 0.06)) for t in range(200)]
+    assert not any(stuck[:90])
+    assert stuck[-1], "it has turned round and round"
+    progress.rest()
+    assert not progress.is_stuck(20.0, Pose2D())
+    assert progress.is_stuck(24.1, Pose2D())
+
+
+def test_the_mechanics_are_those_of_the_configuration() -> None:
+    configuration = load_configuration(paths.find("config", "resource-config"))
+    resources = ResourceManager(configuration.devices, FakeClock(), shapes=configuration.shapes)
+    mechanics = mechanics_of(resources, ["range_front", "range_left", "range_right"])
+    assert mechanics.radius == pytest.approx(0.18 * math.sqrt(2))
+    assert mechanics.mounts["range_left"].heading == pytest.approx(math.pi / 4)
+    assert mechanics.mounts["range_left"].x == pytest.approx(0.13)
+
+
+def test_a_body_beside_its_axle_sweeps_a_wider_circle() -> None:
+    assert swept_radius(Shape(lx=0.4, ly=0.3, x=0.1)) == pytest.approx(math.hypot(0.3, 0.15))

@@ -1,0 +1,156 @@
+import itertools
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hri.core.geometry import along_arc, seen_from
+from hri.core.signals import HeadPose, People, Person, Pose2D
+from hri.drive.avoidance import Manner as Going
+from hri.drive.avoidance import straight_to, turn_to
+from hri.drive.following import Following, Manner, Pursuit, sight_of
+from hri.drive.wandering import Wandering
+
+TICK = 0.05
+
+
+class Chase:
+    """A robot that follows at once, and somebody whom it sees, or not."""
+
+    def __init__(self, x: float, y: float) -> None:
+        self.following = Following(Manner(distance=1.2))
+        self.pose, self.now = Pose2D(), 0.0
+        self.target = (x, y)
+        self.is_seen = True
+        self.turned = 0.0
+
+    def run(self, seconds: float) -> None:
+        for _ in range(round(seconds / TICK)):
+            self.now += TICK
+            if self.is_seen:
+                x, y = seen_from(self.pose, *self.target)
+                self.following.see(self.now, self.pose, math.atan2(y, x), math.hypot(x, y))
+            goal = self.following.goal(self.now, self.pose)
+            if goal is None:
+                continue
+            twist = straight_to(self.pose, goal, Going(near=0.05))
+            if math.dist((goal.x, goal.y), (self.pose.x, self.pose.y)) <= 0.05:
+                twist = turn_to(self.pose, goal.heading, 1.0)
+            self.turned += twist.angular * TICK
+            self.pose = along_arc(self.pose, twist.linear * TICK, twist.angular * TICK)
+
+    @property
+    def apart(self) -> float:
+        return math.dist((self.pose.x, self.pose.y), self.target)
+
+    @property
+    def facing(self) -> float:
+        x, y = seen_from(self.pose, *self.target)
+        return math.atan2(y, x)
+
+
+@pytest.mark.parametrize("place", [(3.0, 0.0), (2.0, 2.0), (-2.0, 1.0)])
+def test_it_keeps_its_distance_and_faces(place: tuple[float, float]) -> None:
+    chase = Chase(*place)
+    chase.run(20.0)
+    assert chase.apart == pytest.approx(1.2, abs=0.25)
+    assert chase.facing == pytest.approx(0.0, abs=0.1)
+    assert chase.following.pursuit is Pursuit.FOLLOWING
+
+
+def test_it_follows_somebody_who_walks_on() -> None:
+    chase = Chase(2.0, 0.0)
+    for step in range(100):
+        chase.target = (2.0 + step * 0.02, step * 0.01)
+        chase.run(0.1)
+    chase.run(5.0)
+    assert chase.apart == pytest.approx(1.2, abs=0.3)
+
+
+def test_somebody_who_comes_near_is_faced_from_where_it_stands() -> None:
+    chase = Chase(0.6, 0.4)
+    chase.run(5.0)
+    assert (chase.pose.x, chase.pose.y) == pytest.approx((0.0, 0.0), abs=0.01)
+    assert chase.facing == pytest.approx(0.0, abs=0.1)
+
+
+def test_a_lost_target_is_looked_for_where_it_was_then_around_then_given_up() -> None:
+    chase = Chase(3.0, 0.5)
+    chase.run(3.0)
+    chase.is_seen = False
+    chase.run(3.0)
+    assert chase.following.pursuit is Pursuit.SEARCHING
+    chase.run(16.9)
+    assert chase.apart < 1.5, "it went to where the target was"
+    assert abs(chase.turned) > 2.0, "it looked around"
+    chase.run(5.0)
+    assert chase.following.pursuit is Pursuit.LOST
+    before = chase.pose
+    chase.run(2.0)
+    assert chase.pose == before
+
+
+def test_it_looks_first_to_the_side_on_which_the_target_went() -> None:
+    chase = Chase(0.8, -0.6)
+    chase.run(0.1)
+    chase.is_seen = False
+    chase.run(3.0)
+    assert chase.pose.heading < -0.5
+
+
+def test_a_target_that_is_found_again_is_followed() -> None:
+    chase = Chase(3.0, 0.0)
+    chase.run(2.0)
+    chase.is_seen = False
+    chase.run(2.0)
+    chase.is_seen = True
+    chase.run(10.0)
+    assert chase.following.pursuit is Pursuit.FOLLOWING
+    assert chase.apart == pytest.approx(1.2, abs=0.25)
+
+
+@given(st.floats(allow_nan=True), st.floats(allow_nan=True))
+def test_a_sight_that_is_no_place_is_none(bearing: float, distance: float) -> None:
+    following = Following()
+    following.see(0.0, Pose2D(), bearing, distance)
+    goal = following.goal(0.1, Pose2D())
+    assert goal is None or all(map(math.isfinite, (goal.x, goal.y, goal.heading)))
+
+
+def person(id: str, distance: float, is_visible: bool = True) -> Person:
+    return Person(id, HeadPose(0.0, 0.0, 0.0), distance=distance, is_visible=is_visible)
+
+
+def test_of_several_the_attended_one_is_followed_else_the_nearest() -> None:
+    persons = (person("p1", 2.0), person("p2", 1.0), person("p3", math.nan))
+
+    def sight(attended: str = "", id: str = "", now: float = 0.0) -> str:
+        found = sight_of(People(0.0, persons, attended), id, now)
+        return found.id if found else ""
+
+    assert sight() == "p2"
+    assert sight(attended="p1") == "p1"
+    assert sight(attended="p1", id="p2") == "p2"
+    assert sight(id="p3") == "", "how far they are is not known"
+    assert sight(now=2.0) == "", "nobody has looked for two seconds"
+
+
+def test_wandering_goes_on_and_repeats_with_its_seed() -> None:
+    def places(seed: int) -> list[Pose2D]:
+        wandering, pose, found = Wandering(seed), Pose2D(), []
+        for step in range(10):
+            pose = wandering.goal(step * 1.0, pose)
+            found.append(pose)
+        return found
+
+    assert places(1) == places(1) != places(2)
+    ways = [math.dist((a.x, a.y), (b.x, b.y)) for a, b in itertools.pairwise(places(1))]
+    assert min(ways) >= 1.0
+
+
+def test_a_place_that_cannot_be_reached_is_given_up() -> None:
+    wandering = Wandering()
+    first = wandering.goal(0.0, Pose2D())
+    assert wandering.goal(10.0, Pose2D()) == first
+    assert wandering.goal(16.0, Pose2D()) != first

@@ -1,0 +1,245 @@
+"""The verbs and behaviors of getting about, in the simulated world and through the real gate."""
+
+import math
+from collections.abc import Awaitable, Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+import trio
+
+from hri.behavior.drivers import DriveCommand
+from hri.behavior.network import Network, load_network
+from hri.behavior.ports import OutputPort
+from hri.core import paths
+from hri.core.geometry import seen_from
+from hri.core.signals import HeadPose, People, Person, Pose2D
+from hri.drive import travel
+from hri.drive.behaviors import CommandGate
+from hri.drive.goals import DeadReckoning, FollowTarget
+from hri.simulation.rooms import furnished
+from hri.simulation.world import SimulatedWorld
+from hri.task.context import TaskContext
+from hri.testing.trips import BODY, SENSORS, Journey, devices
+from tests.task.stage import Stage
+
+ROOM = """
+[robot]
+start = [1, 2]
+[person]
+at = [4.5, 2.0]
+[[wall]]
+from = [0, 0]
+to = [6, 0]
+[[wall]]
+from = [0, 4]
+to = [6, 4]
+[[box]]
+center = [2.6, 2.0]
+length = 0.4
+width = 0.9
+"""
+
+
+class Set(Stage):
+    """A robot with three range sensors in ROOM, whose gate drives."""
+
+    def __init__(self, folder: Path, text: str = ROOM, robot: str = "three sensors") -> None:
+        path = folder / "room.toml"
+        path.write_text(text)
+        super().__init__(*devices(path, 0, SENSORS[robot]))
+        self.context.resources.dimensions = BODY
+        self.world = self.context.resources.obtain("world", SimulatedWorld)
+        gate, drive = CommandGate("gate"), DriveCommand("drive")
+        drive.velocity.sources.append(gate.velocity)
+        self.context.networks.start(Network("moving", 0.05, behaviors=[gate, drive]))
+        self.gate = gate
+
+    def see(self) -> None:
+        """Let the board say where the person is, ten times a second, as a camera would."""
+        now = self.clock.now()
+        x, y = seen_from(self.world.base.pose, *self.world.person.place(now))
+        who = Person("p1", HeadPose(now, 0, 0), distance=math.hypot(x, y), bearing=math.atan2(y, x))
+        self.context.board.slot("people").set(People(now, (who,), "p1"), now)
+
+    async def watching(self, job: Callable[[TaskContext], Awaitable[Any]], context: Any) -> Any:
+        """Do something while the camera sees the person."""
+        results = []
+
+        async def look() -> None:
+            while True:
+                self.see()
+                await self.clock.sleep(0.1)
+
+        async with trio.open_nursery() as nursery:
+            nursery.start_soon(look)
+            results.append(await job(context))
+            nursery.cancel_scope.cancel()
+        return results[0]
+
+    @property
+    def place(self) -> tuple[float, float]:
+        return self.world.base.pose.x, self.world.base.pose.y
+
+
+def test_go_to_gets_there_around_a_thing_and_faces(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+    goal = Pose2D(3.0, 0.6, 1.0)
+    assert stage.run(_go, goal)
+    assert stage.place == pytest.approx((4.0, 2.6), abs=0.2)
+    assert stage.world.base.pose.heading == pytest.approx(1.0, abs=0.15)
+    assert not stage.world.base.is_touching
+
+
+async def _go(context: TaskContext, goal: Pose2D) -> bool:
+    return await travel.go_to(context, goal, faces=True)
+
+
+def test_a_goal_that_is_no_place_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="finite"):
+        Set(tmp_path).run(_go, Pose2D(math.nan, 0.0))
+
+
+def test_going_ends_when_it_is_cancelled(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+
+    async def cancelled(context: TaskContext) -> None:
+        with context.clock.move_on_after(2.0):
+            await travel.go_to(context, Pose2D(3.0, 0.0))
+        await context.clock.sleep(1.0)
+
+    stage.run(cancelled)
+    assert stage.world.base.velocity.linear == 0.0
+    assert 0.2 < math.dist(stage.place, (1.0, 2.0)) < 1.0
+
+
+def test_a_halt_ends_going(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+
+    async def halted(context: TaskContext) -> bool:
+        context.clock.call_at(2.0, stage.gate.halt)
+        return await travel.go_to(context, Pose2D(3.0, 0.0))
+
+    assert stage.run(halted) is False
+    assert stage.clock.now() < 5.0
+
+
+def test_another_motion_takes_the_drive(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+
+    async def both(context: TaskContext) -> list[bool]:
+        results = []
+
+        async def far() -> None:
+            results.append(await travel.go_to(context, Pose2D(3.0, 0.6)))
+
+        async with trio.open_nursery() as nursery:
+            nursery.start_soon(far)
+            await context.clock.sleep(2.0)
+            results.append(await travel.go_to(context, Pose2D(0.2, 0.0)))
+        return results
+
+    assert stage.run(both) == [False, True]
+
+
+def test_go_by_uses_the_frame_of_the_robot_and_the_units_of_tasks(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+    stage.run(travel.go_by, 60.0, -60.0)
+    assert stage.place == pytest.approx((1.6, 1.4), abs=0.15)
+    assert stage.world.base.pose.heading == pytest.approx(-math.pi / 4, abs=0.15)
+
+
+def test_come_here_stops_before_the_person_and_faces(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+    assert stage.run(lambda context: stage.watching(travel.come_here, context))
+    assert math.dist(stage.place, (4.5, 2.0)) == pytest.approx(1.2, abs=0.25)
+    x, y = seen_from(stage.world.base.pose, 4.5, 2.0)
+    assert math.atan2(y, x) == pytest.approx(0.0, abs=0.15)
+
+
+def test_come_here_gives_up_where_nobody_is_seen(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+    assert stage.run(travel.come_here) is False
+    assert stage.place == (1.0, 2.0)
+
+
+def test_follow_keeps_up_with_somebody_who_walks(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+    stage.world.person.go(4.5, 0.8, 4.0)
+    followed = stage.run(
+        lambda context: stage.watching(
+            lambda context: travel.follow(context, seconds=30.0), context
+        )
+    )
+    assert followed
+    assert math.dist(stage.place, (4.5, 0.8)) == pytest.approx(1.2, abs=0.35)
+    assert "target.found" in stage.names()
+
+
+def test_follow_tells_when_it_has_lost_somebody(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+
+    async def lost(context: TaskContext) -> bool:
+        stage.see()
+        return await travel.follow(context)
+
+    assert stage.run(lost) is False
+    assert [e.properties["given_up"] for e in stage.events if e.name == "target.lost"] == [
+        False,
+        True,
+    ]
+
+
+def test_wandering_touches_nothing(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+    stage.run(lambda context: travel.wander(context, 15.0))
+    assert stage.world.base.way > 1.5
+    assert "bumper.pressed" not in stage.names()
+    assert not stage.world.base.is_touching
+
+
+@pytest.mark.parametrize("robot", SENSORS)
+def test_the_same_behavior_drives_two_robots(robot: str) -> None:
+    trip = Journey(furnished(2), "full", robot).run()
+    assert trip.is_clean
+
+
+def test_without_avoidance_it_drives_into_things_and_stop_crash_stands_before_them() -> None:
+    straight = Journey(furnished(2), "none").run(20.0)
+    assert straight.hits
+    standing = Journey(furnished(2), "StopCrash only").run(20.0)
+    assert not standing.is_there
+    assert not standing.hits
+
+
+def test_a_run_repeats_to_the_last_bit() -> None:
+    one, other = (Journey(furnished(2), "full", keeps_track=True).run(8.0).track for _ in range(2))
+    assert one == other
+
+
+def test_following_networks_load() -> None:
+    for name in ("go", "go_straight", "go_stop_crash", "follow", "roam"):
+        load_network(paths.find("config/networks", f"{name}.xml")).check()
+
+
+def test_dead_reckoning_sends_how_sure_it_is(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+    reckoning = DeadReckoning("reckoning")
+    stage.context.networks.start(Network("reckoning", 0.05, behaviors=[reckoning]))
+    stage.run(_go, Pose2D(0.8, 0.0))
+    covariance = reckoning.covariance.value
+    assert covariance is not None
+    assert len(covariance) == 9
+    assert 0.0 < (reckoning.deviation.value or 0.0) < 0.1
+
+
+def test_a_given_place_is_followed_like_a_person(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+    follow = FollowTarget("follow")
+    follow.start(stage.context)
+    follow.target.sources.append(OutputPort(Pose2D(0.0, 3.0)))
+    follow.compute(0.0, 0.0)
+    goal = follow.goal.value
+    assert goal is not None
+    assert (goal.x, goal.y) == pytest.approx((0.0, 1.8), abs=1e-6)
+    assert goal.heading == pytest.approx(math.pi / 2)
