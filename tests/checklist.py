@@ -41,7 +41,9 @@ class Checklist:
     ) -> None:
         option = config.option
         paths = [str(word).partition("::")[0] for word in config.invocation_params.args]
-        is_chosen = option.keyword or option.markexpr or getattr(option, "lf", False) or option.collectonly
+        is_chosen = (
+            option.keyword or option.markexpr or getattr(option, "lf", False) or option.collectonly
+        )
         self.is_whole = not is_chosen and not any(Path(path).exists() for path in paths)
         if self.is_writing and not self.is_whole:
             raise pytest.UsageError("--checklist needs the whole suite - leave the rest out")

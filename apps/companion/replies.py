@@ -14,8 +14,8 @@ from hri.core.toml import Table, load_toml
 
 T = TypeVar("T")
 
-ACTIONS = ("move", "turn", "come", "follow", "stop", "quiet", "sleep", "wake")
-FILLED_IN = ("text", "name", "time", "battery", "why", "feeling", "commands")
+ACTIONS = ("move", "turn", "come", "follow", "stop", "release", "quiet", "eyes", "sleep", "wake")
+FILLED_IN = ("text", "name", "time", "battery", "why", "why_stopped", "feeling", "commands")
 """What may stand in braces, beside the tags of the grammar."""
 
 
@@ -62,7 +62,7 @@ class Vocabulary:
     gestures: Collection[str]
 
 
-UNASKED = ("blocked", "bump", "battery_low", "nobody")
+UNASKED = ("blocked", "bump", "battery_low", "nobody", "waiting", "no_stop")
 
 
 def load_replies(path: Path, vocabulary: Vocabulary) -> Replies:

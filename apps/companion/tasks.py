@@ -4,7 +4,8 @@ converse    replies to what is heard, as `replies.toml` says
 wonder      asks a yes/no question now and then
 notice      reacts to a bump and a low battery, and feels ignored; what else happens is felt by the
             triggers in emotions/stimuli
-watch_keys  space stops it, m mutes the microphone, c switches captions, escape ends
+watch_keys  space stops it, r releases a base that must be released, m mutes the microphone, v turns
+            the camera off and on, c switches captions, escape ends
 """
 
 from __future__ import annotations
@@ -15,9 +16,12 @@ from pathlib import Path
 from typing import Any
 
 from hri.core import paths
+from hri.core.errors import NotAvailable
 from hri.core.latest import Latest
-from hri.core.signals import Event, HeadPose
+from hri.core.signals import Event, Person
+from hri.drive import travel
 from hri.drive.behaviors import CommandGate
+from hri.drive.guard import BaseGuard
 from hri.emotion.behaviors import EmotionModel
 from hri.emotion.stimulus import load_stimuli
 from hri.face.behaviors import FaceRenderer
@@ -31,6 +35,8 @@ from hri.speech.behaviors import Listener, Voice
 from hri.speech.grammar import Grammar, load_grammar
 from hri.task.context import TaskContext
 from hri.task.lane import Lane
+from hri.task.task import Job
+from hri.vision.tasks import people_of
 
 from .replies import Replies, Reply, Vocabulary, load_replies
 
@@ -48,8 +54,6 @@ UNSEEN_SECONDS = 20.0
 """The same for somebody who is not seen."""
 IGNORED_SECONDS = 25.0
 """Calm while somebody is there, after which it feels ignored; again after each such time."""
-CLOSE_HEAD = 0.42
-"""Height of a head in the picture, of the picture's height, at which it is near enough."""
 
 
 def check(context: TaskContext) -> None:
@@ -79,6 +83,7 @@ class Companion:
         self.listener = context.behavior(Listener)
         self.voice = context.behavior(Voice)
         self.gate = context.behavior(CommandGate)
+        self.guard = context.behavior(BaseGuard)
         self.emotion = context.behavior(EmotionModel)
         self.camera = context.resources.obtain("camera", Camera)
         self.replies = authored_replies(context)
@@ -108,13 +113,13 @@ class Companion:
         if reply is None or (self.is_asleep and rule not in ALWAYS):
             return
         if reply.feel:
-            self.emotion.feel(reply.feel, reply.intensity)
-        if reply.action:
-            getattr(self, f"_{reply.action}")(tags)
-        words = self._words(rule, reply, text, tags)
+            # Whoever talks is taken to be the one it attends to.
+            self.emotion.feel(reply.feel, reply.intensity, people_of(self.context).attended)
+        objection = getattr(self, f"_{reply.action}")(tags) if reply.action else None
+        words = objection or self._words(rule, reply, text, tags)
         if reply.show:
             label = str(tags.get("emotion", "neutral")) if reply.show[0] == "{" else reply.show
-            self.face.start(verbs.show, label, SHOW_SECONDS)
+            self.face.start(self._show, label)
         if reply.gesture:
             self.make(reply.gesture)
         if words:
@@ -141,6 +146,7 @@ class Companion:
             "battery": round(100 * self._battery()),
             "why": self.emotion.why_words(str(tags.get("emotion", ""))),
             "feeling": self.emotion.feeling_words(),
+            "why_stopped": self.guard.explain() or self.replies.unasked["no_stop"],
             "commands": self._commands(),
         }
         values = {key: f"{v:g}" if isinstance(v, float) else v for key, v in tags.items()}
@@ -160,51 +166,49 @@ class Companion:
         ]
         return ", ".join(example for example in examples if example)
 
-    # --- actions, named as in replies.toml ---
+    # --- actions, named as in replies.toml; what one returns is said in place of the reply ---
 
-    def _move(self, tags: dict[str, Any]) -> None:
-        self.motion.start(self._move_on, float(tags.get("distance", 0.5)))
+    def _drive(self, job: Job, *arguments: Any) -> str | None:
+        """Start a motion; why there is none, while the base must not move."""
+        if self.guard.must_wait:
+            return f"{self.guard.explain()}. {self.replies.unasked['waiting']}"
+        self.motion.start(job, *arguments)
+        return None
+
+    def _move(self, tags: dict[str, Any]) -> str | None:
+        return self._drive(self._move_on, float(tags.get("distance", 0.5)))
 
     async def _move_on(self, context: TaskContext, distance: float) -> None:
         travelled = await verbs.move(context, distance)
         if abs(travelled) < 0.9 * abs(distance):
             self.say(self.replies.unasked["blocked"])
 
-    def _turn(self, tags: dict[str, Any]) -> None:
+    def _turn(self, tags: dict[str, Any]) -> str | None:
         angle = math.radians(float(tags.get("angle", 90.0)))
-        self.motion.start(verbs.turn, angle)
+        return self._drive(verbs.turn, angle)
 
-    def _come(self, tags: dict[str, Any]) -> None:
-        self.motion.start(self._approach, False)
+    def _come(self, tags: dict[str, Any]) -> str | None:
+        return self._drive(self._come_here)
 
-    def _follow(self, tags: dict[str, Any]) -> None:
-        self.motion.start(self._approach, True)
+    def _follow(self, tags: dict[str, Any]) -> str | None:
+        return self._drive(self._go_along)
 
-    async def _approach(self, context: TaskContext, keep_on: bool) -> None:
-        """Turn to the head that is seen and drive up to it; with `keep_on`, again and again."""
-        lost = 0
-        while lost < 5:
-            head = self.head()
-            if head is None or head.box is None:
-                lost += 1
-                await context.clock.sleep(1.0)
-                continue
-            lost = 0
-            bearing, nearness = self.bearing(head), self.nearness(head)
-            if abs(bearing) > math.radians(6):
-                await verbs.turn(context, bearing)
-            elif nearness < CLOSE_HEAD:
-                await verbs.move(context, min(0.5, 0.5 * (CLOSE_HEAD / nearness - 1)))
-            elif not keep_on:
-                return
-            await context.clock.sleep(0.5)
-        self.say(self.replies.unasked["nobody"])
+    async def _come_here(self, context: TaskContext) -> None:
+        if self.person() is None or not await travel.come_here(context):
+            self.say(self.replies.unasked["nobody"])
+
+    async def _go_along(self, context: TaskContext) -> None:
+        if self.person() is None or not await travel.follow(context):
+            self.say(self.replies.unasked["nobody"])
 
     def _stop(self, tags: dict[str, Any]) -> None:
         self.motion.stop()
         self.gate.halt()
         self.talk.stop()
         self.voice.hush()
+
+    def _release(self, tags: dict[str, Any]) -> None:
+        self.guard.release()
 
     def _quiet(self, tags: dict[str, Any]) -> None:
         self.talk.stop()
@@ -214,32 +218,44 @@ class Companion:
     def _sleep(self, tags: dict[str, Any]) -> None:
         self.is_asleep = True
         self.motion.stop()
-        self.face.start(verbs.show, "asleep", FOR_GOOD)
+        self._settle()
 
     def _wake(self, tags: dict[str, Any]) -> None:
         self.is_asleep = False
         self.silent_until = -math.inf
-        self.face.stop()
+        self._settle()
+
+    def _eyes(self, tags: dict[str, Any]) -> None:
+        self.switch_camera(tags.get("eyes") == "open")
+
+    # --- what the face shows ---
+
+    def _settle(self) -> None:
+        """Show shut eyes for as long as it sleeps or does not watch, else what it feels."""
+        if self.is_asleep or not self.camera.is_on:
+            self.face.start(verbs.show, "asleep", FOR_GOOD)
+        else:
+            self.face.stop()
+
+    async def _show(self, context: TaskContext, label: str) -> None:
+        await verbs.show(context, label, SHOW_SECONDS)
+        self._settle()
 
     # --- what is seen ---
 
-    def head(self) -> HeadPose | None:
-        """The head that is seen now."""
-        pose: HeadPose | None
-        pose, when = self.context.board.slot("head").get()
-        return pose if pose is not None and self.context.clock.now() - when < 1.0 else None
+    def person(self) -> Person | None:
+        """The one it attends to, when they are in sight."""
+        people = people_of(self.context)
+        person = people.person(people.attended)
+        return person if person is not None and person.is_visible else None
 
-    def bearing(self, head: HeadPose) -> float:
-        """Angle from straight ahead to a head, left positive, from its place in the picture."""
-        assert head.box is not None
-        offset = (head.box.x + head.box.width / 2) / self.camera.width - 0.5
-        across = math.atan(2 * offset * math.tan(self.camera.field_of_view / 2))
-        return self.camera.pan(self.context.clock.now()) - across
-
-    def nearness(self, head: HeadPose) -> float:
-        """Height of the head in the picture, 0 to 1."""
-        assert head.box is not None
-        return head.box.height / self.camera.height
+    def switch_camera(self, on: bool) -> None:
+        """Turn the camera off for real, or on again."""
+        try:
+            self.camera.switch(on)
+        except NotAvailable as error:
+            self.context.events.raise_event("camera.lost", camera=self.camera.id, why=str(error))
+        self._settle()
 
     @property
     def is_calm(self) -> bool:
@@ -269,7 +285,7 @@ async def wonder(context: TaskContext) -> None:
         await clock.sleep(0.5)
         now = clock.now()
         since = now - companion.last_contact
-        patience = COMPANY_SECONDS if companion.head() is not None else UNSEEN_SECONDS
+        patience = COMPANY_SECONDS if companion.person() is not None else UNSEEN_SECONDS
         is_company = FIRST_QUESTION < since < patience
         if not is_company or now - last < BETWEEN_QUESTIONS or now < companion.silent_until:
             continue
@@ -310,7 +326,7 @@ async def notice(context: TaskContext) -> None:
                     deeds[event.name]()
             elif not companion.is_calm or companion.is_asleep:
                 calm_since = now
-            elif now - calm_since > IGNORED_SECONDS and companion.head() is not None:
+            elif now - calm_since > IGNORED_SECONDS and companion.person() is not None:
                 calm_since = now
                 companion.emotion.feel("ignored")
 
@@ -337,10 +353,15 @@ async def watch_keys(context: TaskContext) -> None:
         await context.clock.sleep(0.05)
         for key in screen.pressed_keys():
             if key == "space":
+                companion.guard.halt("somebody pressed the stop key")
                 companion.reply("stop", "stop", {})
+            elif key == "r":
+                companion.guard.release()
             elif key == "m":
                 companion.listener.is_muted = not companion.listener.is_muted
                 context.events.raise_event("microphone.muted", muted=companion.listener.is_muted)
+            elif key == "v":
+                companion.switch_camera(not companion.camera.is_on)
             elif key == "c":
                 renderer.captions_on = not renderer.captions_on
             elif key == "escape":

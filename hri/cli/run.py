@@ -194,7 +194,8 @@ class Session:
             self.visit = self._authored
             self.visit.start(world, context.clock, context.events)
         elif resources.stand_in_of("camera") is not None:
-            resources.obtain("world", SimulatedWorld).person.starts_present = False
+            for person in resources.obtain("world", SimulatedWorld).people:
+                person.starts_present = False
 
     async def end_when_over(self, context: TaskContext) -> None:
         """End after the duration, after the visit, or when what it hears and sees is spent."""

@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from hri.core.errors import HriError
 from hri.core.geometry import after_move
 from hri.core.signals import People, Person, Pose2D, Twist
-from hri.drive.avoidance import Avoidance, Manner, turn_to
+from hri.drive.avoidance import PERSON_RADIUS, Avoidance, Manner, turn_to
 from hri.drive.following import Following, Pursuit, sight_of, tell
 from hri.drive.following import Manner as FollowingManner
 from hri.drive.gate import REST
@@ -63,10 +63,11 @@ async def follow(
     """Follow somebody by their id, whoever is attended to without one, `distance` metres apart.
 
     It faces them, looks for them when they are out of sight, and ends when they stay lost or after
-    so many seconds; whether it had them to the end. Raises `target.lost` and `target.found`.
+    so many seconds; whether it had them to the end. It comes no nearer than it may while it moves,
+    whatever distance is asked for. Raises `target.lost` and `target.found`.
     """
     with _traveler(context) as traveler:
-        following = Following(FollowingManner(distance=distance))
+        following = traveler.following(distance)
         end = context.clock.now() + seconds
 
         def steer(now: float, pose: Pose2D) -> Twist | None:
@@ -86,9 +87,12 @@ async def follow(
 
 
 async def come_here(context: TaskContext, person: str = "", distance: float = 1.2) -> bool:
-    """Come to whoever is seen, `distance` metres before them, and face them; whether it did."""
+    """Come to whoever is seen, `distance` metres before them, and face them; whether it did.
+
+    It comes no nearer than it may while it moves, whatever distance is asked for.
+    """
     with _traveler(context) as traveler:
-        following = Following(FollowingManner(distance=distance))
+        following = traveler.following(distance)
         patience = _Patience()
         is_there = False
 
@@ -192,7 +196,15 @@ class _Traveler:
             self.release(context)
             raise
         self._manner = Manner()
-        self._avoidance = Avoidance(mechanics_of(resources, self._sensors), self._manner)
+        self._mechanics = mechanics_of(resources, self._sensors)
+        self._avoidance = Avoidance(self._mechanics, self._manner)
+
+    def following(self, distance: float) -> Following:
+        """How it follows somebody at such a distance, or the least that avoidance lets it reach."""
+        manner = self._manner
+        body = self._mechanics.radius + manner.margin
+        least = body + PERSON_RADIUS + manner.person_gap + manner.near
+        return Following(FollowingManner(distance=max(distance, least)))
 
     def release(self, context: TaskContext) -> None:
         for resource in (self._odometry, *self._sensors.values()):

@@ -228,6 +228,9 @@ class FaceRenderer(Behavior):
     captions = Param(False, "write what is said below the face")
     weights = Input[FaceWeights]("weights", "what to draw")
     caption = Input[str]("string", "what to write, when captions are on", is_optional=True)
+    is_watching = Input[bool](
+        "boolean", "true while a camera watches: lights a lamp in the corner", is_optional=True
+    )
 
     captions_on = False
     """Whether captions are written; may be switched at any time."""
@@ -259,16 +262,17 @@ class FaceRenderer(Behavior):
         weights = self.weights.value
         if weights is not None and not self._worker.is_busy:
             text = (self.caption.value or "") if self.captions_on else ""
-            self._worker.submit(partial(self._draw, weights, text))
+            self._worker.submit(partial(self._draw, weights, text, any(self.is_watching.values)))
 
     def stop(self) -> None:
         self._worker.close()
 
-    def _draw(self, weights: FaceWeights, text: str) -> Image | HriError:
+    def _draw(self, weights: FaceWeights, text: str, is_watching: bool) -> Image | HriError:
         from hri.face.renderers.captions import add_caption
+        from hri.face.renderers.lamp import add_lamp
 
         try:
             picture = self._renderer.render(self._renderer.model.vector(weights.values))
         except HriError as error:
             return error
-        return add_caption(picture, text)
+        return add_caption(add_lamp(picture) if is_watching else picture, text)

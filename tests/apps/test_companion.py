@@ -34,9 +34,9 @@ class KeyedScreen(OffscreenScreen):
 class Visit:
     """A person says lines at times, and perhaps presses keys; what was told is kept."""
 
-    def __init__(self, seconds, lines, keys=(), seed=3):
+    def __init__(self, seconds, lines, keys=(), seed=3, config="simulated"):
         clock = FakeClock()
-        self.robot = Robot(config="simulated", clock=clock, seed=seed, devices=[SMALL_SCREEN])
+        self.robot = Robot(config=config, clock=clock, seed=seed, devices=[SMALL_SCREEN])
         world = self.robot.resources.obtain("world", SimulatedWorld)
         self._place_screen(keys)
         self.odometry = self.robot.resources.obtain("odometry", Odometry)
@@ -142,17 +142,48 @@ def test_a_new_way_takes_the_place_of_the_old_one():
 
 
 def test_come_here_brings_it_to_the_person():
-    visit = Visit(20, {1.5: "come to me"})
-    assert visit.heard()[0] == "come"
-    before = visit.pose_at(0)
-    after = visit.pose_at(19.5)
+    visit = Visit(24, {1.5: "go back one meter", 9.0: "come to me"})
+    assert visit.heard() == ["move", "come"]
+    before = visit.pose_at(9.0)
+    after = visit.pose_at(23.5)
     person = visit.world.person
 
     def distance(pose):
         return math.hypot(person.x - pose.x, person.y - pose.y)
 
-    assert distance(after) < distance(before) - 0.3
-    assert distance(after) > 0.4
+    assert distance(before) > 2.0
+    assert 1.0 < distance(after) < 1.4
+    assert distance(visit.pose_at(22.0)) == pytest.approx(distance(after), abs=0.02)
+
+
+def test_a_base_with_a_supervisor_moves_when_it_was_released_and_not_after_stop():
+    lines = {
+        1.5: "go forward one meter",
+        9.0: "you may move again",
+        14.0: "go forward ten meters",
+        20.0: "stop",
+        24.0: "go back one meter",
+        32.0: "why did you stop",
+    }
+    visit = Visit(38, lines, config="create2")
+    assert visit.heard() == ["move", "release", "move", "stop", "move", "why_stop"]
+    refused, thanks, _, _, again, *_, why = visit.said()
+    assert "I was switched on just now" in refused
+    assert "Say: you may move again." in refused
+    assert visit.pose_at(13.0).x == pytest.approx(0.0, abs=0.01)
+    assert thanks.startswith("Thank you")
+    assert visit.pose_at(24.0).x > 0.3
+    assert why == "I stopped because somebody said stop"
+    assert again.startswith(why)
+    assert visit.pose_at(37.5).x == pytest.approx(visit.pose_at(24.0).x, abs=0.02)
+
+
+def test_who_tells_it_to_shut_its_eyes_turns_the_camera_off_until_they_are_opened():
+    visit = Visit(16, {2.0: "close your eyes", 8.0: "open your eyes"})
+    assert visit.heard() == ["eyes", "eyes"]
+    switched = [event.properties["on"] for event in visit.named("camera.switched")]
+    assert switched == [False, True]
+    assert visit.said() == ["My eyes are shut.", "My eyes are open."]
 
 
 @pytest.fixture

@@ -114,7 +114,7 @@ def test_a_camera_sends_each_picture_once(lent):
     camera = started(CameraFrames(), lent)
     first = tick(camera, now=0.1)["raw_image"]
     assert first.image.shape == (240, 320, 3)
-    assert tick(camera, now=0.101) == {}
+    assert tick(camera, now=0.101) == {"is_watching": True}
     assert tick(camera, now=0.2)["raw_image"].sequence > first.sequence
 
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Awaitable, Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -149,6 +150,7 @@ def test_go_by_uses_the_frame_of_the_robot_and_the_units_of_tasks(tmp_path: Path
     assert stage.world.base.pose.heading == pytest.approx(-math.pi / 4, abs=0.15)
 
 
+@pytest.mark.proves("R06", "B25")
 def test_come_here_stops_before_the_person_and_faces(tmp_path: Path) -> None:
     stage = Set(tmp_path)
     assert stage.run(lambda context: stage.watching(travel.come_here, context))
@@ -157,12 +159,20 @@ def test_come_here_stops_before_the_person_and_faces(tmp_path: Path) -> None:
     assert math.atan2(y, x) == pytest.approx(0.0, abs=0.15)
 
 
+def test_who_asks_it_to_come_too_near_gets_it_as_near_as_it_may(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+    come = partial(travel.come_here, distance=0.4)
+    assert stage.run(lambda context: stage.watching(come, context))
+    assert 1.0 < math.dist(stage.place, (4.5, 2.0)) < 1.4
+
+
 def test_come_here_gives_up_where_nobody_is_seen(tmp_path: Path) -> None:
     stage = Set(tmp_path)
     assert stage.run(travel.come_here) is False
     assert stage.place == (1.0, 2.0)
 
 
+@pytest.mark.proves("R06", "B25")
 def test_follow_keeps_up_with_somebody_who_walks(tmp_path: Path) -> None:
     stage = Set(tmp_path)
     stage.world.person.go(4.5, 0.8, 4.0)
@@ -198,6 +208,7 @@ def test_wandering_touches_nothing(tmp_path: Path) -> None:
     assert not stage.world.base.is_touching
 
 
+@pytest.mark.proves("B26")
 @pytest.mark.parametrize("robot", SENSORS)
 def test_the_same_behavior_drives_two_robots(robot: str) -> None:
     trip = Journey(furnished(2), "full", robot).run()
@@ -233,6 +244,7 @@ def test_dead_reckoning_sends_how_sure_it_is(tmp_path: Path) -> None:
     assert 0.0 < (reckoning.deviation.value or 0.0) < 0.1
 
 
+@pytest.mark.proves("B25")
 def test_a_given_place_is_followed_like_a_person(tmp_path: Path) -> None:
     stage = Set(tmp_path)
     follow = FollowTarget("follow")

@@ -268,6 +268,7 @@ def events_of(angles: Angles, port: str, **parameters: object) -> list[Event]:
     return events
 
 
+@pytest.mark.proves("R07")
 @pytest.mark.parametrize(("port", "who"), [("people", "p1"), ("pose", "")])
 @pytest.mark.parametrize(("angles", "name"), [(nod, "head.nodded"), (shake, "head.shaken")])
 def test_a_gesture_is_told_by_an_event(angles: Angles, name: str, port: str, who: str) -> None:
@@ -302,6 +303,7 @@ def test_two_who_nod_at_once_are_both_sent() -> None:
     assert [gesture.person for gesture in sent if gesture is not None] == ["p1", "p2"]
 
 
+@pytest.mark.proves("R07")
 def test_a_network_chooses_its_gestures() -> None:
     def tilted(time: float) -> tuple[float, float, float]:
         return 0.0, 0.0, 0.3 * min(1.0, max(0.0, (time - 1) / 0.4))

@@ -68,6 +68,7 @@ def test_the_picture_is_searched_only_when_somebody_may_be_found():
     assert stage.fits >= 44, "each face in each picture"
 
 
+@pytest.mark.proves("R06")
 def test_a_head_is_followed_while_it_turns_and_looking_starts_and_stops():
     def turning(time: float) -> Spot:
         return Spot(160, 100, 50, 0.0, 0.8 if 1 <= time < 2 else 0.0)
@@ -180,6 +181,7 @@ def crossing(kind: str, seed: int) -> tuple[list[Player], float]:
     return [Player(p, **look) for p, look in zip(parts[kind], looks, strict=True)], duration
 
 
+@pytest.mark.proves("R06")
 @pytest.mark.parametrize("kind", CROSSINGS)
 def test_two_who_come_in_each_others_way_keep_their_ids(kind):
     for seed in range(3):

@@ -26,6 +26,7 @@ def picture(clothes, spot=None):
     return Stage([Player(lambda time: spot, **clothes)]).image(), landmarks_at(spot)
 
 
+@pytest.mark.proves("R11")
 def test_who_was_named_is_recognized_and_others_are_not():
     recognizer = FaceRecognizer(Colors(), Acquaintances(alike=0.95))
     assert recognizer.name(*picture(ANNA)) == ""

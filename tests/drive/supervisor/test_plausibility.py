@@ -113,6 +113,7 @@ LIT = dict.fromkeys(PLACES, Light.LIT)
         ({"left": True}, {"left": Light.UNKNOWN}, ["left"]),
     ],
 )
+@pytest.mark.proves("B27")
 def test_flag_light_and_neighbours_vote(flags, lights, seen) -> None:
     assert edges(CLEAR | flags, LIT | lights) == seen
 

@@ -201,6 +201,7 @@ def test_it_stops_before_what_its_range_sensors_see() -> None:
 # --- reflexes ---
 
 
+@pytest.mark.proves("B27")
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_a_bump_backs_off_turns_away_and_goes_on(side) -> None:
     track = Track().released()
@@ -220,6 +221,7 @@ def test_a_bump_backs_off_turns_away_and_goes_on(side) -> None:
     assert track.run(1.5, GO).twist == GO
 
 
+@pytest.mark.proves("B27")
 @pytest.mark.parametrize("place", PLACES)
 def test_an_edge_stops_and_backs_off(place) -> None:
     track = Track().released()
@@ -384,6 +386,7 @@ def test_reports_that_cease_stop_it_and_when_they_stay_away_latch_it() -> None:
     assert track.supervisor.latch.is_closed
 
 
+@pytest.mark.proves("B27")
 def test_a_cliff_sensor_that_says_nothing_is_a_hazard_with_a_name() -> None:
     track = Track().released()
     track.run(1.0, GO)
