@@ -85,6 +85,11 @@ def after_move(pose: Pose2D, x: float, y: float) -> Pose2D:
     return Pose2D(*placed(pose, x, y), pose.heading + turned)
 
 
+def wrapped(angle: float) -> float:
+    """The same direction within -pi to pi, radians."""
+    return math.remainder(angle, math.tau)
+
+
 def along_arc(pose: Pose2D, linear: float, angular: float) -> Pose2D:
     """Where a short arc of `linear` metres that turns by `angular` radians leads."""
     middle = pose.heading + angular / 2

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hri.core.geometry import wrapped
 from hri.core.signals import Pose2D, RangeReading, Twist
 from hri.drive.closing import Closing
 from hri.drive.gate import REST
@@ -91,11 +92,6 @@ class Manner:
     """How long it remembers what it saw."""
     near: float = 0.1
     """Metres from the goal that count as there."""
-
-
-def wrapped(angle: float) -> float:
-    """The same direction within -pi to pi."""
-    return math.remainder(angle, math.tau)
 
 
 def towards(pose: Pose2D, goal: Pose2D) -> tuple[float, float]:

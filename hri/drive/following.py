@@ -54,7 +54,7 @@ class Following:
         self.pursuit = Pursuit.WAITING
         self._target: tuple[float, float] | None = None
         self._side = 1.0
-        self._seen = -math.inf
+        self._seen = self._looked = -math.inf
         self._turned = 0.0
         self._last: tuple[float, float] | None = None
         self._spot: Pose2D | None = None
@@ -67,6 +67,18 @@ class Following:
         self._target, self._seen = away, now
         self._side = math.copysign(1.0, bearing)
         self.pursuit = Pursuit.FOLLOWING
+
+    def look(self, now: float, pose: Pose2D, people: People | None, id: str) -> Person | None:
+        """Take in the newest of what the camera says; who is followed, see `sight_of`.
+
+        What it has said before is no sight: the robot has moved since.
+        """
+        if people is None or people.time <= self._looked:
+            return None
+        self._looked = people.time
+        if (person := sight_of(people, id, now)) is not None:
+            self.see(now, pose, person.bearing, person.distance)
+        return person
 
     def goal(self, now: float, pose: Pose2D) -> Pose2D | None:
         """Where to go and, once there, what to face; None to stay as it is."""

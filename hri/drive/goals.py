@@ -12,7 +12,7 @@ from hri.behavior.drivers import DeviceBehavior
 from hri.behavior.ports import Input, Output, Param
 from hri.core.geometry import seen_from
 from hri.core.signals import People, Pose2D
-from hri.drive.following import Following, Manner, Pursuit, sight_of, tell
+from hri.drive.following import Following, Manner, Pursuit, tell
 from hri.drive.odometry import Estimate, Wheels, arc_between, rolled_on
 from hri.drive.wandering import Wandering
 from hri.hal.drive import Odometry
@@ -56,8 +56,10 @@ class FollowTarget(_FromPose):
     def compute(self, now: float, dt: float) -> None:
         pose, following = self._odometry.pose(now), self._following
         before = following.pursuit
-        if (sight := self._sight(now, pose)) is not None:
+        if (sight := self._given(pose)) is not None:
             following.see(now, pose, *sight)
+        else:
+            following.look(now, pose, self.people.value, self.person)
         goal = following.goal(now, pose)
         if goal is not None:
             self.goal.send(goal)
@@ -65,16 +67,15 @@ class FollowTarget(_FromPose):
         if following.pursuit is not before:
             tell(self._events, following.pursuit)
 
-    def _sight(self, now: float, pose: Pose2D) -> tuple[float, float] | None:
-        """Bearing and distance of the target."""
+    def _given(self, pose: Pose2D) -> tuple[float, float] | None:
+        """Bearing and distance of a target that is no person."""
         if (target := self.target.value) is not None:
             x, y = seen_from(pose, target.x, target.y)
             return math.atan2(y, x), math.hypot(x, y)
         bearing, distance = self.bearing.value, self.range.value
         if bearing is not None and distance is not None:
             return bearing, distance
-        person = sight_of(self.people.value, self.person, now)
-        return None if person is None else (person.bearing, person.distance)
+        return None
 
 
 class Wander(_FromPose):

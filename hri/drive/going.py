@@ -12,6 +12,7 @@ import math
 from hri.behavior.behavior import Context
 from hri.behavior.drivers import DeviceBehavior
 from hri.behavior.ports import ANGULAR_VELOCITY, LINEAR_VELOCITY, Input, Output, Param
+from hri.core.errors import HriError
 from hri.core.geometry import placed
 from hri.core.signals import People, Pose2D, Twist
 from hri.drive.avoidance import Avoidance, Manner, straight_to, turn_to
@@ -22,6 +23,8 @@ from hri.hal.range_sensor import RangeSensor
 
 PEOPLE = "people"
 """The board slot with everybody whom the camera sees."""
+SEEN_S = 1.0
+"""Seconds for which what was seen says where people are."""
 _MANNER = Manner()
 
 
@@ -53,6 +56,8 @@ class _Going(DeviceBehavior):
         goal = self.goal.value
         if goal is None:
             return
+        if not all(map(math.isfinite, (goal.x, goal.y, goal.heading))):
+            raise HriError(f"cannot go to {goal} - give finite numbers")
         twist = self._steer(now, pose, goal)
         is_at = math.dist((pose.x, pose.y), (goal.x, goal.y)) <= self.near
         if is_at and self.faces:
@@ -104,7 +109,7 @@ class ObstacleAvoidance(_Going):
 
     def _look(self, now: float, pose: Pose2D) -> None:
         readings = {id: sensor.read(now) for id, sensor in self._sensors.items()}
-        self._avoidance.see(now, pose, readings, places_of(self.people.value, pose))
+        self._avoidance.see(now, pose, readings, places_of(self.people.value, pose, now))
         is_bumped = any(self.bump.values)
         if is_bumped and not self._was_bumped:
             self._avoidance.touch(now, pose)
@@ -116,10 +121,15 @@ class ObstacleAvoidance(_Going):
         return twist
 
 
-def places_of(people: People | None, pose: Pose2D) -> list[tuple[float, float]]:
-    """Where everybody stands whose distance is known, in the frame of a robot's pose."""
+def places_of(people: People | None, pose: Pose2D, now: float) -> list[tuple[float, float]]:
+    """Where everybody stands whose distance is known, in the frame of a robot's pose.
+
+    Nobody, when the camera has said nothing for SEEN_S: what it said last moved with the robot.
+    """
+    if people is None or now - people.time > SEEN_S:
+        return []
     return [
         placed(pose, p.distance * math.cos(p.bearing), p.distance * math.sin(p.bearing))
-        for p in (people.persons if people is not None else ())
+        for p in people.persons
         if p.is_visible and math.isfinite(p.distance)
     ]

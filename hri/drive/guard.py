@@ -10,6 +10,7 @@ from hri.behavior.ports import Input, Output, Param
 from hri.core.errors import HriError
 from hri.core.events import Subscription
 from hri.core.signals import Event, People
+from hri.drive.behaviors import COMMAND, MOTION
 from hri.drive.supervisor.client import BaseBus, announce
 
 TELL_EVERY = 0.5
@@ -37,13 +38,13 @@ class BaseGuard(Behavior):
     is_latched = Output[bool]("boolean", "true while the base must not move until it is released")
 
     def start(self, context: Context) -> None:
-        self._resources = context.resources
+        self._resources, self._board = context.resources, context.board
         self._bus = self._found(context)
         self._told = self._seen = -math.inf
         self._nearest = math.nan
         self._subscriptions: list[Subscription] = []
         if self._bus is not None:
-            announce(self._bus, context.events)
+            self._watcher = announce(self._bus, context.events)
             subscribe = context.events.subscribe
             self._subscriptions = [
                 subscribe("speech.heard", self._hear),
@@ -52,7 +53,7 @@ class BaseGuard(Behavior):
 
     def compute(self, now: float, dt: float) -> None:
         if (people := self.people.value) is not None:
-            self._seen = now
+            self._seen = people.time
             self._nearest = nearest(people)
         if self._bus is None:
             return
@@ -68,6 +69,7 @@ class BaseGuard(Behavior):
             subscription.cancel()
         self._subscriptions.clear()
         if self._bus is not None:
+            self._bus.unwatch(self._watcher)
             self._resources.release(self._bus)
             self._bus = None
 
@@ -77,8 +79,13 @@ class BaseGuard(Behavior):
         return self._bus is not None and self._bus.state.is_latched
 
     def halt(self, because: str = "somebody said stop") -> None:
-        """The emergency stop; `because` ends the sentence "I stopped because"."""
+        """The emergency stop; `because` ends the sentence "I stopped because".
+
+        It ends the motion of any task: after a release nothing goes on by itself.
+        """
         if self._bus is not None:
+            for slot in (COMMAND, MOTION):
+                self._board.slot(slot).clear()
             self._bus.stop_latched(because)
 
     def release(self) -> None:

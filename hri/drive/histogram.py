@@ -84,7 +84,8 @@ class Memory:
         mechanics: Mechanics,
     ) -> None:
         """Take in what the beams say from a pose; a reading that is no number is left out."""
-        self._points = self._points[self._points[:, 2] > now - self._keep]
+        keep = np.where(self._points[:, 4] > 0, FELT_S, self._keep)
+        self._points = self._points[self._points[:, 2] > now - keep]
         for id, mount in mechanics.mounts.items():
             reading = readings.get(id)
             if reading is None or math.isnan(reading.distance) or reading.distance < 0:
@@ -102,7 +103,7 @@ class Memory:
 
     def feel(self, x: float, y: float, now: float, angle: float) -> None:
         """Remember what the bumper felt, for FELT_S, though no beam may see it."""
-        self._points = np.vstack((self._points, (x, y, now - self._keep + FELT_S, angle, 1.0)))
+        self._points = np.vstack((self._points, (x, y, now, angle, 1.0)))
 
     def add(self, x: float, y: float, now: float, angle: float) -> None:
         """Remember a point of the odometry frame that was looked at in this direction."""

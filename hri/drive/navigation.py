@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Awaitable, Callable
+from typing import TypeVar
 
 from hri.core.errors import HriError
 from hri.drive import tasks as verbs
@@ -26,6 +27,8 @@ from hri.task.units import (
     UNIT_VELOCITY,
     in_si,
 )
+
+T = TypeVar("T")
 
 ACCELERATION = 0.3
 """Metres a second squared, when nobody says more."""
@@ -99,7 +102,7 @@ async def _move(context: TaskContext, distance: float, speed: float, acceleratio
         if context.find_behavior(CommandGate) is None:
             await _carry_out(context, lambda drive: drive.move_delta(distance, speed, acceleration))
         else:
-            gone = await _checked(verbs.move(context, distance, speed))
+            gone = await checked(verbs.move(context, distance, speed))
             _refuse_short(context, gone, distance, "m")
 
 
@@ -108,7 +111,7 @@ async def _turn(context: TaskContext, angle: float, rate: float, acceleration: f
         if context.find_behavior(CommandGate) is None:
             await _carry_out(context, lambda drive: drive.turn_delta(angle, rate, acceleration))
         else:
-            gone = await _checked(verbs.turn(context, angle, rate))
+            gone = await checked(verbs.turn(context, angle, rate))
             _refuse_short(context, gone, angle, "rad")
 
 
@@ -129,8 +132,8 @@ async def _carry_out(context: TaskContext, command: Callable[[DriveSystem], Pend
             drive.halt(Stop.SMOOTH).on_done(lambda _: context.resources.release(drive))
 
 
-async def _checked(motion: Awaitable[float]) -> float:
-    """A motion through the gate; what it refuses is the caller's mistake."""
+async def checked(motion: Awaitable[T]) -> T:
+    """What a motion comes to. Raises HriError for what it refuses: the caller's mistake."""
     try:
         return await motion
     except ValueError as error:

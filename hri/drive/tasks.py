@@ -12,6 +12,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+from hri.core.geometry import wrapped
 from hri.core.signals import Pose2D, Twist
 from hri.drive.behaviors import COMMAND, MOTION
 from hri.drive.gate import REST
@@ -61,11 +62,6 @@ async def stop(context: TaskContext) -> None:
     """End any motion and wait until the base is at rest, two seconds at most."""
     with motion_of(context) as motion:
         await motion.stop()
-
-
-def wrapped(angle: float) -> float:
-    """The same direction within -pi to pi."""
-    return math.remainder(angle, math.tau)
 
 
 def _above_0(value: float | None, default: float, unit: str) -> float:

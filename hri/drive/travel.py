@@ -13,13 +13,14 @@ from contextlib import contextmanager
 
 from hri.core.errors import HriError
 from hri.core.geometry import after_move
-from hri.core.signals import People, Person, Pose2D, Twist
+from hri.core.signals import People, Pose2D, Twist
 from hri.drive.avoidance import PERSON_RADIUS, Avoidance, Manner, turn_to
-from hri.drive.following import Following, Pursuit, sight_of, tell
+from hri.drive.following import Following, Pursuit, tell
 from hri.drive.following import Manner as FollowingManner
 from hri.drive.gate import REST
 from hri.drive.going import PEOPLE, places_of
 from hri.drive.mechanics import mechanics_of, range_sensors
+from hri.drive.navigation import checked
 from hri.drive.tasks import motion_of
 from hri.drive.wandering import Wandering
 from hri.hal.drive import Odometry
@@ -64,16 +65,17 @@ async def follow(
 
     It faces them, looks for them when they are out of sight, and ends when they stay lost or after
     so many seconds; whether it had them to the end. It comes no nearer than it may while it moves,
-    whatever distance is asked for. Raises `target.lost` and `target.found`.
+    whatever distance is asked for. Raises the events `target.lost` and `target.found`, and
+    ValueError for a distance or a time that is no number.
     """
+    _refuse_nan(distance, seconds)
     with _traveler(context) as traveler:
         following = traveler.following(distance)
         end = context.clock.now() + seconds
 
         def steer(now: float, pose: Pose2D) -> Twist | None:
             before = following.pursuit
-            if (seen := traveler.sight_of(person, now)) is not None:
-                following.see(now, pose, seen.bearing, seen.distance)
+            following.look(now, pose, traveler.people, person)
             goal = following.goal(now, pose)
             if following.pursuit is not before:
                 tell(context.events, following.pursuit)
@@ -89,8 +91,10 @@ async def follow(
 async def come_here(context: TaskContext, person: str = "", distance: float = 1.2) -> bool:
     """Come to whoever is seen, `distance` metres before them, and face them; whether it did.
 
-    It comes no nearer than it may while it moves, whatever distance is asked for.
+    It comes no nearer than it may while it moves, whatever distance is asked for. Raises ValueError
+    for a distance that is no number.
     """
+    _refuse_nan(distance)
     with _traveler(context) as traveler:
         following = traveler.following(distance)
         patience = _Patience()
@@ -98,8 +102,7 @@ async def come_here(context: TaskContext, person: str = "", distance: float = 1.
 
         def steer(now: float, pose: Pose2D) -> Twist | None:
             nonlocal is_there
-            if (seen := traveler.sight_of(person, now)) is not None:
-                following.see(now, pose, seen.bearing, seen.distance)
+            if (seen := following.look(now, pose, traveler.people, person)) is not None:
                 patience.is_over(now, seen.distance)
             goal = following.goal(now, pose)
             if following.pursuit is Pursuit.LOST or patience.is_over(now, math.inf):
@@ -116,7 +119,11 @@ async def come_here(context: TaskContext, person: str = "", distance: float = 1.
 
 
 async def wander(context: TaskContext, seconds: float = math.inf, seed: int = 0) -> None:
-    """Go about for so many seconds, from one place near by to the next."""
+    """Go about for so many seconds, from one place near by to the next.
+
+    Raises ValueError for a time that is no number.
+    """
+    _refuse_nan(seconds)
     with _traveler(context) as traveler:
         wandering, end = Wandering(seed), context.clock.now() + seconds
 
@@ -140,7 +147,7 @@ async def go_to_task(
     place = in_si(UNIT_DISTANCE, x), in_si(UNIT_DISTANCE, y)
     faces = heading is not None
     goal = Pose2D(*place, in_si(UNIT_ANGLE, heading or 0.0))
-    if not await go_to(context, goal, faces=faces):
+    if not await checked(go_to(context, goal, faces=faces)):
         context.fail(f"did not get to ({place[0]:.2f}, {place[1]:.2f}) m - clear the way")
 
 
@@ -154,7 +161,7 @@ async def go_by(context: TaskContext, x: float, y: float) -> None:
     with _traveler(context) as traveler:
         start = traveler.pose(context.clock.now())
     goal = after_move(start, in_si(UNIT_DISTANCE, x), in_si(UNIT_DISTANCE, y))
-    if not await go_to(context, goal, faces=True):
+    if not await checked(go_to(context, goal, faces=True)):
         context.fail(f"did not get to ({goal.x:.2f}, {goal.y:.2f}) m - clear the way")
 
 
@@ -164,21 +171,27 @@ async def follow_person(
 ) -> bool:
     """Follow somebody, in default units; 0 is a usual distance, and no end."""
     apart = in_si(UNIT_DISTANCE, distance) or FollowingManner().distance
-    return await follow(context, person, apart, in_si(UNIT_TIME, seconds) or math.inf)
+    end = in_si(UNIT_TIME, seconds) or math.inf
+    return await checked(follow(context, person, apart, end))
 
 
 @task("Hri.ComeHere")
 async def come_here_task(context: TaskContext, person: str = "", distance: float = 0.0) -> None:
     """Come to whoever is seen and face them, in default units; 0 is a usual distance."""
     apart = in_si(UNIT_DISTANCE, distance) or FollowingManner().distance
-    if not await come_here(context, person, apart):
+    if not await checked(come_here(context, person, apart)):
         context.fail("nobody could be reached - stand where the camera sees you")
 
 
 @task("Hri.Wander")
 async def wander_task(context: TaskContext, seconds: float = 0.0) -> None:
     """Go about, for ever when `seconds` (default units of time) is 0."""
-    await wander(context, in_si(UNIT_TIME, seconds) or math.inf)
+    await checked(wander(context, in_si(UNIT_TIME, seconds) or math.inf))
+
+
+def _refuse_nan(*values: float) -> None:
+    if any(map(math.isnan, values)):
+        raise ValueError(f"cannot travel by {', '.join(map(str, values))} - give numbers")
 
 
 class _Traveler:
@@ -186,17 +199,17 @@ class _Traveler:
 
     def __init__(self, context: TaskContext) -> None:
         resources = context.resources
-        self._people = context.board.slot(PEOPLE)
+        self._slot = context.board.slot(PEOPLE)
         self._odometry = resources.obtain("odometry", Odometry)
         self._sensors: dict[str, RangeSensor] = {}
         try:
             for id in range_sensors(resources):
                 self._sensors[id] = resources.obtain(id, RangeSensor)
+            self._mechanics = mechanics_of(resources, self._sensors)
         except HriError:
             self.release(context)
             raise
         self._manner = Manner()
-        self._mechanics = mechanics_of(resources, self._sensors)
         self._avoidance = Avoidance(self._mechanics, self._manner)
 
     def following(self, distance: float) -> Following:
@@ -216,17 +229,18 @@ class _Traveler:
     def toward(self, now: float, pose: Pose2D, goal: Pose2D, faces: bool) -> tuple[Twist, bool]:
         """The velocity for now, and whether all is done."""
         readings = {id: sensor.read(now) for id, sensor in self._sensors.items()}
-        people: People | None = self._people.value
-        self._avoidance.see(now, pose, readings, places_of(people, pose))
+        self._avoidance.see(now, pose, readings, places_of(self.people, pose, now))
         twist = self._avoidance.steer(now, pose, goal)
         is_at = math.dist((pose.x, pose.y), (goal.x, goal.y)) <= self._manner.near
         if is_at and faces:
             twist = turn_to(pose, goal.heading, self._manner.turn_rate)
         return twist, is_at and twist == REST
 
-    def sight_of(self, id: str, now: float) -> Person | None:
-        """Who is followed, by the newest of what the camera says."""
-        return sight_of(self._people.value, id, now)
+    @property
+    def people(self) -> People | None:
+        """The newest of what the camera says."""
+        people: People | None = self._slot.value
+        return people
 
 
 @contextmanager

@@ -1,4 +1,5 @@
 import json
+import math
 from pathlib import Path
 
 import cv2
@@ -104,3 +105,36 @@ def test_no_file_crashes_the_reader(tmp_path_factory: pytest.TempPathFactory, da
 def test_a_picture_of_a_robot_far_away_stays_small() -> None:
     moments = [Moment(0.0, Pose2D()), Moment(1.0, Pose2D(900.0, 0.0))]
     assert max(Plan(Run(moments)).whole().shape) <= 1402
+
+
+def written(folder: Path, *lines: object) -> str:
+    path = folder / "run.jsonl"
+    path.write_text("\n".join(map(json.dumps, lines)))
+    return str(path)
+
+
+@pytest.mark.parametrize("x", [math.nan, math.inf, 1e300, 10**400, None, "far"])
+def test_a_recorded_pose_that_is_nowhere_is_named(tmp_path: Path, x: object) -> None:
+    pose = {"event": "odometry", "t": 0, "x_cm": x, "y_cm": 0, "heading_rad": 0}
+    with pytest.raises(HriError, match=r"run\.jsonl:1: no pose"):
+        read_run(written(tmp_path, pose), "full")
+
+
+@pytest.mark.parametrize("radius", [math.nan, -1, 0, 1e9])
+def test_a_radius_that_no_robot_has_is_named(tmp_path: Path, radius: float) -> None:
+    path = written(tmp_path, {"radius": radius}, {"t": 0, "robot": [0, 0, 0]})
+    with pytest.raises(HriError, match="radius"):
+        read_run(path, "full")
+
+
+@pytest.mark.parametrize(("last", "why"), [(-1.0, "order of time"), (1e15, "hours")])
+def test_time_goes_on_and_ends(tmp_path: Path, last: float, why: str) -> None:
+    moments = ({"t": time, "robot": [0, 0, 0]} for time in (0.0, last))
+    with pytest.raises(HriError, match=why):
+        read_run(written(tmp_path, {}, *moments), "full")
+
+
+def test_a_world_that_is_none_is_named_by_its_run(tmp_path: Path) -> None:
+    path = written(tmp_path, {"world": "[["}, {"t": 0, "robot": [0, 0, 0]})
+    with pytest.raises(HriError, match=r"run\.jsonl:1: in its world: world\.toml:1"):
+        read_run(path, "full")

@@ -136,6 +136,18 @@ def test_of_several_the_attended_one_is_followed_else_the_nearest() -> None:
     assert sight(now=2.0) == "", "nobody has looked for two seconds"
 
 
+def test_what_was_seen_before_a_turn_is_not_seen_again_after_it() -> None:
+    following, people = Following(), People(0.0, (person("p1", 2.0),))
+    assert following.look(0.0, Pose2D(), people, "") is not None
+    turned = Pose2D(0.0, 0.0, 1.5)
+    assert following.look(0.5, turned, people, "") is None
+    goal = following.goal(0.5, turned)
+    assert goal is not None
+    assert goal.heading == pytest.approx(0.0, abs=1e-9)
+    following.goal(1.1, turned)
+    assert following.pursuit is Pursuit.SEARCHING, "a second after it was seen"
+
+
 def test_wandering_goes_on_and_repeats_with_its_seed() -> None:
     def places(seed: int) -> list[Pose2D]:
         wandering, pose, found = Wandering(seed), Pose2D(), []

@@ -80,6 +80,15 @@ def test_what_was_felt_stays_though_a_beam_passes_through_it() -> None:
     assert not len(memory.points)
 
 
+def test_what_was_felt_just_now_is_as_sure_as_what_was_seen() -> None:
+    memory = Memory(60.0)
+    memory.feel(0.3, 0.0, 100.0, 0.0)
+    memory.see(110.0, HERE, {}, ONE_BEAM)
+    assert len(memory.since(99.0))
+    memory.see(116.0, HERE, {}, ONE_BEAM)
+    assert not len(memory.points)
+
+
 def test_memory_does_not_grow_for_ever() -> None:
     memory = Memory(1e9)
     for number in range(2000):

@@ -13,11 +13,13 @@ from hri.behavior.drivers import DriveCommand
 from hri.behavior.network import Network, load_network
 from hri.behavior.ports import OutputPort
 from hri.core import paths
+from hri.core.errors import HriError
 from hri.core.geometry import seen_from
 from hri.core.signals import HeadPose, People, Person, Pose2D
 from hri.drive import travel
 from hri.drive.behaviors import CommandGate
 from hri.drive.goals import DeadReckoning, FollowTarget
+from hri.drive.going import ObstacleAvoidance, places_of
 from hri.simulation.rooms import furnished
 from hri.simulation.world import SimulatedWorld
 from hri.task.context import TaskContext
@@ -255,3 +257,53 @@ def test_a_given_place_is_followed_like_a_person(tmp_path: Path) -> None:
     assert goal is not None
     assert (goal.x, goal.y) == pytest.approx((0.0, 1.8), abs=1e-6)
     assert goal.heading == pytest.approx(math.pi / 2)
+
+
+def test_where_somebody_was_long_ago_is_in_nobodys_way(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+
+    async def later(context: TaskContext) -> bool:
+        who = Person("p1", HeadPose(0.0, 0, 0), distance=0.6, bearing=0.0)
+        context.board.slot("people").set(People(0.0, (who,), "p1"), 0.0)
+        await context.clock.sleep(2.0)
+        return await travel.go_to(context, Pose2D(0.6, 0.8))
+
+    assert stage.run(later)
+
+
+def test_somebody_who_is_seen_is_in_the_way() -> None:
+    who = Person("p1", HeadPose(3.0, 0, 0), distance=1.0, bearing=math.pi / 2)
+    people = People(3.0, (who,), "p1")
+    assert places_of(people, Pose2D(2.0, 0.0), 3.5) == [pytest.approx((2.0, 1.0))]
+    assert places_of(people, Pose2D(2.0, 0.0), 4.5) == []
+
+
+@pytest.mark.parametrize(
+    "verb",
+    [
+        partial(travel.follow, distance=math.nan),
+        partial(travel.follow, seconds=math.nan),
+        partial(travel.come_here, distance=math.nan),
+        partial(travel.wander, seconds=math.nan),
+    ],
+)
+def test_what_is_no_number_moves_nothing(tmp_path: Path, verb: Callable[..., Any]) -> None:
+    stage = Set(tmp_path)
+    with pytest.raises(ValueError, match="give numbers"):
+        stage.run(verb)
+    assert stage.place == (1.0, 2.0)
+
+
+def test_a_task_refuses_what_is_no_number_as_the_mistake_of_its_caller(tmp_path: Path) -> None:
+    with pytest.raises(HriError, match="finite"):
+        Set(tmp_path).run(travel.go_to_task, math.nan, 0.0)
+
+
+def test_a_goal_of_the_network_that_is_no_place_is_refused(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+    avoidance = ObstacleAvoidance("avoidance")
+    avoidance.start(stage.context)
+    avoidance.goal.sources.append(OutputPort(Pose2D(math.nan, 0.0)))
+    with pytest.raises(HriError, match="finite"):
+        avoidance.compute(0.0, 0.0)
+    assert avoidance.velocity.value is None

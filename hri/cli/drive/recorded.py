@@ -11,7 +11,8 @@ from __future__ import annotations
 import json
 import math
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +27,14 @@ EVENTS = "events.jsonl"
 """The file in a robot's recording."""
 MOST_BYTES = 100_000_000
 MOST_ROOMS = 100_000
+FARTHEST = 1e4
+"""Metres from the origin; nobody drives farther."""
+MOST_RADIUS = 10.0
+"""Metres of a robot."""
+LONGEST_S = 86_400.0
+"""Seconds of a run at most."""
+UNREADABLE = KeyError, TypeError, ValueError, IndexError, OverflowError
+"""What a line that is wrong somewhere may raise."""
 
 
 def read_run(name: str, policy: str) -> Run:
@@ -40,6 +49,7 @@ def read_run(name: str, policy: str) -> Run:
     run = _of_events(path, lines) if is_recording else _of_moments(path, lines)
     if not run.moments:
         raise HriError(f"{path}: nobody moved in it - record a run with an Hri.Odometry")
+    _check_times(path, run.moments)
     return run
 
 
@@ -79,9 +89,8 @@ def _of_events(path: Path, lines: list[Mapping[str, Any]]) -> Run:
             continue
         try:
             x, y = float(line["x_cm"]) / 100, float(line["y_cm"]) / 100
-            pose = Pose2D(x, y, float(line["heading_rad"]))
-            moments.append(Moment(float(line["t"]), pose))
-        except (KeyError, TypeError, ValueError) as error:
+            moments.append(_at(line["t"], (x, y, line["heading_rad"])))
+        except UNREADABLE as error:
             raise HriError(f"{path}:{number}: no pose in it: {error} - record it anew") from error
     return Run(tuple(moments), title=path.parent.name)
 
@@ -93,36 +102,57 @@ def _of_moments(path: Path, lines: list[Mapping[str, Any]]) -> Run:
     for number, line in enumerate(lines[1:], 2):
         try:
             moments.append(_moment(line))
-        except (KeyError, TypeError, ValueError, IndexError) as error:
+        except UNREADABLE as error:
             raise HriError(f"{path}:{number}: no moment: {error} - record it anew") from error
     goal = first.get("goal")
     try:
-        obstacles = _obstacles(str(first["world"])) if first.get("world") else ()
+        obstacles = _obstacles(path, str(first["world"])) if first.get("world") else ()
         place = None if goal is None else _points([goal])[0]
         radius = float(first.get("radius", 0.2))
-    except (TypeError, ValueError, IndexError) as error:
+        if not 0 < radius <= MOST_RADIUS:
+            raise ValueError(f"a radius of {radius} m")
+    except UNREADABLE as error:
         raise HriError(f"{path}:1: no description: {error} - record it anew") from error
     return Run(tuple(moments), obstacles, place, radius, str(first.get("title", "")))
 
 
-def _obstacles(text: str) -> tuple[Any, ...]:
+def _obstacles(run: Path, text: str) -> tuple[Any, ...]:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "world.toml"
         path.write_text(text, encoding="utf-8")
-        return load_layout(path).room.obstacles
+        try:
+            return load_layout(path).room.obstacles
+        except HriError as error:
+            where = str(error).removeprefix(f"{folder}/")
+            raise HriError(f"{run}:1: in its world: {where}") from error
 
 
 def _moment(line: Mapping[str, Any]) -> Moment:
-    x, y, heading = (float(value) for value in line["robot"])
     people, seen = (_points(line.get(name, ())) for name in ("people", "seen"))
-    moment = Moment(float(line["t"]), Pose2D(x, y, heading), people, seen)
-    if not all(map(math.isfinite, (moment.time, x, y, heading))):
+    return _at(line["t"], line["robot"], people, seen)
+
+
+def _at(
+    time: Any, robot: Any, people: tuple[Point, ...] = (), seen: tuple[Point, ...] = ()
+) -> Moment:
+    x, y, heading = (float(value) for value in robot)
+    _points([(x, y)])
+    if not (math.isfinite(float(time)) and math.isfinite(heading)):
         raise ValueError("a number is not finite")
-    return moment
+    return Moment(float(time), Pose2D(x, y, heading), people, seen)
+
+
+def _check_times(path: Path, moments: Sequence[Moment]) -> None:
+    """Raises HriError unless time goes on, and ends."""
+    times = [moment.time for moment in moments]
+    if any(after < before for before, after in pairwise(times)):
+        raise HriError(f"{path}: its moments are not in order of time - sort its lines by t")
+    if times[-1] - times[0] > LONGEST_S:
+        raise HriError(f"{path}: longer than {LONGEST_S / 3600:g} hours - give a shorter run")
 
 
 def _points(values: Any) -> tuple[Point, ...]:
     points = tuple((float(value[0]), float(value[1])) for value in values)
-    if not all(abs(x) < 1e4 and abs(y) < 1e4 for x, y in points):
+    if not all(abs(x) < FARTHEST and abs(y) < FARTHEST for x, y in points):
         raise ValueError("a point that is nowhere near")
     return points

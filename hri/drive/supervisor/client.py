@@ -337,8 +337,10 @@ def _number(description: Description, name: str, default: float) -> float:
     return description.number_within(name, default, least, most)
 
 
-def announce(bus: BaseBus, events: EventBus) -> None:
+def announce(bus: BaseBus, events: EventBus) -> Watcher:
     """Raise an event, and write a line to the log, for each thing that people should know.
+
+    It goes on until the watcher that it returns is given to `unwatch`, or the bus is closed.
 
     `drive.stopped` (reason, words) unless somebody asked it to stop, `drive.refused` (words) for a
     command that made no sense, `drive.faulty` (words) for a sensor that cannot be believed.
@@ -365,6 +367,7 @@ def announce(bus: BaseBus, events: EventBus) -> None:
             events.raise_event("drive.stopped", reason=cause.name, words=cause.words)
 
     bus.watch(tell)
+    return tell
 
 
 class OnBase(Resource):
