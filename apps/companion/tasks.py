@@ -194,7 +194,7 @@ class Companion:
         return self._drive(self._go_along)
 
     async def _come_here(self, context: TaskContext) -> None:
-        if self.person() is None or not await travel.come_here(context):
+        if not self.camera.is_on or not await travel.come_here(context):
             self.say(self.replies.unasked["nobody"])
 
     async def _go_along(self, context: TaskContext) -> None:

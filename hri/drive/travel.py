@@ -12,10 +12,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from hri.core.errors import HriError
-from hri.core.geometry import after_move
+from hri.core.geometry import after_move, wrapped
 from hri.core.signals import People, Pose2D, Twist
 from hri.drive.avoidance import PERSON_RADIUS, Avoidance, Manner, turn_to
-from hri.drive.following import Following, Pursuit, tell
+from hri.drive.following import Following, Pursuit, sight_of, tell
 from hri.drive.following import Manner as FollowingManner
 from hri.drive.gate import REST
 from hri.drive.going import PEOPLE, places_of
@@ -33,6 +33,8 @@ PATIENCE_S = 40.0
 """Seconds in which it must get nearer to a goal; else it gives up."""
 NEARER = 0.1
 """Metres that count as nearer."""
+SEARCH_RATE = 0.6
+"""Radians a second while it looks around: slow enough to see faces on the way."""
 
 
 async def go_to(context: TaskContext, goal: Pose2D, *, faces: bool = False) -> bool:
@@ -91,11 +93,14 @@ async def follow(
 async def come_here(context: TaskContext, person: str = "", distance: float = 1.2) -> bool:
     """Come to whoever is seen, `distance` metres before them, and face them; whether it did.
 
-    It comes no nearer than it may while it moves, whatever distance is asked for. Raises ValueError
-    for a distance that is no number.
+    Who calls may be out of sight, and a voice does not tell where it is: then it first looks
+    around, once. It comes no nearer than it may while it moves, whatever distance is asked for.
+    Raises ValueError for a distance that is no number.
     """
     _refuse_nan(distance)
     with _traveler(context) as traveler:
+        if not await _look_around(context, traveler, person):
+            return False
         following = traveler.following(distance)
         patience = _Patience()
         is_there = False
@@ -116,6 +121,22 @@ async def come_here(context: TaskContext, person: str = "", distance: float = 1.
         with motion_of(context) as motion:
             await motion.lead(steer)
         return is_there
+
+
+async def _look_around(context: TaskContext, traveler: _Traveler, person: str) -> bool:
+    """Turn on the spot until they are in sight, once around at most; whether they are."""
+    turned, before = 0.0, traveler.pose(context.clock.now()).heading
+    is_seen = False
+
+    def steer(now: float, pose: Pose2D) -> Twist | None:
+        nonlocal turned, before, is_seen
+        turned, before = turned + abs(wrapped(pose.heading - before)), pose.heading
+        is_seen = sight_of(traveler.people, person, now) is not None
+        return None if is_seen or turned >= math.tau else Twist(0.0, SEARCH_RATE)
+
+    with motion_of(context) as motion:
+        await motion.lead(steer)
+    return is_seen
 
 
 async def wander(context: TaskContext, seconds: float = math.inf, seed: int = 0) -> None:

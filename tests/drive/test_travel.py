@@ -57,11 +57,14 @@ class Set(Stage):
         drive.velocity.sources.append(gate.velocity)
         self.context.networks.start(Network("moving", 0.05, behaviors=[gate, drive]))
         self.gate = gate
+        self.field_of_view = math.tau
 
     def see(self) -> None:
         """Let the board say where the person is, ten times a second, as a camera would."""
         now = self.clock.now()
         x, y = seen_from(self.world.base.pose, *self.world.person.place(now))
+        if abs(math.atan2(y, x)) > self.field_of_view / 2:
+            return
         who = Person("p1", HeadPose(now, 0, 0), distance=math.hypot(x, y), bearing=math.atan2(y, x))
         self.context.board.slot("people").set(People(now, (who,), "p1"), now)
 
@@ -168,10 +171,18 @@ def test_who_asks_it_to_come_too_near_gets_it_as_near_as_it_may(tmp_path: Path) 
     assert 1.0 < math.dist(stage.place, (4.5, 2.0)) < 1.4
 
 
-def test_come_here_gives_up_where_nobody_is_seen(tmp_path: Path) -> None:
+def test_come_here_gives_up_where_nobody_is_seen_all_around(tmp_path: Path) -> None:
     stage = Set(tmp_path)
     assert stage.run(travel.come_here) is False
-    assert stage.place == (1.0, 2.0)
+    assert stage.place == pytest.approx((1.0, 2.0), abs=0.05)
+    assert abs(stage.world.base.pose.heading) > math.radians(340)
+
+
+def test_who_calls_from_behind_is_looked_for(tmp_path: Path) -> None:
+    stage = Set(tmp_path, ROOM.replace("start = [1, 2]", "start = [1, 1]\nheading = 3.14"))
+    stage.field_of_view = math.radians(60)
+    assert stage.run(lambda context: stage.watching(travel.come_here, context))
+    assert math.dist(stage.place, (4.5, 2.0)) == pytest.approx(1.2, abs=0.25)
 
 
 @pytest.mark.proves("R06", "B25")
