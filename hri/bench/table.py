@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import os
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from hri.bench.figures import machine
 from hri.core.errors import HriError, NotAvailable
 from hri.core.statistics import wilson
 
@@ -69,3 +71,16 @@ def attempted(what: str, measure: Callable[[], Iterator[Row]]) -> Iterator[Row]:
         yield skipped(what, str(why))
     except HriError as why:
         yield {"what": what, "failed": str(why), "passed": False}
+
+
+def report(bench: str, rows: Sequence[Row], quick: bool) -> dict[str, Any]:
+    """What a bench of rows prints: the rows, on what machine, and which missed or were skipped."""
+    return {
+        "bench": bench,
+        "machine": machine(),
+        "load": [round(value, 2) for value in os.getloadavg()],
+        "quick": quick,
+        "rows": rows,
+        "missed": [row["what"] for row in rows if not row.get("passed", True)],
+        "skipped": [row["what"] for row in rows if "skipped" in row],
+    }

@@ -8,6 +8,7 @@ Goals come from `Hri.FollowTarget`, `Hri.Wander`, or from a task by the board an
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 
 from hri.behavior.behavior import Context
 from hri.behavior.drivers import DeviceBehavior
@@ -28,7 +29,7 @@ SEEN_S = 1.0
 _MANNER = Manner()
 
 
-class _Going(DeviceBehavior):
+class _Going(DeviceBehavior, ABC):
     """Base of what leads to a goal in the odometry frame."""
 
     category = "drive"
@@ -68,9 +69,9 @@ class _Going(DeviceBehavior):
     def _look(self, now: float, pose: Pose2D) -> None:
         """Take in what the sensors say, with or without a goal."""
 
+    @abstractmethod
     def _steer(self, now: float, pose: Pose2D, goal: Pose2D) -> Twist:
         """The velocity toward the goal."""
-        raise NotImplementedError
 
     def _send(self, twist: Twist) -> None:
         factor = self.speed.value

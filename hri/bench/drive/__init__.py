@@ -7,22 +7,13 @@ from collections.abc import Iterator
 from typing import Any
 
 from hri.bench.drive import rooms, stopping, wheels, world
-from hri.bench.figures import machine
-from hri.bench.table import Row, attempted
+from hri.bench.table import Row, attempted, report
 
 
 def measure(quick: bool = False) -> dict[str, Any]:
     """All rows; what is being done is told on standard error. `quick` takes a tenth of the time."""
     told = list(rows(quick, max(1, os.cpu_count() or 1)))
-    return {
-        "bench": "drive",
-        "machine": machine(),
-        "load": [round(value, 2) for value in os.getloadavg()],
-        "quick": quick,
-        "rows": told,
-        "missed": [row["what"] for row in told if not row.get("passed", True)],
-        "skipped": [row["what"] for row in told if "skipped" in row],
-    }
+    return report("drive", told, quick)
 
 
 def rows(quick: bool, workers: int) -> Iterator[Row]:

@@ -7,15 +7,13 @@ talks, blinks, sways and changes its expression, in order.
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Iterator
 from functools import partial
 from typing import Any
 
 from hri.bench.face import frames, judge, lips, live, loading, skia
-from hri.bench.figures import machine
-from hri.bench.table import Row, attempted
+from hri.bench.table import Row, attempted, report
 from hri.face.model import load_face
 
 SIZE = (800, 600)
@@ -27,15 +25,7 @@ FRAMES = 600
 def measure(quick: bool = False) -> dict[str, Any]:
     """All rows; what is being done is told on standard error. `quick` takes a tenth of the time."""
     told = list(rows(FRAMES // 10 if quick else FRAMES, QUICK_SECONDS if quick else SECONDS))
-    return {
-        "bench": "face",
-        "machine": machine(),
-        "load": [round(value, 2) for value in os.getloadavg()],
-        "quick": quick,
-        "rows": told,
-        "missed": [row["what"] for row in told if not row.get("passed", True)],
-        "skipped": [row["what"] for row in told if "skipped" in row],
-    }
+    return report("face", told, quick)
 
 
 def rows(count: int, seconds: float) -> Iterator[Row]:

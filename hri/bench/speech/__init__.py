@@ -13,7 +13,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from hri.bench.figures import machine
 from hri.bench.speech.accuracy import rows as accuracy_rows
 from hri.bench.speech.clips import Clip, Recordings, read_recordings
 from hri.bench.speech.listening import Listen, listen
@@ -21,7 +20,7 @@ from hri.bench.speech.speaking import rows as speaking_rows
 from hri.bench.speech.speed import rows as speed_rows
 from hri.bench.speech.start import rows as start_rows
 from hri.bench.speech.text import rows as text_rows
-from hri.bench.table import Row, attempted
+from hri.bench.table import Row, attempted, report
 from hri.core import paths
 
 QUICK_STEP = 6
@@ -38,14 +37,7 @@ def measure(quick: bool = False, recordings: Path | None = None) -> dict[str, An
     folder = recordings or _recordings_beside()
     people = read_recordings(folder) if folder else None
     told = list(rows(people, listen, QUICK_STEP if quick else 1))
-    return {
-        "bench": "speech",
-        "machine": machine(),
-        "quick": quick,
-        "rows": told,
-        "missed": [row["what"] for row in told if not row.get("passed", True)],
-        "skipped": [row["what"] for row in told if "skipped" in row],
-    }
+    return report("speech", told, quick)
 
 
 def rows(people: Recordings | None, hear: Listen, step: int = 1) -> Iterator[Row]:
