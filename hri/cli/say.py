@@ -25,7 +25,7 @@ from hri.face.scene import scene_of
 from hri.hal.drivers.wav_file import write_wav
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
-from hri.speech.synthesizers.espeak import FASTEST, SLOWEST
+from hri.speech.synthesizers.espeak import FASTEST, LONGEST_TEXT, SLOWEST
 from hri.speech.synthesizers.espeak_library import Setting
 
 PATIENCE = 2.0
@@ -122,6 +122,9 @@ def _synthesize(resources: ResourceManager, options: argparse.Namespace) -> Spee
     text = sys.stdin.read(LARGEST_FILE) if options.text == "-" else options.text
     if not text.strip():
         raise HriError("there is nothing to say - give some words")
+    if len(text) > LONGEST_TEXT:
+        told = f"only the first {LONGEST_TEXT} characters of {len(text)} are said"
+        print(f"{told} - say it in parts", file=sys.stderr)
     return open_voice(resources, options.voice, options.rate).synthesize(text, prosody)
 
 

@@ -143,7 +143,7 @@ class Speech:
 
 @dataclass(frozen=True, slots=True)
 class Prosody:
-    """How something is said; every field is a factor, 1 is the plain voice."""
+    """How something is said; every number is a factor, 1 is the plain voice."""
 
     rate: float = 1.0
     """Of the words a minute."""
@@ -153,6 +153,8 @@ class Prosody:
     """Of the amplitude."""
     range: float = 1.0
     """Of how far the pitch moves up and down, in semitones; 0 is monotonous."""
+    voice: str = ""
+    """Another voice than the synthesizer's own, such as "en-gb+f3"; empty for its own."""
 
 
 @dataclass(frozen=True, slots=True)

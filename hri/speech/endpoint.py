@@ -269,7 +269,8 @@ class Endpointer:
             piece.near = len(piece.levels)
         if self._recent[-1]:
             piece.voiced = len(piece.levels)
-        if is_louder:
+        # In noise that has risen above all of the piece nothing is near yet.
+        if is_louder and level > least:
             self._cut_background(piece, least)
 
     def _cut_background(self, piece: _Piece, least: float) -> None:

@@ -27,10 +27,16 @@ class Layer:
     """Once it has been read."""
     error: HriError | None = None
     """Why it was refused."""
+    origin: Layer | None = None
+    """The layer whose file this one read again: whoever put that one there may take this away."""
     replaces: Layer | None = None
     """What comes back when it is refused."""
     changed: float = 0.0
     """When its files were last changed, as the file system counts."""
+
+    def stands_for(self, layer: Layer) -> bool:
+        """Whether it is that layer, or was read again from its file."""
+        return layer in (self, self.origin)
 
 
 class GrammarStack:
@@ -62,12 +68,18 @@ class GrammarStack:
 
     def pop(self, layer: Layer) -> None:
         """Take a grammar away, wherever it lies; the last one stays, a second call does nothing."""
-        if layer in self._layers and len(self._layers) > 1:
-            self._layers.remove(layer)
+        found = next((one for one in self._layers if one.stands_for(layer)), None)
+        if found is not None and len(self._layers) > 1:
+            self._layers.remove(found)
 
     def reload(self) -> Layer | None:
         """Read the topmost anew."""
-        return self.use(self._layers[-1].path) if self._layers else None
+        if not self._layers:
+            return None
+        old = self._layers[-1]
+        new = self.use(old.path)
+        new.origin = old.origin or old
+        return new
 
     @property
     def is_settled(self) -> bool:

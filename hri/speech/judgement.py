@@ -58,7 +58,7 @@ def judge(
     least = needed(grammar, found, strictness, turn)
     reason, detail = _reason(hypothesis, found, rules, turn, least)
     if not reason and confidence < least:
-        reason, detail = "low confidence", f'as likely: "{doubts[0].text}"'
+        reason, detail = "low confidence", _as_likely(doubts[0].text)
     if reason == "not in grammar" and found is None:
         detail = _departure(grammar, hypothesis.text)
     if turn.is_speaking and reason:
@@ -76,6 +76,10 @@ def judge(
         words=words,
         alternatives=hypothesis.alternatives,
     )
+
+
+def _as_likely(text: str) -> str:
+    return f'as likely: "{text}"' if text else "another engine hears no words"
 
 
 def needed(

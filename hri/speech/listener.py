@@ -152,7 +152,8 @@ class Listener(Behavior):
 
     def is_in_force(self, layer: Layer) -> bool:
         """Whether a grammar is the one that is listened for."""
-        return self._grammars.in_force is layer
+        in_force = self._grammars.in_force
+        return in_force is not None and in_force.stands_for(layer)
 
     def _take_grammar(self, layer: Layer) -> None:
         """Read a grammar and give it to the recogniser; runs in a worker."""

@@ -36,6 +36,8 @@ class Saying:
 
     text: str
     priority: Priority = Priority.NORMAL
+    prosody: Prosody | None = None
+    """How it is said; None is as the input of the voice tells."""
     is_done: bool = False
     """True when it was said to its end, or cut."""
     was_cut: bool = False
@@ -92,9 +94,14 @@ class Voice(Behavior):
         self._making: Saying | None = None
         self._playing: _Playing | None = None
 
-    def say(self, text: str, priority: Priority = Priority.NORMAL) -> Saying:
-        """Queue a text, behind all that matters as much; blank text is done at once."""
-        saying = Saying(text, priority)
+    def say(
+        self, text: str, priority: Priority = Priority.NORMAL, prosody: Prosody | None = None
+    ) -> Saying:
+        """Queue a text, behind all that matters as much; blank text is done at once.
+
+        `prosody` is how this one is said, and by which voice; None is as the input tells.
+        """
+        saying = Saying(text, priority, prosody)
         if not text.strip():
             saying.is_done = True
             return saying
@@ -159,7 +166,7 @@ class Voice(Behavior):
         if self._playing is not None or self._worker.is_busy or not self._queue:
             return
         saying = self._making = self._queue.pop(0)
-        prosody = self.prosody.value or self._prosody
+        prosody = saying.prosody or self.prosody.value or self._prosody
         take = self._taker(saying)
 
         def make() -> tuple[Saying, Speech]:

@@ -142,6 +142,15 @@ def test_a_noise_that_starts_suddenly_is_known_for_one_within_seconds():
     assert pieces[0].end < 6.5
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_noise_from_the_first_sample_on_is_given_up(seed):
+    hiss = noise(10.0, 3000.0, seed)
+
+    pieces = pieces_of(hiss, detector=voice_detector)
+
+    assert sum(len(piece.samples) for piece in pieces) < len(hiss) / 2
+
+
 def test_speech_over_a_noise_that_stays_is_heard():
     room = noise(12.0, 300.0)
     room[8 * RATE : 9 * RATE] += noise(1.0, 3000.0)

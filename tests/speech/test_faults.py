@@ -27,7 +27,7 @@ from hri.speech.recognizers import pocketsphinx
 from hri.speech.recognizers.automatic import AutomaticRecognizer
 from hri.speech.recognizers.pocketsphinx import PocketSphinxRecognizer
 from hri.speech.recognizers.veto import VetoRecognizer
-from hri.speech.recognizers.vosk import VoskRecognizer
+from hri.speech.recognizers.vosk import PARTS, VoskRecognizer
 from hri.speech.synthesizers.espeak import EspeakVoice
 
 TICK = 0.05
@@ -176,7 +176,19 @@ def test_the_loudest_channel_is_not_changed_by_a_click():
 
 def test_a_model_directory_that_is_half_there_says_so(resources, companion, tmp_path):
     (tmp_path / "conf").mkdir()
-    vosk = VoskRecognizer(Description("ears", "Hri.Vosk", {"model": str(tmp_path)}), resources)
+    model = {"model": str(tmp_path)}
+    vosk = VoskRecognizer(Description("ears", "Hri.Vosk", model), resources)
+    with pytest.raises(NotAvailable, match=r"am/final\.mdl is missing - unpack the model again"):
+        vosk.activate()
+    best = {**model, "weights": "/nowhere"}
+    ears = AutomaticRecognizer(Description("ears", "Hri.Recognizer", best), resources)
+    ears.activate()
+    assert isinstance(ears.engine, PocketSphinxRecognizer)
+    ears.deactivate()
+
+    (tmp_path / "am").mkdir()
+    for part in PARTS:
+        (tmp_path / part).touch()
     vosk.activate()
     with pytest.raises(NotAvailable, match="unpack the model again"):
         vosk.start(companion)

@@ -284,6 +284,26 @@ def test_a_grammar_is_read_again_when_its_file_changes(write):
     assert stage.behavior.loaded_grammar.public_rules == ("greet", "part")
 
 
+def test_a_grammar_that_was_read_again_is_taken_away_by_who_put_it_there(write):
+    stage = Stage(Listener(reload=True))
+    stage.run(0.5)
+    path = write("public <drink> = red wine;", "drinks")
+    layer = stage.behavior.push(path)
+    stage.run(0.5)
+
+    for second in range(2):
+        write("public <drink> = white wine;", "drinks")
+        os.utime(path, (2_000_000_000, 2_000_000_000 + second))
+        stage.run(2.5)
+        assert list(stage.behavior.loaded_grammar.sentences(1)) == ["white wine"]
+        assert stage.behavior.is_in_force(layer)
+    assert stage.names() == ["grammar.changed"] * 3
+
+    stage.behavior.pop(layer)
+    stage.run(0.5)
+    assert stage.behavior.loaded_grammar.name == "companion"
+
+
 @pytest.mark.parametrize(
     ("words", "confidence", "when"),
     [("stop", 0.9, 0.8), ("stop", 0.6, 1.15), ("go forward", 0.9, 1.15)],

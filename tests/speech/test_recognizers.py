@@ -8,7 +8,7 @@ import pytest
 
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError, NotAvailable
-from hri.core.signals import Utterance
+from hri.core.signals import HeardWord, Utterance
 from hri.hal.drivers.resampling import resample
 from hri.hal.manager import ResourceManager
 from hri.hal.recognizer import Hypothesis, Segment
@@ -20,7 +20,7 @@ from hri.speech.recognizers.ctc.recognizer import CtcRecognizer
 from hri.speech.recognizers.pocketsphinx import PocketSphinxRecognizer
 from hri.speech.recognizers.typed import TypedRecognizer
 from hri.speech.recognizers.veto import VetoRecognizer
-from hri.speech.recognizers.vosk import VoskRecognizer, hypothesis, known_sentences
+from hri.speech.recognizers.vosk import PARTS, VoskRecognizer, hypothesis, known_sentences
 from hri.speech.synthesizers.espeak import EspeakVoice
 
 from .conftest import RECORDINGS
@@ -126,7 +126,13 @@ def test_synthetic_commands_are_heard(sphinx, companion, spoken):
 
     sound = np.concatenate([spoken(text) for text in texts])
 
-    assert [utterance.text for utterance in heard(sphinx, companion, sound)] == texts
+    utterances = heard(sphinx, companion, sound)
+    assert [utterance.text for utterance in utterances] == texts
+    for utterance in utterances:
+        assert [word.text for word in utterance.words] == utterance.text.split()
+        edges = [edge for word in utterance.words for edge in (word.start, word.end)]
+        assert edges == sorted(edges)
+        assert (utterance.start, utterance.end) == (edges[0], edges[-1])
 
 
 def test_silence_and_noise_are_no_speech(sphinx, companion):
@@ -198,10 +204,20 @@ def test_vosk_is_told_only_sentences_whose_words_it_knows(write):
 
 
 def test_vosk_is_as_certain_as_its_least_certain_word():
-    result = {"text": "go home", "result": [{"word": "go", "conf": 1.0}, {"conf": 0.4}]}
+    go = {"word": "go", "start": 0.3, "end": 0.5, "conf": 1.0}
+    home = {"word": "home", "start": 0.5, "end": 0.9, "conf": 0.4}
+    result = {"text": "go home", "result": [go, home]}
 
-    assert hypothesis(result) == Hypothesis("go home", 0.4)
+    times = (HeardWord("go", 0.3, 0.5), HeardWord("home", 0.5, 0.9))
+    assert hypothesis(result) == Hypothesis("go home", 0.4, times)
     assert hypothesis({"text": ""}) == Hypothesis("", 0.0)
+
+
+def vosk_model(folder):
+    """The files that a model is known by, with nothing in them."""
+    for part in PARTS:
+        (folder / part).parent.mkdir(parents=True)
+        (folder / part).touch()
 
 
 @pytest.mark.parametrize(
@@ -214,7 +230,7 @@ def test_vosk_is_as_certain_as_its_least_certain_word():
 )
 def test_the_best_engine_that_is_there_serves(resources, tmp_path, parameters, chosen):
     if "model" in parameters:
-        (tmp_path / "model" / "conf").mkdir(parents=True)
+        vosk_model(tmp_path / "model")
         parameters = {**parameters, "model": str(tmp_path / "model")}
     ears = AutomaticRecognizer(Description("ears", "Hri.Recognizer", parameters), resources)
     ears.activate()
@@ -233,9 +249,19 @@ class Certain(TypedRecognizer):
         return Hypothesis(self.words, 0.8)
 
 
-@pytest.mark.parametrize(("second", "confidence"), [("go forward", 0.8), ("stop", 0.4), ("", 0.4)])
-def test_a_second_engine_vetoes_what_it_does_not_hear(resources, companion, second, confidence):
-    for id, words in (("a", "go forward"), ("b", second)):
+@pytest.mark.parametrize(
+    ("second", "confidence", "detail"),
+    [
+        ("go forward ten meters", 0.8, ""),
+        ("go forward ten meter", 0.8, ""),
+        ("stop", 0.0, 'as likely: "stop"'),
+        ("", 0.0, "another engine hears no words"),
+    ],
+)
+def test_a_second_engine_vetoes_what_it_does_not_hear(
+    resources, companion, second, confidence, detail
+):
+    for id, words in (("a", "go forward ten meters"), ("b", second)):
         engine = Certain(Description(id, "Hri.Typed"), resources)
         engine.words = words
         engine.activate()
@@ -244,5 +270,8 @@ def test_a_second_engine_vetoes_what_it_does_not_hear(resources, companion, seco
     veto.activate()
     veto.start(companion)
 
-    assert veto.decode(Segment(0.0, 1.0, SECOND)) == Hypothesis("go forward", confidence)
-    assert veto.decode(Segment(0.0, 1.0, text="x")).confidence == 0.8
+    piece = Segment(0.0, 1.0, SECOND)
+    heard = judge(companion, piece, veto.decode(piece), strictness=0.1)
+    assert (heard.text, heard.confidence) == ("go forward ten meters", confidence)
+    assert getattr(heard, "detail", "") == detail
+    assert veto.decode(Segment(0.0, 1.0, text="x")).alternatives == ()

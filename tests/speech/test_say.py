@@ -133,3 +133,8 @@ def test_the_variants_take_a_few_lines_and_no_table(capsys):
 def test_a_language_nobody_speaks_is_told(language, remedy, capsys):
     assert main(["voices", "--language", language]) == 2
     assert capsys.readouterr().err == f'no voice speaks "{language}" - {remedy}\n'
+
+
+def test_what_is_too_long_to_be_said_is_told(tmp_path, capsys):
+    assert main(["say", "a" + " " * 5000, "--wav", str(tmp_path / "a.wav")]) == 0
+    assert "only the first 5000 characters of 5001 are said" in capsys.readouterr().err

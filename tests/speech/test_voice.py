@@ -105,6 +105,12 @@ def test_prosody_shapes_the_speech():
 
     assert saying.is_done
 
+    its_own = voice.say("hello there", prosody=Prosody(rate=0.5))
+    stage.run(0.8)
+    assert not its_own.is_done
+    stage.run(2.0)
+    assert its_own.is_done
+
 
 def run_task(stage: Stage, seconds: float) -> None:
     """Let a task say something, cancelled after some seconds, while the behavior ticks."""

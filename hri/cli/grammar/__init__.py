@@ -8,6 +8,9 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import sys
+
+from hri.core.errors import AuthoringError
 
 COMMANDS = {
     "check": "say what is wrong and what is heard badly",
@@ -43,5 +46,16 @@ def run(options: argparse.Namespace) -> int:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     module.add_arguments(parser)
-    status: int = module.run(parser.parse_args(options.words))
+    given = parser.parse_args(options.words)
+    try:
+        status: int = module.run(given)
+    except AuthoringError as error:
+        print(_with_its_line(error), file=sys.stderr)
+        return 2
     return status
+
+
+def _with_its_line(error: AuthoringError) -> str:
+    from hri.cli.grammar.excerpt import Excerpts
+
+    return f"{error}\n{Excerpts().of(error.place)}".rstrip()

@@ -6,12 +6,13 @@ import argparse
 import json
 import sys
 from collections import Counter
+from pathlib import Path
 from typing import TextIO
 
 from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.excerpt import Excerpts
 from hri.core import paths
-from hri.core.errors import NotAvailable
+from hri.core.errors import AuthoringError, NotAvailable
 from hri.speech.grammar import Grammar, read_grammar
 from hri.speech.grammar.check import check
 from hri.speech.grammar.finding import SEVERITIES, Finding
@@ -41,7 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    grammar, mistakes = read_grammar(paths.find("grammars", options.file))
+    grammar, mistakes = _read(paths.find("grammars", options.file))
     findings = [Finding("error", error.place, error.what, error.remedy) for error in mistakes]
     findings = findings or check(grammar, _lexicon())
     if options.json:
@@ -52,6 +53,14 @@ def run(options: argparse.Namespace) -> int:
     if "error" in severities:
         return 2
     return 1 if options.strict and "warning" in severities else 0
+
+
+def _read(path: Path) -> tuple[Grammar, list[AuthoringError]]:
+    """The grammar and the mistakes in its writing; nothing and one where it is no text."""
+    try:
+        return read_grammar(path)
+    except AuthoringError as error:
+        return Grammar(path.stem, path, {}), [error]
 
 
 def _lexicon() -> Lexicon | None:
@@ -89,8 +98,8 @@ def _show(grammar: Grammar, findings: list[Finding], is_all: bool) -> None:
     for finding in errors[:most_errors]:
         _print(finding, excerpts, sys.stderr)
     if len(errors) > most_errors:
-        more = len(errors) - most_errors
-        print(f"{grammar.path}: {more} more errors - mend these, or see --all", file=sys.stderr)
+        more = _counted(len(errors) - most_errors, "more error")
+        print(f"{grammar.path}: {more} - mend these, or see --all", file=sys.stderr)
     for finding in others:
         if is_all or finding.severity != "note":
             _print(finding, excerpts, sys.stdout)

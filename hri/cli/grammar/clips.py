@@ -7,7 +7,8 @@ A manifest is a text file with a line for each recording and a tab between its c
     tags          optional: what it means, as in files of expectations: `move: distance=-1`
 
 With tags, the sentence may be left empty, or hold words that the grammar does not know. Empty lines
-and those that begin with `#` are passed over, and so is a first line whose first word is `file`.
+and those that begin with `#` are passed over. A first line whose first word is `file` is a heading;
+where its third word is not `tags`, that column and those behind it are of no concern.
 """
 
 from __future__ import annotations
@@ -61,11 +62,13 @@ def read_manifest(path: Path, grammar: Grammar) -> list[Row]:
     where there is none.
     """
     rows: list[Row] = []
+    most = 3
     for number, line in enumerate(read_text(path, "manifest").splitlines(), start=1):
         columns = [column.strip() for column in line.split("\t")]
-        is_heading = not rows and columns[0] == "file"
-        if columns != [""] and not line.startswith("#") and not is_heading:
-            rows.append(_row(columns, Place(path, number), grammar))
+        if not rows and columns[0] == "file":
+            most = 3 if columns[2:3] == ["tags"] else 2
+        elif columns != [""] and not line.startswith("#"):
+            rows.append(_row(columns[:most], Place(path, number), grammar))
     if not rows:
         raise AuthoringError(Place(path), "no recording in this manifest", "write one a line")
     return rows

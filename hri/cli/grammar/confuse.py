@@ -9,6 +9,7 @@ from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.arguments import count, share
 from hri.cli.grammar.clips import spoken, usual_voices
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
+from hri.cli.grammar.expand import in_words
 from hri.cli.progress import progress
 from hri.core import paths
 from hri.core.statistics import told
@@ -89,7 +90,7 @@ def _meaning(reading: Parse) -> str:
 
 def _compared(grammar: Grammar, compared: int, pairs: int, farthest: float) -> str:
     ways = count_ways(grammar)
-    drawn = "" if ways <= compared else f", drawn from {ways:,}"
+    drawn = "" if ways <= compared else f", drawn from {in_words(ways)}"
     found = f"{pairs} {'pair' if pairs == 1 else 'pairs'} no farther apart than {farthest:g}"
     return f"{grammar.path}: {found} among {compared} sentences{drawn}"
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from hri.core import registry
 from hri.core.clock import RealClock
+from hri.core.errors import HriError
 from hri.hal.manager import ResourceManager
 from hri.hal.recognizer import Recognizer
 from hri.hal.resource import Description
@@ -26,13 +27,21 @@ ENGINES = {
 
 def add_engine_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--engine", choices=ENGINES, default="automatic", help="the recognizer")
-    parser.add_argument("--model", default="", metavar="DIR", help="model directory of Vosk")
+    parser.add_argument("--model", default="", metavar="DIR", help="model directory, for Vosk")
+
+
+def _engine_of(options: argparse.Namespace) -> str:
+    """The engine's name: whoever gives a model wants the engine that can use it."""
+    name: str = options.engine
+    if options.model and name not in ("automatic", "vosk"):
+        raise HriError(f"--engine {name} takes no --model - leave one of them out")
+    return "vosk" if options.model else name
 
 
 @contextmanager
 def started_engine(options: argparse.Namespace, grammar: Grammar) -> Iterator[Recognizer]:
     """The recogniser of `options`, listening for a grammar; closed at the end."""
-    kind = ENGINES[options.engine]
+    kind = ENGINES[_engine_of(options)]
     parameters = {"model": options.model} if options.model else {}
     complain = lambda what: print(what, file=sys.stderr)  # noqa: E731
     with ResourceManager((), RealClock(), notice=complain) as manager:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import random
 from collections.abc import Iterator
 from functools import partial
@@ -31,6 +32,8 @@ examples:
 
 MOST_STALE = 1000
 """Sentences drawn in a row that were drawn before, after which there are no more."""
+MOST_DIGITS = 15
+"""Of a number of sentences that is told to the last one."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -57,8 +60,12 @@ def run(options: argparse.Namespace) -> int:
     said = _drawn(grammar, rules, options) if options.random is not None else None
     is_part = options.rule is not None and rules[0] not in grammar.public_rules
     tell = partial(_with_tags, grammar.alone(rules[0])) if is_part else partial(_expected, grammar)
+    is_any = False
     for sentence in said or sentences(grammar, rules, options.n):
+        is_any = True
         print(tell(sentence) if options.tags else sentence)
+    if not is_any:
+        raise HriError(f"{grammar.path}: no sentence to list - see `hri grammar check`")
     return 0
 
 
@@ -86,11 +93,19 @@ def _drawn(grammar: Grammar, rules: tuple[str, ...], options: argparse.Namespace
 def _count(grammar: Grammar, rules: tuple[str, ...]) -> str:
     ways = count_ways(grammar, rules)
     if ways == float("inf"):
-        return "no end of sentences: there are repeats or recursion"
+        return "no end of sentences: there are repeats, recursion, or too many choices to count"
     different = count_sentences(grammar, rules)
     if different is None:
-        return f"{ways:,} ways to say something"
+        return f"{in_words(ways)} ways to say something"
     return f"{different:,} sentences, {ways:,} ways to say them"
+
+
+def in_words(ways: float) -> str:
+    """A number as `count_ways` gives it, for people."""
+    if ways == math.inf:
+        return "no end"
+    digits = str(ways)
+    return f"{ways:,}" if len(digits) <= MOST_DIGITS else f"about 10^{len(digits) - 1}"
 
 
 def _with_tags(part: Grammar, sentence: str) -> str:

@@ -35,6 +35,19 @@ from hri.speech.judgement import STRICTNESS
 from hri.speech.recognizers.typed import TypedRecognizer
 from hri.speech.turn import Turn
 
+EXAMPLES = """\
+examples:
+  hri grammar listen companion                       speak; Ctrl-C ends it
+  hri grammar listen companion --wav a.wav b.mp3     recordings, each of any number of sentences
+  hri grammar listen my.jsgf --wav *.wav --json      an object a line for each piece of speech
+  hri grammar listen my.jsgf --typed < lines.txt
+
+The objects: file, start_s and end_s (seconds from its beginning), accepted, text, rule, tags,
+confidence, reason (empty, or why it was not accepted) and latency_s. Put FILE before --wav, which
+takes all the paths that follow it.
+
+Status 0: all was accepted. 1: something was not. 2: a file is wrong."""
+
 METER = 20
 """Characters of the level meter."""
 TICK = 0.1
@@ -218,7 +231,6 @@ def _show_json(file: str, heard: Heard) -> None:
         "tags": dict(accepted.tags) if accepted else {},
         "confidence": round(heard.confidence, 4),
         "reason": rejected.reason if rejected else "",
-        "detail": rejected.detail if rejected else "",
         "latency_s": round(heard.latency, 4),
     }
     print(json.dumps(line), flush=True)

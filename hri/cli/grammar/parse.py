@@ -34,6 +34,9 @@ examples:
 The exit status is 0 when all are accepted, 1 when one is not.
 """
 
+NO_MEANING: dict[str, object] = {"rule": "", "tags": {}, "tree": None}
+"""What a sentence means that is not in the grammar: the fields are there for all."""
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help=FILE_HELP)
@@ -95,10 +98,9 @@ def _lines() -> Iterator[str]:
 def _object(
     text: str, found: tuple[Parse, ...], near: Tolerant | None, refused: Refusal | None
 ) -> dict[str, object]:
-    answer: dict[str, object] = {"text": text, "accepted": bool(found)}
-    if found:
-        answer |= {"text": found[0].text, **_meaning(found[0])}
-        answer["parses"] = [_meaning(reading) for reading in found]
+    answer: dict[str, object] = {"text": found[0].text if found else text, "accepted": bool(found)}
+    answer |= _meaning(found[0]) if found else NO_MEANING
+    answer["parses"] = [_meaning(reading) for reading in found]
     if near is not None:
         answer |= {"cost": near.cost, "edits": [str(edit) for edit in near.edits]}
     if refused is not None:

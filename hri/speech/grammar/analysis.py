@@ -245,7 +245,9 @@ def _undefined(grammar: Grammar) -> Iterator[AuthoringError]:
                 what = f"no rule <{node.name}>"
                 remedy = f"write import <{offered.get(node.name)}>; for the one of that grammar"
                 if node.name not in offered:
-                    remedy = did_you_mean(node.name, grammar.rules, f"write <{node.name}> = words;")
+                    names = grammar.names if rule.path == grammar.path else grammar.rules
+                    near = {*names, *offered}
+                    remedy = did_you_mean(node.name, near, f"write <{node.name}> = words;")
                 yield AuthoringError(rule.place(node.span), what, remedy)
                 if len(told) >= MOST_TOLD:
                     return

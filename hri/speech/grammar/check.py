@@ -45,7 +45,7 @@ LONGEST_PHRASE = 3
 def check(grammar: Grammar, lexicon: Lexicon | None = None) -> list[Finding]:
     """Errors if there are any, else warnings and hints, the worst first.
 
-    Without a lexicon nothing is said about how words sound.
+    Without a lexicon nothing is said about how words sound, nor of a grammar that is not English.
     """
     errors = [Finding("error", e.place, e.what, e.remedy) for e in analysis.errors(grammar)]
     if errors:
@@ -73,7 +73,7 @@ def _opinions(grammar: Grammar, lexicon: Lexicon | None) -> list[Finding]:
         *_said_twice(grammar, said),
         *_ambiguous(grammar),
     ]
-    if lexicon is not None:
+    if lexicon is not None and grammar.is_english:
         sounding = heard_badly(grammar, said, lexicon)
         findings += sounding
         if not any(finding.severity == "error" for finding in sounding):

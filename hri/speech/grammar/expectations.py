@@ -117,7 +117,16 @@ def _disappointment(grammar: Grammar, line: Expectation) -> str:
         return "" if found is None else f"is understood as {meaning_of(found)}"
     if found is None:
         return f"is not understood{_how_far(grammar, line.sentence)}"
-    return "" if line.meaning.fits(found) else f"is understood as {meaning_of(found)}"
+    if line.meaning.fits(found):
+        return ""
+    return f"is understood as {meaning_of(found)}{_slip(grammar, line.meaning)}"
+
+
+def _slip(grammar: Grammar, wanted: Meaning) -> str:
+    """What was meant by a lone name that is no tag: most likely a rule."""
+    names = tuple(wanted.tags or ())
+    is_slip = not wanted.rule and len(names) == 1 and names[0] in grammar.public_rules
+    return f' (a rule is written with a colon, "=> {names[0]}:")' if is_slip else ""
 
 
 def _how_far(grammar: Grammar, sentence: str) -> str:

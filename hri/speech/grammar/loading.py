@@ -134,8 +134,16 @@ class _Loader:
             self._define(file)
         name = main.document.name.rpartition(".")[2] or path.stem
         broken = frozenset(self._broken)
-        idle = main.idle_imports()
-        return Grammar(name, path, self._rules, broken, main.document.locale, idle), self._errors
+        grammar = Grammar(
+            name,
+            path,
+            self._rules,
+            broken,
+            locale=main.document.locale,
+            idle_imports=main.idle_imports(),
+            names=frozenset({*main.own, *main.imported}),
+        )
+        return grammar, self._errors
 
     def _read(self, path: Path, prefix: str) -> _File:
         document = read_jsgf(read_source(path), path)

@@ -337,7 +337,9 @@ class Matcher:
                     enter = actions[0]
                     if isinstance(enter, Enter) and enter.rule not in rules:
                         continue
-                stack.append((position + is_word, targets, (history, is_word, actions)))
+                # A node that several ways lead to is followed once: they would double at each word.
+                distinct = list(dict.fromkeys(targets))
+                stack.append((position + is_word, distinct, (history, is_word, actions)))
 
 
 def _add_silent_ways(state: State, alive: set[int], ways: _Ways) -> None:

@@ -82,11 +82,18 @@ class Grammar:
     """The language its header names, such as "en" or "en-US"."""
     idle_imports: tuple[Import | NameListImport, ...] = ()
     """Imports of the main file that bring nothing it uses."""
+    names: frozenset[str] = frozenset()
+    """What the main file may call rules: its own, and imported ones in short and in full."""
 
     @cached_property
     def public_rules(self) -> tuple[str, ...]:
         """Names of the public rules of the main file, in its order; imported ones only help."""
         return tuple(key for key, rule in self.rules.items() if rule.is_public)
+
+    @property
+    def is_english(self) -> bool:
+        """Whether its header names English, or no language."""
+        return not self.locale or self.locale.lower().startswith("en")
 
     def alone(self, rule: str) -> Grammar:
         """The same rules, with one of them, public or not, as the only command."""

@@ -9,7 +9,7 @@ from hri.core import paths
 from hri.speech.pronunciation.letter_to_sound import guesses
 from hri.speech.pronunciation.phones import PHONES, Phones
 
-EDITION = "1"
+EDITION = "2"
 """Changes when the rules of `letter_to_sound` do; guesses of another edition are not read."""
 LARGEST_CACHE = 1_000_000
 """Bytes; a larger file is begun anew."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Iterable, Mapping
 
 from hri.core.errors import HriError
@@ -43,11 +44,19 @@ def guesses(word: str) -> tuple[Phones, ...]:
     """
     spelt = [mnemonic.lstrip("',") for mnemonic in load_espeak().phonemes_of(word)]
     spelt = [mnemonic for mnemonic in spelt if mnemonic.strip("_:")]
-    if not spelt or any(mnemonic not in PHONES for mnemonic in spelt):
+    is_known = bool(spelt) and all(mnemonic in PHONES for mnemonic in spelt)
+    if not (is_known and _is_latin(word)):
         raise HriError(f'nobody knows how "{word}" sounds - write it as English words')
     likely = _phones(PHONES, spelt)
     other = _phones({**PHONES, **VARIANTS}, spelt)
     return (likely,) if likely == other else (likely, other)
+
+
+def _is_latin(word: str) -> bool:
+    """Whether its letters are; those of other scripts would be named ("Chinese letter")."""
+    return all(
+        unicodedata.name(letter, "LATIN").startswith("LATIN") for letter in word if letter.isalpha()
+    )
 
 
 def _phones(table: Mapping[str, str], spelt: Iterable[str]) -> Phones:

@@ -5,7 +5,7 @@ line of JSON, and answers each with a line of JSON on its standard output:
 
     {"lookup": ["go", "zorg"]}                              {"missing": ["zorg"]}
     {"jsgf": "...", "pronunciations": {"zorg": "Z AO R G"}} {"error": ""}
-    {"bytes": 32000}, then so many bytes of 16-bit samples  {"words": [["go", 12]], "score": 0.7}
+    {"bytes": 32000}, then so many bytes of 16-bit samples  {"words": [["go", 9, 12]], "score": 0.7}
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def _take_grammar(decoder: Any, request: dict[str, Any]) -> dict[str, Any]:
 
 
 def _decode(decoder: Any, samples: bytes) -> dict[str, Any]:
-    """The words with their frames, and the score of the whole path."""
+    """The words, each with its first frame and how many it has, and the score of the whole path."""
     decoder.start_utt()
     # The whole piece at once: its own mean is taken off, nothing of earlier speech plays a part.
     decoder.process_raw(samples, full_utt=True)
@@ -72,9 +72,16 @@ def _decode(decoder: Any, samples: bytes) -> dict[str, Any]:
     best = decoder.hyp()
     if best is None or not best.hypstr:
         return {"words": [], "score": 0.0}
-    words = [(s.word, s.end_frame - s.start_frame + 1) for s in decoder.seg()]
-    spoken = [(word.split("(")[0], frames) for word, frames in words if word[0] not in "<[("]
-    return {"words": spoken, "score": best.score}
+    words = [
+        (
+            segment.word.split("(")[0],
+            segment.start_frame,
+            segment.end_frame - segment.start_frame + 1,
+        )
+        for segment in decoder.seg()
+        if segment.word[0] not in "<[("
+    ]
+    return {"words": words, "score": best.score}
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ import numpy as np
 
 from hri.core.errors import HriError
 from hri.core.signals import Samples
-from hri.hal.recognizer import Grammar, Hypothesis, Segment
+from hri.hal.recognizer import Grammar, HeardWord, Hypothesis, Segment
 from hri.speech.confidence import FRAME, PathFigures, confidence
 from hri.speech.pronunciation.lexicon import Lexicon, load_lexicon
 from hri.speech.recognizers.sound import SoundRecognizer
@@ -65,10 +65,15 @@ class PocketSphinxRecognizer(SoundRecognizer):
         words = answer["words"]
         figures = PathFigures(
             score=answer["score"],
-            word_frames=sum(frames for _, frames in words),
+            word_frames=sum(frames for _, _, frames in words),
             frames=round(len(samples) / self.rate / FRAME),
         )
-        return Hypothesis(" ".join(word for word, _ in words), confidence(figures))
+        end = len(samples) / self.rate  # the last window of the decoder may reach beyond it
+        heard = tuple(
+            HeardWord(word, first * FRAME, min(end, (first + frames) * FRAME))
+            for word, first, frames in words
+        )
+        return Hypothesis(" ".join(word.text for word in heard), confidence(figures), heard)
 
     def _ask(self, request: dict[str, Any], payload: bytes = b"") -> dict[str, Any]:
         """The process's answer; when it died, a new one gets the grammar and is asked again.

@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import replace
 
-from hri.hal.recognizer import Grammar, Hypothesis, Recognizer, Segment
+from hri.hal.recognizer import Alternative, Grammar, Hypothesis, Recognizer, Segment
+from hri.speech.grammar import Grammar as WrittenGrammar
+from hri.speech.grammar.matching import parse
 from hri.speech.recognizers.delegating import DelegatingRecognizer
-
-DISAGREEMENT = 0.5
-"""What is left of the confidence when the second engine hears other words, or none."""
 
 
 class VetoRecognizer(DelegatingRecognizer):
     """Hears what the recogniser `first` hears, as far as the recogniser `second` hears it as well.
 
-    Both are ids of other recognisers of the configuration.
+    Words of the second that mean something else, or none, are an alternative of share 1: nothing
+    is left of the confidence. Both are ids of other recognisers of the configuration.
     """
 
     parameters = ("first", "second")
@@ -33,14 +33,23 @@ class VetoRecognizer(DelegatingRecognizer):
     def start(self, grammar: Grammar) -> None:
         self.engine.start(grammar)
         self.second.start(grammar)
+        self._grammar = grammar
 
     def decode(self, segment: Segment, rules: Collection[str] | None = None) -> Hypothesis:
         heard = self.engine.decode(segment, rules)
         if segment.samples is None or not heard.text:
             return heard
-        if self.second.decode(segment, rules).text == heard.text:
+        other = self.second.decode(segment, rules).text
+        if self._is_the_same(heard.text, other):
             return heard
-        return replace(heard, confidence=heard.confidence * DISAGREEMENT)
+        return replace(heard, alternatives=(Alternative(other, 1.0),))
+
+    def _is_the_same(self, text: str, other: str) -> bool:
+        """Whether two texts mean the same, be it in other words."""
+        if text == other or not isinstance(self._grammar, WrittenGrammar):
+            return text == other
+        one, another = parse(self._grammar, text), parse(self._grammar, other)
+        return one is not None and another is not None and one.means_the_same(another)
 
     def describe(self) -> str:
         return f"{self.engine.id}, unless {self.second.id} hears something else"

@@ -11,12 +11,14 @@ from typing import Any
 
 from hri.core.models import models_folder
 from hri.core.signals import Samples
-from hri.hal.recognizer import Grammar, Hypothesis, Segment
+from hri.hal.recognizer import Grammar, HeardWord, Hypothesis, Segment
 from hri.speech.models import DOWNLOADS, find_vosk
 from hri.speech.recognizers.sound import SoundRecognizer
 
 VARIABLE = "HRI_VOSK_MODEL"
 DEFAULT_FOLDER = Path("~/.local/share/hri/vosk")
+PARTS = ("am/final.mdl", "conf/mfcc.conf")
+"""Files that Vosk knows a model by; it looks for the others when it loads them."""
 MOST_SENTENCES = 5000
 """Sentences the engine is told of; it learns word pairs from them, so more bring little."""
 
@@ -43,6 +45,9 @@ class VoskRecognizer(SoundRecognizer):
             what = f"no Vosk model in {folder or models_folder()}"
             remedy = f"hri models fetch {DOWNLOADS[0].name}, or set {VARIABLE}"
             raise self.not_available(what, remedy)
+        for part in PARTS:
+            if not (path / part).is_file():
+                raise self.not_available(f"{path}: {part} is missing", "unpack the model again")
         self._path = path
         self._one = threading.Lock()
         self._model: Any = None
@@ -83,7 +88,10 @@ def known_sentences(grammar: Grammar, knows: Callable[[str], bool]) -> list[str]
 
 
 def hypothesis(result: dict[str, Any]) -> Hypothesis:
-    """Vosk's answer, as certain as its least certain word."""
+    """Vosk's answer with the times of its words, as certain as its least certain one."""
     words = result.get("result", [])
     least = min((float(word["conf"]) for word in words), default=0.0)
-    return Hypothesis(str(result.get("text", "")), min(max(least, 0.0), 1.0))
+    heard = tuple(
+        HeardWord(str(word["word"]), float(word["start"]), float(word["end"])) for word in words
+    )
+    return Hypothesis(str(result.get("text", "")), min(max(least, 0.0), 1.0), heard)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hri.core.errors import did_you_mean
+from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import Prosody, Speech
 from hri.hal.synthesizer import PLAIN, Synthesizer
 from hri.speech.pronunciation.lexicon import load_lexicon
@@ -42,19 +42,19 @@ class EspeakVoice(Synthesizer):
             pitch=self.description.count("pitch", PLAIN_SETTING.pitch, 0, 100),
         )
         if not self._library.has_voice(self._plain.voice):
-            what = f'espeak-ng has no voice "{self._plain.voice}"'
-            raise self.description.error("voice", what, self._near(self._plain.voice))
+            raise self.description.error("voice", *self._unknown(self._plain.voice))
         own = self.description.text("lexicon")
-        is_english = self._plain.voice.lower().startswith("en")
-        self._lexicon = load_lexicon(*[Path(own)] * bool(own)) if is_english else None
+        self._lexicon = load_lexicon(*[Path(own)] * bool(own))
 
-    def _near(self, voice: str) -> str:
-        """The remedy for the name of a voice that is not there."""
+    def _unknown(self, voice: str) -> tuple[str, str]:
+        """What is wrong with the name of a voice that is not there, and the remedy."""
+        what = f'espeak-ng has no voice "{voice}"'
         language, _, variant = voice.partition("+")
         known = self._library.voices() if len(language) >= TELLING_LETTERS else ()
         if self._library.has_voice(language):
             language, known = variant, self._library.variants()
-        return did_you_mean(language, [voice.id for voice in known], "`hri voices` lists them")
+        near = did_you_mean(language, [voice.id for voice in known], "`hri voices` lists them")
+        return what, near
 
     def synthesize(self, text: str, prosody: Prosody = PLAIN) -> Speech:
         return self.stream(text, prosody, lambda speech: None, lambda: True)
@@ -66,7 +66,11 @@ class EspeakVoice(Synthesizer):
         take: Callable[[Speech], object],
         is_wanted: Callable[[], bool],
     ) -> Speech:
-        read = reading(text[:LONGEST_TEXT], self._lexicon)
+        setting = scaled(self._plain, prosody)
+        if prosody.voice and not self._library.has_voice(prosody.voice):
+            raise HriError(f"{self.id}: {' - '.join(self._unknown(prosody.voice))}")
+        is_english = setting.voice.lower().startswith("en")
+        read = reading(text[:LONGEST_TEXT], self._lexicon if is_english else None)
         sound = bytearray()
         marks: list[Mark] = []
         handed_over = 0
@@ -85,7 +89,6 @@ class EspeakVoice(Synthesizer):
                 take(speech())
             return is_wanted()
 
-        setting = scaled(self._plain, prosody)
         self._library.speak(read.text, setting, hear, has_phonemes=read.has_phonemes)
         whole = speech()
         take(whole)
@@ -103,7 +106,7 @@ def scaled(plain: Setting, prosody: Prosody) -> Setting:
     """
     octaves = math.log2(max(prosody.pitch, 0.01))
     return Setting(
-        plain.voice,
+        prosody.voice or plain.voice,
         rate=_within(plain.rate * prosody.rate, SLOWEST, FASTEST),
         pitch=_within(plain.pitch + 50 * octaves, 0, 100),
         volume=_within(plain.volume * prosody.volume, 0, 200),

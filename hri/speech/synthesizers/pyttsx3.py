@@ -63,7 +63,7 @@ class Pyttsx3Voice(Synthesizer):
             "text": text,
             "rate": self._rate * prosody.rate,
             "volume": prosody.volume,
-            "voice": self._voice,
+            "voice": prosody.voice or self._voice,
         }
         with self._one, tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "speech.wav"

@@ -33,6 +33,20 @@ def test_few_of_many_errors_are_shown_unless_all_are_wanted(grammar, write, caps
     assert grammar("check", path, "--all") == 2
     assert capsys.readouterr().err.count("error:") == 20
 
+    assert grammar("check", write("\n".join(f"public <a{n}> = (;" for n in range(4)))) == 2
+    assert "1 more error -" in capsys.readouterr().err
+
+
+def test_a_file_that_is_no_text_is_a_finding_like_others(grammar, write, capsys):
+    path = write("public <a> = hello robot;")
+    path.write_bytes(path.read_bytes() + b"\xff")
+
+    assert grammar("check", path) == 2
+    assert f"{path}:3:26: error: not UTF-8 text" in capsys.readouterr().err
+    assert grammar("check", path, "--json") == 2
+    (finding,) = json.loads(capsys.readouterr().out)["findings"]
+    assert (finding["severity"], finding["column"]) == ("error", 26)
+
 
 def test_strict_makes_warnings_fail(grammar, write, capsys):
     path = write("public <a> = go forward | no;")

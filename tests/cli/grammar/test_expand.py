@@ -32,6 +32,8 @@ def test_sentences_are_counted(grammar, write, capsys):
     assert capsys.readouterr().out == "5 sentences, 5 ways to say them\n"
     assert grammar("expand", write("public <a> = go (go | stop)*;"), "--count") == 0
     assert capsys.readouterr().out.startswith("no end of sentences")
+    assert grammar("expand", write(f"public <a> = {'[go] ' * 1000} now;"), "--count") == 0
+    assert capsys.readouterr().out == "about 10^301 ways to say something\n"
 
 
 def test_one_rule_may_be_expanded_even_a_private_one(grammar, write, capsys):
@@ -55,3 +57,12 @@ def test_sentences_with_tags_are_a_file_of_expectations(grammar, write, capsys, 
     (tmp_path / "test.txt").write_text(lines)
     assert grammar("test", tmp_path / "test.txt") == 0
     assert "5 of 5 sentences as expected" in capsys.readouterr().out
+
+
+def test_a_rule_that_has_no_sentence_to_list_says_so(grammar, write, capsys):
+    doubled = "".join(f"<r{n}> = <r{n - 1}> <r{n - 1}>;\n" for n in range(1, 31))
+    path = write(f"public <a> = <r30>;\n<r0> = one | two;\n{doubled}")
+
+    assert grammar("expand", path) == 2
+    assert "no sentence to list" in capsys.readouterr().err
+    assert grammar("expand", write("public <a> = [<NULL>];")) == 2

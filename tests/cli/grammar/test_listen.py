@@ -3,6 +3,7 @@ from __future__ import annotations
 import io
 import json
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -100,6 +101,41 @@ def test_the_microphone_is_heard_until_ctrl_c_with_level_words_and_results(
     assert any("go forward" in line for line in shown)
     assert shown[-1] == ""
     assert capsys.readouterr().out.startswith("move: go forward ten meters {distance=10.0}")
+
+
+def test_recordings_of_several_sentences_give_an_object_a_line(
+    grammar, companion_path, tmp_path, capsys
+):
+    quiet = np.zeros(20000, np.int16)
+    go, left = spoken("go forward ten meters"), spoken("turn left")
+    write_wav(tmp_path / "two.wav", np.concatenate([quiet, go, quiet, left, quiet]), 16000)
+    write_wav(tmp_path / "none.wav", quiet, 16000)
+
+    files = (tmp_path / "two.wav", tmp_path / "none.wav", tmp_path / "missing.wav")
+    assert grammar("listen", companion_path, "--json", "--wav", *files) == 2
+
+    told = capsys.readouterr()
+    objects = [json.loads(line) for line in told.out.splitlines()]
+    assert [(Path(one["file"]).name, one["text"]) for one in objects] == [
+        ("two.wav", "go forward ten meters"),
+        ("two.wav", "turn left"),
+        ("none.wav", ""),
+    ]
+    assert objects[0]["tags"] == {"distance": 10.0}
+    assert 1.2 < objects[0]["start_s"] < objects[0]["end_s"] < objects[1]["start_s"]
+    assert objects[2]["reason"] == "no speech"
+    fields = "file start_s end_s accepted text rule tags confidence reason latency_s"
+    assert all(list(one) == fields.split() for one in objects)
+    assert "missing.wav" in told.err
+
+
+def test_a_model_is_for_the_engine_that_can_use_it(grammar, companion_path, tmp_path, capsys):
+    model = ("--model", tmp_path / "none", "--wav", "x.wav")
+
+    assert grammar("listen", companion_path, *model) == 2
+    assert "no Vosk model in" in capsys.readouterr().err
+    assert grammar("listen", companion_path, "--engine", "ctc", *model) == 2
+    assert "--engine ctc takes no --model" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("words", [(), ("--mic",)])

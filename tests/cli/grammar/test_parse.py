@@ -76,6 +76,7 @@ def test_a_refusal_tells_how_far_it_went_and_what_could_follow(robot, capsys):
     assert parse(robot, "go to", "--json") == 1
     answer = json.loads(capsys.readouterr().out)
     assert not answer["accepted"]
+    assert [answer[name] for name in ("rule", "tags", "tree", "parses")] == ["", {}, None, []]
     assert (answer["understood"], answer["word"]) == ("go to", "")
     assert answer["expected"] == ["garden", "kitchen", "the"]
 
@@ -139,7 +140,11 @@ def test_an_error_of_the_grammar_has_its_place(tmp_path, capsys):
     path.write_text("#JSGF V1.0;\ngrammar bad;\npublic <a> = <b>;\n")
 
     assert parse(str(path), "x") == 2
-    assert f"{path}:3:14: no rule <b>" in capsys.readouterr().err
+    assert capsys.readouterr().err == (
+        f"{path}:3:14: no rule <b> - write <b> = words;\n"
+        "    public <a> = <b>;\n"
+        "                 ^\n"
+    )
 
 
 def test_the_house_grammars_take_little_words_with_patience(capsys):

@@ -82,6 +82,14 @@ def test_recordings_that_are_understood_are_counted(grammar, write, manifest, ca
     assert "others accepted                0 of 1, 0 %" in out
 
 
+def test_columns_with_other_headings_are_of_no_concern(grammar, write, manifest, capsys):
+    path = manifest((0, "turn left\thttps://example.com/a b"), (2, "-\tmine"))
+    path.write_text(path.read_text().replace("sentence\ttags", "transcript\tsource"))
+
+    assert grammar("test", "--audio", path, "--grammar", write(RULES)) == 0
+    assert "commands right and accepted    1 of 1" in capsys.readouterr().out
+
+
 def test_what_went_wrong_is_told_with_the_recording(grammar, write, manifest, capsys):
     path = manifest((1, "turn left"), (2, "turn left"), (0, "-"), (1, "turn left"))
 

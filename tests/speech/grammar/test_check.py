@@ -289,3 +289,10 @@ def test_a_thousand_rules_are_checked_at_once(write):
     assert not errors
     check(grammar, load_lexicon())
     assert time.process_time() - start < 2.0
+
+
+def test_the_sounds_of_another_language_are_of_no_concern(tmp_path):
+    path = tmp_path / "lamp.jsgf"
+    for locale, severities in (("ko", []), ("en", ["error", "error"])):
+        path.write_text(f"#JSGF V1.0 UTF-8 {locale};\ngrammar lamp;\npublic <a> = 불을 켜;\n")
+        assert [one.severity for one in check(load_grammar(path), load_lexicon())] == severities

@@ -56,6 +56,11 @@ def test_what_is_as_expected_is_not_told(expect):
         ("+ turn left => move:", "is understood as turn: angle=90", "move:"),
         ("+ turn left =>", "is understood as turn: angle=90", "any rule: {}"),
         ("+ turn left => angle=90 x=1", "is understood as turn", "any rule: angle=90 x=1"),
+        (
+            "+ turn left => turn",
+            '(a rule is written with a colon, "=> turn:")',
+            "any rule: turn=true",
+        ),
     ],
 )
 def test_each_failure_says_what_was_expected_and_what_came(expect, line, came, expected):

@@ -117,6 +117,16 @@ def test_all_mistakes_are_told_at_once_and_nothing_that_follows_from_them(put):
     assert analysis.errors(grammar) == []
 
 
+@pytest.mark.parametrize("name", ["distanc", "angl", "smal"])
+def test_a_slip_in_the_name_of_an_imported_rule_is_mended_with_the_name_to_write(put, name):
+    path = put("a.jsgf", f"import <distance.*>;\npublic <a> = go <{name}>;\n<g> = y;")
+
+    (error,) = analysis.errors(read_grammar(path)[0])
+
+    whole = {"distanc": "distance", "angl": "angle", "smal": "small"}[name]
+    assert error.remedy == f'did you mean "{whole}"?'
+
+
 def test_too_many_files_are_refused(put):
     for number in range(MOST_FILES + 1):
         put(f"g{number}.jsgf", f"import <g{number + 1}.*>;\npublic <r> = x;")

@@ -76,7 +76,7 @@ def test_other_words_are_guessed(lexicon):
     assert lexicon.known("zorblax") == ()
 
 
-@pytest.mark.parametrize("word", ["", "...", "친구"])
+@pytest.mark.parametrize("word", ["", "...", "친구", "日本", "приве́т"])
 def test_what_nobody_can_say_is_refused(lexicon, word):
     with pytest.raises(HriError, match="nobody knows how"):
         lexicon.pronunciations(word)

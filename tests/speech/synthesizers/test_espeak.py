@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hri.core.clock import FakeClock
-from hri.core.errors import AuthoringError
+from hri.core.errors import AuthoringError, HriError
 from hri.core.signals import EmotionState, Prosody, Speech
 from hri.emotion.display import felt_now, load_display
 from hri.emotion.emotions import NAMES
@@ -185,3 +185,12 @@ def test_voices_are_listed_with_what_to_ask_for():
     assert {"f3", "m1"} <= {voice.id for voice in library.variants()}
     assert all(library.has_voice(voice) for voice in ("de", "en-gb", "en-us+f3", "EN-US"))
     assert not any(library.has_voice(voice) for voice in ("zz", "en-us+nobody", "../de", ""))
+
+
+def test_one_text_may_be_said_by_another_voice(voice):
+    other = speaker_of(voice="de").synthesize("guten Morgen")
+
+    assert (voice.synthesize("guten Morgen", Prosody(voice="de")).samples == other.samples).all()
+    assert voice.synthesize("guten Morgen").duration != other.duration
+    with pytest.raises(HriError, match=r'no voice "en-us\+zz"'):
+        voice.synthesize("hello", Prosody(voice="en-us+zz"))
