@@ -1,7 +1,7 @@
 """Faults that a base on a line may meet: for each, whether it stands, and says why.
 
-In fake time, with an emulated Create 2 that a program drives at 0.3 m/s through the controller and
-the supervisor. What happens to processes is in `stops`.
+In fake time, with an emulated base, a Create 2 where nothing else is said, that a program drives at
+0.3 m/s through the controller and the supervisor. What happens to processes is in `stops`.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from hri.core.signals import Twist
+from hri.drive.bases.arduino import ArduinoBridge
 from hri.drive.bases.create2 import (
     BUMPS,
     CLIFF_SIGNALS,
@@ -20,6 +21,7 @@ from hri.drive.bases.create2 import (
     RIGHT_COUNT,
     Create2,
 )
+from hri.drive.bases.protocol import BaseProtocol
 from hri.drive.supervisor.controller import TURN, Controller
 from hri.drive.supervisor.governor import Body
 from hri.drive.supervisor.limiter import Limits
@@ -27,7 +29,9 @@ from hri.drive.supervisor.link import Ask, Order, Release
 from hri.drive.supervisor.multiplexer import Level
 from hri.drive.supervisor.process import rules
 from hri.drive.supervisor.supervisor import Supervisor
+from hri.simulation.bases.arduino import EmulatedArduino
 from hri.simulation.bases.create2 import EmulatedCreate2
+from hri.simulation.bases.device import AUTO_STOP
 from hri.simulation.bases.line import EmulatedPort, Faults, Line
 
 GO = Twist(0.3)
@@ -38,18 +42,27 @@ LATE = 1.0
 said again."""
 
 
+Kind = tuple[type[BaseProtocol], Callable[[], EmulatedArduino | EmulatedCreate2]]
+CREATE_2: Kind = Create2, EmulatedCreate2
+ARDUINO: Kind = ArduinoBridge, lambda: EmulatedArduino(auto_stop=AUTO_STOP)
+"""With our firmware."""
+
+
 class Chain:
     """A controller that turns each TURN, and the base at the end of its line."""
 
-    def __init__(self, faults: Faults | None = None) -> None:
-        self.base = EmulatedCreate2()
+    def __init__(self, faults: Faults | None = None, kind: Kind = CREATE_2) -> None:
+        protocol, emulated = kind
+        self.base = emulated()
         self.port = EmulatedPort(Line(self.base, faults))
-        supervisor = Supervisor(rules(Create2(), Limits(), Body(), {}))
-        self.controller = Controller(Create2, self.port, supervisor)
+        supervisor = Supervisor(rules(protocol(), Limits(), Body(), {}))
+        self.controller = Controller(protocol, self.port, supervisor)
         self.now = 0.0
 
     def turn(self, *orders: Order) -> None:
         self.now += TURN
+        if not self.port.is_plugged:
+            self.port.line.feed(b"", self.now)  # what nobody hears; its time goes on
         self.controller.turn(self.now, orders)
 
     def run(self, seconds: float, twist: Twist | None = None) -> None:
@@ -65,7 +78,7 @@ class Chain:
 
     def start(self) -> Chain:
         """Greeted, released, and at 0.3 m/s."""
-        self.run(0.5)
+        self.run(self.controller.protocol.boot + 0.5)
         self.release()
         self.run(1.2, GO)
         return self
@@ -81,6 +94,10 @@ class Chain:
         return [news.cause.name for news in self.controller.state(self.now).news]
 
 
+def _nothing(chain: Chain) -> None:
+    """Leave it as it is."""
+
+
 @dataclass(frozen=True, slots=True)
 class Fault:
     """What goes wrong, and the cause that must be named."""
@@ -89,27 +106,37 @@ class Fault:
     cause: str
     asks: Twist | None = GO
     """What the program goes on asking for."""
+    mend: Callable[[Chain], object] = _nothing
+    """What ends it when the cause has been named, before the base must rest: where nothing from
+    outside can stop it as long as it lasts."""
+    kind: Kind = CREATE_2
+
+
+def _override(chain: Chain, packet: int, value: int) -> None:
+    """Let a Create 2 tell something else in a packet."""
+    assert isinstance(chain.base, EmulatedCreate2)
+    chain.base.overrides[packet] = value
 
 
 def _overridden(packet: int, value: int) -> Callable[[Chain], object]:
-    """Let the base tell something else in a packet."""
-    return lambda chain: chain.base.overrides.update({packet: value})
+    return lambda chain: _override(chain, packet, value)
 
 
 def _frozen_counts(chain: Chain) -> None:
     for packet in (LEFT_COUNT, RIGHT_COUNT):
-        chain.base.overrides[packet] = 1000
+        _override(chain, packet, 1000)
 
 
 def _spoiled(name: str, value: float) -> Callable[[Chain], object]:
     return lambda chain: setattr(chain.port.line.faults, name, value)
 
 
-def _pulled_out_and_back(chain: Chain) -> None:
+def _pull_out(chain: Chain) -> None:
     chain.port.is_plugged = False
-    chain.run(0.3, GO)
+
+
+def _put_back(chain: Chain) -> None:
     chain.port.is_plugged = True
-    chain.run(0.5, GO)
 
 
 def _full_and_free(chain: Chain) -> None:
@@ -124,12 +151,12 @@ def _over_edge(*places: str) -> Callable[[Chain], object]:
 
 
 def _edge_without_flag(chain: Chain) -> None:
-    chain.base.overrides[CLIFFS["left"]] = 0
+    _override(chain, CLIFFS["left"], 0)
     chain.base.body.over_edge.add("left")
 
 
 def _edge_without_signal(chain: Chain) -> None:
-    chain.base.overrides[CLIFF_SIGNALS["left"]] = 1500
+    _override(chain, CLIFF_SIGNALS["left"], 1500)
     chain.base.body.over_edge.add("left")
 
 
@@ -154,11 +181,16 @@ FAULTS: Mapping[str, Fault] = {
     "cliff signal stuck": Fault(_overridden(CLIFF_SIGNALS["right"], 1500), "fault"),
     "cliff signal dark": Fault(_overridden(CLIFF_SIGNALS["right"], 2), "cliff"),
     "wheel dropped": Fault(lambda chain: chain.base.body.hanging.add("right"), "wheel drop"),
+    "button pressed while driving": Fault(
+        lambda chain: chain.base.body.held.add("clean"), "button"
+    ),
     "wheels blocked": Fault(_frozen_counts, "fault"),
     "one wheel blocked": Fault(_overridden(LEFT_COUNT, 1000), "fault"),
     "base switched off": Fault(lambda chain: chain.base.feed(b"\x07", chain.now), "stale"),
     "base made passive": Fault(lambda chain: chain.base.feed(b"\x80", chain.now), "disobeys"),
-    "port pulled out and back": Fault(_pulled_out_and_back, "lost port"),
+    # A Create 2 drives on until it hears us again.
+    "port pulled out and back": Fault(_pull_out, "lost port", mend=_put_back),
+    "port of an Arduino pulled out": Fault(_pull_out, "lost port", kind=ARDUINO),
     "line full": Fault(_full_and_free, "jammed"),
     "half of the bytes lost": Fault(_spoiled("lost", 0.5), "stale"),
     "every tenth byte damaged": Fault(_spoiled("damaged", 0.1), "stale"),
@@ -172,13 +204,14 @@ FAULTS: Mapping[str, Fault] = {
 
 def survived(fault: Fault) -> bool:
     """Whether the base was at rest at most LATE after the cause was named."""
-    chain = Chain().start()
+    chain = Chain(kind=fault.kind).start()
     if chain.speed < 0.29:
         return False
     fault.inject(chain)
     for _ in range(round(PATIENCE / TURN)):
         chain.turn(*chain.asked(fault.asks))
         if fault.cause in chain.causes:
+            fault.mend(chain)
             return _rests(chain, fault)
     return False
 

@@ -11,7 +11,8 @@ from hri.core.errors import HriError
 from hri.core.events import Subscription
 from hri.core.signals import Event, People
 from hri.drive.behaviors import COMMAND, MOTION
-from hri.drive.supervisor.client import BaseBus, announce
+from hri.drive.supervisor.announcement import announce
+from hri.drive.supervisor.bus import BaseBus
 
 TELL_EVERY = 0.5
 """Seconds between two words about the nearest person; the supervisor believes each for longer."""

@@ -20,10 +20,12 @@ from hri.cli.drive.view import Moment, View
 from hri.cli.drive.window import ALARM, WindowView
 from hri.core import registry
 from hri.core.clock import FakeClock
-from hri.core.errors import HriError
+from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Pose2D, Twist
 from hri.drive.bases.protocol import BaseReport
-from hri.drive.supervisor.client import BaseBus, BaseOdometry, Create2Bus
+from hri.drive.supervisor.bus import BaseBus
+from hri.drive.supervisor.devices import BaseOdometry
+from hri.drive.supervisor.kinds import Create2Bus
 from hri.drive.supervisor.link import State
 from hri.hal.drivers.memory import OffscreenScreen
 from hri.hal.manager import ResourceManager
@@ -125,6 +127,7 @@ def test_the_picture_tells_pose_sensors_and_why_it_stands():
         velocity=Twist(0.1, 0.0),
         bumps={"left": True, "right": False},
         cliffs={"front_left": False},
+        buttons={"clean": True, "spot": False},
         ranges={"left": 0.25, "right": math.inf},
         battery=0.5,
         voltage=14.4,
@@ -139,6 +142,7 @@ def test_the_picture_tells_pose_sensors_and_why_it_stands():
         "x +1.00 m   y -0.50 m   +0 degrees",
         "left PRESSED   right .",
         "front left .",
+        "buttons clean PRESSED\n",
         "left 0.25 m   right -",
         "50%   14.4 V   charging",
         "press r to release it",
@@ -249,6 +253,15 @@ def test_the_space_bar_stops_and_latches_until_it_is_released(base):
     shown = drive(base, {**script, **held("left", 5.0, 6.0), 7.0: ["x"]})
     assert "you pressed the space bar" in shown[round(3.0 / 0.05)]
     assert base[1].pose(0.0).heading > 0.05
+
+
+def test_while_its_supervisor_is_gone_the_picture_goes_on(base, monkeypatch):
+    def refuse(twist):
+        raise NotAvailable("its supervisor does not answer")
+
+    monkeypatch.setattr(base[0], "teleop", refuse)
+    shown = drive(base, {1.0: ["r"], **held("up", 1.5, 2.5), 3.0: ["x"]})
+    assert len(shown) > 55
 
 
 def test_quitting_lets_the_base_rest(base):

@@ -48,6 +48,15 @@ def test_a_film_shows_the_robot_move(tmp_path: Path) -> None:
     assert film.get(cv2.CAP_PROP_FRAME_COUNT) == pytest.approx(30, abs=2)
 
 
+def test_a_policy_for_what_is_driven_already_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run, out = run_file(tmp_path), tmp_path / "run.png"
+    assert main(["drive", "replay", str(run), "--policy", "none", "--out", str(out)]) != 0
+    assert "is driven already - leave it out" in capsys.readouterr().err
+    assert not out.exists()
+
+
 def test_a_trip_that_was_written_is_read_again(tmp_path: Path) -> None:
     room = furnished(2)
     trip = Journey(room, "full", keeps_track=True).run()

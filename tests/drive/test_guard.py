@@ -15,7 +15,8 @@ from hri.core.events import EventBus
 from hri.core.signals import Event, HeadPose, People, Person, Twist
 from hri.drive.behaviors import COMMAND, MOTION
 from hri.drive.guard import BaseGuard, nearest
-from hri.drive.supervisor.client import BaseBus, BaseDrive
+from hri.drive.supervisor.bus import BaseBus
+from hri.drive.supervisor.devices import BaseDrive
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
 from hri.simulation.world import SimulatedWorld

@@ -44,6 +44,13 @@ def test_a_port_belongs_to_one(port):
     assert "something else uses it" in other.reason
 
 
+def test_a_port_without_a_request_to_send_does_not_mind(port, ends):
+    port.set_rts(False)
+    port.set_rts(True)
+    assert port.write(b"x", 0.0)
+    assert os.read(ends[0], 10) == b"x"
+
+
 def test_a_full_line_is_told_and_never_waited_for(port, ends):
     count = 0
     while port.write(b"x" * 100, 0.0):

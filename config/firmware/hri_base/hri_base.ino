@@ -2,8 +2,9 @@
 //
 // It speaks the text protocol of ROSArduinoBridge: a letter, up to two numbers, a carriage return;
 // the answer is one line. What the letters mean is in the table at `run`. The board looks after
-// itself as well: without a new velocity it stops after AUTO_STOP_MS, and it does not drive ahead
-// while a bumper is pressed or a cliff sensor sees no floor, whoever asks for it.
+// itself as well: without a new velocity it stops after AUTO_STOP_MS, it does not drive ahead while
+// a bumper is pressed or a cliff sensor sees no floor, and not at all while the stop switch is
+// pressed, whoever asks for it.
 //
 // Wiring and calibration: README.md beside this folder.
 
@@ -23,6 +24,11 @@ const bool IS_ENCODER_REVERSED[2] = {false, false};
 
 // Bumpers: switches from a digital pin to ground.
 const int BUMPER_PINS[] = {10, 11};
+
+// Stop switch: normally closed, from a digital pin to ground. It opens when it is pressed, and so
+// does a broken wire. NONE for none.
+const int NONE = -1;
+const int STOP_PIN = 12;
 
 // Cliff sensors: infrared, looking down, on analog inputs (0 is A0). Less than CLIFF_COUNTS of
 // light that comes back is no floor.
@@ -119,8 +125,13 @@ bool is_in_danger() {
   return false;
 }
 
+bool is_stopped() {
+  return STOP_PIN != NONE && digitalRead(STOP_PIN) == HIGH;
+}
+
 void drive(int left, int right) {
-  const bool may_go = (long)left + right <= 0 || !is_in_danger();
+  const bool is_ahead = (long)left + right > 0;
+  const bool may_go = !is_stopped() && !(is_ahead && is_in_danger());
   aim(0, may_go ? left : 0);
   aim(1, may_go ? right : 0);
   commanded_at = millis();
@@ -129,7 +140,7 @@ void drive(int left, int right) {
 void protect() {
   const bool is_ahead = (long)wheels[0].target + wheels[1].target > 0;
   const bool is_silent = millis() - commanded_at > AUTO_STOP_MS;
-  if (is_silent || (is_ahead && is_in_danger())) {
+  if (is_silent || is_stopped() || (is_ahead && is_in_danger())) {
     aim(0, 0);
     aim(1, 0);
   }
@@ -170,7 +181,7 @@ void run(const char *command) {
   const char *second_word = first_word ? strchr(first_word + 1, ' ') : NULL;
   const int first = first_word ? atoi(first_word + 1) : 0;
   const int second = second_word ? atoi(second_word + 1) : 0;
-  const bool is_refused = strchr("cpwx", command[0]) && is_wheel_pin(first);
+  const bool is_refused = strchr("cpwx", command[0]) && is_kept(first);
   switch (is_too_long || is_refused ? 0 : command[0]) {
     case 'a': Serial.println(analogRead(input_pin(first))); break;
     case 'b': Serial.print(' '); Serial.println(BAUD); break;
@@ -192,11 +203,12 @@ void run(const char *command) {
   }
 }
 
-// What turns the wheels has to go through `drive`, which looks after the base.
-bool is_wheel_pin(int pin) {
+// Pins that no command may touch: what turns the wheels has to go through `drive`, which looks after
+// the base, and nobody may talk the stop switch out of it.
+bool is_kept(int pin) {
   for (int side = 0; side < 2; side++)
     if (pin == PWM_PINS[side] || pin == DIRECTION_PINS[side]) return true;
-  return false;
+  return pin == STOP_PIN;
 }
 
 bool is_bumper(int pin) {
@@ -242,6 +254,7 @@ void setup() {
     set_power(side, 0);
   }
   for (int pin : BUMPER_PINS) pinMode(pin, INPUT_PULLUP);
+  if (STOP_PIN != NONE) pinMode(STOP_PIN, INPUT_PULLUP);
   attachInterrupt(digitalPinToInterrupt(ENCODER_A_PINS[0]), left_turned, CHANGE);
   attachInterrupt(digitalPinToInterrupt(ENCODER_A_PINS[1]), right_turned, CHANGE);
 }

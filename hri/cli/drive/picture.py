@@ -100,6 +100,7 @@ def _sensors(report: BaseReport | None) -> list[str]:
         ("bumper", _flags(report.bumps, "PRESSED")),
         ("cliffs", _flags(report.cliffs, "EDGE")),
         ("drops", _flags(report.wheel_drops, "IN THE AIR")),
+        ("buttons", _buttons(report.buttons)),
         ("ranges", _ranges(report.ranges)),
         ("battery", _battery(report)),
     ]
@@ -111,6 +112,12 @@ def _flags(flags: Mapping[str, bool], word: str) -> str:
     return "   ".join(
         f"{_name(place)} {word if is_set else '.'}" for place, is_set in flags.items()
     )
+
+
+def _buttons(buttons: Mapping[str, bool]) -> str:
+    """Those that somebody presses; most bases have more than anybody wants to read of."""
+    pressed = "   ".join(f"{_name(name)} PRESSED" for name, is_held in buttons.items() if is_held)
+    return pressed or ("." if buttons else "")
 
 
 def _ranges(ranges: Mapping[str, float]) -> str:

@@ -40,6 +40,9 @@ def run(options: argparse.Namespace) -> int:
     """Draw it. Exit status 0."""
     if not options.run:
         raise HriError(f"no run is named - hri drive {NAME} RUN --out run.png")
+    if options.policy and not options.run.isdecimal():
+        what = f"--policy {options.policy}: {options.run} is driven already"
+        raise HriError(f"{what} - leave it out, or give the number of a room")
     plan = Plan(read_run(options.run, options.policy or DEFAULT_POLICY))
     out = options.out or Path("run.png")
     if out.suffix.lower() == ".png":

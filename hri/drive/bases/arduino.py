@@ -53,6 +53,9 @@ BATTERY = {
 behind a divider by three; and the battery's ends, those of two lithium cells."""
 BUMPER_PRESSED = 0
 """What a bumper's pin reads when it is pressed: the switch goes to ground."""
+BUTTON_PRESSED = 1
+"""What a button's pin reads when it is pressed, or its wire is broken: the switch opens, and the
+pin is pulled up. So an emergency stop that fails counts as pressed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +68,8 @@ class Wiring:
     """Analog pins of infrared sensors that look down; they count the light from the floor."""
     sonars: dict[str, int] = field(default_factory=dict)
     """Digital pins of ultrasonic sensors."""
+    buttons: dict[str, int] = field(default_factory=dict)
+    """Digital pins of switches to ground that open when somebody presses."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,12 +87,13 @@ class Question:
 class ArduinoBridge(BaseProtocol):
     """Its parameters are those of SHAPE and BATTERY, and the wiring.
 
-    `bumps`, `cliffs` and `sonars` are lists such as "left:7 right:8", a place and a pin each.
+    `bumps`, `cliffs`, `sonars` and `buttons` are lists such as "left:7 right:8", a place and a pin
+    each.
     Sonars want our firmware: that of 2012 waits for an echo for up to a second.
     """
 
     title = "Arduino with ROSArduinoBridge"
-    parameters = (*SHAPE, *BATTERY, "bumps", "cliffs", "sonars")
+    parameters = (*SHAPE, *BATTERY, "bumps", "cliffs", "sonars", "buttons")
     baud = 57_600
     period = 0.01
     timeout = 2.0  # of the firmware of 2012 to 2022; ours stops after 0.5 s
@@ -111,6 +117,7 @@ class ArduinoBridge(BaseProtocol):
             bumps=tuple(self.wiring.bumps),
             cliffs=tuple(self.wiring.cliffs),
             cliff_signals=tuple(self.wiring.cliffs),
+            buttons=tuple(self.wiring.buttons),
             ranges=tuple(self.wiring.sonars),
         )
         turn = math.pi * self.shape["wheel_diameter_cm"] / 100
@@ -133,7 +140,8 @@ class ArduinoBridge(BaseProtocol):
             what = f"full_volts is {battery['full_volts']:g}"
             remedy = f"write more than empty_volts, {battery['empty_volts']:g}"
             raise description.error("full_volts", what, remedy)
-        wiring = Wiring(*(_pins(description, name) for name in ("bumps", "cliffs", "sonars")))
+        names = ("bumps", "cliffs", "sonars", "buttons")
+        wiring = Wiring(*(_pins(description, name) for name in names))
         return cls(wiring, shape, battery)
 
     @classmethod
@@ -142,7 +150,7 @@ class ArduinoBridge(BaseProtocol):
 
     def greeting(self) -> Sequence[Greeting]:
         """Stops the wheels, waits for a boot loader, and pulls up the switches' pins."""
-        pins = self.wiring.bumps.values()
+        pins = (*self.wiring.bumps.values(), *self.wiring.buttons.values())
         pulled_up = b"".join(b"c %d 0\rw %d 1\r" % (pin, pin) for pin in pins)
         return (
             Greeting(self.emergency_stop, self.boot),  # not every port resets its board
@@ -180,7 +188,8 @@ class ArduinoBridge(BaseProtocol):
         """Encoders, switches and cliffs each time; sonars in turn, as each holds up the board."""
         asked = [Question(b"e\r", "counts")]
         wiring, battery_pin = self.wiring, int(self.battery["battery_pin"])
-        asked += [Question(b"d %d\r" % pin, "bumps", place) for place, pin in wiring.bumps.items()]
+        for kind, pins in (("bumps", wiring.bumps), ("buttons", wiring.buttons)):
+            asked += [Question(b"d %d\r" % pin, kind, place) for place, pin in pins.items()]
         asked += [
             Question(b"a %d\r" % pin, "cliffs", place, 1023) for place, pin in wiring.cliffs.items()
         ]
@@ -238,6 +247,7 @@ class ArduinoBridge(BaseProtocol):
             rolled=self._odometer.rolled,
             velocity=self._odometer.velocity,
             bumps={place: n == BUMPER_PRESSED for place, n in numbers.get("bumps", {}).items()},
+            buttons={name: n == BUTTON_PRESSED for name, n in numbers.get("buttons", {}).items()},
             cliffs={place: count < least for place, count in cliffs.items()},
             cliff_signals=dict(cliffs),
             # A sonar that hears no echo answers 0.

@@ -39,11 +39,16 @@ FORMATS = {
 }  # fmt: skip
 """Each sensor packet by its number, in the words of `struct`, big-endian."""
 
-BUMPS_AND_DROPS, CHARGING, VOLTAGE, CHARGE, CAPACITY, MODE, LEFT_COUNT, RIGHT_COUNT = (
-    7, 21, 22, 25, 26, 35, 43, 44,
+BUMPS_AND_DROPS, PRESSED, CHARGING, VOLTAGE, CHARGE, CAPACITY, MODE, LEFT_COUNT, RIGHT_COUNT = (
+    7, 18, 21, 22, 25, 26, 35, 43, 44,
 )  # fmt: skip
 BUMPS = {"left": 0x02, "right": 0x01}
 WHEEL_DROPS = {"left": 0x08, "right": 0x04}
+BUTTONS = {
+    "clean": 0x01, "spot": 0x02, "dock": 0x04, "minute": 0x08, "hour": 0x10, "day": 0x20,
+    "schedule": 0x40, "clock": 0x80,
+}  # fmt: skip
+"""A Create 2 has the first three; those that a model lacks are never pressed."""
 CLIFFS = {"left": 9, "front_left": 10, "front_right": 11, "right": 12}
 CLIFF_SIGNALS = {"left": 28, "front_left": 29, "front_right": 30, "right": 31}
 LIGHT_BUMPS = {
@@ -55,13 +60,19 @@ LIGHT_BUMPS = {
     "right": 51,
 }
 STREAMED = (
-    BUMPS_AND_DROPS, *CLIFFS.values(), CHARGING, VOLTAGE, CHARGE, CAPACITY,
+    BUMPS_AND_DROPS, *CLIFFS.values(), PRESSED, CHARGING, VOLTAGE, CHARGE, CAPACITY,
     *CLIFF_SIGNALS.values(), MODE, LEFT_COUNT, RIGHT_COUNT, *LIGHT_BUMPS.values(),
 )  # fmt: skip
-"""What the base is asked for: 62 bytes of the 172 that a slot has room for."""
+"""What the base is asked for: 64 bytes of the 172 that a slot has room for."""
 CHARGES = (1, 2, 3)
 """Charging states in which current flows: reconditioning, full, trickle."""
 
+WAKE = 1.0
+"""Seconds that the wire RTS is let go to wake it: the cable of the Create 2 ties it to the pin BRC,
+and it wakes when that goes low. Three pulses of 0.05 to 0.5 s would change its baud rate; a second
+is what the specification proposes against that."""
+WOKEN = 1.0
+"""Seconds until it hears."""
 TRACK = 0.235
 FASTEST = 0.5
 """Of a wheel's rim, m/s."""
@@ -100,6 +111,7 @@ class Create2(BaseProtocol):
         cliffs=tuple(CLIFFS),
         cliff_signals=tuple(CLIFF_SIGNALS),
         wheel_drops=tuple(WHEEL_DROPS),
+        buttons=tuple(BUTTONS),
         ranges=tuple(LIGHT_BUMPS),
     )
     question: ClassVar[bytes] = bytes([START, STREAM, 1, MODE])
@@ -128,6 +140,9 @@ class Create2(BaseProtocol):
             Greeting(self.stop, SLOT),
             Greeting(request, SLOT),
         )
+
+    def waking(self) -> Sequence[Greeting]:
+        return Greeting(self.emergency_stop, WAKE, rts=False), Greeting(b"", WOKEN, rts=True)
 
     def velocity(self, twist: Twist) -> bytes:
         left, right = self._rims(twist)
@@ -159,6 +174,7 @@ class Create2(BaseProtocol):
             cliffs={place: bool(values[packet] & 1) for place, packet in CLIFFS.items()},
             cliff_signals={place: values[packet] for place, packet in CLIFF_SIGNALS.items()},
             wheel_drops={place: bool(flags & bit) for place, bit in WHEEL_DROPS.items()},
+            buttons={name: bool(values[PRESSED] & bit) for name, bit in BUTTONS.items()},
             ranges={place: self._range(values[packet]) for place, packet in LIGHT_BUMPS.items()},
             battery=min(1.0, values[CHARGE] / capacity) if capacity else None,
             voltage=values[VOLTAGE] / 1000,

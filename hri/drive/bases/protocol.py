@@ -41,6 +41,8 @@ class BaseReport:
     """What the same sensors count of the light from the floor, where the base tells it."""
     wheel_drops: Mapping[str, bool] = field(default_factory=dict)
     """By place: "left", "right"; true when the wheel hangs in the air."""
+    buttons: Mapping[str, bool] = field(default_factory=dict)
+    """By name: "clean", "stop"; true while somebody presses it."""
     ranges: Mapping[str, float] = field(default_factory=dict)
     """Meters from the sensor; infinity when it sees nothing."""
     battery: float | None = None
@@ -64,6 +66,8 @@ class Greeting:
     data: bytes
     pause: float = 0.0
     """Seconds to wait before the next step."""
+    rts: bool | None = None
+    """What becomes of the wire "request to send"; None leaves it as it is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +78,7 @@ class Sensors:
     cliffs: tuple[str, ...] = ()
     cliff_signals: tuple[str, ...] = ()
     wheel_drops: tuple[str, ...] = ()
+    buttons: tuple[str, ...] = ()
     ranges: tuple[str, ...] = ()
 
 
@@ -130,6 +135,10 @@ class BaseProtocol(ABC):
 
         To be said when the port is open, and again when reports cease or the base does not obey.
         """
+
+    def waking(self) -> Sequence[Greeting]:
+        """What may wake a base that sleeps; to be said before it is greeted again."""
+        return ()
 
     @abstractmethod
     def velocity(self, twist: Twist) -> bytes:

@@ -39,7 +39,7 @@ REFRESH = 0.05
 """Seconds after which the wheels are told again what they were told: a byte may have been lost,
 and a base with a timeout of its own wants to hear."""
 SILENCE = 1.5
-"""Seconds without a report after which the base is greeted anew."""
+"""Seconds without a report after which the base is woken, where that is known, and greeted anew."""
 DEED_FRESH = 1.0
 """Seconds; a release, or a way to the dock, that lay in a queue for longer is not heard."""
 NEWS = 8
@@ -175,8 +175,8 @@ class Controller:
         self._is_opening = True
         self._greet(now)
 
-    def _greet(self, now: float) -> None:
-        self._greetings, self._greet_at = deque(self.protocol.greeting()), now
+    def _greet(self, now: float, waking: Sequence[Greeting] = ()) -> None:
+        self._greetings, self._greet_at = deque([*waking, *self.protocol.greeting()]), now
         self._greeted_at = now
 
     def _fed(self, data: bytes, now: float) -> list[BaseReport]:
@@ -200,6 +200,7 @@ class Controller:
         self.supervisor.refusals.clear()
         if decision.stop is not None:
             self._tell_news(decision.stop)
+        self._must_cut |= decision.must_cut
         if decision.must_wake and not self._greetings:
             self._greet(now)
 
@@ -234,6 +235,8 @@ class Controller:
     def _go_on_greeting(self, now: float) -> None:
         if now >= self._greet_at:
             greeting = self._greetings.popleft()
+            if greeting.rts is not None:
+                self.port.set_rts(greeting.rts)
             self._write(greeting.data, now)
             self._greet_at = self._greeted_at = now + greeting.pause
 
@@ -241,7 +244,7 @@ class Controller:
         heard_at = -math.inf if self._report is None else self._report.time
         if now - max(heard_at, self._greeted_at) > SILENCE:
             self._is_opening = True
-            self._greet(now)
+            self._greet(now, self.protocol.waking())
 
     def _tell_velocity(self, now: float) -> None:
         twist, since = self._decision.twist, now - self._told_at

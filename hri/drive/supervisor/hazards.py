@@ -17,6 +17,7 @@ class Kind(StrEnum):
     CLIFF = "cliff"
     BUMP = "bump"
     WHEEL_DROP = "wheel drop"
+    BUTTON = "button"
     RANGE = "range"
     WHEELS = "wheels"
     BATTERY = "battery"
@@ -26,6 +27,7 @@ TITLES: Mapping[Kind, str] = {
     Kind.CLIFF: "cliff sensor",
     Kind.BUMP: "bumper",
     Kind.WHEEL_DROP: "wheel drop switch",
+    Kind.BUTTON: "button",
     Kind.RANGE: "range sensor",
     Kind.WHEELS: "wheels",
     Kind.BATTERY: "battery",
@@ -37,7 +39,7 @@ SENSED: Mapping[Kind, str] = {
 }
 BEHIND = ("back", "rear")
 """Words in the place of a sensor that looks where the base backs off to."""
-DOUBTED = (*SENSED, Kind.WHEEL_DROP)
+DOUBTED = (*SENSED, Kind.WHEEL_DROP, Kind.BUTTON)
 """Sensors that count as hazards when they cannot be believed; for ranges, `governor` does it."""
 
 
@@ -105,6 +107,16 @@ def dropped_wheel(report: BaseReport) -> Cause | None:
         return None
     because = f"my {spelled(place)} wheel hangs in the air - put me on the floor and release me"
     return Cause(Kind.WHEEL_DROP.value, because)
+
+
+def pressed_buttons(report: BaseReport) -> list[Sensor]:
+    """The buttons that somebody presses."""
+    return [Sensor(Kind.BUTTON, name) for name, is_pressed in report.buttons.items() if is_pressed]
+
+
+def pressing(button: Sensor) -> Cause:
+    """Why it must stand when somebody presses a button."""
+    return Cause(Kind.BUTTON.value, f"somebody pressed my {button}")
 
 
 def _sensed(sensor: Sensor) -> Hazard:

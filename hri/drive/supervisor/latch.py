@@ -8,8 +8,8 @@ from hri.drive.supervisor.cause import POWER_UP, Cause
 class Latch:
     """Closed from the beginning; time and commands never open it, `release` does."""
 
-    def __init__(self) -> None:
-        self._cause: Cause | None = POWER_UP
+    def __init__(self, cause: Cause = POWER_UP) -> None:
+        self._cause: Cause | None = cause
 
     @property
     def is_closed(self) -> bool:

@@ -102,6 +102,7 @@ class Plausibility:
             (Kind.BUMP, self._sensors.bumps, report.bumps),
             (Kind.RANGE, self._sensors.ranges, report.ranges),
             (Kind.WHEEL_DROP, self._sensors.wheel_drops, report.wheel_drops),
+            (Kind.BUTTON, self._sensors.buttons, report.buttons),
         ):
             for place in promised:
                 if place not in told and not is_starting:

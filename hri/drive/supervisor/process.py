@@ -2,7 +2,7 @@
 
     python -m hri.drive.supervisor SETTINGS
 
-is what `client` starts; SETTINGS is the JSON text of `Settings`. It ends when the program that
+is what `remote` starts; SETTINGS is the JSON text of `Settings`. It ends when the program that
 started it is gone or hangs up, after it has stopped the base.
 """
 
@@ -24,7 +24,7 @@ from hri.core.clock import Clock, RealClock
 from hri.core.errors import NotAvailable
 from hri.core.signals import Pose2D
 from hri.drive.bases.protocol import BaseProtocol
-from hri.drive.supervisor.cause import NO_PROGRAM, NO_WATCHDOG
+from hri.drive.supervisor.cause import NO_PROGRAM, NO_WATCHDOG, POWER_UP, Cause
 from hri.drive.supervisor.controller import TURN, Controller
 from hri.drive.supervisor.governor import Body
 from hri.drive.supervisor.limiter import Limits
@@ -54,6 +54,8 @@ class Settings:
     limits: Limits = field(default_factory=Limits)
     body: Body = field(default_factory=Body)
     mounts: Mapping[str, Pose2D] = field(default_factory=dict)
+    cause: Cause = POWER_UP
+    """Why it begins latched."""
 
     def encoded(self) -> str:
         return json.dumps(asdict(self))
@@ -63,6 +65,7 @@ class Settings:
         """Raises ValueError, KeyError or TypeError for what `encoded` did not write."""
         fields: dict[str, Any] = json.loads(text)
         fields["limits"], fields["body"] = Limits(**fields["limits"]), Body(**fields["body"])
+        fields["cause"] = Cause(**fields["cause"])
         fields["mounts"] = {name: Pose2D(**pose) for name, pose in fields["mounts"].items()}
         return cls(**fields)
 
@@ -89,7 +92,7 @@ class Process:
         protocol = settings.make()
         self._port = SerialPort(settings.port, protocol.baud)
         self._supervisor = Supervisor(
-            rules(protocol, settings.limits, settings.body, settings.mounts)
+            rules(protocol, settings.limits, settings.body, settings.mounts), settings.cause
         )
         self._controller = Controller(settings.make, self._port, self._supervisor)
         self._watchdog: Watchdog | None = None

@@ -17,12 +17,22 @@ from hri.drive.supervisor.cause import (
     DONE,
     FROZEN,
     OBSTACLE,
+    POWER_UP,
     SILENT_BASE,
     Cause,
 )
 from hri.drive.supervisor.cliffs import Floor
 from hri.drive.supervisor.governor import Body, Room, room, safe_speed
-from hri.drive.supervisor.hazards import Fault, Hazard, Kind, dropped_wheel, hazards_of
+from hri.drive.supervisor.hazards import (
+    Fault,
+    Hazard,
+    Kind,
+    Sensor,
+    dropped_wheel,
+    hazards_of,
+    pressed_buttons,
+    pressing,
+)
 from hri.drive.supervisor.latch import Latch
 from hri.drive.supervisor.limiter import Cap, Limiter, Limits, within_hardware
 from hri.drive.supervisor.multiplexer import Command, Level, Multiplexer
@@ -73,14 +83,18 @@ class Decision:
     """Set in the one step in which it comes to rest, or the latch closes for a new reason."""
     must_wake: bool = False
     """Whether the base is to be greeted anew, since it does not obey."""
+    must_cut: bool = False
+    """Whether all that the base does has to be ended, whoever began it: somebody has just pressed a
+    button, or let it go, at which a base may set off by itself."""
 
 
 class Supervisor:
     """One base's guard. Not safe to use from several threads."""
 
-    def __init__(self, rules: Rules) -> None:
+    def __init__(self, rules: Rules, cause: Cause = POWER_UP) -> None:
+        """`cause`: why it begins latched."""
         self.rules = rules
-        self.latch = Latch()
+        self.latch = Latch(cause)
         self.faults: Sequence[Fault] = ()
         """Sensors that cannot be believed."""
         self.refusals: list[str] = []
@@ -95,6 +109,11 @@ class Supervisor:
         self._floor = Floor()
         self._reflex = Reflex()
         self._hazards: Sequence[Hazard] = ()
+        self._pressed: Sequence[Sensor] = ()
+        """Buttons."""
+        self._holding: Sequence[Cause] = ()
+        """Why it must stand for as long as these last."""
+        self._must_cut = False
         self._report: BaseReport | None = None
         self._judged = -math.inf
         """The time of the last report that was looked at."""
@@ -135,8 +154,8 @@ class Supervisor:
     def release(self, now: float) -> None:
         """Open the latch: somebody says that the base may move. What was asked before is void.
 
-        Refused while the base is silent, since nobody knows what it stands before, and while a
-        wheel hangs in the air.
+        Refused while the base is silent, since nobody knows what it stands before, while a wheel
+        hangs in the air, and while somebody presses a button.
         """
         report = self._report
         if report is None or self._is_lost(now):
@@ -144,6 +163,9 @@ class Supervisor:
             return
         if dropped_wheel(report) is not None:
             self._refuse("I cannot be released while a wheel hangs in the air")
+            return
+        if self._pressed:
+            self._refuse(f"I cannot be released while somebody presses my {self._pressed[0]}")
             return
         self.latch.release()
         self._multiplexer.clear()
@@ -172,7 +194,8 @@ class Supervisor:
             self._news = decision.reason
         self._sent = decision.twist
         news, self._news = self._news, None
-        return replace(decision, stop=news) if news is not None else decision
+        must_cut, self._must_cut = self._must_cut, False
+        return replace(decision, stop=news, must_cut=must_cut)
 
     def _step_to(self, now: float) -> float:
         before, self._time = self._time, now
@@ -212,9 +235,18 @@ class Supervisor:
         self._hazards = hazards_of(report, lights, self.faults)
         faulty = {f.sensor.place for f in self.faults if f.sensor.kind is Kind.RANGE}
         self.room = room(report.ranges, self.rules.mounts, self.rules.body, faulty)
-        for cause in (dropped_wheel(report), self._dead_wheels()):
-            if cause is not None:
+        pressed = pressed_buttons(report)
+        self._must_cut |= pressed != self._pressed
+        self._pressed = pressed
+        self._hold(dropped_wheel(report), self._dead_wheels(), *map(pressing, pressed))
+
+    def _hold(self, *found: Cause | None) -> None:
+        """Latch when one of these begins, and whenever the latch is open while it lasts."""
+        causes = [cause for cause in found if cause is not None]
+        for cause in causes:
+            if cause not in self._holding or not self.latch.is_closed:
                 self.trip(cause)
+        self._holding = causes
 
     def _trip_if_lost(self, now: float) -> None:
         if self._is_lost(now) and not self.latch.is_closed:

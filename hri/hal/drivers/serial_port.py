@@ -65,6 +65,9 @@ class Port(ABC):
     def discard(self) -> None:  # noqa: B027 - many keep nothing
         """Forget what was written and is not on the line yet, such as old velocities."""
 
+    def set_rts(self, is_on: bool) -> None:  # noqa: B027 - many have no such wire
+        """Assert the wire "request to send", as it is from the opening on, or let it go."""
+
     @abstractmethod
     def close(self) -> None:
         """Let it go; a second call does nothing."""
@@ -142,6 +145,11 @@ class SerialPort(Port):
             self._opened.reset_output_buffer()
         except OSError:
             return  # reading and writing tell that it has gone
+
+    def set_rts(self, is_on: bool) -> None:
+        # A port without that wire says so; reading and writing tell that one has gone.
+        with suppress(OSError):
+            self._opened.rts = is_on
 
     def fileno(self) -> int:
         """Its descriptor, to wait for. Raises NotAvailable while it is closed."""

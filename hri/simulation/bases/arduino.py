@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 
-from hri.drive.bases.arduino import BUMPER_PRESSED, SHAPE, Wiring
+from hri.drive.bases.arduino import BUMPER_PRESSED, BUTTON_PRESSED, SHAPE, Wiring
 from hri.simulation.base import Limits
 from hri.simulation.bases.body import Body
 from hri.simulation.bases.emulator import Emulator, Wire
@@ -129,6 +129,9 @@ class EmulatedArduino(Emulator):
         for place, its_pin in self._wiring.bumps.items():
             if its_pin == pin:
                 return str(BUMPER_PRESSED if place in pressed else 1 - BUMPER_PRESSED)
+        for name, its_pin in self._wiring.buttons.items():
+            if its_pin == pin:
+                return str(BUTTON_PRESSED if name in self.body.held else 1 - BUTTON_PRESSED)
         return "0"
 
     def _analog(self, pin: int, _: int, now: float) -> str:

@@ -46,6 +46,8 @@ class Body:
         """Cliff sensors with no floor below."""
         self.hanging: set[str] = set()
         """Wheels in the air."""
+        self.held: set[str] = set()
+        """Buttons that somebody presses."""
         self.near: dict[str, float] = {}
         """Meters from the rim to what is there."""
         self.is_on_charger = False

@@ -1,7 +1,8 @@
 """An emulated iRobot Create 2, by its Open Interface specification (2016, 2018).
 
 What it senses is renewed every 15 ms, and only in these slots it stops by itself: in safe mode, at
-a cliff ahead, when a wheel drops, and on the charger. It then is in passive mode, as the real one.
+a cliff ahead, when a wheel drops, and on the charger. It then is in passive mode, as the real one,
+in which its buttons let it set off by itself.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from collections.abc import Callable, Iterable, Sequence
 from hri.drive.bases.create2 import (
     BUMPS,
     BUMPS_AND_DROPS,
+    BUTTONS,
     CAPACITY,
     CHARGE,
     CHARGING,
@@ -26,6 +28,7 @@ from hri.drive.bases.create2 import (
     LIGHT_BUMPS,
     METERS_PER_COUNT,
     MODE,
+    PRESSED,
     RIGHT_COUNT,
     SLOT,
     TRACK,
@@ -57,7 +60,9 @@ FLOOR, NO_FLOOR, FLICKER = 1500, 8, 12
 """Counts of a cliff sensor, and how much they vary."""
 MOST_LIGHT = 4095
 SEEKING = 100
-"""Millimeters a second on the way to the dock, wherever that is."""
+"""Millimeters a second on the way to the dock, wherever that is, and while it cleans."""
+SETTING_OFF = {"clean", "spot", "dock"}
+"""Buttons that make it drive by itself."""
 CAPACITY_MAH = 2696
 VOLTS = (12.4, 16.2)
 """Of an empty and of a full battery."""
@@ -66,13 +71,18 @@ LONGEST_GAP = 1.0
 
 
 class EmulatedCreate2(Emulator):
-    """Set `overrides[packet] = value` to let a sensor tell something else."""
+    """Set `overrides[packet] = value` to let a sensor tell something else.
+
+    One that sleeps hears and says nothing until the wire RTS, tied to its pin BRC, is asserted.
+    """
 
     baud = 115_200
 
     def __init__(self, body: Body | None = None, seed: int = 0) -> None:
         self.body = body or Body()
         self.mode = OFF
+        self.is_asleep = False
+        self._is_rts_on = True
         self.overrides: dict[int, int] = {}
         self.leds = (0, 0, 0)
         self.songs: dict[int, bytes] = {}
@@ -89,6 +99,8 @@ class EmulatedCreate2(Emulator):
         """Wheels' velocities as told, right and left, mm/s."""
         self._origins = {DISTANCE: (0.0, 0.0), ANGLE: (0.0, 0.0)}
         """What the wheels had rolled when these ways were last asked for."""
+        self._held: set[str] = set()
+        """Buttons that were pressed in the last slot."""
         self._values: dict[int, int] = {}
         self._sense(0.0)
 
@@ -104,9 +116,16 @@ class EmulatedCreate2(Emulator):
         while self._slot < last:
             self._slot += 1
             self._tick(self._slot * SLOT)
+        if self.is_asleep:
+            return b""
         for byte in data:
             self._take(byte, now)
         return self._wire.arrived(now)
+
+    def set_rts(self, is_on: bool) -> None:
+        if is_on and not self._is_rts_on:
+            self.is_asleep = False
+        self._is_rts_on = is_on
 
     # --- sensing ---
 
@@ -114,7 +133,8 @@ class EmulatedCreate2(Emulator):
         self.body.advance(now)
         self._sense(now)
         self._protect(now)
-        if self._is_streaming and self.mode != OFF:
+        self._heed_buttons(now)
+        if self._is_streaming and self.mode != OFF and not self.is_asleep:
             packed = zip(self._streamed, self._packed(self._streamed), strict=True)
             content = b"".join(bytes([packet]) + data for packet, data in packed)
             packet = bytes([HEADER, len(content)]) + content
@@ -129,6 +149,12 @@ class EmulatedCreate2(Emulator):
         is_lifted = bool(self._values[BUMPS_AND_DROPS] & sum(WHEEL_DROPS.values()))
         if self.mode == SAFE and (is_falling or is_lifted or self.body.is_on_charger):
             self._enter(PASSIVE, now)
+
+    def _heed_buttons(self, now: float) -> None:
+        """Clean, or look for the dock, when nobody else has its motors."""
+        newly, self._held = self.body.held - self._held, set(self.body.held)
+        if self.mode == PASSIVE and newly & SETTING_OFF:
+            self._roll(SEEKING, SEEKING, now)
 
     @property
     def _radius(self) -> float:
@@ -145,6 +171,7 @@ class EmulatedCreate2(Emulator):
         left, right = body.rolled
         values |= {
             BUMPS_AND_DROPS: flags,
+            PRESSED: sum(bit for name, bit in BUTTONS.items() if name in body.held),
             CHARGING: 2 if body.is_on_charger else 0,
             VOLTAGE: round(1000 * (VOLTS[0] + (VOLTS[1] - VOLTS[0]) * level)),
             23: 1500 if body.is_on_charger else -250,

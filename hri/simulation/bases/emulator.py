@@ -59,3 +59,6 @@ class Emulator(ABC):
 
         Never raises, whatever comes in.
         """
+
+    def set_rts(self, is_on: bool) -> None:  # noqa: B027 - many have no such wire
+        """What the port does with the wire "request to send"."""

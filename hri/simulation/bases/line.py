@@ -123,6 +123,10 @@ class EmulatedPort(Port):
         del self._come[:-MOST_WAITING]
         return True
 
+    def set_rts(self, is_on: bool) -> None:
+        if self.is_plugged:
+            self.line.emulator.set_rts(is_on)
+
     def close(self) -> None:
         self._is_open = False
 

@@ -6,7 +6,7 @@ import pytest
 
 from hri.core.errors import AuthoringError
 from hri.core.signals import Twist
-from hri.drive.bases.arduino import ArduinoBridge
+from hri.drive.bases.arduino import ArduinoBridge, Wiring
 from hri.hal.resource import Description
 from hri.simulation.bases.arduino import EmulatedArduino
 from hri.simulation.bases.line import Line
@@ -85,6 +85,19 @@ def test_an_answer_that_makes_no_sense_ends_the_round(answer):
     assert protocol.poll(1.2)
 
 
+def test_a_button_whose_wire_is_broken_counts_as_pressed():
+    protocol = ArduinoBridge(Wiring(buttons={"stop": 12}))
+    assert b"c 12 0\rw 12 1\r" in b"".join(step.data for step in protocol.greeting())
+    assert protocol.poll(1.0) == b"e\rd 12\r"
+    assert protocol.feed(b"0 0\r\n1\r\n", 1.01)[0].buttons == {"stop": True}
+
+
+def test_a_board_without_buttons_reports_none(talk):
+    talk.greet()
+    talk.run(0.1)
+    assert talk.last.buttons == {}
+
+
 def test_a_reset_of_the_counts_moves_nothing(talk):
     talk.greet()
     talk.run(2.0, Twist(0.3, 0.0))
@@ -106,12 +119,14 @@ def test_what_a_configuration_says_is_used():
     parameters = {
         "bumps": "left:2 right:3",
         "sonars": "front:9",
+        "buttons": "stop:12",
         "track_cm": "30",
         "max_speed": "1",
     }
     protocol = ArduinoBridge.described(Description("base", "Hri.ArduinoBridge", parameters))
     assert protocol.sensors.bumps == ("left", "right")
     assert protocol.sensors.ranges == ("front",)
+    assert protocol.sensors.buttons == ("stop",)
     assert protocol.track == pytest.approx(0.3)
     assert protocol.limits == Twist(1.0, pytest.approx(2 / 0.3))
 

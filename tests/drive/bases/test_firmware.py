@@ -18,7 +18,10 @@ from tests.drive.bases.talk import Talk
 SKETCH = Path(__file__).parents[3] / "config" / "firmware" / "hri_base" / "hri_base.ino"
 BOARD = Path(__file__).with_name("board")
 WIRING = Wiring(
-    bumps={"left": 10, "right": 11}, cliffs={"left": 0, "right": 1}, sonars={"front": 12}
+    bumps={"left": 10, "right": 11},
+    cliffs={"left": 0, "right": 1},
+    sonars={"front": 13},
+    buttons={"stop": 12},
 )
 PWM, DIRECTION, ENCODER_A, ENCODER_B = (5, 6), (4, 7), (2, 3), (8, 9)
 FIRST_ANALOG = 14
@@ -130,6 +133,10 @@ def press(board, is_pressed):
     board.library.board_set(WIRING.bumps["left"], not is_pressed)
 
 
+def push_stop(board, is_pressed):
+    board.library.board_set(WIRING.buttons["stop"], is_pressed)
+
+
 def look_over_an_edge(board, is_there):
     board.library.board_set(FIRST_ANALOG + WIRING.cliffs["right"], 20 if is_there else FLOOR)
 
@@ -150,6 +157,24 @@ def test_in_danger_it_goes_back_and_never_ahead(talk, board, endanger):
     assert min(board.speeds) > 0.1
 
 
+@pytest.mark.parametrize("twist", [Twist(0.2, 0.0), Twist(-0.1, 0.0), Twist(0.0, 1.0)])
+def test_while_the_stop_switch_is_pressed_nothing_moves(talk, board, twist):
+    talk.run(1.0, twist)
+    assert board.is_rolling
+    push_stop(board, True)
+    talk.run(0.1)
+    assert not board.is_rolling
+    assert talk.last.buttons == {"stop": True}
+    talk.run(0.5, twist)
+    assert not board.is_rolling
+    push_stop(board, False)
+    talk.run(0.2)
+    assert not board.is_rolling, "it waits for another command"
+    assert talk.last.buttons == {"stop": False}
+    talk.run(0.5, twist)
+    assert board.is_rolling
+
+
 @pytest.mark.parametrize("target", [20_000, 32_767, 2_000_000_000])
 def test_nonsense_does_not_get_it_past_a_bumper(talk, board, target):
     press(board, True)
@@ -158,8 +183,8 @@ def test_nonsense_does_not_get_it_past_a_bumper(talk, board, target):
     assert not board.is_rolling
 
 
-def test_the_motors_can_only_be_driven(talk, board):
-    for command in (b"x 5 255\r", b"w 5 1\r", b"c 5 0\r", b"p 4\r"):
+def test_the_motors_can_only_be_driven_and_the_stop_switch_only_be_read(talk, board):
+    for command in (b"x 5 255\r", b"w 5 1\r", b"c 5 0\r", b"p 4\r", b"w 12 0\r", b"c 12 1\r"):
         assert board.feed(command, talk.now) == b"Invalid Command\r\n"
     assert not board.is_rolling
 

@@ -10,16 +10,16 @@ from hri.core.clock import FakeClock
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
 
-CLIENT = "hri.drive.supervisor.client"
+DEVICES, KINDS = "hri.drive.supervisor.devices", "hri.drive.supervisor.kinds"
 NAMES = {
-    "Hri.Create2": f"{CLIENT}:Create2Bus",
-    "Hri.ArduinoBridge": f"{CLIENT}:ArduinoBus",
-    "Hri.BaseDrive": f"{CLIENT}:BaseDrive",
-    "Hri.BaseOdometry": f"{CLIENT}:BaseOdometry",
-    "Hri.BaseBumper": f"{CLIENT}:BaseBumper",
-    "Hri.BaseCliffSensor": f"{CLIENT}:BaseCliffSensor",
-    "Hri.BaseRangeSensor": f"{CLIENT}:BaseRangeSensor",
-    "Hri.BaseBattery": f"{CLIENT}:BaseBattery",
+    "Hri.Create2": f"{KINDS}:Create2Bus",
+    "Hri.ArduinoBridge": f"{KINDS}:ArduinoBus",
+    "Hri.BaseDrive": f"{DEVICES}:BaseDrive",
+    "Hri.BaseOdometry": f"{DEVICES}:BaseOdometry",
+    "Hri.BaseBumper": f"{DEVICES}:BaseBumper",
+    "Hri.BaseCliffSensor": f"{DEVICES}:BaseCliffSensor",
+    "Hri.BaseRangeSensor": f"{DEVICES}:BaseRangeSensor",
+    "Hri.BaseBattery": f"{DEVICES}:BaseBattery",
     "Hri.EmulatedArduino": "hri.simulation.bases.device:ArduinoLine",
     "Hri.EmulatedCreate2": "hri.simulation.bases.device:Create2Line",
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import pytest
 
@@ -13,6 +14,7 @@ from hri.drive.bases.protocol import Note
 from hri.drive.supervisor.cause import POWER_UP, Cause
 from hri.drive.supervisor.link import Ask, Dock, Look, Person, Release, Song, Trip
 from hri.drive.supervisor.multiplexer import Level
+from hri.simulation.bases.create2 import PASSIVE
 from hri.simulation.bases.line import Faults
 
 
@@ -86,6 +88,21 @@ def test_a_base_on_its_way_to_the_dock_stops_when_it_is_told_to() -> None:
     chain.release()
     chain.run(1.2, GO)
     assert chain.speed == pytest.approx(0.3, abs=0.001)
+
+
+@pytest.mark.parametrize("button", ["clean", "dock"])
+def test_a_base_that_a_button_sends_off_by_itself_is_stopped(button) -> None:
+    chain = Chain().start()
+    chain.base.body.hanging.add("left")
+    chain.run(0.1)
+    chain.base.body.hanging.clear()
+    assert chain.base.mode == PASSIVE
+    chain.base.body.held.add(button)
+    while not chain.base.is_rolling:
+        chain.turn()
+    chain.run(0.03)
+    assert not chain.base.is_rolling
+    assert f"my {button} button" in chain.controller.state(chain.now).reason.words
 
 
 def test_a_latched_base_does_not_go_to_its_dock() -> None:
@@ -167,12 +184,37 @@ def test_a_line_that_takes_no_more_latches_and_hears_the_stop_first_when_it_does
     assert chain.speed == 0.0
 
 
+def test_a_base_that_sleeps_is_woken_and_stands_until_it_is_released() -> None:
+    chain = Chain()
+    chain.base.is_asleep = True
+    chain.run(1.5, GO)
+    assert chain.controller.state(chain.now).report is None
+    chain.run(3.0, GO)
+    assert chain.controller.state(chain.now).report.obeys
+    assert not chain.base.is_rolling
+    chain.release()
+    chain.run(1.2, GO)
+    assert chain.speed == pytest.approx(0.3, abs=0.001)
+
+
+def test_no_pulse_that_wakes_a_base_is_one_that_changes_its_baud_rate() -> None:
+    changes = []
+    chain = Chain()
+    chain.port.set_rts = lambda is_on: changes.append((chain.now, is_on))
+    chain.port.line.feed = lambda data, now: b""
+    chain.run(20.0)
+    times = [time for time, _ in changes]
+    assert len(times) >= 8
+    assert [is_on for _, is_on in changes] == [False, True] * (len(changes) // 2)
+    assert all(after - before > 0.6 for before, after in pairwise(times))
+
+
 def test_a_base_that_is_switched_off_and_on_is_greeted_anew() -> None:
     chain = Chain().start()
     chain.base.feed(b"\x07", chain.now)
     chain.run(0.3, GO)
     assert not chain.base.is_rolling
-    chain.run(3.0)
+    chain.run(5.0)
     assert chain.controller.state(chain.now).is_latched
     assert chain.controller.state(chain.now).report.obeys
     chain.release()

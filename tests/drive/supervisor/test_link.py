@@ -64,6 +64,7 @@ def test_a_state_arrives_as_it_was_given() -> None:
         bumps={"left": True},
         cliffs={"left": False},
         cliff_signals={"left": 1500},
+        buttons={"clean": True},
         ranges={"front": math.inf},
         battery=0.5,
         mode="safe",

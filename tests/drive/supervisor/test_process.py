@@ -6,6 +6,7 @@ measures.
 
 from __future__ import annotations
 
+import itertools
 import os
 import signal
 from collections.abc import Iterator
@@ -15,14 +16,19 @@ import psutil
 import pytest
 
 from hri.bench.stops import SLOW, Bench, drive_to, ended, settings
+from hri.core.clock import FakeClock
 from hri.core.errors import NotAvailable
 from hri.core.signals import Twist
+from hri.drive.supervisor import remote
+from hri.drive.supervisor.bus import BaseBus
 from hri.drive.supervisor.cause import Cause
-from hri.drive.supervisor.client import BaseBus, BaseDrive, BaseOdometry
-from hri.drive.supervisor.connection import BEAT, Remote
-from hri.drive.supervisor.link import Ask, State, Trip
+from hri.drive.supervisor.connection import BEAT
+from hri.drive.supervisor.devices import BaseDrive, BaseOdometry
+from hri.drive.supervisor.link import Ask, Release, State, Trip
 from hri.drive.supervisor.multiplexer import Level
 from hri.drive.supervisor.process import Settings
+from hri.drive.supervisor.remote import Remote
+from hri.hal.drivers.serial_port import Backoff
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
 from hri.simulation.bases.terminal import PseudoTerminal
@@ -167,6 +173,21 @@ def test_a_second_program_is_refused_while_the_first_drives_on(driving) -> None:
     assert not driving.state().is_latched
 
 
+def test_a_button_of_the_base_latches_it_until_it_is_let_go_and_released(driving) -> None:
+    line = driving.bench.line
+    line.base.body.held.add("clean")
+    driving.bench.wait("rest", lambda: not line.base.is_rolling)
+    assert driving.stays()
+    state = driving.state()
+    assert state.reason.words == "I stopped because somebody pressed my clean button"
+    driving.connection.say(Release(state.time, state.reason))
+    driving.bench.wait("a refusal", lambda: driving.ask().news[-1].cause.name == "refused")
+    assert driving.state().is_latched
+    line.base.body.held.clear()
+    assert driving.stays()
+    drive_to(driving.bench, driving.connection)
+
+
 def test_an_emergency_stop_stays_whatever_is_asked(driving) -> None:
     driving.connection.say(Trip(Cause("e-stop", "you said stop")))
     driving.bench.wait("rest", lambda: not driving.bench.line.base.is_rolling)
@@ -174,7 +195,9 @@ def test_an_emergency_stop_stays_whatever_is_asked(driving) -> None:
     assert driving.state().reason.words == "I stopped because you said stop"
 
 
-def test_a_configuration_with_a_port_drives_through_the_whole_chain(world, alone) -> None:
+def test_a_configuration_with_a_port_drives_through_the_whole_chain_even_when_it_broke(
+    world, alone
+) -> None:
     bench, port = world
     devices = (
         Description("base", "Hri.Create2", {"port": port.path}),
@@ -189,11 +212,49 @@ def test_a_configuration_with_a_port_drives_through_the_whole_chain(world, alone
 
         def goes() -> bool:
             drive.set_velocity(Twist(SLOW), bench.clock.now())
-            return odometry.pose(0.0).x > 0.03
+            return odometry.pose(0.0).x > goal
 
+        goal = 0.03
         bench.wait("driving", goes)
         assert bench.line.base.body.base.travelled > 0.02
+
+        (supervisor,) = (p for p in psutil.Process().children() if port.path in str(p.cmdline()))
+        supervisor.terminate()
+        bench.wait("the end", lambda: bus.state.reason.name == "supervisor")
+
+        def is_released() -> bool:
+            bus.unlatch()
+            return not bus.state.is_latched
+
+        bench.wait("a release by another", is_released)
+        at = odometry.pose(0.0).x
+        assert at >= 0.03
+        goal = at + 0.02
+        bench.wait("driving on", goes)
     assert not bench.line.base.is_rolling
+
+
+def test_where_no_supervisor_can_start_it_is_said_and_tried_again(monkeypatch) -> None:
+    clock = FakeClock()
+    monkeypatch.setattr(remote.Remote, "_start", lambda self: None)
+    monkeypatch.setattr(remote, "COMMAND", ("true",))
+    connection = Remote(clock, settings("/nowhere"))
+    before = connection.pid
+    connection._child._process.wait()
+    monkeypatch.setattr(remote, "COMMAND", ("/no/such/program",))
+    with pytest.raises(NotAvailable, match="no supervisor starts"):
+        Remote(clock, settings("/nowhere"))
+    for _ in range(100):
+        connection.look()
+        clock.advance(BEAT)
+    assert connection.pid == before
+    assert connection.is_mute
+    monkeypatch.setattr(remote, "COMMAND", ("true",))
+    for _ in range(400):
+        connection.look()
+        clock.advance(BEAT)
+    assert connection.pid != before
+    connection.close()
 
 
 def test_without_a_port_it_is_told_what_to_do(world, tmp_path) -> None:
@@ -202,15 +263,83 @@ def test_without_a_port_it_is_told_what_to_do(world, tmp_path) -> None:
         Remote(world[0].clock, missing)
 
 
-@pytest.mark.parametrize("by", [signal.SIGKILL, signal.SIGTERM])
-def test_a_supervisor_that_dies_leaves_a_base_at_rest(driving, started, by) -> None:
+def another(driving: Driving, before: int) -> None:
+    """Wait until another supervisor has taken the place of that one, and its base reports."""
+
+    def is_there() -> bool:
+        state = driving.ask()
+        return driving.connection.pid != before and not driving.connection.is_mute and state.is_open
+
+    driving.bench.wait("another", is_there)
+    assert not psutil.pid_exists(before)
+
+
+def test_a_supervisor_that_dies_leaves_a_base_at_rest_and_another_comes(driving) -> None:
+    before, rolled = driving.connection.pid, driving.state().report.rolled.linear
     time = driving.bench.clock.now()
-    os.kill(driving.connection.pid, by)
+    os.kill(before, signal.SIGKILL)
     assert driving.bench.stop_after(time) < SOON
-    driving.connection._process.wait(5)
-    driving.bench.wait("the end", lambda: driving.state().reason.name == "supervisor")
+    driving.bench.wait("the end", lambda: driving.ask().reason.name == "supervisor")
     assert driving.connection.is_mute
-    started.pop().connection.close()
+    another(driving, before)
+    assert driving.stays()
+    state = driving.state()
+    assert state.is_latched
+    assert state.reason.words == "I stopped because my supervisor was gone"
+    assert [n.number for n in state.news] == sorted({n.number for n in state.news})
+    drive_to(driving.bench, driving.connection)
+    assert driving.state().report.rolled.linear > rolled
+
+
+def test_when_the_watchdog_dies_with_its_supervisor_the_next_one_stops_the_base(driving) -> None:
+    before, watchdog = driving.connection.pid, driving.watchdog()
+    os.kill(before, signal.SIGSTOP)  # so that it cannot notice
+    watchdog.kill()
+    os.kill(before, signal.SIGKILL)
+    another(driving, before)
+    assert not driving.bench.line.base.is_rolling
+    assert driving.stays()
+
+
+def test_one_that_stays_silent_is_killed_and_after_many_deaths_nothing_is_left_behind(
+    driving, monkeypatch
+) -> None:
+    program = psutil.Process()
+    descriptors, pids = program.num_fds(), {driving.connection.pid}
+    monkeypatch.setattr(driving.connection, "_backoff", Backoff(0.0, 0.0))
+    monkeypatch.setattr(remote, "COMMAND", ("true",))
+    monkeypatch.setattr(remote, "GONE", 0.5)
+    os.kill(driving.connection.pid, signal.SIGSTOP)
+
+    def has_died_often() -> bool:
+        driving.state()
+        pids.add(driving.connection.pid)
+        return len(pids) > 15
+
+    driving.bench.wait("deaths", has_died_often)
+    monkeypatch.undo()
+    another(driving, driving.connection.pid)
+    assert program.num_fds() == descriptors
+    assert not [c for c in program.children() if c.status() == psutil.STATUS_ZOMBIE]
+    drive_to(driving.bench, driving.connection)
+
+
+def test_supervisors_that_die_at_once_are_started_ever_more_seldom(monkeypatch) -> None:
+    clock = FakeClock()
+    monkeypatch.setattr(remote.Remote, "_start", lambda self: None)
+    monkeypatch.setattr(remote, "COMMAND", ("true",))
+    connection, times = Remote(clock, settings("/nowhere")), []
+    while len(times) < 10:
+        pid = connection.pid
+        while connection.pid == pid:
+            connection._child._process.wait()
+            connection.look()
+            clock.advance(BEAT)
+        times.append(clock.now())
+    connection.close()
+    waits = [round(after - before, 6) for before, after in itertools.pairwise(times)]
+    assert waits == sorted(waits)
+    assert remote.LATEST <= waits[-1] < 2 * remote.LATEST
 
 
 @pytest.mark.parametrize("by", [signal.SIGKILL, signal.SIGSTOP])

@@ -29,6 +29,7 @@ reports = st.builds(
     flags,
     st.dictionaries(st.sampled_from(PLACES), st.integers(-5, 70000)),
     flags,
+    st.dictionaries(st.sampled_from(("clean", "stop")), st.booleans()),
     st.dictionaries(st.sampled_from(("front", "back")), anything),
     st.none() | anything,
     st.none() | anything,
@@ -64,6 +65,21 @@ def test_no_report_and_no_command_breaks_it_or_the_limits(story) -> None:
         twist = supervisor.step(now, report, asked).twist
         assert -limits.backward <= twist.linear <= limits.forward
         assert abs(twist.angular) <= limits.angular
+
+
+@settings(deadline=None, max_examples=40)
+@given(steps, st.sampled_from(("clean", "stop")))
+def test_while_a_button_is_pressed_nothing_moves_it_and_nobody_releases_it(story, name) -> None:
+    supervisor = Supervisor(Rules(Twist(0.5, 4.0)))
+    now, was_pressed = 0.0, False
+    for dt, report, asked in story:
+        now += dt
+        if report is not None:
+            was_pressed = True
+            report = replace(report, buttons={**report.buttons, name: True})
+        supervisor.release(now)
+        assert supervisor.step(now, report, asked).twist == REST
+        assert supervisor.latch.is_closed or not was_pressed
 
 
 def test_after_power_up_it_waits_for_a_release() -> None:
@@ -279,6 +295,44 @@ def test_a_dropped_wheel_stops_until_it_is_released_on_the_floor(wheel) -> None:
     track.feel(wheel_drops={"left": False, "right": False})
     assert track.run(0.5, GO).twist == REST
     assert track.released().run(1.0, GO).twist == GO
+
+
+def test_a_button_latches_until_somebody_lets_it_go_and_releases_the_base() -> None:
+    track = Track().released()
+    track.run(1.0, GO)
+    track.feel(buttons={"clean": True, "dock": False})
+    assert track.step((Command(Level.TELEOP, GO, track.now),)).twist == REST
+    assert track.decision.must_cut
+    assert track.decision.reason.words == "I stopped because somebody pressed my clean button"
+    assert track.stops == ["button"]
+    assert track.released().supervisor.latch.is_closed
+    assert "while somebody presses my clean button" in track.supervisor.refusals[0]
+    track.feel(buttons={"clean": False, "dock": False})
+    assert track.run(5.0, GO).twist == REST
+    assert track.released().run(1.0, GO).twist == GO
+    assert track.stops == ["button"]
+
+
+def test_a_button_ends_a_reflex_and_an_emergency_stop_given_meanwhile_keeps_its_reason() -> None:
+    track = Track().released()
+    track.run(1.0, GO)
+    track.feel(bumps={"left": True, "right": False})
+    assert track.run(0.5, GO).twist.linear < 0
+    track.feel(buttons={"clean": False, "dock": True})
+    assert track.step().twist == REST
+    track.supervisor.trip(Cause("e-stop", "you said stop"))
+    assert track.run(3.0, GO).reason.name == "e-stop"
+    assert track.decision.twist == REST
+    assert track.released().supervisor.latch.is_closed
+
+
+def test_a_touch_of_a_button_between_two_turns_counts() -> None:
+    track = Track().released()
+    track.run(1.0, GO)
+    touched = replace(track.report, buttons={"clean": True, "dock": False})
+    assert track.supervisor.step(track.now, touched).twist == REST
+    assert track.supervisor.step(track.now, track.report, ()).must_cut
+    assert track.supervisor.latch.is_closed
 
 
 def test_a_wheel_that_drops_in_the_middle_of_a_reflex_ends_it() -> None:

@@ -15,7 +15,11 @@ from hri.hal.motion import Way
 STEP = 0.01
 PLACES = ("left", "front_left", "front_right", "right")
 SENSORS = Sensors(
-    bumps=("left", "right"), cliffs=PLACES, cliff_signals=PLACES, wheel_drops=("left", "right")
+    bumps=("left", "right"),
+    cliffs=PLACES,
+    cliff_signals=PLACES,
+    wheel_drops=("left", "right"),
+    buttons=("clean", "dock"),
 )
 FLOOR = 1500
 
@@ -35,6 +39,7 @@ class Track:
             cliffs=dict.fromkeys(PLACES, False),
             cliff_signals=dict.fromkeys(PLACES, FLOOR),
             wheel_drops={"left": False, "right": False},
+            buttons={"clean": False, "dock": False},
             mode="safe",
         )
         self.is_silent = False

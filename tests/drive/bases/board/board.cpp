@@ -4,7 +4,7 @@
 // The Arduino tools declare what a sketch uses before it is defined; so do we.
 void reset();
 bool is_bumper(int pin);
-bool is_wheel_pin(int pin);
+bool is_kept(int pin);
 #include SKETCH
 
 extern "C" {

@@ -10,32 +10,25 @@
       </Device>
     </DeviceBus>
 
-The devices are the same for every base. A new base is a protocol, a bus of two lines like those at
-the end of this file, and its entry point. With the port "simulated" the base is an emulated one in
-the simulated world.
+The `devices` are the same for every base; each kind of base has a bus of its own, in `kinds`. With
+the port "simulated" the base is an emulated one in the simulated world.
 """
 
 from __future__ import annotations
 
-import logging
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
 from typing import TYPE_CHECKING, ClassVar
 
 from hri.core.clock import Timer
-from hri.core.errors import HriError, NotAvailable, did_you_mean
-from hri.core.events import EventBus
-from hri.core.geometry import along_arc
-from hri.core.signals import Pose2D, RangeReading, Twist
-from hri.drive.bases.arduino import ArduinoBridge
-from hri.drive.bases.create2 import Create2
+from hri.core.errors import HriError, NotAvailable
+from hri.core.signals import Pose2D, Twist
 from hri.drive.bases.protocol import BaseProtocol, BaseReport, Note
 from hri.drive.supervisor.cause import NO_SUPERVISOR, Cause
-from hri.drive.supervisor.connection import BEAT, Connection, Inline, Remote
+from hri.drive.supervisor.connection import BEAT, Connection, Inline
 from hri.drive.supervisor.controller import Controller
 from hri.drive.supervisor.governor import Body
-from hri.drive.supervisor.limiter import Cap, Limits, within_hardware
+from hri.drive.supervisor.limiter import Limits
 from hri.drive.supervisor.line import BaseLine
 from hri.drive.supervisor.link import (
     LONGEST_WORDS,
@@ -52,21 +45,13 @@ from hri.drive.supervisor.link import (
 )
 from hri.drive.supervisor.multiplexer import Level
 from hri.drive.supervisor.process import Settings, rules
+from hri.drive.supervisor.remote import Remote
 from hri.drive.supervisor.supervisor import Supervisor
-from hri.hal.battery import Battery
-from hri.hal.bumper import Bumper
-from hri.hal.cliff_sensor import CliffSensor
-from hri.hal.drive import Odometry
-from hri.hal.motion import REST, SlowDown, Steering, Way
-from hri.hal.moving_base import MovingBase
-from hri.hal.pending import Pending
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Description, Resource
 
 if TYPE_CHECKING:
     from hri.hal.manager import ResourceManager
-
-log = logging.getLogger("hri.drive")
 
 SIMULATED = "simulated"
 """The port of a base that is emulated in the simulated world."""
@@ -87,7 +72,8 @@ class BaseBus(Resource):
     Parameters: `port`, those of the protocol, the fields of `Limits` and of `Body` (SI units and
     radians; without them the body is the box that the configuration gives as dimensions).
 
-    After it was opened, and after a lost port, the base does not move until `unlatch`.
+    After it was opened, after a lost port, and after its supervisor died and another has taken its
+    place, the base does not move until `unlatch`.
     """
 
     protocol: ClassVar[type[BaseProtocol]]
@@ -232,11 +218,13 @@ class BaseBus(Resource):
         self._watchers.clear()
         self._unlatching = self._stopping = None
         self._connection = self._connected(self.description.text("port"))
-        self._beat()
+        self._poll()
+        self._timer = self._next_beat()
 
     def _close(self) -> None:
         if self._timer is not None:
             self._timer.cancel()
+            self._timer = None
         self._connection.close()
 
     def _connected(self, port: str) -> Connection:
@@ -280,7 +268,7 @@ class BaseBus(Resource):
     def _mounts(self) -> Mapping[str, Pose2D]:
         """Where the range sensors are that the configuration names, by their names in reports."""
         mounts = {}
-        for id in self.manager.ids(BaseRangeSensor):
+        for id in self.manager.ids(RangeSensor):
             device = self.manager.descriptions[id]
             if device.bus == self.id:
                 pose = self.manager.pose_of(id)
@@ -299,11 +287,18 @@ class BaseBus(Resource):
             if self._connection.is_mute:
                 self._connection.look()  # perhaps it was us who stood still
         if self._connection.is_mute:
-            raise self.not_available("its supervisor does not answer", "open the base again")
+            raise self.not_available(
+                "its supervisor does not answer", "wait until another has started"
+            )
 
     def _beat(self) -> None:
         self._poll()
-        self._timer = self.manager.clock.call_at(self.manager.clock.now() + BEAT, self._beat)
+        with self._lock:
+            if self._timer is not None:  # it was not closed meanwhile
+                self._timer = self._next_beat()
+
+    def _next_beat(self) -> Timer:
+        return self.manager.clock.call_at(self.manager.clock.now() + BEAT, self._beat)
 
     def _poll(self) -> None:
         with self._lock:
@@ -327,7 +322,7 @@ class BaseBus(Resource):
         now, state = self.manager.clock.now(), self.state
         if state.reason != cause or not state.is_latched or now > end:
             self._unlatching = None
-        elif self.age(now) <= STALE:
+        elif self.age(now) <= STALE and not self._connection.is_mute:
             self._unlatching = None
             self._connection.say(Release(state.time, cause))
 
@@ -335,216 +330,3 @@ class BaseBus(Resource):
 def _number(description: Description, name: str, default: float) -> float:
     least, most = _LEAST.get(name, 0.01), _MOST.get(name, 20.0)
     return description.number_within(name, default, least, most)
-
-
-def announce(bus: BaseBus, events: EventBus) -> Watcher:
-    """Raise an event, and write a line to the log, for each thing that people should know.
-
-    It goes on until the watcher that it returns is given to `unwatch`, or the bus is closed.
-
-    `drive.stopped` (reason, words) unless somebody asked it to stop, `drive.refused` (words) for a
-    command that made no sense, `drive.faulty` (words) for a sensor that cannot be believed.
-    """
-    told, faulty = 0, frozenset[str]()
-
-    def tell(state: State) -> None:
-        nonlocal told, faulty
-        for news in state.news:
-            if news.number > told:
-                told = news.number
-                _tell(news.cause)
-        for words in sorted(frozenset(state.faults) - faulty):
-            log.warning("%s: %s", bus.id, words)
-            events.raise_event("drive.faulty", words=words)
-        faulty = frozenset(state.faults)
-
-    def _tell(cause: Cause) -> None:
-        if cause.name == "refused":
-            log.warning("%s: refused: %s", bus.id, cause.because)
-            events.raise_event("drive.refused", words=cause.because)
-        elif cause.name != "done":
-            log.info("%s: %s", bus.id, cause.words)
-            events.raise_event("drive.stopped", reason=cause.name, words=cause.words)
-
-    bus.watch(tell)
-    return tell
-
-
-class OnBase(Resource):
-    """A device of a base."""
-
-    bus: BaseBus
-
-    def _open(self) -> None:
-        super()._open()
-        self.bus = self.use(self.description.bus, BaseBus)
-
-
-class OfSensor(OnBase):
-    """One of several sensors of a kind, chosen by the parameter `sensor`."""
-
-    parameters: ClassVar[tuple[str, ...]] = ("sensor",)
-    kind: ClassVar[str]
-    """The field of `Sensors` that names them."""
-
-    def _open(self) -> None:
-        super()._open()
-        self.sensor = self.description.text("sensor")
-        known = getattr(self.bus.protocol.described(self.bus.description).sensors, self.kind)
-        if self.sensor not in known and not self._is_any():
-            what = f'the base has no sensor "{self.sensor}" of that kind'
-            raise self.description.error("sensor", what, did_you_mean(self.sensor, known))
-
-    def _is_any(self) -> bool:
-        """Whether it may stand for all of them."""
-        return False
-
-
-class BaseDrive(OnBase, MovingBase):
-    """Asks the supervisor, which has the last word.
-
-    Velocities of networks go before those of motions; when one takes the other's place, the other's
-    last word is taken back.
-    """
-
-    # The supervisor limits the jerk, and the line takes its time: what is told shows 75 ms later.
-    # The wheels of a Create 2 count 0.44 mm, and turn at whole mm/s.
-    steering = Steering(gain=3.0, lead=0.075, near=Way(0.002, math.radians(0.4)))
-
-    def _open(self) -> None:
-        super()._open()
-        self._source = Level.BEHAVIORS
-        limits = self.bus.limits
-        self.max_acceleration = min(limits.acceleration, limits.deceleration)
-        self.max_angular_acceleration = min(
-            limits.angular_acceleration, limits.angular_deceleration
-        )
-        self.max_linear, self.max_angular = self._slowest.forward, self._slowest.angular
-
-    @property
-    def _slowest(self) -> Cap:
-        """What is allowed whoever comes near; a motion planned faster might lag behind and fail."""
-        return within_hardware(self.bus.limits.cap(is_near=True), self.bus.fastest)
-
-    def move_delta(self, distance: float, velocity: float, acceleration: float) -> Pending[None]:
-        if distance < 0:
-            velocity = min(velocity, self._slowest.backward)
-        return super().move_delta(distance, velocity, acceleration)
-
-    def _send(self, twist: Twist, now: float) -> None:
-        run = self._run
-        if run and self.bus.state.is_latched and not isinstance(run.motion, SlowDown):
-            raise HriError(f"{self.bus.explain()} - unlatch the base first")
-        source = Level.TASKS if run else Level.BEHAVIORS
-        if source is not self._source:
-            self.bus.ask(self._source, None)
-            self._source = source
-        self.bus.ask(source, twist)
-
-    def _brake(self, now: float) -> None:
-        self.bus.brake()
-
-    def _set_power(self, percent: float, now: float) -> None:
-        """Nothing: these bases hold their place as their firmware likes."""
-
-    def _rolled(self, now: float) -> Way:
-        return self.bus.report().rolled
-
-    def _velocity(self, now: float) -> Twist:
-        return self.bus.report().velocity or REST
-
-
-class BaseOdometry(OnBase, Odometry):
-    """Adds up what the wheels say they rolled; between two states the way counts as one arc."""
-
-    parameters: ClassVar[tuple[str, ...]] = ("polling_interval",)
-
-    def _open(self) -> None:
-        super()._open()
-        self._pose = Pose2D()
-        self._rolled: Way | None = None
-        self.bus.watch(self._follow)
-
-    def _close(self) -> None:
-        self.bus.unwatch(self._follow)
-        super()._close()
-
-    def pose(self, now: float) -> Pose2D:
-        return self._pose
-
-    def velocity(self, now: float) -> Twist:
-        return self.bus.report().velocity or REST
-
-    def _follow(self, state: State) -> None:
-        if state.report is None:
-            return
-        rolled = state.report.rolled
-        before, self._rolled = self._rolled or rolled, rolled
-        linear, angular = rolled.linear - before.linear, rolled.angular - before.angular
-        self._pose = along_arc(self._pose, linear, angular)
-
-
-class BaseBumper(OfSensor, Bumper):
-    """A switch of the base, or all of them without the parameter `sensor`."""
-
-    kind = "bumps"
-
-    def _is_any(self) -> bool:
-        return not self.sensor
-
-    def is_pressed(self, now: float) -> bool:
-        report = self.bus.state.report
-        if report is None or self.bus.age(now) > STALE:
-            return True
-        return report.bumps.get(self.sensor, True) if self.sensor else any(report.bumps.values())
-
-
-class BaseCliffSensor(OfSensor, CliffSensor):
-    """A cliff sensor of the base."""
-
-    kind = "cliffs"
-
-    def is_cliff(self, now: float) -> bool:
-        report = self.bus.state.report
-        return report is None or self.bus.age(now) > STALE or report.cliffs.get(self.sensor, True)
-
-
-class BaseRangeSensor(OfSensor, RangeSensor):
-    """A range sensor of the base; x, y (cm) and yaw say where it is, which governs the speed."""
-
-    kind = "ranges"
-
-    def read(self, now: float) -> RangeReading:
-        report = self.bus.report()
-        distance = report.ranges.get(self.sensor, 0.0)
-        return RangeReading(self.id, distance, now - self.bus.age(now), 0)
-
-
-class BaseBattery(OnBase, Battery):
-    """The battery, as the base measures it."""
-
-    def level(self, now: float) -> float:
-        level = self.bus.report().battery
-        if level is None:
-            raise self.not_available("the base does not say how full it is", "measure the voltage")
-        return level
-
-    def voltage(self, now: float) -> float:
-        voltage = self.bus.report().voltage
-        if voltage is None:
-            raise self.not_available("the base does not say its voltage", "ask for the level")
-        return voltage
-
-
-class Create2Bus(BaseBus):
-    """An iRobot Create 2, or a Roomba of the 500 and 600 series."""
-
-    protocol = Create2
-    line = "Hri.EmulatedCreate2"
-
-
-class ArduinoBus(BaseBus):
-    """An Arduino or its like with the ROSArduinoBridge protocol."""
-
-    protocol = ArduinoBridge
-    line = "Hri.EmulatedArduino"

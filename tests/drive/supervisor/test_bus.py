@@ -12,21 +12,21 @@ from hri.core.errors import AuthoringError, HriError, NotAvailable
 from hri.core.events import EventBus
 from hri.core.signals import Event, Twist
 from hri.drive.bases.protocol import Note
-from hri.drive.supervisor.client import (
+from hri.drive.supervisor.announcement import announce
+from hri.drive.supervisor.bus import BaseBus
+from hri.drive.supervisor.devices import (
     BaseBattery,
     BaseBumper,
-    BaseBus,
     BaseCliffSensor,
     BaseDrive,
     BaseOdometry,
     BaseRangeSensor,
-    announce,
 )
 from hri.hal.manager import ResourceManager
 from hri.hal.pending import Interrupted
 from hri.hal.resource import Description
 from hri.simulation.bases.body import RoomBody
-from hri.simulation.bases.device import Create2Line
+from hri.simulation.bases.device import ArduinoLine, Create2Line
 from hri.simulation.world import SimulatedWorld
 
 GO = Twist(0.3)
@@ -258,6 +258,21 @@ def test_it_sings_lights_its_lamps_and_goes_to_its_dock_by_name(robot) -> None:
         robot.bus.dock()
 
 
+def test_a_button_of_the_base_is_an_emergency_stop(robot) -> None:
+    robot.unlatched().go(1.0)
+    robot.body.held.add("spot")
+    robot.go(0.5)
+    assert robot.world.base.velocity == Twist()
+    assert robot.told() == [("drive.stopped", "button")]
+    robot.bus.unlatch()
+    robot.go(0.5)
+    assert robot.bus.state.is_latched
+    robot.body.held.clear()
+    robot.go(0.1)
+    robot.unlatched().go(1.2)
+    assert robot.world.base.velocity.linear == pytest.approx(0.3, abs=0.002)
+
+
 def test_every_stop_is_an_event_with_a_sentence(robot) -> None:
     robot.unlatched().go(1.0)
     robot.body.over_edge.add("left")
@@ -353,6 +368,7 @@ def test_a_program_that_stood_still_does_not_take_its_supervisor_for_mute(robot)
 
 def test_an_arduino_is_driven_by_the_same_devices(clock) -> None:
     wiring = {"port": "simulated", "bumps": "left:7 right:8", "sonars": "front:4"}
+    wiring["buttons"] = "stop:12"
     devices = (
         Description("base", "Hri.ArduinoBridge", wiring),
         Description("drive", "Hri.BaseDrive", bus="base"),
@@ -370,3 +386,6 @@ def test_an_arduino_is_driven_by_the_same_devices(clock) -> None:
         assert not manager.obtain("bumper", BaseBumper).is_pressed(clock.now())
         with pytest.raises(NotAvailable, match="no loudspeaker"):
             bus.song([Note(60, 0.25)])
+        manager.obtain("base_line", ArduinoLine).port.line.emulator.body.held.add("stop")
+        clock.advance(0.1)
+        assert bus.explain() == "I stopped because somebody pressed my stop button"

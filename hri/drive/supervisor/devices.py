@@ -1,0 +1,194 @@
+"""The devices of a base, the same for every one of them: they sit on its bus.
+
+<Device id="cliff_left" type="Hri.BaseCliffSensor">
+  <Parameter name="sensor" value="left"/>
+</Device>
+"""
+
+from __future__ import annotations
+
+import math
+from typing import ClassVar
+
+from hri.core.errors import HriError, did_you_mean
+from hri.core.geometry import along_arc
+from hri.core.signals import Pose2D, RangeReading, Twist
+from hri.drive.supervisor.bus import STALE, BaseBus
+from hri.drive.supervisor.limiter import Cap, within_hardware
+from hri.drive.supervisor.link import State
+from hri.drive.supervisor.multiplexer import Level
+from hri.hal.battery import Battery
+from hri.hal.bumper import Bumper
+from hri.hal.cliff_sensor import CliffSensor
+from hri.hal.drive import Odometry
+from hri.hal.motion import REST, SlowDown, Steering, Way
+from hri.hal.moving_base import MovingBase
+from hri.hal.pending import Pending
+from hri.hal.range_sensor import RangeSensor
+from hri.hal.resource import Resource
+
+
+class OnBase(Resource):
+    """A device of a base."""
+
+    bus: BaseBus
+
+    def _open(self) -> None:
+        super()._open()
+        self.bus = self.use(self.description.bus, BaseBus)
+
+
+class OfSensor(OnBase):
+    """One of several sensors of a kind, chosen by the parameter `sensor`."""
+
+    parameters: ClassVar[tuple[str, ...]] = ("sensor",)
+    kind: ClassVar[str]
+    """The field of `Sensors` that names them."""
+
+    def _open(self) -> None:
+        super()._open()
+        self.sensor = self.description.text("sensor")
+        known = getattr(self.bus.protocol.described(self.bus.description).sensors, self.kind)
+        if self.sensor not in known and not self._is_any():
+            what = f'the base has no sensor "{self.sensor}" of that kind'
+            raise self.description.error("sensor", what, did_you_mean(self.sensor, known))
+
+    def _is_any(self) -> bool:
+        """Whether it may stand for all of them."""
+        return False
+
+
+class BaseDrive(OnBase, MovingBase):
+    """Asks the supervisor, which has the last word.
+
+    Velocities of networks go before those of motions; when one takes the other's place, the other's
+    last word is taken back.
+    """
+
+    # The supervisor limits the jerk, and the line takes its time: what is told shows 75 ms later.
+    # The wheels of a Create 2 count 0.44 mm, and turn at whole mm/s.
+    steering = Steering(gain=3.0, lead=0.075, near=Way(0.002, math.radians(0.4)))
+
+    def _open(self) -> None:
+        super()._open()
+        self._source = Level.BEHAVIORS
+        limits = self.bus.limits
+        self.max_acceleration = min(limits.acceleration, limits.deceleration)
+        self.max_angular_acceleration = min(
+            limits.angular_acceleration, limits.angular_deceleration
+        )
+        self.max_linear, self.max_angular = self._slowest.forward, self._slowest.angular
+
+    @property
+    def _slowest(self) -> Cap:
+        """What is allowed whoever comes near; a motion planned faster might lag behind and fail."""
+        return within_hardware(self.bus.limits.cap(is_near=True), self.bus.fastest)
+
+    def move_delta(self, distance: float, velocity: float, acceleration: float) -> Pending[None]:
+        if distance < 0:
+            velocity = min(velocity, self._slowest.backward)
+        return super().move_delta(distance, velocity, acceleration)
+
+    def _send(self, twist: Twist, now: float) -> None:
+        run = self._run
+        if run and self.bus.state.is_latched and not isinstance(run.motion, SlowDown):
+            raise HriError(f"{self.bus.explain()} - unlatch the base first")
+        source = Level.TASKS if run else Level.BEHAVIORS
+        if source is not self._source:
+            self.bus.ask(self._source, None)
+            self._source = source
+        self.bus.ask(source, twist)
+
+    def _brake(self, now: float) -> None:
+        self.bus.brake()
+
+    def _set_power(self, percent: float, now: float) -> None:
+        """Nothing: these bases hold their place as their firmware likes."""
+
+    def _rolled(self, now: float) -> Way:
+        return self.bus.report().rolled
+
+    def _velocity(self, now: float) -> Twist:
+        return self.bus.report().velocity or REST
+
+
+class BaseOdometry(OnBase, Odometry):
+    """Adds up what the wheels say they rolled; between two states the way counts as one arc."""
+
+    parameters: ClassVar[tuple[str, ...]] = ("polling_interval",)
+
+    def _open(self) -> None:
+        super()._open()
+        self._pose = Pose2D()
+        self._rolled: Way | None = None
+        self.bus.watch(self._follow)
+
+    def _close(self) -> None:
+        self.bus.unwatch(self._follow)
+        super()._close()
+
+    def pose(self, now: float) -> Pose2D:
+        return self._pose
+
+    def velocity(self, now: float) -> Twist:
+        return self.bus.report().velocity or REST
+
+    def _follow(self, state: State) -> None:
+        if state.report is None:
+            return
+        rolled = state.report.rolled
+        before, self._rolled = self._rolled or rolled, rolled
+        linear, angular = rolled.linear - before.linear, rolled.angular - before.angular
+        self._pose = along_arc(self._pose, linear, angular)
+
+
+class BaseBumper(OfSensor, Bumper):
+    """A switch of the base, or all of them without the parameter `sensor`."""
+
+    kind = "bumps"
+
+    def _is_any(self) -> bool:
+        return not self.sensor
+
+    def is_pressed(self, now: float) -> bool:
+        report = self.bus.state.report
+        if report is None or self.bus.age(now) > STALE:
+            return True
+        return report.bumps.get(self.sensor, True) if self.sensor else any(report.bumps.values())
+
+
+class BaseCliffSensor(OfSensor, CliffSensor):
+    """A cliff sensor of the base."""
+
+    kind = "cliffs"
+
+    def is_cliff(self, now: float) -> bool:
+        report = self.bus.state.report
+        return report is None or self.bus.age(now) > STALE or report.cliffs.get(self.sensor, True)
+
+
+class BaseRangeSensor(OfSensor, RangeSensor):
+    """A range sensor of the base; x, y (cm) and yaw say where it is, which governs the speed."""
+
+    kind = "ranges"
+
+    def read(self, now: float) -> RangeReading:
+        report = self.bus.report()
+        distance = report.ranges.get(self.sensor, 0.0)
+        return RangeReading(self.id, distance, now - self.bus.age(now), 0)
+
+
+class BaseBattery(OnBase, Battery):
+    """The battery, as the base measures it."""
+
+    def level(self, now: float) -> float:
+        level = self.bus.report().battery
+        if level is None:
+            raise self.not_available("the base does not say how full it is", "measure the voltage")
+        return level
+
+    def voltage(self, now: float) -> float:
+        voltage = self.bus.report().voltage
+        if voltage is None:
+            raise self.not_available("the base does not say its voltage", "ask for the level")
+        return voltage
