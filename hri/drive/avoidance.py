@@ -12,13 +12,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from hri.core.geometry import wrapped
-from hri.core.signals import Pose2D, RangeReading, Twist
+from hri.core.signals import People, Pose2D, RangeReading, Twist
 from hri.drive.closing import Closing
+from hri.drive.company import Company
 from hri.drive.gate import REST
 from hri.drive.histogram import (
     WIDTH,
@@ -54,6 +55,8 @@ CREEPING = 0.06
 """Metres a second."""
 BACKING, BACKING_S = 0.1, 1.5
 """How fast, m/s, and for how many seconds it backs off."""
+STARTLE_S = 0.2
+"""Seconds for which it stands after a touch: the gate hears nobody who has not let go since."""
 LEAST_BEHIND = 0.1
 """Metres that must be free behind it for that."""
 BLIND_S = 0.5
@@ -80,6 +83,9 @@ class Manner:
 
     speed: float = 0.3
     """Metres a second, where nothing is near."""
+    blind_speed: float = 0.15
+    """The same of a robot without range sensors, which finds things with its bumper: it then stands
+    after 3 cm (0.1 s until it brakes, with 0.8 m/s²), where 0.3 m/s would take it 9 cm on."""
     turn_rate: float = 1.0
     """Radians a second."""
     deceleration: float = 0.4
@@ -130,7 +136,7 @@ class Avoidance:
 
     def __init__(self, mechanics: Mechanics, manner: Manner | None = None) -> None:
         self.mechanics = mechanics
-        self.manner = manner or Manner()
+        self.manner = _careful(manner or Manner(), mechanics)
         self.memory = Memory(self.manner.memory_s)
         self._histogram = Histogram(BLOCKED_BELOW, FREE_ABOVE)
         self._progress = Progress()
@@ -138,10 +144,11 @@ class Avoidance:
         self._replan_at = -math.inf
         self._side = 0
         self._discs: Sequence[tuple[float, float, float]] = ()
+        self._company = Company()
         self._closing = Closing(mechanics.mounts)
         self._seen = self._fresh = self.memory.points
         self._chosen = 0.0
-        self._backing_until = -math.inf
+        self._startled_until = self._backing_until = -math.inf
         self._is_moving = self._is_blind = False
 
     def see(
@@ -149,28 +156,29 @@ class Avoidance:
         now: float,
         pose: Pose2D,
         readings: Mapping[str, RangeReading],
-        people: Sequence[tuple[float, float]] = (),
+        people: People | None = None,
     ) -> None:
-        """Take in range readings by sensor, and where people stand in the odometry frame.
+        """Take in range readings by sensor, and the newest of what the camera says of people.
 
         A sensor that says nothing, nothing new or no number might look at anything: until it speaks
         again the robot turns, but does not go ahead.
         """
         self.memory.see(now, pose, readings, self.mechanics)
         reach = PERSON_RADIUS + self.manner.person_gap
-        self._discs = [(x, y, reach) for x, y in people]
+        self._discs = [(x, y, reach) for x, y in self._company.see(now, pose, people)]
         self._closing.see(now, readings)
         known = (readings.get(id) for id in self.mechanics.mounts)
         self._is_blind = not all(_is_sound(reading, now) for reading in known)
 
     def touch(self, now: float, pose: Pose2D) -> None:
-        """The bumper was pressed: remember that something is ahead, and back off."""
+        """The bumper was pressed: remember that something is ahead, stand, and back off."""
         reach = self.mechanics.radius + self.manner.margin
         for aside in (-0.5, 0.0, 0.5):
             angle = pose.heading + aside
             x, y = pose.x + reach * math.cos(angle), pose.y + reach * math.sin(angle)
             self.memory.feel(x, y, now, angle)
-        self._backing_until = now + BACKING_S
+        self._startled_until = now + STARTLE_S
+        self._backing_until = self._startled_until + BACKING_S
 
     def steer(self, now: float, pose: Pose2D, goal: Pose2D) -> Twist:
         """The velocity for now on the way to a goal; rest when it is reached, or nothing is free.
@@ -183,6 +191,8 @@ class Avoidance:
         if distance <= self.manner.near:
             self._progress.rest()
             self._route = None
+            twist = REST
+        elif now < self._startled_until:
             twist = REST
         elif now < self._backing_until:
             twist = self._back_off(pose, ways)
@@ -221,6 +231,8 @@ class Avoidance:
 
     def _weave(self, now: float, direction: float) -> float:
         """Radians to the side: it swings its few beams to and fro, where there is room for that."""
+        if not self.mechanics.mounts:
+            return 0.0
         aside = WEAVE * math.sin(math.tau * now / WEAVE_S)
         return aside if self._histogram.is_free[sector(direction + 2 * aside)] else 0.0
 
@@ -244,27 +256,31 @@ class Avoidance:
     def _routed(self, now: float, pose: Pose2D, goal: Pose2D) -> Route:
         """A new route, or the old one where the new one is hardly shorter."""
         start, end = (pose.x, pose.y), (goal.x, goal.y)
-        route = find_route(start, end, self._obstacles(), self._reach, self._seen)
+        route = find_route(start, end, self._fresh, self._reach, self._doubtful())
         if not route.is_free:
             # Something that moves has left its traces all around: only what is new counts.
             self.memory.forget(now - FRESH_S)
             self._seen = self._fresh = self.memory.points
-            route = find_route(start, end, self._obstacles(), self._reach, self._seen)
+            route = find_route(start, end, self._fresh, self._reach, self._doubtful())
         old = self._route.rest(pose) if self._route is not None else None
         if old is None or math.dist(old.points[-1], end) > self.manner.near:
             return route
-        if route.length <= old.length - GAIN or not old.is_clear(self._obstacles(), self._reach):
+        if route.length <= old.length - GAIN or not old.is_clear(self._fresh, self._reach):
             return route
         return old
 
-    def _obstacles(self) -> Array:
-        """All points that a route leads around for sure, people as rings of points."""
+    def _doubtful(self) -> Array:
+        """What may have moved on when the robot gets there: things of long ago, and people.
+
+        People are rings of points. A robot that planned a long way around each of them would be
+        on its way back by the time they have moved.
+        """
         rings = [
             (x + (r - 0.01) * math.cos(a), y + (r - 0.01) * math.sin(a))
             for x, y, r in self._discs
             for a in np.linspace(0, math.tau, 12, endpoint=False)
         ]
-        return np.vstack((self._fresh, *rings)) if rings else self._fresh
+        return np.vstack((self._seen, *rings)) if rings else self._seen
 
     def _cheapest(self, pose: Pose2D, direction: float) -> float | None:
         """The edge of a free valley that costs least, by the cost function of VFH+."""
@@ -309,6 +325,13 @@ class Avoidance:
         """Slowly back where it came from, as far as nothing is known to be there."""
         behind = float(ways[sector(pose.heading + math.pi)])
         return Twist(-BACKING) if behind > LEAST_BEHIND else REST
+
+
+def _careful(manner: Manner, mechanics: Mechanics) -> Manner:
+    """How a robot goes with the range sensors it has."""
+    if mechanics.mounts:
+        return manner
+    return replace(manner, speed=min(manner.speed, manner.blind_speed))
 
 
 def _is_sound(reading: RangeReading | None, now: float) -> bool:

@@ -14,7 +14,6 @@ from hri.behavior.behavior import Context
 from hri.behavior.drivers import DeviceBehavior
 from hri.behavior.ports import ANGULAR_VELOCITY, LINEAR_VELOCITY, Input, Output, Param
 from hri.core.errors import HriError
-from hri.core.geometry import placed
 from hri.core.signals import People, Pose2D, Twist
 from hri.drive.avoidance import Avoidance, Manner, straight_to, turn_to
 from hri.drive.gate import REST
@@ -24,8 +23,6 @@ from hri.hal.range_sensor import RangeSensor
 
 PEOPLE = "people"
 """The board slot with everybody whom the camera sees."""
-SEEN_S = 1.0
-"""Seconds for which what was seen says where people are."""
 _MANNER = Manner()
 
 
@@ -110,7 +107,7 @@ class ObstacleAvoidance(_Going):
 
     def _look(self, now: float, pose: Pose2D) -> None:
         readings = {id: sensor.read(now) for id, sensor in self._sensors.items()}
-        self._avoidance.see(now, pose, readings, places_of(self.people.value, pose, now))
+        self._avoidance.see(now, pose, readings, self.people.value)
         is_bumped = any(self.bump.values)
         if is_bumped and not self._was_bumped:
             self._avoidance.touch(now, pose)
@@ -120,17 +117,3 @@ class ObstacleAvoidance(_Going):
         twist = self._avoidance.steer(now, pose, goal)
         self.side.send(float(self._avoidance.side))
         return twist
-
-
-def places_of(people: People | None, pose: Pose2D, now: float) -> list[tuple[float, float]]:
-    """Where everybody stands whose distance is known, in the frame of a robot's pose.
-
-    Nobody, when the camera has said nothing for SEEN_S: what it said last moved with the robot.
-    """
-    if people is None or now - people.time > SEEN_S:
-        return []
-    return [
-        placed(pose, p.distance * math.cos(p.bearing), p.distance * math.sin(p.bearing))
-        for p in people.persons
-        if p.is_visible and math.isfinite(p.distance)
-    ]

@@ -6,7 +6,7 @@ import math
 
 from hri.core.signals import Pose2D
 
-PATIENCE_S = 4.0
+STUCK_S = 4.0
 """Seconds without progress after which it is stuck."""
 LEAST = 0.1
 """Metres; a robot that got so far from where it was has moved on."""
@@ -38,7 +38,22 @@ class Progress:
         if turn > LEAST_TURN and self._turned < MOST_TURN:
             self._turned += turn
             self._heading, self._since = pose.heading, now
-        return now - self._since > PATIENCE_S
+        return now - self._since > STUCK_S
+
+
+class Patience:
+    """Notices that a goal comes no nearer."""
+
+    def __init__(self, seconds: float, least: float) -> None:
+        """It is over after `seconds` in which not `least` was gained, metres or radians."""
+        self._seconds, self._least = seconds, least
+        self._best, self._since = math.inf, math.nan
+
+    def is_over(self, now: float, remaining: float) -> bool:
+        """Whether nothing was gained for too long; `remaining` is infinite when it is not known."""
+        if math.isnan(self._since) or remaining < self._best - self._least:
+            self._best, self._since = remaining, now
+        return now - self._since > self._seconds
 
 
 def _apart(one: Pose2D, other: Pose2D) -> float:

@@ -25,6 +25,8 @@ BORDER = 1.5
 """Around robot, goal and obstacles, where a way may lead."""
 MOST_CELLS = 120
 """Along each side of the grid; of a larger one the part around the robot is looked at."""
+BEYOND = 1e6
+"""Cells from the grid; whatever is farther away is only a direction."""
 NARROW = 2.0
 """What a cell costs in the narrow ring around obstacles, beside the metres."""
 THROUGH = 40.0
@@ -146,17 +148,20 @@ class _Grid:
             np.maximum(part, cost, out=part)
 
     def cell(self, point: Point) -> Cell:
-        """The cell of a point; of one that lies beyond, the nearest."""
-        columns, rows = self.costs.shape
-        column = int((point[0] - self._left) / CELL)
-        row = int((point[1] - self._bottom) / CELL)
-        return min(max(column, 0), columns - 1), min(max(row, 0), rows - 1)
+        """The cell of a point; numbers beyond those of the grid for one that lies beyond."""
+        across, up = (point[0] - self._left) / CELL, (point[1] - self._bottom) / CELL
+        column, row = (math.floor(min(max(n, -BEYOND), BEYOND)) for n in (across, up))
+        return column, row
 
     def middle(self, cell: Cell) -> Point:
         return self._left + (cell[0] + 0.5) * CELL, self._bottom + (cell[1] + 0.5) * CELL
 
     def search(self, start: Cell, goal: Cell) -> list[Cell]:
-        """Cells from the start to the goal."""
+        """Cells from the start to the goal.
+
+        To a goal beyond the grid it goes straight on from where it leaves the grid toward it:
+        nothing is known there. So a thing on the border is gone around like any other.
+        """
         columns, rows = self.costs.shape
         costs = self.costs.tolist()
         came: dict[Cell, Cell] = {}
@@ -179,7 +184,19 @@ class _Grid:
                 if cost < spent.get(there, math.inf):
                     spent[there], came[there] = cost, here
                     heapq.heappush(edge, (cost + math.dist(there, goal), there))
+            if self._is_exit(here, goal):
+                cost = spent[here] + math.dist(here, goal)
+                if cost < spent.get(goal, math.inf):
+                    spent[goal], came[goal] = cost, here
+                    heapq.heappush(edge, (cost, goal))
         return _traced(came, start, goal)
+
+    def _is_exit(self, cell: Cell, goal: Cell) -> bool:
+        """Whether it lies on a border behind which the goal is."""
+        return any(
+            (at == 0 and end < 0) or (at == count - 1 and end >= count)
+            for at, end, count in zip(cell, goal, self.costs.shape, strict=True)
+        )
 
 
 def _traced(came: dict[Cell, Cell], start: Cell, goal: Cell) -> list[Cell]:

@@ -17,6 +17,7 @@ from hri.core.signals import Pose2D, Twist
 from hri.drive.behaviors import COMMAND, MOTION
 from hri.drive.gate import REST
 from hri.drive.profile import velocity_for
+from hri.drive.progress import Patience
 from hri.hal.drive import Odometry
 from hri.hal.pending import Interrupted
 from hri.task.context import TaskContext
@@ -189,13 +190,13 @@ class Motion:
         await self._roll_out()
 
     async def _steer(self, way: _Way) -> None:
-        patience = _Patience(self._clock.now(), abs(way.goal))
+        patience = Patience(_PATIENCE_S, way.near)
         try:
             while self._current.value is self:
                 pose, now = self._pose(), self._clock.now()
                 way.look(pose)
                 remaining = abs(way.goal - way.gone)
-                if remaining <= way.near or patience.is_over(now, remaining, way.near):
+                if remaining <= way.near or patience.is_over(now, remaining):
                     break
                 self._command.set(way.steered(pose), now)
                 await self._clock.sleep(_PERIOD)
@@ -229,16 +230,3 @@ def motion_of(context: TaskContext) -> Iterator[Motion]:
         yield Motion(context, odometry)
     finally:
         context.resources.release(odometry)
-
-
-class _Patience:
-    """Notices that the goal comes no nearer."""
-
-    def __init__(self, now: float, remaining: float) -> None:
-        self._best, self._since = remaining, now
-
-    def is_over(self, now: float, remaining: float, least: float) -> bool:
-        """Whether nothing was gained, `least` metres or radians, for too long."""
-        if remaining < self._best - least:
-            self._best, self._since = remaining, now
-        return now - self._since > _PATIENCE_S

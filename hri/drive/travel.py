@@ -18,9 +18,10 @@ from hri.drive.avoidance import PERSON_RADIUS, Avoidance, Manner, turn_to
 from hri.drive.following import Following, Pursuit, sight_of, tell
 from hri.drive.following import Manner as FollowingManner
 from hri.drive.gate import REST
-from hri.drive.going import PEOPLE, places_of
+from hri.drive.going import PEOPLE
 from hri.drive.mechanics import mechanics_of, range_sensors
 from hri.drive.navigation import checked
+from hri.drive.progress import Patience
 from hri.drive.tasks import motion_of
 from hri.drive.wandering import Wandering
 from hri.hal.drive import Odometry
@@ -46,7 +47,7 @@ async def go_to(context: TaskContext, goal: Pose2D, *, faces: bool = False) -> b
     if not all(map(math.isfinite, (goal.x, goal.y, goal.heading))):
         raise ValueError(f"cannot go to {goal} - give finite numbers")
     with _traveler(context) as traveler:
-        patience = _Patience()
+        patience = Patience(PATIENCE_S, NEARER)
         is_there = False
 
         def steer(now: float, pose: Pose2D) -> Twist | None:
@@ -102,7 +103,7 @@ async def come_here(context: TaskContext, person: str = "", distance: float = 1.
         if not await _look_around(context, traveler, person):
             return False
         following = traveler.following(distance)
-        patience = _Patience()
+        patience = Patience(PATIENCE_S, NEARER)
         is_there = False
 
         def steer(now: float, pose: Pose2D) -> Twist | None:
@@ -250,7 +251,7 @@ class _Traveler:
     def toward(self, now: float, pose: Pose2D, goal: Pose2D, faces: bool) -> tuple[Twist, bool]:
         """The velocity for now, and whether all is done."""
         readings = {id: sensor.read(now) for id, sensor in self._sensors.items()}
-        self._avoidance.see(now, pose, readings, places_of(self.people, pose, now))
+        self._avoidance.see(now, pose, readings, self.people)
         twist = self._avoidance.steer(now, pose, goal)
         is_at = math.dist((pose.x, pose.y), (goal.x, goal.y)) <= self._manner.near
         if is_at and faces:
@@ -271,16 +272,3 @@ def _traveler(context: TaskContext) -> Iterator[_Traveler]:
         yield traveler
     finally:
         traveler.release(context)
-
-
-class _Patience:
-    """Notices that a goal comes no nearer."""
-
-    def __init__(self) -> None:
-        self._best, self._since = math.inf, -math.inf
-
-    def is_over(self, now: float, distance: float) -> bool:
-        """Whether nothing was gained for too long."""
-        if self._since == -math.inf or distance < self._best - NEARER:
-            self._best, self._since = min(distance, self._best), now
-        return now - self._since > PATIENCE_S

@@ -62,9 +62,9 @@ class Way:
         return math.dist(self.origin, self.goal) / SPEED
 
     def at(self, time: float) -> tuple[float, float]:
-        part = motion.eased((time - self.start) / self.duration) if self.duration else 1.0
-        x, y = (a + (b - a) * part for a, b in zip(self.origin, self.goal, strict=True))
-        return x, y
+        (x, y), (to_x, to_y), duration = self.origin, self.goal, self.duration
+        part = motion.eased((time - self.start) / duration) if duration else 1.0
+        return x + (to_x - x) * part, y + (to_y - y) * part
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,8 +153,10 @@ class Person:
 
     def place(self, time: float) -> tuple[float, float]:
         """Where they stand, or would if they were there: x and y, metres."""
-        begun = [way for way in self._ways if way.start <= time]
-        return begun[-1].at(time) if begun else (self.x, self.y)
+        for way in reversed(self._ways):
+            if way.start <= time:
+                return way.at(time)
+        return self.x, self.y
 
     def enter(self, at: float) -> None:
         """Walk into view; nothing for someone who is there."""

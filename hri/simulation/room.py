@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
@@ -72,18 +73,25 @@ class Room:
     def __init__(self, obstacles: Iterable[Obstacle] = ()) -> None:
         self.obstacles = tuple(obstacles)
         sides = [side for obstacle in self.obstacles for side in _sides(obstacle)]
-        circles = [obstacle for obstacle in self.obstacles if isinstance(obstacle, Circle)]
         ends = np.array([(s.x1, s.y1, s.x2, s.y2) for s in sides], float).reshape(-1, 4)
-        rounds = np.array([(c.x, c.y, c.radius) for c in circles], float).reshape(-1, 3)
         self._x, self._y, x2, y2 = ends.T.copy()  # rows that lie together are much faster
         self._dx, self._dy = x2 - self._x, y2 - self._y
         self._length_squared = np.maximum(self._dx**2 + self._dy**2, _NEARLY_PARALLEL)
-        self._cx, self._cy, self._radius = rounds.T.copy()
-        self._radius_squared = self._radius**2
+        self._lay_out(_rounds(self.obstacles))
 
-    def with_more(self, obstacles: Iterable[Obstacle]) -> Room:
-        """This room with something else in it."""
-        return Room((*self.obstacles, *obstacles))
+    def with_more(self, circles: Iterable[Circle]) -> Room:
+        """This room with something round in it as well; cheap, since people walk all the time."""
+        more = tuple(circles)
+        room = copy(self)
+        room.obstacles = (*self.obstacles, *more)
+        room._lay_out(np.hstack((self._rounds, _rounds(more))))
+        return room
+
+    def _lay_out(self, rounds: Array) -> None:
+        """Take circles: rows of x, y, radius."""
+        self._rounds = rounds
+        self._cx, self._cy, self._radius = rounds
+        self._radius_squared = self._radius**2
 
     def clearance(self, x: float, y: float) -> float:
         """Distance from a point to the nearest surface; negative inside a circle, inf if empty."""
@@ -120,6 +128,12 @@ class Room:
         distance = np.maximum(nearest - half, 0.0)
         distance[(reach < 0) | (nearest + half < 0)] = math.inf
         return np.asarray(distance)
+
+
+def _rounds(obstacles: Iterable[Obstacle]) -> Array:
+    """Shape [3, circle]: x, y and radius of the circles among them."""
+    circles = [(o.x, o.y, o.radius) for o in obstacles if isinstance(o, Circle)]
+    return np.array(circles, float).reshape(-1, 3).T.copy()
 
 
 def _sides(obstacle: Obstacle) -> list[Segment]:

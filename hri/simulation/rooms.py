@@ -2,8 +2,9 @@
 
 A room is a world file like any other (`text`), so it can be kept, edited and driven in. Its people
 are moved by a `Crowd`: they stroll between free places, stand there for a while, and look where
-they go: somebody who is `heedful` stops for a robot that stands in the next steps. Nobody looks
-behind or to the side, so a robot that drives into somebody's flank has only itself to blame.
+they go: somebody who is `heedful` stops for a robot that stands in the next steps; somebody who is
+not stops when they run into it. Nobody looks behind or to the side, so a robot that drives into
+somebody's flank has only itself to blame.
 
 Metres, radians, seconds.
 """
@@ -115,15 +116,22 @@ class Crowd:
             walker.step(now, self)
 
     def is_held_up(self, place: Point, goal: Point) -> bool:
-        """Whether a heedful person sees the robot on their next steps."""
+        """Whether a heedful person sees the robot on their next steps; another one runs into it."""
         if not self._is_heedful:
-            return False
+            return self._runs_into(place, goal)
         way = math.dist(place, goal)
         part = min(1.0, LOOKS_AHEAD / way) if way else 0.0
         ahead = tuple(a + (b - a) * part for a, b in zip(place, goal, strict=True))
         base = self._world.base
         robot = Room([_step(place, ahead)]).clearance(base.pose.x, base.pose.y)
         return robot < base.limits.radius + PERSON + POLITE
+
+    def _runs_into(self, place: Point, goal: Point) -> bool:
+        """Whether they touch the robot, and their way leads into it."""
+        base = self._world.base
+        x, y = base.pose.x - place[0], base.pose.y - place[1]
+        touches = math.hypot(x, y) < base.limits.radius + PERSON
+        return touches and x * (goal[0] - place[0]) + y * (goal[1] - place[1]) > 0
 
     def next_goal(self, place: Point, dice: random.Random) -> Point:
         """A free place that can be walked to straight on."""

@@ -18,6 +18,7 @@ from hri.core.clock import FakeClock
 from hri.core.events import EventBus
 from hri.core.geometry import placed, seen_from
 from hri.core.signals import Pose2D
+from hri.drive.going import PEOPLE
 from hri.hal.configuration import Shape
 from hri.hal.manager import ResourceManager
 from hri.hal.range_sensor import RangeSensor
@@ -25,6 +26,7 @@ from hri.hal.resource import Description
 from hri.simulation.person import RADIUS as PERSON
 from hri.simulation.rooms import ROBOT, Crowd, Furnished, Point
 from hri.simulation.world import SimulatedWorld
+from hri.testing.lookout import Lookout
 
 POLICIES = {
     "none": "go_straight",
@@ -83,6 +85,9 @@ class Trip:
     """Smallest distance between the robot's body and a person's."""
     person_gap_moving: float = math.inf
     """The same while the robot moved."""
+    person_gap_approached: float = math.inf
+    """The same to those whom the camera saw, while the robot drove nearer to them without braking:
+    who comes into the picture all of a sudden may be nearer than it likes already."""
     track: list[dict[str, Any]] = field(default_factory=list)
 
     def write(self, path: Path, room: Furnished) -> None:
@@ -108,8 +113,10 @@ class Journey:
         robot: str = "three sensors",
         *,
         heedful: bool = True,
+        sees: bool = False,
         keeps_track: bool = False,
     ) -> None:
+        """`heedful`: people look where they go; `sees`: the robot has a camera that sees people."""
         self.trip = Trip(room.seed, policy, robot)
         self.room = room
         self._keeps_track = keeps_track
@@ -122,10 +129,12 @@ class Journey:
             self._resources = ResourceManager(simulated, self._clock, shapes=[BODY])
             self.world = self._resources.obtain("world", SimulatedWorld)
         self._crowd = Crowd(room, self.world, heedful=heedful)
+        self._lookout = Lookout(self.world, room.seed) if sees else None
         context = Context(self._clock, EventBus(self._clock), self._resources, seed=room.seed)
         start = self.world.base.pose
         goal = Pose2D(*seen_from(start, *room.goal))
         context.board.slot(GOAL).set(goal, 0.0)
+        self._people = context.board.slot(PEOPLE)
         network = load_network(paths.find("config/networks", f"{POLICIES[policy]}.xml"))
         self._runner = Runner(network, context)
         self._touches = {"thing": False, "person": False}
@@ -147,15 +156,19 @@ class Journey:
 
     def _tick(self, now: float) -> None:
         before = self.world.base.pose
-        speed = abs(self.world.base.velocity.linear)
+        before_speed = abs(self.world.base.velocity.linear)
         if round(now / TICK) % 2 == 0:
             self._crowd.step(now)
+        if self._lookout is not None and (people := self._lookout.look(now)) is not None:
+            self._people.set(people, now)
         self._runner.tick(now)
         self.world.advance(now)
         after = self.world.base.pose
         self.trip.way += math.hypot(after.x - before.x, after.y - before.y)
-        speed = max(speed, abs(self.world.base.velocity.linear))
-        self._judge(now, after, speed > MOVING)
+        after_speed = abs(self.world.base.velocity.linear)
+        self._judge(now, after, max(before_speed, after_speed) > MOVING)
+        if after_speed >= before_speed:
+            self._judge_approach(now, before, after)
         if math.hypot(after.x - self._spot.x, after.y - self._spot.y) > 0.2:
             self._spot, self._moved_at = after, now
         if self._keeps_track:
@@ -183,6 +196,14 @@ class Journey:
         touches = clearance < CONTACT if not self._touches["thing"] else clearance < 3 * CONTACT
         trip.hits += touches and not self._touches["thing"]
         self._touches = {"thing": touches, "person": touches_person}
+
+    def _judge_approach(self, now: float, before: Pose2D, after: Pose2D) -> None:
+        for number in self._lookout.in_sight if self._lookout is not None else ():
+            place = self.world.people[number].place(now)
+            far, near = (math.dist((pose.x, pose.y), place) for pose in (before, after))
+            if far - near > MOVING * TICK:
+                gap = near - ROBOT - PERSON
+                self.trip.person_gap_approached = min(self.trip.person_gap_approached, gap)
 
     def _note(self, now: float, pose: Pose2D) -> None:
         people = [person.place(now) for person in self.world.people if person.is_present(now)]

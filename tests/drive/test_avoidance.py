@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from hri.core import paths
 from hri.core.clock import FakeClock
-from hri.core.geometry import along_arc
-from hri.core.signals import Pose2D, RangeReading, Twist
+from hri.core.geometry import along_arc, seen_from
+from hri.core.signals import HeadPose, People, Person, Pose2D, RangeReading, Twist
 from hri.drive.avoidance import Avoidance, Manner, straight_to, turn_to
 from hri.drive.closing import Closing
 from hri.drive.gate import REST
@@ -52,7 +52,7 @@ class Trial:
 
     def tick(self, goal: Pose2D) -> Twist:
         self.now += TICK
-        self.avoidance.see(self.now, self.pose, self.readings(), self.people)
+        self.avoidance.see(self.now, self.pose, self.readings(), self.sights())
         twist = self.avoidance.steer(self.now, self.pose, goal)
         self.pose = along_arc(self.pose, twist.linear * TICK, twist.angular * TICK)
         self.path.append(self.pose)
@@ -62,6 +62,15 @@ class Trial:
         for person in self.people:
             self.closest_person = min(self.closest_person, math.dist(here, person) - RADIUS - 0.25)
         return twist
+
+    def sights(self) -> People:
+        """What a camera says that sees everybody."""
+        found = []
+        for number, place in enumerate(self.people):
+            x, y = seen_from(self.pose, *place)
+            where = {"distance": math.hypot(x, y), "bearing": math.atan2(y, x)}
+            found.append(Person(f"p{number}", HeadPose(self.now, 0, 0), **where))
+        return People(self.now, tuple(found))
 
     def readings(self) -> dict[str, RangeReading]:
         found = {}
@@ -130,6 +139,16 @@ def test_it_keeps_to_one_side() -> None:
     assert len(set(sides) - {0}) == 1
 
 
+def test_without_range_sensors_it_goes_slowly_and_straight() -> None:
+    avoidance = Avoidance(Mechanics(0.25))
+    speeds = []
+    for tick in range(20):
+        avoidance.see(tick * TICK, Pose2D(), {})
+        speeds.append(avoidance.steer(tick * TICK, Pose2D(), Pose2D(3.0, 0.0)))
+    assert all(0.14 < twist.linear <= 0.15 for twist in speeds)
+    assert all(abs(twist.angular) < 0.1 for twist in speeds)
+
+
 @pytest.mark.parametrize("length", [math.nan, -1.0, None])
 def test_with_a_sensor_that_says_nothing_it_does_not_go_ahead(length: float | None) -> None:
     avoidance = Avoidance(MECHANICS)
@@ -160,6 +179,8 @@ def test_a_touch_makes_it_back_off_and_go_around() -> None:
     trial.go(Pose2D(3.0, 0.0), 2.0)
     before = trial.pose.x
     trial.avoidance.touch(trial.now, trial.pose)
+    assert trial.tick(Pose2D(3.0, 0.0)) == REST
+    trial.go(Pose2D(3.0, 0.0), 0.3)
     assert trial.tick(Pose2D(3.0, 0.0)).linear < 0
     trial.go(Pose2D(3.0, 0.0), 1.0)
     assert trial.pose.x < before

@@ -67,6 +67,35 @@ def test_a_goal_far_beyond_the_grid_gives_a_way_toward_it() -> None:
     assert abs(y) < 0.2
 
 
+@pytest.mark.parametrize("goal", [(8.0, 0.0), (500.0, 0.0), (1e308, 0.0)])
+def test_a_thing_on_the_border_of_the_grid_is_gone_around(goal: tuple[float, float]) -> None:
+    thing = np.array(
+        [[x, y] for x in np.arange(5.6, 6.4, 0.05) for y in np.arange(-0.8, 0.8, 0.05)]
+    )
+    route = find_route((0.0, 0.0), goal, thing, REACH)
+    assert route.is_free
+    assert nearest(route.points[:-1], thing) >= REACH - 0.01
+    assert route.points[-1] == goal
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.floats(-math.pi, math.pi), st.floats(6.0, 1000.0), st.floats(-math.pi, math.pi))
+def test_a_far_goal_behind_something_far_away_has_a_free_way(
+    direction: float, way: float, other: float
+) -> None:
+    ring = [
+        (5.8 * math.cos(direction + a), 5.8 * math.sin(direction + a))
+        for a in np.arange(-0.3, 0.3, 0.01)
+    ]
+    aside = [
+        (2.0 * math.cos(other + a), 2.0 * math.sin(other + a)) for a in np.arange(-0.3, 0.3, 0.02)
+    ]
+    goal = (way * math.cos(direction), way * math.sin(direction))
+    things = np.array(ring + aside)
+    far = things[np.hypot(things[:, 0] - goal[0], things[:, 1] - goal[1]) > REACH + 0.2]
+    assert find_route((0.0, 0.0), goal, far, REACH).is_free
+
+
 points = st.tuples(st.floats(-3, 3), st.floats(-3, 3))
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 import trio
 
-from hri.behavior.drivers import DriveCommand
+from hri.behavior.drivers import BumperSwitch, DriveCommand
 from hri.behavior.network import Network, load_network
 from hri.behavior.ports import OutputPort
 from hri.core import paths
@@ -19,10 +19,10 @@ from hri.core.signals import HeadPose, People, Person, Pose2D
 from hri.drive import travel
 from hri.drive.behaviors import CommandGate
 from hri.drive.goals import DeadReckoning, FollowTarget
-from hri.drive.going import ObstacleAvoidance, places_of
+from hri.drive.going import ObstacleAvoidance
 from hri.simulation.rooms import furnished
 from hri.simulation.world import SimulatedWorld
-from hri.task.context import TaskContext
+from hri.task.context import TaskContext, TaskFailed
 from hri.testing.trips import BODY, SENSORS, Journey, devices
 from tests.task.stage import Stage
 
@@ -50,12 +50,13 @@ class Set(Stage):
     def __init__(self, folder: Path, text: str = ROOM, robot: str = "three sensors") -> None:
         path = folder / "room.toml"
         path.write_text(text)
-        super().__init__(*devices(path, 0, SENSORS[robot]))
+        super().__init__(*devices(path, 0, SENSORS.get(robot, {})))
         self.context.resources.dimensions = BODY
         self.world = self.context.resources.obtain("world", SimulatedWorld)
-        gate, drive = CommandGate("gate"), DriveCommand("drive")
+        gate, drive, bumper = CommandGate("gate"), DriveCommand("drive"), BumperSwitch("bumper")
         drive.velocity.sources.append(gate.velocity)
-        self.context.networks.start(Network("moving", 0.05, behaviors=[gate, drive]))
+        gate.bump.sources.append(bumper.is_pressed)
+        self.context.networks.start(Network("moving", 0.05, behaviors=[bumper, gate, drive]))
         self.gate = gate
         self.field_of_view = math.tau
 
@@ -95,6 +96,57 @@ def test_go_to_gets_there_around_a_thing_and_faces(tmp_path: Path) -> None:
     assert stage.place == pytest.approx((4.0, 2.6), abs=0.2)
     assert stage.world.base.pose.heading == pytest.approx(1.0, abs=0.15)
     assert not stage.world.base.is_touching
+
+
+def test_where_it_stands_it_is_at_once(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+    assert stage.run(_go, Pose2D())
+    assert stage.clock.now() < 0.5
+    assert stage.place == (1.0, 2.0)
+
+
+def test_a_goal_far_beyond_the_grid_is_gone_to_around_a_thing(tmp_path: Path) -> None:
+    far = (
+        ROOM.replace("[6, 0]", "[16, 0]").replace("[6, 4]", "[16, 4]").replace("4.5, 2.0", "1, 3.5")
+    )
+    stage = Set(tmp_path, f"{far}[[box]]\ncenter = [7.0, 2.0]\nlength = 0.8\nwidth = 1.6\n")
+    assert stage.run(_go, Pose2D(13.0, 0.0))
+    assert stage.place == pytest.approx((14.0, 2.0), abs=0.5)
+    assert not stage.world.base.is_touching
+
+
+def test_a_goal_inside_a_thing_is_given_up_in_time_with_a_sentence(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+    with pytest.raises(TaskFailed, match="did not get to"):
+        stage.run(travel.go_to_task, 160.0, 0.0)
+    assert stage.clock.now() < 4.0 / 0.3 + travel.PATIENCE_S
+    assert "bumper.pressed" not in stage.names()
+    assert not stage.world.base.is_touching
+
+
+def test_without_range_sensors_it_goes_slowly_until_its_bumper_ends_the_motion(
+    tmp_path: Path,
+) -> None:
+    stage = Set(tmp_path, robot="no sensors")
+    fastest = [0.0]
+
+    async def watched(context: TaskContext) -> bool:
+        async with trio.open_nursery() as nursery:
+
+            async def watch() -> None:
+                while True:
+                    fastest.append(stage.world.base.velocity.linear)
+                    await context.clock.sleep(0.05)
+
+            nursery.start_soon(watch)
+            is_there = await travel.go_to(context, Pose2D(3.0, 0.0))
+            nursery.cancel_scope.cancel()
+        return is_there
+
+    assert stage.run(watched) is False
+    assert max(fastest) == pytest.approx(0.15, abs=0.01)
+    assert stage.world.base.is_touching
+    assert stage.clock.now() < 15.0
 
 
 async def _go(context: TaskContext, goal: Pose2D) -> bool:
@@ -228,6 +280,18 @@ def test_the_same_behavior_drives_two_robots(robot: str) -> None:
     assert trip.is_clean
 
 
+def test_who_is_seen_is_not_driven_up_to() -> None:
+    trip = Journey(furnished(3), "full", sees=True).run()
+    assert trip.is_clean
+    assert trip.person_gap_approached > 0.4
+
+
+def test_after_somebody_has_run_into_it_it_goes_on() -> None:
+    trip = Journey(furnished(2), "full", heedful=False).run()
+    assert trip.people_hit + trip.people_met
+    assert trip.is_there
+
+
 def test_without_avoidance_it_drives_into_things_and_stop_crash_stands_before_them() -> None:
     straight = Journey(furnished(2), "none").run(20.0)
     assert straight.hits
@@ -280,13 +344,6 @@ def test_where_somebody_was_long_ago_is_in_nobodys_way(tmp_path: Path) -> None:
         return await travel.go_to(context, Pose2D(0.6, 0.8))
 
     assert stage.run(later)
-
-
-def test_somebody_who_is_seen_is_in_the_way() -> None:
-    who = Person("p1", HeadPose(3.0, 0, 0), distance=1.0, bearing=math.pi / 2)
-    people = People(3.0, (who,), "p1")
-    assert places_of(people, Pose2D(2.0, 0.0), 3.5) == [pytest.approx((2.0, 1.0))]
-    assert places_of(people, Pose2D(2.0, 0.0), 4.5) == []
 
 
 @pytest.mark.parametrize(

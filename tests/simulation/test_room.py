@@ -1,5 +1,6 @@
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -34,6 +35,15 @@ def test_a_turned_box_is_met_at_its_corner() -> None:
     room = Room([Box(3.0, 0.0, 1.0, 1.0, heading=math.pi / 4)])
     assert room.cast(0, 0, 0.0) == pytest.approx(3.0 - math.sqrt(0.5))
     assert room.clearance(0, 0) == pytest.approx(3.0 - math.sqrt(0.5))
+
+
+def test_a_room_with_more_in_it_is_the_same_as_one_made_of_all() -> None:
+    things, more = [WALL_AHEAD, Circle(1.5, 0.0, 0.2), Box(0.0, 3.0, 2.0, 2.0)], Circle(1, 1, 0.22)
+    at_once, later = Room([*things, more]), Room(things).with_more([more])
+    angles = np.linspace(-3.0, 3.0, 200)
+    assert later.obstacles == at_once.obstacles
+    assert later.cast(0.1, 0.2, angles).tolist() == at_once.cast(0.1, 0.2, angles).tolist()
+    assert later.clearance(0.7, 0.6) == at_once.clearance(0.7, 0.6)
 
 
 def test_an_empty_room_has_no_end() -> None:

@@ -68,3 +68,8 @@ def test_people_stroll_about_and_walk_through_nothing(tmp_path: Path) -> None:
 def test_people_who_look_where_they_go_touch_no_robot_that_stands(tmp_path: Path) -> None:
     *_, gaps = walked(tmp_path, heedful=True, seconds=120.0)
     assert min(gaps) > 0.0
+
+
+def test_people_who_look_at_nothing_run_into_a_robot_but_not_through_it(tmp_path: Path) -> None:
+    *_, gaps = walked(tmp_path, heedful=False, seconds=120.0)
+    assert -0.15 < min(gaps) < 0.0

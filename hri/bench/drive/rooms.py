@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
 from functools import partial
 from multiprocessing import get_context
 
@@ -17,14 +19,38 @@ from hri.testing.trips import Journey, Trip
 ROOMS, QUICK_ROOMS = 50, 5
 CLEAN = 0.95
 """Share of the rooms in which the goal is reached without a collision."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """One way to drive through the rooms."""
+
+    policy: str = "full"
+    robot: str = "three sensors"
+    heedful: bool = True
+    """People look where they go."""
+    sees: bool = False
+    """The robot has a camera that sees people, too."""
+
+    @property
+    def name(self) -> str:
+        others = (
+            ("people seen as well", self.sees),
+            ("people who look at nothing", not self.heedful),
+        )
+        return ", ".join([self.policy, self.robot, *(words for words, holds in others if holds)])
+
+
 CASES = (
-    ("full", "three sensors", True),
-    ("full", "nine sensors", True),
-    ("full", "three sensors", False),
-    ("StopCrash only", "three sensors", True),
-    ("none", "three sensors", True),
+    Case(),
+    Case(robot="nine sensors"),
+    Case(sees=True),
+    Case(heedful=False),
+    Case(heedful=False, sees=True),
+    Case("StopCrash only"),
+    Case("none"),
 )
-"""Policy, robot, and whether people look where they go; the first has limits."""
+"""The first has limits."""
 NO_LIMIT = at_least(0.0)
 
 
@@ -33,16 +59,15 @@ def rows(quick: bool, workers: int) -> Iterator[Row]:
     count = QUICK_ROOMS if quick else ROOMS
     with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
         for number, case in enumerate(CASES):
-            policy, robot, heedful = case
-            name = f"{policy}, {robot}" + ("" if heedful else ", people who look at nothing")
-            drive = partial(through, policy=policy, robot=robot, heedful=heedful)
-            trips = list(progress(pool.map(drive, range(count)), count, name))
-            yield from told(name, trips, is_limited=number == 0)
+            drive = partial(through, case=case)
+            trips = list(progress(pool.map(drive, range(count)), count, case.name))
+            yield from told(case.name, trips, is_limited=number == 0)
 
 
-def through(seed: int, policy: str, robot: str, heedful: bool) -> Trip:
+def through(seed: int, case: Case) -> Trip:
     """The trip through the room of a seed."""
-    return Journey(furnished(seed), policy, robot, heedful=heedful).run()
+    room = furnished(seed)
+    return Journey(room, case.policy, case.robot, heedful=case.heedful, sees=case.sees).run()
 
 
 def told(name: str, trips: Sequence[Trip], is_limited: bool) -> Iterator[Row]:
@@ -60,6 +85,9 @@ def told(name: str, trips: Sequence[Trip], is_limited: bool) -> Iterator[Row]:
         "collisions_per_100_m": round(100 * hits / way, 2) if way else None,
         "closest_to_a_person_m": round(min(trip.person_gap for trip in trips), 3),
         "closest_while_it_moved_m": round(min(trip.person_gap_moving for trip in trips), 3),
+        "closest_it_drove_on_to_somebody_seen_m": _finite(
+            min(trip.person_gap_approached for trip in trips)
+        ),
         "met_by_people_while_it_stood": sum(trip.people_met for trip in trips),
         "not_clean": [trip.seed for trip in trips if not trip.is_clean],
     }
@@ -69,6 +97,10 @@ def told(name: str, trips: Sequence[Trip], is_limited: bool) -> Iterator[Row]:
         yield amount(what, count, "collisions", at_most(0))
     else:
         yield {"what": what, "value": count, "unit": "collisions"}
+
+
+def _finite(value: float) -> float | None:
+    return round(value, 3) if math.isfinite(value) else None
 
 
 def _share(what: str, count: int, total: int, is_limited: bool) -> Row:

@@ -1,0 +1,86 @@
+"""Where people are and where they walk to, in the odometry frame.
+
+A camera sees a sector ahead and tells late what it saw. So each sight is placed by the pose that
+the robot had then, and who has just gone out of the picture is taken to walk on for a while: the
+robot has turned, they are still there. Metres, seconds.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from hri.core.geometry import placed
+from hri.core.signals import People, Pose2D
+
+SEEN_S = 1.0
+"""What a camera said longer ago is not taken in any more."""
+REMEMBERED_S = 2.5
+"""How long somebody is remembered who is out of the picture."""
+WATCHED_S = 0.8
+"""Over which a walk is measured."""
+LEAST_SIGHTS = 4
+"""From which it can be told."""
+WALKS = 0.35
+"""Metres a second; slower is standing, or an error of the distance."""
+
+
+@dataclass(slots=True)
+class _Track:
+    """Sights of one person: time, x, y."""
+
+    sights: deque[tuple[float, float, float]] = field(default_factory=deque)
+
+    def add(self, time: float, x: float, y: float) -> None:
+        self.sights.append((time, x, y))
+        while self.sights[0][0] < time - WATCHED_S:
+            self.sights.popleft()
+
+    def at(self, now: float) -> tuple[float, float]:
+        """Where they are now, if they go on as they did: x and y."""
+        times, x, y = np.array(self.sights).T
+        vx = vy = 0.0
+        if len(times) >= LEAST_SIGHTS:
+            since = times - times.mean()
+            spread = float(since @ since)
+            vx, vy = float(since @ x) / spread, float(since @ y) / spread
+        if math.hypot(vx, vy) <= WALKS:
+            return float(x[-1]), float(y[-1])
+        way = now - float(times.mean())
+        return float(x.mean()) + vx * way, float(y.mean()) + vy * way
+
+
+class Company:
+    """The people around one robot."""
+
+    def __init__(self) -> None:
+        self._tracks: dict[str, _Track] = {}
+        self._poses: deque[tuple[float, Pose2D]] = deque()
+        self._looked = -math.inf
+
+    def see(self, now: float, pose: Pose2D, people: People | None) -> list[tuple[float, float]]:
+        """Take in the newest of what the camera says; where everybody is now, x and y.
+
+        Somebody whose distance is not known is left out.
+        """
+        self._poses.append((now, pose))
+        while self._poses[0][0] < now - SEEN_S:
+            self._poses.popleft()
+        if people is not None and people.time > self._looked and now - people.time <= SEEN_S:
+            self._looked = people.time
+            self._take(people)
+        kept = now - REMEMBERED_S
+        self._tracks = {id: t for id, t in self._tracks.items() if t.sights[-1][0] >= kept}
+        return [track.at(now) for track in self._tracks.values()]
+
+    def _take(self, people: People) -> None:
+        time = people.time
+        _, pose = min(self._poses, key=lambda entry: abs(entry[0] - time))
+        for person in people.persons:
+            if person.is_visible and math.isfinite(person.distance):
+                ahead = person.distance * math.cos(person.bearing)
+                left = person.distance * math.sin(person.bearing)
+                self._tracks.setdefault(person.id, _Track()).add(time, *placed(pose, ahead, left))
