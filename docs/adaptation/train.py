@@ -251,8 +251,8 @@ def evenly(
 class Lessons:
     """Clean examples with what the teacher hears in them, and noise to lay over them."""
 
-    def __init__(self, file: Path, tensors: dict[str, Tensor], examples: int) -> None:
-        self._chance = np.random.default_rng(11)
+    def __init__(self, file: Path, tensors: dict[str, Tensor], examples: int, seed: int) -> None:
+        self._chance = np.random.default_rng(seed)
         self._filters = tensors["mel_fb"]
         self._tensors = {name: jnp.array(tensor) for name, tensor in tensors.items()}
         self._teacher = jax.jit(partial(probabilities, Weights(self._tensors, {}), folding()))
@@ -313,10 +313,11 @@ def main() -> None:
     parser.add_argument("file", type=Path)
     parser.add_argument("--minutes", type=float, default=60)
     parser.add_argument("--examples", type=int, default=5000)
+    parser.add_argument("--seed", type=int, default=11)
     parser.add_argument("--start", type=Path)
     args = parser.parse_args()
     tensors = dict(read_tensors(find_weights()))
-    lessons = Lessons(args.speech, tensors, args.examples)
+    lessons = Lessons(args.speech, tensors, args.examples, args.seed)
     change = beginning(tensors, args.start)
     learned = {name: jnp.array(tensor) for name, tensor in tensors.items()}
     fold = jnp.array(folding())
