@@ -14,6 +14,7 @@ from typing import Any
 
 from hri.bench.face import frames, judge, lips, live, loading, skia
 from hri.bench.table import Row, attempted, report
+from hri.bench.threads import one_thread
 from hri.face.model import load_face
 
 SIZE = (800, 600)
@@ -33,7 +34,7 @@ def rows(count: int, seconds: float) -> Iterator[Row]:
     tell = partial(print, file=sys.stderr, flush=True)
     model = load_face()
     tell("frames")
-    with frames.one_thread():
+    with one_thread():
         talking = frames.talking(model, count)
         yield from frames.rows(model, talking, SIZE)
         tell("skia")

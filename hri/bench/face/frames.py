@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
 from functools import partial
 from itertools import cycle, islice
 
-import cv2
 import numpy as np
 
 from hri.bench.table import Row, amount, at_most
@@ -28,17 +26,6 @@ LOOKS = (Gaze(0.0, 0.0), Gaze(0.12, -0.05), Gaze(0.0, 0.0), Gaze(-0.1, 0.06))
 """Where it looks meanwhile: at somebody in front of it who moves a little."""
 TARGETS = 50
 BLEND_MS, FRAME_MS, SLOWEST_MS = 0.03, 6.0, 9.0
-
-
-@contextmanager
-def one_thread() -> Iterator[None]:
-    """OpenCV without threads of its own."""
-    before = cv2.getNumThreads()
-    cv2.setNumThreads(1)
-    try:
-        yield
-    finally:
-        cv2.setNumThreads(before)
 
 
 def talking(model: FaceModel, count: int) -> list[Vector]:

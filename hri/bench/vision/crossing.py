@@ -12,7 +12,8 @@ from multiprocessing import get_context
 
 from hri.bench.progress import progress
 from hri.bench.table import Row, at_least, share
-from hri.bench.vision.seeing import one_thread, seen
+from hri.bench.threads import one_thread
+from hri.bench.vision.seeing import seen
 from hri.core.signals import FaceBox, People
 from hri.simulation.actors import ACTORS, Optics
 from hri.simulation.film import Film, Role

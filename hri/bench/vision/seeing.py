@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
-
-import cv2
 
 from hri.core.signals import Frame, People
 from hri.simulation.actors import Optics
@@ -32,14 +29,3 @@ def seen(
         begun = time.thread_time()
         people = sees.see(frame)
         yield people, (time.thread_time() - begun) * 1e3
-
-
-@contextmanager
-def one_thread() -> Iterator[None]:
-    """OpenCV without threads of its own."""
-    before = cv2.getNumThreads()
-    cv2.setNumThreads(1)
-    try:
-        yield
-    finally:
-        cv2.setNumThreads(before)

@@ -8,7 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from hri.bench.table import Row, amount, at_most
-from hri.bench.vision.seeing import one_thread, seen
+from hri.bench.threads import one_thread
+from hri.bench.vision.seeing import seen
 from hri.simulation.actors import ACTORS, Optics
 from hri.simulation.film import Film, Role
 from hri.simulation.lens import Lens

@@ -13,8 +13,9 @@ import numpy as np
 
 from hri.bench.progress import progress
 from hri.bench.table import Limit, Row, amount, at_least, at_most, share
+from hri.bench.threads import one_thread
 from hri.bench.vision.script import Gesture, Script, scripts
-from hri.bench.vision.seeing import one_thread, seen
+from hri.bench.vision.seeing import seen
 from hri.core.signals import HeadGesture, HeadPose, Person
 from hri.vision.agreement import AgreeingRecognizer
 from hri.vision.detectors.chain import AUTO, HAAR
