@@ -1,5 +1,9 @@
 """How words sound: the user's own lexicon, then the CMU dictionary, then letter-to-sound rules.
 
+The dictionary knows one American's way of many words that others say otherwise: beside its own
+there are those of `variants.txt`, from general American and British speech ("almond" with an L, the
+broad A of "fast", "schedule" with SH).
+
 A lexicon is a text file in the format of the CMU dictionary: a word, spaces, its phones. A word
 that stands in several lines may be said in several ways, the likeliest first; what a lexicon says
 of a word replaces what the dictionary says. Stress (the digits 0, 1 and 2 behind vowels) may be
@@ -25,6 +29,8 @@ from hri.speech.pronunciation.phones import PHONES, VOWELS, Phones
 
 Origin = Literal["user", "dictionary", "guessed"]
 
+VARIANTS = Path(__file__).with_name("variants.txt")
+"""More ways to say words of the dictionary, in the format of a lexicon."""
 VARIABLE = "HRI_LEXICON"
 """Names the user's lexicon when it is not in the folder of settings."""
 MOST_VARIANTS = 8
@@ -42,11 +48,16 @@ class Lexicon:
         self,
         own: Mapping[str, tuple[Phones, ...]],
         dictionary: Dictionary,
+        variants: Mapping[str, tuple[Phones, ...]] | None = None,
         guesses: Guesses | None = None,
     ) -> None:
-        """`own` are the words of the user, their phones with or without stress."""
+        """`own` are the words of the user, their phones with or without stress.
+
+        `variants` are more ways to say words of the dictionary.
+        """
         self._own = own
         self._dictionary = dictionary
+        self._variants = variants or {}
         self._guesses = guesses or Guesses()
 
     def pronunciations(self, word: str) -> tuple[Phones, ...]:
@@ -77,7 +88,8 @@ class Lexicon:
         word = _folded(word)
         own = self._own.get(word)
         if own is None:
-            return self._dictionary.pronunciations(word)
+            usual = self._dictionary.pronunciations(word)
+            return (*usual, *self._variants.get(word, ()))
         return tuple(dict.fromkeys(tuple(map(_without_stress, phones)) for phones in own))
 
     def _inflected(self, word: str) -> tuple[Phones, ...]:
@@ -113,7 +125,7 @@ def load_lexicon(*files: Path) -> Lexicon:
     own: dict[str, tuple[Phones, ...]] = {}
     for path in (*_of_user(), *files):
         own |= read_lexicon(path)
-    return Lexicon(own, cmu_dictionary())
+    return Lexicon(own, cmu_dictionary(), read_lexicon(VARIANTS))
 
 
 def user_lexicon() -> Path:

@@ -12,6 +12,7 @@ from hri.speech.pronunciation.dictionary import cmu_dictionary
 from hri.speech.pronunciation.guesses import Guesses
 from hri.speech.pronunciation.lexicon import (
     VARIABLE,
+    VARIANTS,
     add_to_lexicon,
     load_lexicon,
     read_lexicon,
@@ -31,6 +32,24 @@ def test_words_of_the_dictionary_have_all_their_variants_the_likeliest_first(lex
     assert lexicon.pronunciations("a") == (("AH",), ("EY",))
     assert lexicon.origin("read") == "dictionary"
     assert "read" in lexicon
+
+
+def test_what_many_say_and_the_dictionary_leaves_out_comes_after_its_own(lexicon):
+    assert lexicon.pronunciations("almond") == (
+        ("AA", "M", "AH", "N", "D"),
+        ("AO", "L", "M", "AH", "N", "D"),
+        ("AE", "L", "M", "AH", "N", "D"),
+        ("AE", "M", "AH", "N", "D"),
+    )
+    assert lexicon.origin("almond") == "dictionary"
+
+
+def test_variants_are_of_words_that_the_dictionary_knows_otherwise():
+    dictionary = cmu_dictionary()
+    for word, variants in read_lexicon(VARIANTS).items():
+        usual = dictionary.pronunciations(word)
+        assert usual, word
+        assert not set(usual) & set(variants), word
 
 
 def test_every_word_of_the_dictionary_is_found_in_its_file():
