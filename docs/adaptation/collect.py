@@ -19,6 +19,7 @@ import tempfile
 import time
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
 from pydoc_data.topics import topics
@@ -80,6 +81,15 @@ SIZES = (1.0, 1.0, 1.0, 0.88, 0.94, 1.06, 1.12, 1.2)
 """How much faster the sound is read: the lower, the larger the speaker seems."""
 NUMBERS = [in_words(str(number)) for number in (*range(20), *range(20, 100, 10))]
 NUMBERS += ["hundred", "thousand", "half", "quarter"]
+
+
+@dataclass(frozen=True, slots=True)
+class Clip:
+    """Who says what; the text is empty where it is not known."""
+
+    speaker: str
+    text: str
+    sound: Sound
 
 
 # What is said.
@@ -301,16 +311,17 @@ SPEAKERS: dict[Callable[[str, random.Random], Spoken], int] = {
 # Recordings.
 
 
-def recordings() -> list[tuple[str, Sound]]:
+def recordings() -> list[Clip]:
     """The prompts of a telephone exchange, and digits of six speakers where they are there."""
-    found: list[tuple[str, Sound]] = []
+    found: list[Clip] = []
     for file in sorted(PROMPTS.rglob("*.g722")):
         sound = np.array(G722(RATE, 64000).decode(file.read_bytes()), np.int16)
-        found.append(("allison", trimmed(sound / np.float32(32768), RATE)))
+        found.append(Clip("allison", "", trimmed(sound / np.float32(32768), RATE)))
     digits = [(file.stem.split("_")[1], file) for file in sorted(DIGITS.glob("*.wav"))]
     for name in sorted({name for name, _ in digits}):
         spoken = [trimmed(*soundfile.read(f, dtype="float32")) for n, f in digits if n == name]
-        found += [(name, np.concatenate(spoken[i : i + 4])) for i in range(0, len(spoken), 4)]
+        fours = [np.concatenate(spoken[i : i + 4]) for i in range(0, len(spoken), 4)]
+        found += [Clip(name, "", sound) for sound in fours]
     return found
 
 
@@ -324,15 +335,16 @@ def trimmed(sound: Sound, rate: int) -> Sound:
     return sound[max(loud[0] - MARGIN, 0) : loud[-1] + 2 * MARGIN]
 
 
-def spoken(seed: int) -> tuple[str, Sound]:
+def spoken(seed: int) -> Clip:
     """A random sentence of a random speaker."""
     chance = random.Random(seed)
     speaker = chance.choices(list(SPEAKERS), list(SPEAKERS.values()))[0]
-    sound, rate = speaker(sentence(chance), chance)
-    return speaker.__name__, trimmed(sound, round(rate * chance.choice(SIZES)))
+    text = sentence(chance)
+    sound, rate = speaker(text, chance)
+    return Clip(speaker.__name__, text, trimmed(sound, round(rate * chance.choice(SIZES))))
 
 
-def spoken_for(seconds: float, seed: int) -> list[tuple[str, Sound]]:
+def spoken_for(seconds: float, seed: int) -> list[Clip]:
     """As many random sentences as can be made in this time."""
     end = time.perf_counter() + seconds
     found = []
@@ -353,13 +365,14 @@ def main() -> None:
     with ProcessPoolExecutor() as pool:
         for clips in pool.map(partial(spoken_for, 60 * args.minutes), seeds):
             found += clips
-    found = [clip for clip in found if SHORTEST * RATE <= len(clip[1]) <= LONGEST * RATE]
-    clips = [np.round(sound * 32767).astype(np.int16) for _, sound in found]
+    found = [clip for clip in found if SHORTEST * RATE <= len(clip.sound) <= LONGEST * RATE]
+    clips = [np.round(clip.sound * 32767).astype(np.int16) for clip in found]
     np.savez(
         args.file,
         clips=np.concatenate(clips),
         ends=np.cumsum([len(clip) for clip in clips]),
-        speakers=np.array([speaker for speaker, _ in found]),
+        speakers=np.array([clip.speaker for clip in found]),
+        texts=np.array([clip.text for clip in found]),
     )
     minutes = sum(map(len, clips)) / RATE / 60
     print(f"{args.file}: {len(clips)} clips, {minutes:.0f} minutes")

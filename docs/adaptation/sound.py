@@ -155,18 +155,23 @@ def filtered(sound: Sound, response: NDArray[np.complex64] | NDArray[np.float32]
 # Examples.
 
 
-def clean(clips: Sequence[Sound], chance: Chance) -> Sound:
-    """LENGTH samples with some clips in them, at 16-bit full scale, and a whisper of noise."""
+def clean(clips: Sequence[Sound], chance: Chance) -> tuple[Sound, list[tuple[int, int]]]:
+    """LENGTH samples with some clips in them, at 16-bit full scale, and a whisper of noise.
+
+    Beside them the numbers of the clips, and the sample at which each begins.
+    """
     sound = np.zeros(LENGTH, np.float32)
+    placed: list[tuple[int, int]] = []
     position = int(chance.integers(-RATE // 2, RATE))
     level = 3000 * decibels(chance.normal(0, 5))
     while position < LENGTH - RATE // 2:
-        clip = clips[chance.integers(len(clips))]
-        clip = clip * (level / np.sqrt(active_power(clip)))
+        number = int(chance.integers(len(clips)))
+        clip = clips[number] * (level / np.sqrt(active_power(clips[number])))
+        placed.append((number, position))
         start, position = position, position + len(clip) + int(chance.exponential(RATE / 2))
         part = clip[max(-start, 0) : LENGTH - start]
         sound[max(start, 0) : max(start, 0) + len(part)] += part
-    return sound + chance.normal(0, 3, LENGTH).astype(np.float32)
+    return sound + chance.normal(0, 3, LENGTH).astype(np.float32), placed
 
 
 def noisy(sound: Sound, noises: Sequence[Sound], chance: Chance) -> Sound:

@@ -2,9 +2,10 @@
 
 The teacher is the network as it comes, on clean speech; the student is the network with the
 change that is learned, on the same speech under noise (G. Hinton, O. Vinyals, J. Dean, "Distilling
-the knowledge in a neural network", 2015). A matrix changes by the product of two narrow ones
-(E. Hu et al., "LoRA", 2021), everything smaller by itself. The file is what
-`hri.speech.recognizers.ctc.adaptation` reads; given with --start, training goes on from it.
+the knowledge in a neural network", 2015). It also learns which phones were said, as `align.py`
+tells. A matrix changes by the product of two narrow ones (E. Hu et al., "LoRA", 2021), everything
+smaller by itself. The file is what `hri.speech.recognizers.ctc.adaptation` reads; given with
+--start, training goes on from it.
 """
 
 from __future__ import annotations
@@ -22,10 +23,11 @@ os.environ.setdefault("XLA_FLAGS", "--xla_cpu_multi_thread_eigen=true")
 import jax
 import jax.numpy as jnp
 import numpy as np
+import optax
 from jax import Array
 from jax.typing import ArrayLike
 from numpy.typing import NDArray
-from sound import LENGTH, Sound, clean, noisy, tracks
+from sound import LENGTH, RATE, Sound, clean, noisy, tracks
 
 from hri.speech.recognizers.ctc.adaptation import TALL, WIDE
 from hri.speech.recognizers.ctc.classes import folding
@@ -45,6 +47,15 @@ SMALLER = 0.3
 """The rate of what is learned by itself, relative to the matrices."""
 PEAK_WEIGHT = 4.0
 """How much more a frame weighs in which the teacher hears a phone: most are blank."""
+SEQUENCE_WEIGHT = 6.0
+"""How much the phones in their order weigh, beside the frames."""
+MOST_PHONES = 96
+"""In one example."""
+LATEST = RATE // 50
+"""Samples: a phone that begins so shortly before the end of an example is not asked for."""
+WARPED = 0.5
+"""How many of the examples are warped, and by which factors."""
+WARPS = (0.86, 1.16)
 NOISES = 400
 """Tracks."""
 ASIDE = ("allison", "flite")
@@ -207,21 +218,30 @@ def write(change: Change, file: Path) -> None:
 
 
 def loss(
-    change: Change, tensors: dict[str, Array], fold: Array, mel: Array, target: Array
-) -> Array:
-    """How far the student is from the teacher: Kullback and Leibler's measure, a frame."""
+    change: Change, tensors: dict[str, Array], fold: Array, mel: Array, target: Array,
+    phones: Array,
+) -> Array:  # fmt: skip
+    """How far the student is from the teacher, and from what was said, a frame.
+
+    The first frame by frame, by Kullback and Leibler's measure; the second by how likely it finds
+    the phones in their order, whenever they sound (A. Graves et al., "Connectionist temporal
+    classification", 2006).
+    """
     heard = jnp.log(jnp.maximum(probabilities(Weights(tensors, change), fold, mel), 1e-7))
     apart = (target * (jnp.log(jnp.maximum(target, 1e-7)) - heard)).sum(axis=-1)
-    return (apart * (1 + PEAK_WEIGHT * (1 - target[..., 0]))).mean()
+    apart = (apart * (1 + PEAK_WEIGHT * (1 - target[..., 0]))).mean()
+    nothing = jnp.zeros(heard.shape[:2])
+    unlikely = optax.ctc_loss(heard, nothing, phones, (phones == 0).astype(float))
+    return apart + SEQUENCE_WEIGHT * unlikely.mean() / heard.shape[1]
 
 
 @partial(jax.jit, donate_argnums=(0, 1, 2))
 def step(
     change: Change, mean: Change, square: Change, tensors: dict[str, Array], fold: Array,
-    mel: Array, target: Array, number: Array, rate: Array,
+    mel: Array, target: Array, phones: Array, number: Array, rate: Array,
 ) -> tuple[Change, Change, Change, Array]:  # fmt: skip
     """One step of Adam (D. Kingma, J. Ba, 2015) with the gradient's length kept below 1."""
-    value, gradient = jax.value_and_grad(loss)(change, tensors, fold, mel, target)
+    value, gradient = jax.value_and_grad(loss)(change, tensors, fold, mel, target, phones)
     length = jnp.sqrt(sum((part**2).sum() for part in gradient.values()))
     shorter = jnp.minimum(1, 1 / length)
     result: Change = {}
@@ -258,17 +278,24 @@ class Lessons:
         self._teacher = jax.jit(partial(probabilities, Weights(self._tensors, {}), folding()))
         with np.load(file) as stored:
             clips = np.split(stored["clips"].astype(np.float32), stored["ends"][:-1])
+            phones = np.split(
+                np.stack([stored["phones"], stored["starts"]], axis=1), stored["phone_ends"][:-1]
+            )
             speakers = stored["speakers"]
         aside = [
             number
             for speaker in ASIDE
             for number in np.flatnonzero(speakers == speaker)[::5][:ASIDE_OF_EACH]
         ]
-        learned = [clips[number] for number in evenly(speakers, aside, self._chance)]
+        chosen = evenly(speakers, aside, self._chance)
+        learned = [clips[number] for number in chosen]
         self._noises = tracks(NOISES, learned, self._chance)
-        self._clean = [clean(learned, self._chance) for _ in range(examples)]
+        made = [clean(learned, self._chance) for _ in range(examples)]
+        self._clean = [sound for sound, _ in made]
+        spoken = [[(phones[chosen[clip]], start) for clip, start in placed] for _, placed in made]
+        self._phones = np.stack(list(map(phones_within, spoken)))
         self._targets = self.targets(self._clean)
-        kept = [clean([clips[number]], self._chance) for number in aside]
+        kept = [clean([clips[number]], self._chance)[0] for number in aside]
         self.watched_targets = self.targets(kept)
         self.watched = {
             ratio: np.stack([self._mel(self._beside(sound, ratio)) for sound in kept])
@@ -280,8 +307,9 @@ class Lessons:
         noise = self._noises[self._chance.integers(len(self._noises))][:LENGTH]
         return sound + noise * (sound.std() * 10 ** (-ratio / 20))
 
-    def _mel(self, sound: Sound) -> NDArray[np.float32]:
-        return np.pad(log_mel(padded(sound), self._filters), ((1, 1), (0, 0)))
+    def _mel(self, sound: Sound, filters: NDArray[np.float32] | None = None) -> NDArray[np.float32]:
+        filters = self._filters if filters is None else filters
+        return np.pad(log_mel(padded(sound), filters), ((1, 1), (0, 0)))
 
     def targets(self, sounds: list[Sound]) -> NDArray[np.float16]:
         """What the teacher hears."""
@@ -291,13 +319,44 @@ class Lessons:
             heard.append(np.asarray(self._teacher(mel), np.float16))
         return np.concatenate(heard)
 
-    def batch(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-        """Log-mel frames of noisy examples, and what is to be heard in them."""
+    def batch(self) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int32]]:
+        """Log-mel frames of noisy examples, what is to be heard in each, and the phones."""
         chosen = self._chance.integers(len(self._clean), size=BATCH)
         sounds = [noisy(self._clean[number], self._noises, self._chance) for number in chosen]
-        return np.stack([self._mel(sound) for sound in sounds]), self._targets[chosen].astype(
-            np.float32
-        )
+        filters = [warped(self._filters, self._chance) for _ in sounds]
+        mel = np.stack(list(map(self._mel, sounds, filters)))
+        return mel, self._targets[chosen].astype(np.float32), self._phones[chosen]
+
+
+def warped(filters: NDArray[np.float32], chance: np.random.Generator) -> NDArray[np.float32]:
+    """The filters [bins, bands] as if the mouth of the speaker were smaller or larger.
+
+    The lower frequencies are stretched, the highest stays (L. Lee, R. Rose, "A frequency warping
+    approach to speaker normalization", 1998).
+    """
+    if chance.random() > WARPED:
+        return filters
+    factor = chance.uniform(*WARPS)
+    last = len(filters) - 1
+    bend = 0.8 * last / max(factor, 1)
+    places = np.interp(np.arange(last + 1), [0, bend, last], [0, bend * factor, last])
+    lower = np.minimum(places.astype(int), last - 1)
+    share = (places - lower)[:, None].astype(np.float32)
+    return filters[lower] * (1 - share) + filters[lower + 1] * share
+
+
+def phones_within(placed: list[tuple[NDArray[np.int32], int]]) -> NDArray[np.int32]:
+    """The phones [MOST_PHONES] that begin in an example, in order; then 0.
+
+    Given are the classes and beginnings [phones, 2] of clips, and where each of these begins.
+    """
+    classes = [
+        phone
+        for phones, start in placed
+        for phone, begins in phones
+        if 0 <= start + begins < LENGTH - LATEST
+    ][:MOST_PHONES]
+    return np.pad(np.array(classes, np.int32), (0, MOST_PHONES - len(classes)))
 
 
 def agreement(heard: NDArray[np.float32], target: NDArray[np.float16]) -> float:
@@ -343,12 +402,12 @@ def main() -> None:
     with ThreadPoolExecutor(1) as reader:
         coming = reader.submit(lessons.batch)
         while (done := (time.perf_counter() - begun) / 60 / args.minutes) < 1:
-            mel, target = coming.result()
+            mel, target, phones = coming.result()
             coming = reader.submit(lessons.batch)
             number += 1
             rate = RATE_OF_LEARNING * min(1, number / WARM_UP) * (1 + math.cos(math.pi * done)) / 2
             change, mean, square, value = step(
-                change, mean, square, learned, fold, mel, target, float(number), rate
+                change, mean, square, learned, fold, mel, target, phones, float(number), rate
             )
             losses.append(float(value))
             if number % 300 == 0:
