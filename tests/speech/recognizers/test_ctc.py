@@ -17,7 +17,9 @@ from hri.hal.manager import ResourceManager
 from hri.hal.recognizer import Segment
 from hri.hal.resource import Description
 from hri.speech.grammar import load_grammar
+from hri.speech.pronunciation.lexicon import VARIABLE
 from hri.speech.recognizers.ctc.confidence import (
+    LONG,
     Fit,
     confidence,
     fit_of,
@@ -181,6 +183,20 @@ def test_the_old_grammar_stays_when_the_new_one_is_refused(engine, write):
     assert engine.decode(piece(said("stop"))).text == "stop"
 
 
+def test_a_word_that_the_lexicon_learned_meanwhile_is_heard(
+    engine, companion, write, tmp_path, monkeypatch
+):
+    lexicon = tmp_path / "lexicon.txt"
+    lexicon.write_text("привет  P R IY V Y EH T\n", encoding="utf-8")
+    monkeypatch.setenv(VARIABLE, str(lexicon))
+    engine.start(load_grammar(write("public <greet> = привет robot | go away robot;")))
+    heard = engine.decode(piece(said("preevyet robot")))
+    engine.start(companion)
+
+    assert heard.text == "привет robot"
+    assert heard.confidence >= ACCEPTED
+
+
 def test_a_grammar_may_change_while_another_piece_is_decoded(engine, companion):
     sound = piece(said("please come with me"))
     changing = threading.Thread(target=lambda: [engine.start(companion) for _ in range(5)])
@@ -282,3 +298,14 @@ def test_the_same_sound_in_two_words_counts_twice():
     fit = fit_of(Path(0.0, ("a", "a"), words), 0.0, scores, np.array([1]))
 
     assert fit.length == pytest.approx(np.log(2))
+
+
+def test_a_long_sentence_is_asked_for_no_more_than_one_that_is_long_enough():
+    def fit(count):
+        word = Span(0, 0, count, tuple(range(count)))
+        scores = np.full((count, 2), -1.0, np.float32)
+        path = Path(-1.0 * count, ("word",), (word,))
+        return fit_of(path, -3.0 * count, scores, np.ones(count, np.intp))
+
+    assert fit(3 * LONG).numbers == pytest.approx(fit(LONG).numbers)
+    assert fit(LONG // 4).margin == pytest.approx(fit(LONG).margin / 2)

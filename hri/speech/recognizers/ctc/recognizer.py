@@ -84,16 +84,17 @@ class CtcRecognizer(SoundRecognizer):
         super()._open()
         weights = find_weights(self.description.text("weights"))
         self._network = Network(adapted(read_tensors(weights)))
-        self._rivals = Rivals(Habits(load_lexicon()))
         self._work = threading.Lock()
         self._search: Search | None = None
         self._progress: Progress | None = None
         self._early: Early | None = None
 
     def start(self, grammar: Grammar) -> None:
-        search = Search(compile(grammar.graph(), Habits(load_lexicon())))
+        # The same lexicon for both: it may have changed since the engine was opened.
+        lexicon = Habits(load_lexicon())
+        search, rivals = Search(compile(grammar.graph(), lexicon)), Rivals(lexicon)
         with self._work:
-            self._search = search
+            self._search, self._rivals = search, rivals
             self._progress = None
             self._early = None
 
