@@ -17,6 +17,7 @@ from hri.core.clock import Clock, RealClock
 from hri.core.errors import HriError, NotAvailable, did_you_mean
 from hri.core.geometry import Pose3D
 from hri.core.python_file import load_class
+from hri.hal.choices import apply_choices, load_choices
 from hri.hal.configuration import NO_SHAPE, Shape, load_configuration, spec_folders
 from hri.hal.resource import ORIGIN, Description, Resource
 
@@ -51,11 +52,16 @@ class ResourceManager:
     def load(cls, config: str | Path = "resource-config", clock: Clock | None = None) -> Self:
         """All devices of a configuration, checked; real time where no clock is given.
 
-        `config` is a path or a name over the search folders. As a context manager it closes what
-        was opened: `with ResourceManager.load() as resources:`. Raises HriError or AuthoringError.
+        `config` is a path or a name over the search folders. In real time the user's choice of
+        devices counts. As a context manager it closes what was opened:
+        `with ResourceManager.load() as resources:`. Raises HriError or AuthoringError.
         """
         configuration = load_configuration(paths.find("config", str(config)))
-        resources = cls(configuration.devices, clock or RealClock(), shapes=configuration.shapes)
+        clock = clock or RealClock()
+        devices = configuration.devices
+        if not clock.is_fake:  # runs that repeat know nothing of this user's devices
+            devices = apply_choices(devices, load_choices())
+        resources = cls(devices, clock, shapes=configuration.shapes)
         resources.check()
         return resources
 

@@ -17,11 +17,8 @@ from functools import partial
 import trio
 
 from hri.behavior.behavior import Context
-from hri.core import paths
 from hri.core.clock import Clock, RealClock
 from hri.core.events import EventBus
-from hri.hal.choices import apply_choices, load_choices
-from hri.hal.configuration import load_configuration
 from hri.hal.manager import ResourceManager
 from hri.task.manager import TaskManager
 from hri.task.thread import LoopThread
@@ -35,12 +32,7 @@ class _Stage:
     """Resources, networks and tasks with no app around them."""
 
     def __init__(self, config: str, clock: Clock) -> None:
-        configuration = load_configuration(paths.find("config", config))
-        devices = configuration.devices
-        if not clock.is_fake:  # runs that repeat know nothing of this user's devices
-            devices = apply_choices(devices, load_choices())
-        resources = ResourceManager(devices, clock, shapes=configuration.shapes)
-        resources.check()
+        resources = ResourceManager.load(config, clock)
         self._context = Context(clock, EventBus(clock), resources)
         self._finished = trio.Event()
         self.manager = TaskManager(self._context)

@@ -1,7 +1,9 @@
 import pytest
 
+from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import AuthoringError
 from hri.hal.choices import apply_choices, choices_file, load_choices, save_choices
+from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
 
 
@@ -29,6 +31,17 @@ def test_the_choice_reaches_real_devices_only():
         {},
         {"width": "320", "device": "1"},
     ]
+
+
+def test_programs_in_real_time_use_it_and_runs_that_repeat_do_not(tmp_path):
+    file = tmp_path / "resource-config.xml"
+    camera = '<Device id="camera" type="Hri.Webcam"/>'
+    file.write_text(f"<Resources><Devices>{camera}</Devices></Resources>")
+    save_choices({"camera": "1"})
+    with ResourceManager.load(file, RealClock()) as resources:
+        assert resources.descriptions["camera"].text("device") == "1"
+    with ResourceManager.load(file, FakeClock()) as resources:
+        assert resources.descriptions["camera"].text("device") == ""
 
 
 def test_a_spoilt_choice_is_told_with_its_place():
