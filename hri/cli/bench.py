@@ -17,7 +17,7 @@ TAKES = {
     "companion": ("seconds",),
     "drive": ("quick",),
     "face": ("quick",),
-    "speech": ("quick", "recordings"),
+    "speech": ("quick", "recordings", "draw"),
     "vision": ("quick",),
 }
 """The options that the `measure` of some of them takes."""
@@ -31,6 +31,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quick", action="store_true", default=None, help=about)
     about = "recordings of people, a folder with a manifest.tsv (speech)"
     parser.add_argument("--recordings", type=Path, metavar="DIR", help=about)
+    about = "another babble of the same people, a number (speech)"
+    parser.add_argument("--draw", type=_draw, metavar="N", help=about)
 
 
 def _seconds(text: str) -> float:
@@ -40,11 +42,17 @@ def _seconds(text: str) -> float:
     return value
 
 
+def _draw(text: str) -> int:
+    if not text.isdecimal() or len(text) > 6:
+        raise argparse.ArgumentTypeError(f"{text} - write a number from 0 to 999999")
+    return int(text)
+
+
 def run(options: argparse.Namespace) -> int:
     module = importlib.import_module(f"hri.bench.{options.name}")
     given: dict[str, Any] = {
         name: value
-        for name in ("seconds", "quick", "recordings")
+        for name in ("seconds", "quick", "recordings", "draw")
         if (value := getattr(options, name)) is not None
     }
     for name in given.keys() - TAKES.get(options.name, ()):

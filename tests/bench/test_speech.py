@@ -80,6 +80,18 @@ def test_speech_stands_above_babble_by_the_ratio_that_was_asked_for(ratio, loudn
     assert gain <= 1.2
 
 
+def test_each_draw_of_the_babble_is_another_one_and_always_the_same(people):
+    said = [clips.padded(clip) for clip in people.orders]
+
+    def heard(draw):
+        mixed = clips.in_babble(said, people.orders, "12 dB", draw)
+        return np.concatenate([clip.samples for clip in mixed])
+
+    assert np.array_equal(heard(1), heard(1))
+    assert not np.array_equal(heard(0), heard(1))
+    assert not np.array_equal(heard(1), heard(2))
+
+
 def test_silence_has_no_active_power():
     assert active_power(np.zeros(RATE)) == 0.0
 
@@ -260,3 +272,5 @@ def test_a_program_that_fails_is_told_of(tmp_path):
 def test_options_of_one_bench_are_refused_by_another(capsys):
     assert main(["bench", "net", "--quick"]) == 2
     assert "takes no --quick" in capsys.readouterr().err
+    assert main(["bench", "net", "--draw", "1"]) == 2
+    assert "takes no --draw" in capsys.readouterr().err

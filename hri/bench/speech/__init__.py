@@ -27,8 +27,10 @@ QUICK_STEP = 6
 """A quick run takes every sixth sentence and recording."""
 
 
-def measure(quick: bool = False, recordings: Path | None = None) -> dict[str, Any]:
+def measure(quick: bool = False, recordings: Path | None = None, draw: int = 0) -> dict[str, Any]:
     """All rows; what is being done is told on standard error.
+
+    `draw` is the number of the babble: figures are told from 0, others show how much is chance.
 
     `recordings` is a folder with a `manifest.tsv` (see `clips.read_recordings`); without one,
     `../shared/speech/real` beside a checkout is taken when it is there.
@@ -36,14 +38,14 @@ def measure(quick: bool = False, recordings: Path | None = None) -> dict[str, An
     """
     folder = recordings or _recordings_beside()
     people = read_recordings(folder) if folder else None
-    told = list(rows(people, listen, QUICK_STEP if quick else 1))
-    return report("speech", told, quick)
+    told = list(rows(people, listen, QUICK_STEP if quick else 1, draw))
+    return report("speech", told, quick) | {"draw": draw}
 
 
-def rows(people: Recordings | None, hear: Listen, step: int = 1) -> Iterator[Row]:
+def rows(people: Recordings | None, hear: Listen, step: int = 1, draw: int = 0) -> Iterator[Row]:
     """All rows in the order of the table; every `step`th sentence and recording is taken."""
     tell = partial(print, file=sys.stderr, flush=True)
-    yield from accuracy_rows(people, hear, step, tell)
+    yield from accuracy_rows(people, hear, step, tell, draw)
     yield from speed_rows(people, hear, step, tell)
     tell("start, text, voice")
     yield from attempted("start and memory of the engine", lambda: start_rows(_longest(people)))

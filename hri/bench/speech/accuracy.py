@@ -119,13 +119,20 @@ MEASURES = (
 
 
 def rows(
-    recordings: Recordings | None, listen: Listen, step: int = 1, progress: Progress = print
+    recordings: Recordings | None,
+    listen: Listen,
+    step: int = 1,
+    progress: Progress = print,
+    draw: int = 0,
 ) -> Iterator[Row]:
-    """The rows of recognition; every `step`th sentence and recording is taken."""
+    """The rows of recognition; every `step`th sentence and recording is taken.
+
+    `draw` tells who talks when in the babble; another one shows how much of a figure is chance.
+    """
 
     @cache
     def outcomes(kind: Kind, condition: Condition) -> list[Outcome]:
-        said = sounds(recordings, kind, condition, step)
+        said = sounds(recordings, kind, condition, step, draw)
         progress(f"{kind}, {condition}: {len(said)} clips")
         return hear(GRAMMARS[kind], said, listen)
 
@@ -140,7 +147,7 @@ Progress = Callable[[str], object]
 
 
 def sounds(
-    recordings: Recordings | None, kind: Kind, condition: Condition, step: int = 1
+    recordings: Recordings | None, kind: Kind, condition: Condition, step: int = 1, draw: int = 0
 ) -> list[Clip]:
     """The clips of one kind. Raises NotAvailable when flite or the recordings are missing."""
     if recordings is None and (kind in ("orders", "foreign") or condition != "clean"):
@@ -153,9 +160,9 @@ def sounds(
     if kind == "orders":
         orders = recordings.orders[::step]
         said = list(orders) if condition == "clean" else [clips.padded(clip) for clip in orders]
-        return clips.in_babble(said, recordings.orders, condition)
+        return clips.in_babble(said, recordings.orders, condition, draw)
     sentences = clips.commands() if kind == "commands" else clips.outside()
-    return clips.in_babble(clips.spoken(sentences[::step]), people, condition)
+    return clips.in_babble(clips.spoken(sentences[::step]), people, condition, draw)
 
 
 def hear(grammar: Path, said: Sequence[Clip], listen: Listen) -> list[Outcome]:

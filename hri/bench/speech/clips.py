@@ -87,17 +87,20 @@ def read_recordings(folder: Path) -> Recordings:
     return Recordings(tuple(orders), tuple(read))
 
 
-def in_babble(clips: Sequence[Clip], talkers: Sequence[Clip], condition: str) -> list[Clip]:
-    """The clips over the talk of the others, the same at every run."""
+def in_babble(
+    clips: Sequence[Clip], talkers: Sequence[Clip], condition: str, draw: int = 0
+) -> list[Clip]:
+    """The clips over the talk of the others, the same at every run of the same draw."""
     ratio = RATIOS[condition]
     if ratio is None:
         return list(clips)
-    return [_in_babble(clip, talkers, ratio) for clip in clips]
+    return [_in_babble(clip, talkers, ratio, draw) for clip in clips]
 
 
-def _in_babble(clip: Clip, talkers: Sequence[Clip], ratio: float) -> Clip:
+def _in_babble(clip: Clip, talkers: Sequence[Clip], ratio: float, draw: int) -> Clip:
     others = [talker.samples for talker in talkers if talker.name != clip.name]
-    chance = np.random.default_rng(zlib.crc32(f"{clip.name} {ratio:g}".encode()))
+    seed = f"{clip.name} {ratio:g}" + (f" {draw}" if draw else "")
+    chance = np.random.default_rng(zlib.crc32(seed.encode()))
     noise = babble(others, len(clip.samples), chance)
     samples = above(clip.samples, noise, ratio)
     return Clip(clip.name, samples, clip.sentence, clip.slots, clip.voice)
