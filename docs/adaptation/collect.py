@@ -19,8 +19,10 @@ import tempfile
 import time
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache, partial
+from itertools import count
 from pathlib import Path
 from pydoc_data.topics import topics
 
@@ -348,8 +350,12 @@ def spoken_for(seconds: float, seed: int) -> list[Clip]:
     """As many random sentences as can be made in this time."""
     end = time.perf_counter() + seconds
     found = []
-    while time.perf_counter() < end:
-        found.append(spoken(seed + len(found)))
+    for number in count(seed):
+        if time.perf_counter() > end:
+            break
+        # festival crashes now and then; that is no reason to lose the others.
+        with suppress(subprocess.CalledProcessError):
+            found.append(spoken(number))
     return found
 
 
