@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Collection, Iterable
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
@@ -28,8 +28,8 @@ class Grammar(Protocol):
     def flat_jsgf(self) -> str:
         """The grammar as JSGF with a single public rule, without tags, imports and quotes."""
 
-    def sentences(self, limit: int) -> Iterable[str]:
-        """Sentences of the grammar, at most `limit`."""
+    def sample(self, most: int) -> list[str]:
+        """Sentences of the grammar: all when there are not more, else some of all kinds."""
 
     def graph(self) -> WordGraph:
         """Which word may follow which; made once."""

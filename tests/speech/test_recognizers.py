@@ -6,6 +6,7 @@ import wave
 import numpy as np
 import pytest
 
+from hri.core import paths
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import HeardWord, Utterance
@@ -203,6 +204,16 @@ def test_vosk_is_told_only_sentences_whose_words_it_knows(write):
     assert known_sentences(grammar, lambda word: word != "zorblax") == ["go home", "stop"]
 
 
+def test_vosk_is_told_every_word_of_a_grammar_with_more_sentences_than_it_is_told():
+    companion = load_grammar(paths.find("grammars", "companion"))
+
+    told = known_sentences(companion, lambda word: word != "slowly")
+
+    assert {word for sentence in told for word in sentence.split()} == companion.words() - {
+        "slowly"
+    }
+
+
 def test_vosk_is_as_certain_as_its_least_certain_word():
     go = {"word": "go", "start": 0.3, "end": 0.5, "conf": 1.0}
     home = {"word": "home", "start": 0.5, "end": 0.9, "conf": 0.4}
@@ -247,6 +258,44 @@ class Certain(TypedRecognizer):
 
     def decode(self, segment, rules=None):
         return Hypothesis(self.words, 0.8)
+
+
+class Choosy(Certain):
+    """Refuses every grammar but the first."""
+
+    first = None
+
+    def start(self, grammar):
+        if self.first not in (None, grammar):
+            raise HriError("too large - split it")
+        self.first = grammar
+
+
+class Open(Certain):
+    """Keeps the last grammar."""
+
+    def start(self, grammar):
+        self.grammar = grammar
+
+
+@pytest.mark.parametrize("kinds", [(Choosy, Open), (Open, Choosy)])
+def test_what_one_of_two_engines_refuses_is_in_force_for_neither(
+    resources, companion, write, kinds
+):
+    engines = [
+        kind(Description(id, "Hri.Typed"), resources) for id, kind in zip("ab", kinds, strict=True)
+    ]
+    for engine in engines:
+        engine.activate()
+        resources.substitute(engine.id, engine)
+    veto = VetoRecognizer(Description("ears", "Hri.Veto", {"first": "a", "second": "b"}), resources)
+    veto.activate()
+    veto.start(companion)
+    with pytest.raises(HriError, match="too large"):
+        veto.start(load_grammar(write("public <a> = go;")))
+
+    (keeper,) = (engine for engine in engines if isinstance(engine, Open))
+    assert keeper.grammar is companion
 
 
 @pytest.mark.parametrize(

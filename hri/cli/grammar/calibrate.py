@@ -16,7 +16,6 @@ from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.statistics import told
 from hri.speech.grammar import Grammar, load_grammar
-from hri.speech.grammar.ambiguity import sample
 from hri.speech.grammar.matching import parse
 from hri.speech.judgement import STRICTNESS
 from hri.speech.trials import Attempt, Clip, Score, attempt, recommended, score
@@ -114,7 +113,7 @@ def _clips(options: argparse.Namespace, grammar: Grammar) -> Iterable[Clip]:
     if options.speak or options.audio is None:
         voices = tuple(options.voices or usual_voices())
         other = [sentence for sentence in OTHER_TALK if parse(grammar, sentence) is None]
-        sentences = [*sample(grammar, options.sentences), *other]
+        sentences = [*grammar.sample(options.sentences), *other]
         total = len(sentences) * len(voices)
         yield from progress(spoken(grammar, sentences, voices), total, "speaking and hearing")
 

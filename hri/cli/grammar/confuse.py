@@ -14,7 +14,6 @@ from hri.cli.progress import progress
 from hri.core import paths
 from hri.core.statistics import told
 from hri.speech.grammar import Grammar, load_grammar
-from hri.speech.grammar.ambiguity import sample
 from hri.speech.grammar.confusion import FARTHEST, SoundAlike, sound_alikes
 from hri.speech.grammar.expansion import count_ways
 from hri.speech.grammar.expectations import meaning_of
@@ -60,7 +59,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     grammar = load_grammar(paths.find("grammars", options.file))
     most = options.sentences or (MOST_SPOKEN if options.speak else MOST_COMPARED)
-    sentences = sample(grammar, most)
+    sentences = grammar.sample(most)
     if options.speak:
         return _by_ear(options, grammar, sentences)
     readings = [found for text in sentences if (found := parse(grammar, text)) is not None]

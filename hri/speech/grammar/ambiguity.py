@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-import random
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Generator, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import islice
 
 from hri.speech.grammar.automaton import FINAL, START
-from hri.speech.grammar.expansion import random_sentences
 from hri.speech.grammar.matching import Matcher, Parse, parses
 from hri.speech.grammar.rules import Grammar
 
 MOST_STEPS = 30_000
 """Nodes of the automaton that are visited for sentences with two readings."""
-MOST_TRIED = 200
-"""Sentences whose readings are compared."""
-_SEED = 4
+MOST_TRIED = 1000
+"""Sentences whose readings are compared; many may mean the same in all their readings."""
+MOST_SAMPLED = 200
+"""Sentences of a grammar too large to be walked, of which some are tried."""
+MOST_ALIKE = 20
+"""Beginnings with several ways to the same nodes that are walked on from: what they mean is told
+by what was said before, which the nodes do not tell."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +51,7 @@ def ambiguities(grammar: Grammar) -> Iterator[Ambiguity]:
 def _tried(grammar: Grammar) -> Iterator[str]:
     is_all = yield from suspects(grammar.matcher)
     if not is_all:
-        yield from sample(grammar, MOST_TRIED)
+        yield from grammar.sample(MOST_SAMPLED)
 
 
 def ambiguity(grammar: Grammar, sentence: str) -> Ambiguity | None:
@@ -67,17 +69,6 @@ def ambiguity(grammar: Grammar, sentence: str) -> Ambiguity | None:
     return None
 
 
-def sample(grammar: Grammar, most: int) -> list[str]:
-    """Different sentences: the first of each rule, and as many by chance, always the same."""
-    found = dict.fromkeys(grammar.sentences(most - most // 2))
-    for sentence in islice(random_sentences(grammar, random.Random(_SEED)), most):
-        if len(found) == most:
-            break
-        found[sentence] = None
-    found.pop("", None)
-    return list(found)
-
-
 Ways = Mapping[int, int]
 """In how many ways some words lead to each node; 2 stands for more."""
 
@@ -85,11 +76,12 @@ Ways = Mapping[int, int]
 def suspects(matcher: Matcher) -> Generator[str, None, bool]:
     """Sentences with two ways through the automaton, the shortest first.
 
-    Words that lead to the same nodes in as many ways are walked on from only once. After
-    MOST_STEPS nodes the walk ends; returns whether nothing was left then.
+    Words that lead to the same nodes, each in one way, are walked on from only once, those that
+    lead there in several ways MOST_ALIKE times. After MOST_STEPS nodes the walk ends; returns
+    whether nothing was left then.
     """
     pending: deque[tuple[Ways, tuple[str, ...]]] = deque([({START: 1}, ())])
-    visited: set[frozenset[tuple[int, int]]] = set()
+    visited: Counter[frozenset[tuple[int, int]]] = Counter()
     steps = 0
     while pending and steps < MOST_STEPS:
         ways, words = pending.popleft()
@@ -99,8 +91,8 @@ def suspects(matcher: Matcher) -> Generator[str, None, bool]:
             yield " ".join(words)
         for word, further in _after(matcher, ways).items():
             key = frozenset(further.items())
-            if key not in visited:
-                visited.add(key)
+            visited[key] += 1
+            if visited[key] <= (MOST_ALIKE if max(further.values()) > 1 else 1):
                 pending.append((further, (*words, word)))
     return not pending
 

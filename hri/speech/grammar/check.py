@@ -8,7 +8,7 @@ from itertools import islice
 
 from hri.core.errors import AuthoringError, Place, did_you_mean
 from hri.speech.grammar import analysis
-from hri.speech.grammar.ambiguity import ambiguities, sample
+from hri.speech.grammar.ambiguity import ambiguities
 from hri.speech.grammar.audibility import heard_badly
 from hri.speech.grammar.confusion import sound_alikes
 from hri.speech.grammar.doc_comments import KNOWN_TAGS, MARKS
@@ -218,7 +218,7 @@ def _careful(grammar: Grammar, lexicon: Lexicon) -> Iterator[Finding]:
     careful = grammar.marked("careful")
     if not careful:
         return
-    sentences = sample(grammar, MOST_SENTENCES)
+    sentences = grammar.sample(MOST_SENTENCES)
     readings = [found for text in sentences if (found := parse(grammar, text)) is not None]
     told = 0
     for pair in sound_alikes(readings, lexicon, MOST_LIKE):

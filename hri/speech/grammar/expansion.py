@@ -44,6 +44,7 @@ MOST_BITS = 4096
 """Of a number of ways; more count as infinite."""
 MOST_COUNTED = 100_000
 """Ways up to which different sentences are counted."""
+_SEED = 4
 
 _Todo = tuple[Expression, int, "_Todo"] | None
 """What is still to be said: a node, how many rules may be entered, and what follows."""
@@ -68,6 +69,19 @@ def sentences(grammar: Grammar, rules: Iterable[str], limit: int) -> Iterator[st
                 seen.add(words)
                 limit -= 1
                 yield " ".join(words)
+
+
+def sample(grammar: Grammar, most: int) -> list[str]:
+    """See `Grammar.sample`."""
+    found = dict.fromkeys(sentences(grammar, grammar.public_rules, most))
+    if len(found) == most:
+        found = dict.fromkeys(list(found)[: most - most // 2])
+        for sentence in islice(random_sentences(grammar, random.Random(_SEED)), most):
+            if len(found) == most:
+                break
+            found[sentence] = None
+    found.pop("", None)
+    return list(found)
 
 
 def random_sentence(

@@ -63,7 +63,7 @@ def read_source(path: Path) -> str:
     """
     if path.is_dir():
         raise HriError(f"{path}: this is a folder - name a grammar file in it")
-    if not path.is_file():
+    if not path.exists():
         raise HriError(f"{path}: no such grammar file - check the path")
     raw = read_bytes(path, "grammar")
     match = _ENCODING.match(raw)
@@ -318,8 +318,9 @@ def _places_of(importer: Path, file: str) -> Iterator[Path]:
         below for folder in paths.search_folders() for below in (folder / "grammars", folder)
     )
     for folder in (importer.parent, *folders):
-        if (folder / file).is_file():
-            yield folder / file
+        place = folder / file
+        if place.exists() and not place.is_dir():
+            yield place
 
 
 def _grammars_near(file: _File) -> list[str]:

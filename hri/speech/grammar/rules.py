@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -14,8 +15,12 @@ from hri.speech.grammar import analysis, expansion
 from hri.speech.grammar.automaton import Automaton, build
 from hri.speech.grammar.doc_comments import MARKS, DocTag
 from hri.speech.grammar.expressions import (
+    Alternative,
     Expression,
+    Optional,
+    Repeat,
     RuleReference,
+    Sequence,
     Span,
     Tagged,
     Token,
@@ -131,6 +136,12 @@ class Grammar:
         """Sentences of the grammar, at most `limit`, the public rules taking turns."""
         return expansion.sentences(self, self.public_rules, limit)
 
+    def sample(self, most: int) -> list[str]:
+        """Different sentences, at most so many: all, or the first of each rule and as many others
+        by chance, always the same.
+        """
+        return expansion.sample(self, most)
+
     def sentences_of(self, rule: str, limit: int) -> Iterable[str]:
         """Sentences of one rule, at most `limit`."""
         return expansion.sentences(self, (rule,), limit)
@@ -180,16 +191,47 @@ class Grammar:
 
 
 def flat_jsgf(grammar: Grammar) -> str:
-    """See `Grammar.flat_jsgf`. PocketSphinx knows one public rule only and no dots in names."""
-    keys = analysis.reachable(grammar.rules, grammar.public_rules)
+    """See `Grammar.flat_jsgf`. PocketSphinx knows one public rule only and no dots in names.
+
+    What can never be said is left out: with a `<VOID>` anywhere it hears nothing of the rest.
+    """
+    said = {key: _sayable(rule.expression, grammar) for key, rule in grammar.rules.items()}
+    public = [key for key in grammar.public_rules if said[key] is not None]
+    keys = [key for key in analysis.reachable(grammar.rules, public) if said[key] is not None]
     names = {
         key: f"r{number}_{re.sub(r'[^A-Za-z0-9]', '_', key)}" for number, key in enumerate(keys)
     }
-    top = " | ".join(f"<{names[key]}>" for key in grammar.public_rules)
+    top = " | ".join(f"<{names[key]}>" for key in public) or "<VOID>"
     lines = ["#JSGF V1.0;", "grammar flat;", f"public <sentence> = {top};"]
     for key in keys:
-        expression = rename(
-            grammar.rules[key].expression, lambda node: replace(node, name=names[node.name])
-        )
-        lines.append(f"<{names[key]}> = {spell(expression)};")
+        kept = said[key]
+        if kept is not None:
+            expression = rename(kept, lambda node: replace(node, name=names[node.name]))
+            lines.append(f"<{names[key]}> = {spell(expression)};")
     return "\n".join(lines) + "\n"
+
+
+def _sayable(node: Expression, grammar: Grammar) -> Expression | None:
+    """The node without its parts that have no sentence; None when it has none itself."""
+    if math.isinf(analysis.height(node, grammar.heights)):
+        return None
+    match node:
+        case Alternative(choices=choices, weights=weights):
+            kept = [
+                (said, weight)
+                for choice, weight in zip(choices, weights, strict=True)
+                if (said := _sayable(choice, grammar)) is not None
+            ]
+            return replace(
+                node,
+                choices=tuple(said for said, _ in kept),
+                weights=tuple(weight for _, weight in kept),
+            )
+        case Sequence(items=items):
+            rows = [_sayable(item, grammar) for item in items]
+            return replace(node, items=tuple(row for row in rows if row is not None))
+        case Optional(item=item) | Repeat(item=item) | Tagged(item=item):
+            said = _sayable(item, grammar)
+            return Sequence((), node.span) if said is None else replace(node, item=said)
+        case _:
+            return node

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import replace
 
+from hri.core.errors import HriError
 from hri.hal.recognizer import Alternative, Grammar, Hypothesis, Recognizer, Segment
 from hri.speech.grammar import Grammar as WrittenGrammar
 from hri.speech.grammar.matching import parse
@@ -22,6 +23,7 @@ class VetoRecognizer(DelegatingRecognizer):
 
     def _open(self) -> None:
         self.engine, self.second = (self._named(name) for name in self.parameters)
+        self._grammar: Grammar | None = None
 
     def _named(self, parameter: str) -> Recognizer:
         id = self.description.text(parameter)
@@ -31,8 +33,14 @@ class VetoRecognizer(DelegatingRecognizer):
         return self.use(id, Recognizer)
 
     def start(self, grammar: Grammar) -> None:
-        self.engine.start(grammar)
+        # What one refuses must not be in force for the other, or they would never agree again.
         self.second.start(grammar)
+        try:
+            self.engine.start(grammar)
+        except HriError:
+            if self._grammar is not None:
+                self.second.start(self._grammar)
+            raise
         self._grammar = grammar
 
     def decode(self, segment: Segment, rules: Collection[str] | None = None) -> Hypothesis:

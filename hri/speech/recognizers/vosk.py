@@ -9,6 +9,7 @@ from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import Any
 
+from hri.core.errors import HriError
 from hri.core.models import models_folder
 from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, HeardWord, Hypothesis, Segment
@@ -64,8 +65,13 @@ class VoskRecognizer(SoundRecognizer):
                 except Exception as error:  # That is the class it raises.
                     remedy = "unpack the model again"
                     raise self.not_available(f"{self._path}: {error}", remedy) from error
-            phrases = json.dumps(known_sentences(grammar, self._knows))
-            self._engine = vosk.KaldiRecognizer(self._model, self.rate, phrases)
+            phrases = known_sentences(grammar, self._knows)
+            if not phrases:  # With an empty list Vosk ends the process.
+                what = f'{self._path}: this model lacks words of all sentences of "{grammar.name}"'
+                raise HriError(f"{what} - take a model of its language: hri models list")
+            # Vosk does not know what JSON escapes.
+            told = json.dumps(phrases, ensure_ascii=False)
+            self._engine = vosk.KaldiRecognizer(self._model, self.rate, told)
             self._engine.SetWords(True)
 
     def _knows(self, word: str) -> bool:
@@ -83,8 +89,12 @@ class VoskRecognizer(SoundRecognizer):
 def known_sentences(grammar: Grammar, knows: Callable[[str], bool]) -> list[str]:
     """The sentences whose words the model all knows: Vosk would silently drop the others' words."""
     known = {word for word in grammar.words() if knows(word)}
-    sentences = grammar.sentences(MOST_SENTENCES)
-    return [sentence for sentence in sentences if known.issuperset(sentence.split())]
+    sentences = grammar.sample(MOST_SENTENCES)
+    found = [sentence for sentence in sentences if known.issuperset(sentence.split())]
+    if len(sentences) < MOST_SENTENCES:
+        return found
+    # Words of a large grammar may be in none of those; alone they can at least be heard.
+    return found + sorted(known.difference(*map(str.split, found)))
 
 
 def hypothesis(result: dict[str, Any]) -> Hypothesis:

@@ -260,6 +260,26 @@ def test_two_meanings_are_found_wherever_they_hide(write):
     assert "<a> {what=ball}, and also <a> {what=toy}" in told[0].what
 
 
+def test_no_ambiguity_hides_another(write):
+    rules = "import <numbers.small>;\n" + "".join(
+        f"public <{name}{number}> = {words} {{{name}={number}}} please;\n"
+        for name, words in (("a", "turn the light on"), ("b", "turn the light off"), ("c", "go"))
+        for number in (1, 2)
+    )
+    harmless = (
+        "public <go> = walk <small> meters | please [now] walk <small> meters |"
+        " please walk <small> meters;\n"
+    )
+    findings = check(load_grammar(write(rules + harmless)))
+
+    told = [finding.what for finding in findings if "and also" in finding.what]
+    assert [what[:20] for what in told] == [
+        '"go please" means <c',
+        '"turn the light on p',
+        '"turn the light off ',
+    ]
+
+
 def test_two_ways_to_one_meaning_are_no_ambiguity(write):
     rules = "public <a> = [please] (go on | go (on | back)) [please | now];"
     assert not any("and also" in finding.what for finding in check(load_grammar(write(rules))))

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import dataclasses
+import os
 import time
 from pathlib import Path
 
@@ -196,6 +197,9 @@ def test_a_wrong_name_of_a_rule_is_told_once(write, name):
 def test_what_is_no_grammar_file_is_refused(tmp_path):
     with pytest.raises(HriError, match="no such grammar"):
         load_grammar(tmp_path / "none.jsgf")
+    os.mkfifo(tmp_path / "pipe.jsgf")
+    with pytest.raises(HriError, match="this grammar is no regular file"):
+        load_grammar(tmp_path / "pipe.jsgf")
     path = tmp_path / "large.jsgf"
     path.write_bytes(b" " * (LARGEST_FILE + 1))
     with pytest.raises(HriError, match="too large"):

@@ -334,6 +334,19 @@ def test_signs_in_quoted_words_stay_signs_in_the_flat_form(write, tmp_path):
     assert sorted(load_grammar(path).sentences(10)) == ['a"b c', "at|t now", "import x"]
 
 
+def test_what_can_never_be_said_is_left_out_of_the_flat_form(write, tmp_path):
+    text = (
+        "public <a> = do <VOID> this | /2/ go [<VOID> now] | (stop <VOID>)* there;"
+        "public <b> = (<VOID> in time) | yes;"
+    )
+    flat = load_grammar(write(text)).flat_jsgf()
+    path = tmp_path / "flat.jsgf"
+    path.write_text(flat)
+
+    assert "VOID" not in flat
+    assert sorted(load_grammar(path).sentences(10)) == ["go", "there", "yes"]
+
+
 def test_the_flat_form_has_one_public_rule_and_no_tags(companion):
     flat = companion.flat_jsgf()
 
