@@ -6,6 +6,7 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
 from hri.behavior.behavior import Behavior
+from hri.behavior.library.sharing import Shared
 from hri.behavior.network import Network
 from hri.core.errors import HriError
 from hri.core.signals import Event, Utterance
@@ -15,6 +16,7 @@ from hri.hal.resource import Resource
 from hri.hal.speaker import Speaker
 from hri.hal.synthesizer import Synthesizer
 from hri.speech.behaviors import Listener, Voice
+from hri.speech.turn import QUESTION
 from hri.task.context import TaskContext
 from hri.task.queue import EventQueue
 from hri.task.task import task
@@ -114,7 +116,9 @@ def listener_of(context: TaskContext) -> Listener:
         listener = Listener("listener", microphone_id=microphone, recognizer_id=recognizer)
         if (voice := context.find_behavior(Voice)) is not None:
             _let_tell(voice, listener)
-        _start(context, listener)
+        question = Shared("question", slot=QUESTION)
+        listener.question.sources.append(question.truth)
+        _start(context, listener, question)
     return listener
 
 
@@ -126,8 +130,8 @@ def _let_tell(voice: Voice, listener: Listener) -> None:
         listener.position.sources.append(voice.position)
 
 
-def _start(context: TaskContext, behavior: Behavior) -> None:
-    context.networks.start(Network(f"own {behavior.id}", OWN_INTERVAL, [behavior]))
+def _start(context: TaskContext, behavior: Behavior, *around: Behavior) -> None:
+    context.networks.start(Network(f"own {behavior.id}", OWN_INTERVAL, [*around, behavior]))
 
 
 def _id(context: TaskContext, interface: type[Resource]) -> str:

@@ -15,6 +15,7 @@ from hri.core.signals import Frame
 from hri.hal.camera import Camera
 from hri.hal.drive import Odometry
 from hri.robot import Robot
+from hri.simulation.world import SimulatedWorld
 from hri.task import (
     UNIT_ANGLE,
     UNIT_DISTANCE,
@@ -109,6 +110,14 @@ def test_speaking_is_cut_when_something_else_is_first(clock):
     assert clock.now() == pytest.approx(1.0, abs=0.05)
     speech.Speak("Yes.")
     assert spoken[1].properties["cut"] is False
+
+
+def test_a_question_without_a_network_hears_its_answer(clock):
+    context = get_task_manager().context
+    world = context.resources.obtain("world", SimulatedWorld)
+    context.events.subscribe("question.asked", lambda _: world.say("yes", clock.now() + 0.8))
+
+    assert speech.Ask("Do you like me?", timeout=5) is True
 
 
 @pytest.mark.proves("T09", "T12")
