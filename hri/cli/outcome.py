@@ -6,17 +6,22 @@ file is wrong, 130 after Ctrl-C. Light to import, so that it holds while the res
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 from collections.abc import Callable
 
 from hri.core.errors import HriError
 
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+
 
 def status_of(program: Callable[[], int]) -> int:
     """Run a program; its exit status. What is nobody's fault but ours keeps its traceback."""
     try:
-        return program()
+        status = program()
+        sys.stdout.flush()  # Here, for what cannot be written at the exit is nobody's to catch.
+        return status
     except (HriError, OSError, KeyboardInterrupt, BaseExceptionGroup) as error:
         alone = _alone(error)
         match alone:
@@ -31,6 +36,10 @@ def status_of(program: Callable[[], int]) -> int:
             case OSError(filename=str() | os.PathLike() as path, strerror=reason):
                 print(f"{path}: {reason} - check the path", file=sys.stderr)
                 return 2
+            case OSError(errno=number, strerror=reason) if number in _FULL:
+                _let_go()
+                print(f"cannot be written: {reason} - make room", file=sys.stderr)
+                return 2
         # Without the groups, which would bury the line that is wrong.
         raise alone from None
 
@@ -43,7 +52,8 @@ def _alone(error: BaseException) -> BaseException:
 
 
 def _let_go() -> None:
-    """Forget what could not be written: our reader has gone, as in `hri grammar expand | head`."""
+    """Forget what could not be written: our reader has gone, as in `hri grammar expand | head`,
+    or the disk is full."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, sys.stdout.fileno())
     os.close(nowhere)

@@ -77,6 +77,14 @@ LARGEST_FILE = 4_000_000
 """Bytes; no authored file is larger."""
 
 
+def require_file(path: Path, what: str) -> None:
+    """Raise HriError for a path that is no regular file, or is not there at all."""
+    if not path.exists():
+        raise HriError(f"{path}: no such file - check the path")
+    if not path.is_file():  # Looked at before: a pipe without a writer would keep us for ever.
+        raise HriError(f"{path}: this {what} is no regular file - name a file")
+
+
 def read_bytes(path: Path, what: str) -> bytes:
     """What an authored file holds.
 

@@ -209,6 +209,8 @@ def bring(name: str, source: Path, parts: tuple[Part, ...] = ()) -> Path:
     try:
         if source.is_dir():
             _copy(source, target, parts)
+        elif source.exists() and not source.is_file():  # A pipe or device may never end.
+            raise HriError(f"{source}: neither a folder nor a file - mend the path")
         elif zipfile.is_zipfile(source):
             unpack(source, target, parts)
         else:

@@ -3,6 +3,7 @@
 import errno
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -42,6 +43,23 @@ def test_a_file_that_cannot_be_written_is_one_line(words, network, tmp_path, cap
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith(str(tmp_path))
     assert line.endswith("- check the path")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no full device")
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["voices"], "cannot be written: No space left on device - make room\n"),
+        (["say", "hello", "--wav", "/dev/full"], "/dev/full: cannot be written: No space left"),
+    ],
+)
+def test_a_full_disk_is_one_line(words, told):
+    with open("/dev/full", "w") as full:
+        command = [sys.executable, "-m", "hri.cli.main", *words]
+        ended = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True)
+    assert ended.returncode == 2
+    assert ended.stderr.startswith(told)
+    assert ended.stderr.count("\n") == 1
 
 
 PROGRAMS = {

@@ -9,6 +9,7 @@ import stat
 import threading
 import zipfile
 from http.server import BaseHTTPRequestHandler, HTTPServer
+from pathlib import Path
 
 import pytest
 
@@ -282,6 +283,14 @@ def test_of_an_archive_of_much_else_only_the_parts_are_unpacked(server):
     folder = fetch(of_parts(server), no_progress)
     assert sorted(file.name for file in folder.rglob("*")) == ["eye.net", "nose.net"]
     assert leftovers() == ["faces"]
+
+
+def test_a_device_or_pipe_is_no_model(home, tmp_path):
+    pipe = tmp_path / "model.zip"
+    os.mkfifo(pipe)
+    for source in (pipe, Path("/dev/zero")):
+        with pytest.raises(HriError, match="neither a folder nor a file"):
+            bring("mine", source)
 
 
 def test_what_is_here_is_not_fetched_again(server):

@@ -10,7 +10,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from hri.core.errors import HriError
+from hri.core.errors import HriError, require_file
 from hri.core.signals import Frame, Image
 from hri.hal.camera import FIELD_OF_VIEW, Camera
 from hri.hal.drivers.picture_file import picture_size
@@ -40,8 +40,7 @@ def check_video(path: Path) -> None:
 
 def _opened(path: Path) -> cv2.VideoCapture:
     """A file before its first picture, which is sure to be there. Raises HriError."""
-    if not path.is_file():
-        raise HriError(f"{path}: no such file - check the path")
+    require_file(path, "video or image")
     picture_size(path)  # raises before a giant is decoded
     capture = cv2.VideoCapture(str(path))
     readable, picture = capture.read()

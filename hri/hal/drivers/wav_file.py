@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hri.core.errors import HriError
+from hri.core.errors import HriError, require_file
 from hri.core.signals import Samples
 from hri.hal.drivers.channels import CHOICES, OneChannel, channel_of
 from hri.hal.drivers.resampling import resample, resample_blocks
@@ -30,8 +30,7 @@ def load_sound(
     Raises HriError when it cannot be read, is empty, or too long, NotAvailable when the decoder is
     not installed.
     """
-    if not path.is_file():  # a pipe without a writer would keep us for ever
-        raise HriError(f"{path}: no such file - check the path")
+    require_file(path, "sound")
     if path.suffix.lower() != ".wav":
         return decode(path, wanted, channel)
     try:
@@ -75,9 +74,14 @@ def read_wav(
 
 
 def write_wav(path: Path, samples: Samples, rate: int) -> None:
-    """Write mono 16-bit PCM. Raises HriError when the file cannot be written."""
-    with open_wav(path, rate) as file:
-        file.writeframes(samples.tobytes())
+    """Write mono 16-bit PCM. Raises HriError, and leaves no part, when that cannot be done."""
+    try:
+        with open_wav(path, rate) as file:
+            file.writeframes(samples.tobytes())
+    except OSError as error:
+        if path.is_file():
+            path.unlink()
+        raise _not_written(path, error) from error
 
 
 def open_wav(path: Path, rate: int) -> wave.Wave_write:
@@ -86,10 +90,13 @@ def open_wav(path: Path, rate: int) -> wave.Wave_write:
         path.open("wb").close()  # of what wave cannot open it complains twice
         file = wave.open(str(path), "wb")  # noqa: SIM115 - who asked for it closes it
     except OSError as error:
-        reason = error.strerror or str(error)
-        raise HriError(f"{path}: cannot be written: {reason} - check the folder") from error
+        raise _not_written(path, error) from error
     file.setparams((1, 2, rate, 0, "NONE", "not compressed"))
     return file
+
+
+def _not_written(path: Path, error: OSError) -> HriError:
+    return HriError(f"{path}: cannot be written: {error.strerror or error} - check the folder")
 
 
 def _mono_blocks(file: wave.Wave_read, channel: str) -> Iterator[Samples]:
