@@ -7,6 +7,7 @@ import pytest
 
 from hri.hal.audio_level import AudioLevel
 from hri.hal.drivers.audio_level import MicrophoneLevel
+from hri.hal.drivers.memory import MemoryMicrophone
 from hri.hal.manager import ResourceManager
 from hri.hal.microphone import Microphone
 from hri.hal.resource import Description
@@ -39,6 +40,30 @@ def test_it_forgets_what_is_longer_ago_than_a_tenth_of_a_second(manager, clock, 
     assert level.level(clock.now()) > 0.5
     clock.advance(0.11)
     assert level.level(clock.now()) == 0
+
+
+class Lost(MemoryMicrophone):
+    """Gives nothing any more once it is gone."""
+
+    is_gone = False
+
+    def read(self, now):
+        heard = super().read(now)
+        return heard[:0] if self.is_gone else heard
+
+
+def test_a_microphone_that_is_gone_is_silent(manager, clock, open_driver):
+    microphone = open_driver(Lost)
+    manager.substitute("microphone", microphone)
+    level = open_driver(MicrophoneLevel)
+    microphone.hear(tone(16000, 5.0))
+    clock.advance(0.5)
+    assert level.level(clock.now()) > 0.5
+    microphone.is_gone = True
+    clock.advance(0.05)
+    assert level.level(clock.now()) > 0.5, "no block has come since, that is all"
+    clock.advance(1.0)
+    assert level.level_dbfs(clock.now()) == -120
 
 
 def test_it_takes_nothing_from_who_else_listens(manager, clock, open_driver):

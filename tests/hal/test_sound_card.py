@@ -1,5 +1,7 @@
 """The sound card, with a PortAudio that the test turns by hand."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -102,6 +104,21 @@ def test_what_the_card_hears_is_read_once(port_audio, open_driver):
         microphone._stream.callback(block[:, None], len(block), None, None)
     assert np.array_equal(microphone.read(0.0), tone(48000, 0.02))
     assert len(microphone.read(0.0)) == 0
+
+
+def test_sound_that_the_card_lost_is_told_now_and_then(port_audio, clock):
+    told = []
+    manager = ResourceManager((), clock, notice=told.append)
+    microphone = SoundCardMicrophone(Description("ears", "Hri.Microphone"), manager)
+    microphone.activate()
+    lost, kept = SimpleNamespace(input_overflow=True), SimpleNamespace(input_overflow=False)
+    for status in [kept] * 5 + [lost] * 100:
+        microphone._stream.callback(np.zeros((320, 1), np.int16), 320, None, status)
+        microphone.read(0.0)
+    microphone.deactivate()
+
+    assert told[0] == "ears: sound was lost, once by now - the machine is too busy"
+    assert [line.split()[4] for line in told[1:]] == ["3", "7", "15", "31", "63"]
 
 
 def test_a_card_that_is_not_there_is_one_line(monkeypatch):

@@ -18,7 +18,7 @@ from hri.core.statistics import told
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.matching import parse
 from hri.speech.judgement import STRICTNESS
-from hri.speech.trials import Attempt, Clip, Score, attempt, recommended, score
+from hri.speech.trials import NEARLY, Attempt, Clip, Score, attempt, recommended, score
 
 EXAMPLES = """\
 examples:
@@ -131,10 +131,14 @@ def _show(scores: list[Score], best: Score, heard: list[Attempt]) -> None:
                 f"   {_percent(one.wrong, one.commands):>17}"
                 f"   {_percent(one.foreign_accepted, one.foreign):>19}{mark}"
             )
-    print(f"\nright and accepted: {told(best.right, best.commands)}")
+    print(
+        f"\nrecommended: the strictest that loses at most {NEARLY:.0%} of the commands, to have a"
+    )
+    print("margin for talk and rooms that were not tried")
+    print(f"right and accepted: {told(best.right, best.commands)}")
     print(f"other talk accepted: {told(best.foreign_accepted, best.foreign)}")
     print("(in brackets: where the true share is, with 95 % certainty)")
-    if min(best.commands, best.foreign) < FEWEST:
+    if _are_too_few(best):
         print(f"these are too few to rely on: try {FEWEST} commands and {FEWEST} others, or more")
     print()
     print("In the network, among the parameters of Hri.Recognizer:")
@@ -145,9 +149,14 @@ def _percent(count: int, total: int) -> str:
     return f"{100 * count / total:.1f}" if total else "-"
 
 
+def _are_too_few(score: Score) -> bool:
+    return min(score.commands, score.foreign) < FEWEST
+
+
 def _as_json(scores: list[Score], best: Score) -> dict[str, object]:
     return {
         "recommended": best.strictness,
+        "too_few": _are_too_few(best),
         "scores": [
             {
                 "strictness": one.strictness,

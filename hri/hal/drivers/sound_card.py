@@ -110,13 +110,14 @@ class SoundCardMicrophone(_SoundCard, Microphone):
 
     parameters = ("device", "rate", "channel")
     overruns = 0
-    """How often sound was lost because the system did not take it in time."""
+    """How often sound was lost because the system did not take it in time; told as it doubles."""
 
     def _open(self) -> None:
         self.rate = self.description.count("rate", 16000, 1000, 400_000)
         self._blocks: deque[Samples] = deque(maxlen=int(LONGEST_BACKLOG * self.rate / 320))
         self._channel = channel_of(self.description)
         self._one_channel = OneChannel(self._channel)
+        self._told_overruns = 0
         super()._open()
 
     def _new_stream(self) -> Any:
@@ -135,6 +136,12 @@ class SoundCardMicrophone(_SoundCard, Microphone):
 
     def read(self, now: float) -> Samples:
         self._watch()
+        if (lost := self.overruns) > 2 * self._told_overruns:
+            self._told_overruns = lost
+            times = f"{lost} times" if lost > 1 else "once"
+            self.manager.notice(
+                f"{self.id}: sound was lost, {times} by now - the machine is too busy"
+            )
         blocks = [self._blocks.popleft() for _ in range(len(self._blocks))]
         return np.concatenate(blocks) if blocks else np.zeros(0, np.int16)
 

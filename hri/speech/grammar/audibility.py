@@ -7,11 +7,11 @@ from dataclasses import replace
 
 from hri.core.errors import HriError, NotAvailable, Place
 from hri.speech.grammar import analysis
-from hri.speech.grammar.expressions import Token
+from hri.speech.grammar.expressions import Alternative, Token, spell
 from hri.speech.grammar.finding import Finding, hint, note, warning
 from hri.speech.grammar.numerals import in_words
 from hri.speech.grammar.phrases import Phrases, Words
-from hri.speech.grammar.rules import Grammar
+from hri.speech.grammar.rules import Grammar, Rule
 from hri.speech.pronunciation import spelling
 from hri.speech.pronunciation.lexicon import Lexicon, user_lexicon
 
@@ -43,7 +43,7 @@ def heard_badly(grammar: Grammar, said: Mapping[str, Phrases], lexicon: Lexicon)
     short: list[Finding] = []
     single: list[Finding] = []
     remedy = "add a longer way to say it, or mark the rule @answer if it answers"
-    for words, place in _commands(grammar, said, places):
+    for words, place in _commands(grammar, said):
         if sum(phones.get(word, FEWEST_PHONES) for word in words) < FEWEST_PHONES:
             what = f'"{" ".join(words)}" is very short and will be heard in other talk'
             short.append(warning(place, what, remedy))
@@ -94,13 +94,23 @@ def _unknown(word: str, place: Place, lexicon: Lexicon) -> Finding:
     return hint(place, what, f'if it is not "{guessed}", {otherwise}')
 
 
-def _commands(
-    grammar: Grammar, said: Mapping[str, Phrases], places: Mapping[str, Place]
-) -> Iterator[tuple[Words, Place]]:
+def _commands(grammar: Grammar, said: Mapping[str, Phrases]) -> Iterator[tuple[Words, Place]]:
     """The short sentences of all rules that are not EXPECTED_SHORT, each once."""
     told: set[Words] = {()}
     for key in grammar.public_rules:
         if not EXPECTED_SHORT & grammar.rules[key].marks:
             found = said[key].said - told
             told |= found
-            yield from ((words, places[words[0]]) for words in sorted(found))
+            yield from ((words, _place(grammar.rules[key], words)) for words in sorted(found))
+
+
+def _place(rule: Rule, words: Words) -> Place:
+    """Where a command is written whole, else its rule."""
+    text = " ".join(words)
+    choices = (
+        choice for node in rule.nodes if isinstance(node, Alternative) for choice in node.choices
+    )
+    for node in (*choices, rule.expression):
+        if spell(node).lower() == text:
+            return rule.place(node.span)
+    return rule.place()

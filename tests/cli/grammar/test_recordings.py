@@ -220,6 +220,7 @@ def test_a_strictness_is_recommended(grammar, write, coded_voices, capsys):
 
     assert grammar("calibrate", path, "--voices", "en-us", "--json") == 0
     told = json.loads(capsys.readouterr().out)
+    assert told["too_few"] is True
     accepted = {one["strictness"]: one["foreign_accepted"] for one in told["scores"]}
     assert accepted[0.3] > 0 == accepted[0.35]
 

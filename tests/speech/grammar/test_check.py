@@ -46,6 +46,12 @@ def own_folders(tmp_path, monkeypatch):
             "<numbers.small> {first=$number}",
         ),
         ("public <a> = go forward | no;", "3:27", '"no" is very short', "longer"),
+        (
+            "public <b> = say no to it;\npublic <a> = no no | no {x=1};",
+            "4:22",
+            '"no" is very short',
+            "longer",
+        ),
         ("/** @carefull */ public <a> = go on;", "3:5", "@carefull is no", 'mean "careful"?'),
         ("/** @careful */ <b> = on;\npublic <a> = go <b>;", "3:5", "says nothing here", "public"),
         (
