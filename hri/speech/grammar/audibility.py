@@ -77,12 +77,10 @@ def _unknown(word: str, place: Place, lexicon: Lexicon) -> Finding:
     what = f'"{word}" is in no dictionary, its sound is guessed'
     if any(letter.isdigit() for letter in word):
         return warning(place, what, f'write numbers as words, "{in_words(word)}"')
-    parts = spelling.split(word, lexicon)
-    if parts:
-        return warning(place, what, f'write "{parts}"?')
-    meant = spelling.near(word, lexicon)
+    meant = spelling.meant(word, lexicon)
     if meant:
-        return warning(place, what, f'did you mean "{meant}"?')
+        remedy = f'write "{meant}"?' if " " in meant else f'did you mean "{meant}"?'
+        return warning(place, what, remedy)
     otherwise = f"write it into {user_lexicon()}"
     try:
         guessed = " ".join(lexicon.pronunciations(word)[0])

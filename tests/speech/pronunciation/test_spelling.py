@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from hri.speech.pronunciation.lexicon import load_lexicon
-from hri.speech.pronunciation.spelling import near, split
+from hri.speech.pronunciation.spelling import common_words, meant, near, split
 
 
 @pytest.mark.parametrize(
@@ -17,6 +17,34 @@ from hri.speech.pronunciation.spelling import near, split
 )
 def test_a_slip_of_the_fingers_is_mended(word, meant):
     assert near(word, load_lexicon()) == meant
+
+
+@pytest.mark.parametrize(
+    ("word", "words"),
+    [
+        ("kichen", "kitchen"),  # not Kinchen, a name
+        ("bathrom", "bathroom"),  # not two words
+        ("adn", "and"),
+        ("hte", "the"),
+        ("dont", "don't"),
+        ("tommorow", "tomorrow"),  # two slips
+        ("telefone", "telephone"),
+        ("turnleft", "turn left"),
+        ("turn_on", "turn on"),
+        ("muller", "mueller"),  # no common word is like it
+        ("zorblax", ""),
+        ("a" * 5000, ""),
+        ("", ""),
+    ],
+)
+def test_common_words_are_meant_before_names(word, words):
+    assert meant(word, load_lexicon()) == words
+
+
+def test_all_common_words_are_known():
+    lexicon = load_lexicon()
+    assert len(common_words()) > 10_000
+    assert all(word in lexicon for word in common_words())
 
 
 @pytest.mark.parametrize(
