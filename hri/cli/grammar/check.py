@@ -12,11 +12,12 @@ from typing import TextIO
 from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.excerpt import Excerpts
 from hri.core import paths
-from hri.core.errors import AuthoringError, NotAvailable
+from hri.core.errors import AuthoringError, HriError, NotAvailable, Place
 from hri.speech.grammar import Grammar, read_grammar
 from hri.speech.grammar.check import check
-from hri.speech.grammar.finding import SEVERITIES, Finding
+from hri.speech.grammar.finding import SEVERITIES, Finding, warning
 from hri.speech.pronunciation.lexicon import Lexicon, load_lexicon
+from hri.speech.recognizers.ctc.phone_graph import compile
 
 EXAMPLES = """\
 examples:
@@ -44,7 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     grammar, mistakes = _read(paths.find("grammars", options.file))
     findings = [Finding("error", error.place, error.what, error.remedy) for error in mistakes]
-    findings = findings or check(grammar, _lexicon())
+    findings = findings or [*_too_large(grammar), *check(grammar, _lexicon())]
     if options.json:
         print(json.dumps(_as_json(grammar, findings), indent=2))
     else:
@@ -61,6 +62,25 @@ def _read(path: Path) -> tuple[Grammar, list[AuthoringError]]:
         return read_grammar(path)
     except AuthoringError as error:
         return Grammar(path.stem, path, {}), [error]
+
+
+class _OneSound:
+    """How words sound, as if they all did alike: what is too large then is so with all sounds."""
+
+    def pronunciations(self, word: str) -> tuple[tuple[str, ...], ...]:
+        return (("AH",),)
+
+
+def _too_large(grammar: Grammar) -> list[Finding]:
+    """A warning for what the default engine cannot hear, in whatever words it is said."""
+    try:
+        compile(grammar.graph(), _OneSound())
+    except AuthoringError:
+        return []  # It cannot be written out at all, which the check tells.
+    except HriError as error:
+        what, _, remedy = str(error).partition(" - ")
+        return [warning(Place(grammar.path), what, remedy)]
+    return []
 
 
 def _lexicon() -> Lexicon | None:

@@ -12,7 +12,14 @@ from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.arguments import legible
 from hri.core import paths
 from hri.speech.grammar import load_grammar
-from hri.speech.grammar.matching import Parse, Refusal, Tree, parses, refusal
+from hri.speech.grammar.matching import (
+    MOST_PARSES,
+    Parse,
+    Refusal,
+    Tree,
+    parses,
+    refusal,
+)
 from hri.speech.grammar.tags import spell_tags
 from hri.speech.grammar.tolerance import Tolerant, nearest
 
@@ -101,6 +108,7 @@ def _object(
     answer: dict[str, object] = {"text": found[0].text if found else text, "accepted": bool(found)}
     answer |= _meaning(found[0]) if found else NO_MEANING
     answer["parses"] = [_meaning(reading) for reading in found]
+    answer["more_parses"] = len(found) == MOST_PARSES
     if near is not None:
         answer |= {"cost": near.cost, "edits": [str(edit) for edit in near.edits]}
     if refused is not None:
@@ -142,7 +150,8 @@ def _accepted(found: tuple[Parse, ...], near: Tolerant | None) -> str:
         if not any(reading.means_the_same(other) for other in shown):
             shown.append(reading)
     if len(shown) > 1:
-        lines.append(f"ambiguous, {len(shown)} meanings; the first counts")
+        count = f"{len(shown)} or more" if len(found) == MOST_PARSES else f"{len(shown)}"
+        lines.append(f"ambiguous, {count} meanings; the first counts")
     for reading in shown:
         tags = f" {{{spell_tags(reading.tags)}}}" if reading.tags else ""
         lines.append(reading.rule + tags)

@@ -14,7 +14,7 @@ from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.statistics import told
 from hri.speech.grammar import Grammar, load_grammar
-from hri.speech.grammar.expectations import Failure, failures, read_expectations
+from hri.speech.grammar.expectations import Failure, failures, meaning_of, read_expectations
 from hri.speech.judgement import STRICTNESS
 from hri.speech.trials import Attempt, attempt, confusions, score
 
@@ -134,6 +134,8 @@ def _show(
 
 def _outcome(tried: Attempt, grammar: Grammar, strictness: float) -> str:
     accepted = tried.accepted(grammar, strictness)
+    if [reading.text for reading in accepted] == [tried.said]:
+        return f"was heard as {meaning_of(accepted[0])}, not as {tried.meaning}"
     if accepted:
         words = " and ".join(f'"{reading.text}"' for reading in accepted)
         return f"was taken for {words}"

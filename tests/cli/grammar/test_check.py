@@ -22,6 +22,15 @@ def test_an_error_is_shown_in_its_line_under_a_caret(grammar, write, capsys):
     )
 
 
+def test_what_the_default_engine_cannot_hear_is_told(grammar, write, capsys):
+    nested = "".join(f"<{a}> = {' '.join(8 * [f'<{b}>'])};\n" for a, b in ("de", "ef"))
+    rules = f"public <c> = {' '.join(8 * ['<d>'])} end;\n{nested}<f> = [one] [two] [three] [four];"
+
+    assert grammar("check", write(rules)) == 0
+    out = capsys.readouterr().out
+    assert "warning: the grammar needs more than 2000000 states of the recogniser - have" in out
+
+
 def test_few_of_many_errors_are_shown_unless_all_are_wanted(grammar, write, capsys):
     path = write("\n".join(f"public <a{n}> = (;" for n in range(20)))
 

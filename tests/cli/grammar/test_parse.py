@@ -47,7 +47,8 @@ def test_json_has_all_there_is(robot, capsys):
     where = {"rule": "where", "start": 1, "end": 3, "children": ["to", place]}
     tree = {"rule": "go", "start": 0, "end": 3, "children": ["go", where]}
     meaning = {"rule": "go", "tags": {"place": "kitchen"}, "tree": tree}
-    assert answer == {"text": "go to kitchen", "accepted": True, **meaning, "parses": [meaning]}
+    parses = {"parses": [meaning], "more_parses": False}
+    assert answer == {"text": "go to kitchen", "accepted": True, **meaning, **parses}
 
 
 def test_both_meanings_are_shown(robot, capsys):
@@ -64,6 +65,18 @@ def test_both_meanings_are_shown(robot, capsys):
     assert parse(robot, "hide", "--json") == 0
     answer = json.loads(capsys.readouterr().out)
     assert [reading["tags"] for reading in answer["parses"]] == [{"n": 1.0}, {"n": 2.0}]
+
+
+def test_that_there_are_more_readings_than_are_listed_is_told(grammar, write, capsys):
+    path = write("public <s> = (x {a+=1} | x {b+=1} | x {c+=1})+ end;")
+    text = "x " * 12 + "end"
+    assert grammar("parse", path, text) == 0
+    assert "ambiguous, 20 or more meanings; the first counts" in capsys.readouterr().out
+
+    assert grammar("parse", path, text, "--json") == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert len(answer["parses"]) == 20
+    assert answer["more_parses"] is True
 
 
 def test_a_refusal_tells_how_far_it_went_and_what_could_follow(robot, capsys):

@@ -101,6 +101,14 @@ def test_what_went_wrong_is_told_with_the_recording(grammar, write, manifest, ca
     assert '2 x "turn left" for "turn right"' in out
 
 
+def test_the_right_words_with_another_meaning_are_told_with_both(grammar, write, manifest, capsys):
+    path = manifest((0, "turn left\ta: left x=3"))
+
+    assert grammar("test", "--audio", path, "--grammar", write(RULES)) == 1
+    out = capsys.readouterr().out
+    assert '0.wav: "turn left" was heard as a: {}, not as a: left=true x=3' in out
+
+
 def test_programs_get_counts_and_recordings(grammar, write, manifest, capsys):
     path = manifest((0, "turn left"), (1, "turn left"))
 
