@@ -240,6 +240,8 @@ def vosk_model(folder):
     ],
 )
 def test_the_best_engine_that_is_there_serves(resources, tmp_path, parameters, chosen):
+    told = []
+    resources.notice = told.append
     if "model" in parameters:
         vosk_model(tmp_path / "model")
         parameters = {**parameters, "model": str(tmp_path / "model")}
@@ -248,6 +250,9 @@ def test_the_best_engine_that_is_there_serves(resources, tmp_path, parameters, c
 
     assert isinstance(ears.engine, chosen)
     assert ears.describe() == f"{chosen.__name__}, chosen automatically"
+    assert [line.endswith(f"(using {chosen.__name__} instead)") for line in told] == [True] * (
+        chosen is not CtcRecognizer
+    )
     ears.deactivate()
 
 

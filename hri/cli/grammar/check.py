@@ -11,6 +11,7 @@ from typing import TextIO
 
 from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.excerpt import Excerpts
+from hri.cli.progress import waiting
 from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, NotAvailable, Place
 from hri.speech.grammar import Grammar, read_grammar
@@ -43,9 +44,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    grammar, mistakes = _read(paths.find("grammars", options.file))
-    findings = [Finding("error", error.place, error.what, error.remedy) for error in mistakes]
-    findings = findings or [*_too_large(grammar), *check(grammar, _lexicon())]
+    with waiting("checking"):
+        grammar, mistakes = _read(paths.find("grammars", options.file))
+        findings = [Finding("error", error.place, error.what, error.remedy) for error in mistakes]
+        findings = findings or [*_too_large(grammar), *check(grammar, _lexicon())]
     if options.json:
         print(json.dumps(_as_json(grammar, findings), indent=2))
     else:

@@ -10,7 +10,7 @@ from hri.cli.grammar.arguments import count, share
 from hri.cli.grammar.clips import spoken, usual_voices
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
 from hri.cli.grammar.expand import in_words
-from hri.cli.progress import progress
+from hri.cli.progress import progress, waiting
 from hri.core import paths
 from hri.core.statistics import told
 from hri.speech.grammar import Grammar, load_grammar
@@ -62,8 +62,9 @@ def run(options: argparse.Namespace) -> int:
     sentences = grammar.sample(most)
     if options.speak:
         return _by_ear(options, grammar, sentences)
-    readings = [found for text in sentences if (found := parse(grammar, text)) is not None]
-    pairs = sound_alikes(readings, load_lexicon(), options.farthest)
+    with waiting("comparing"):
+        readings = [found for text in sentences if (found := parse(grammar, text)) is not None]
+        pairs = sound_alikes(readings, load_lexicon(), options.farthest)
     if options.json:
         told_pairs = [_pair_as_json(pair) for pair in pairs[: options.n]]
         print(json.dumps({"compared": len(readings), "pairs": told_pairs}, indent=2))

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from hri.cli.progress import waiting
 from hri.core import registry
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
@@ -49,7 +50,8 @@ def started_engine(options: argparse.Namespace, grammar: Grammar) -> Iterator[Re
         engine: Recognizer = driver(Description("recognizer", kind, parameters), manager)
         engine.activate()
         try:
-            engine.start(grammar)
+            with waiting("getting ready to hear the grammar"):
+                engine.start(grammar)
             yield engine
         finally:
             engine.deactivate()

@@ -10,6 +10,7 @@ from functools import partial
 
 from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.arguments import count
+from hri.cli.progress import waiting
 from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
 from hri.speech.grammar import Grammar, load_grammar
@@ -55,7 +56,9 @@ def run(options: argparse.Namespace) -> int:
     grammar = load_grammar(paths.find("grammars", options.file))
     rules = _rules(grammar, options.rule)
     if options.count:
-        print(_count(grammar, rules))
+        with waiting("counting"):
+            told = _count(grammar, rules)
+        print(told)
         return 0
     said = _drawn(grammar, rules, options) if options.random is not None else None
     is_part = options.rule is not None and rules[0] not in grammar.public_rules

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.arguments import legible
+from hri.cli.progress import waiting
 from hri.core import paths
 from hri.speech.grammar import load_grammar
 from hri.speech.grammar.matching import (
@@ -63,7 +64,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    grammar = load_grammar(paths.find("grammars", options.file))
+    with waiting("reading the grammar"):
+        grammar = load_grammar(paths.find("grammars", options.file))
+        parses(grammar, "")  # Gets it ready.
     status = 0
     for text in _sentences(options.texts):
         found = parses(grammar, text)

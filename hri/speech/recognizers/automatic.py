@@ -18,15 +18,19 @@ class AutomaticRecognizer(DelegatingRecognizer):
     parameters = tuple({*CtcRecognizer.parameters, *VoskRecognizer.parameters})
 
     def _open(self) -> None:
+        missing: NotAvailable | None = None
         for driver in self._drivers():
             engine = driver(self.description, self.manager)
             try:
                 engine.activate()
             except NotAvailable as error:
-                missing = error
+                missing = missing or error
                 continue
             self.engine = engine
+            if missing is not None:
+                self.manager.notice(f"{missing} (using {driver.__name__} instead)")
             return
+        assert missing is not None
         raise missing
 
     def _drivers(self) -> Iterator[type[Recognizer]]:
