@@ -81,7 +81,12 @@ def require_file(path: Path, what: str) -> None:
     """Raise HriError for a path that is no regular file, or is not there at all."""
     if not path.exists():
         raise HriError(f"{path}: no such file - check the path")
-    if not path.is_file():  # Looked at before: a pipe without a writer would keep us for ever.
+    _require_regular(path, what)
+
+
+def _require_regular(path: Path, what: str) -> None:
+    """Looked at before it is opened: a pipe without a writer would keep us for ever."""
+    if path.exists() and not path.is_file():
         raise HriError(f"{path}: this {what} is no regular file - name a file")
 
 
@@ -91,9 +96,7 @@ def read_bytes(path: Path, what: str) -> bytes:
     Raises HriError when it cannot be read, is no regular file, or is larger than LARGEST_FILE.
     """
     try:
-        # Looked at before it is opened: a pipe without a writer would keep us for ever.
-        if path.exists() and not path.is_file():
-            raise HriError(f"{path}: this {what} is no regular file - name a file")
+        _require_regular(path, what)
         with path.open("rb") as file:
             raw = file.read(LARGEST_FILE + 1)
     except (OSError, ValueError) as error:

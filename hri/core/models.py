@@ -209,9 +209,7 @@ def bring(name: str, source: Path, parts: tuple[Part, ...] = ()) -> Path:
     try:
         if source.is_dir():
             _copy(source, target, parts)
-        elif source.exists() and not source.is_file():  # A pipe or device may never end.
-            raise HriError(f"{source}: neither a folder nor a file - mend the path")
-        elif zipfile.is_zipfile(source):
+        elif source.is_file() and zipfile.is_zipfile(source):  # A pipe or device may never end.
             unpack(source, target, parts)
         else:
             raise HriError(f"{source}: neither a folder nor a ZIP archive - mend the path")

@@ -289,7 +289,7 @@ def test_a_device_or_pipe_is_no_model(home, tmp_path):
     pipe = tmp_path / "model.zip"
     os.mkfifo(pipe)
     for source in (pipe, Path("/dev/zero")):
-        with pytest.raises(HriError, match="neither a folder nor a file"):
+        with pytest.raises(HriError, match="neither a folder nor a ZIP archive"):
             bring("mine", source)
 
 

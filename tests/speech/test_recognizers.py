@@ -204,6 +204,13 @@ def test_vosk_is_told_only_sentences_whose_words_it_knows(write):
     assert known_sentences(grammar, lambda word: word != "zorblax") == ["go home", "stop"]
 
 
+def test_vosk_is_not_told_single_words_of_sentences_that_it_cannot_hear(write):
+    grammar = load_grammar(write("public <a> = go zorblax | stop;"))
+
+    assert known_sentences(grammar, lambda word: word != "zorblax") == ["stop"]
+    assert known_sentences(grammar, lambda word: word == "go") == []
+
+
 def test_vosk_is_told_every_word_of_a_grammar_with_more_sentences_than_it_is_told():
     companion = load_grammar(paths.find("grammars", "companion"))
 

@@ -47,7 +47,9 @@ def run(options: argparse.Namespace) -> int:
     with waiting("checking"):
         grammar, mistakes = _read(paths.find("grammars", options.file))
         findings = [Finding("error", error.place, error.what, error.remedy) for error in mistakes]
-        findings = findings or [*_too_large(grammar), *check(grammar, _lexicon())]
+        findings = findings or check(grammar, _lexicon())
+        if all(finding.severity != "error" for finding in findings):
+            findings = [*_too_large(grammar), *findings]
     if options.json:
         print(json.dumps(_as_json(grammar, findings), indent=2))
     else:
@@ -77,8 +79,6 @@ def _too_large(grammar: Grammar) -> list[Finding]:
     """A warning for what the default engine cannot hear, in whatever words it is said."""
     try:
         compile(grammar.graph(), _OneSound())
-    except AuthoringError:
-        return []  # It cannot be written out at all, which the check tells.
     except HriError as error:
         what, _, remedy = str(error).partition(" - ")
         return [warning(Place(grammar.path), what, remedy)]

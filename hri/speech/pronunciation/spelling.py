@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import string
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib.resources import files
 from typing import Protocol
@@ -34,30 +34,29 @@ def meant(word: str, lexicon: Lexicon) -> str:
 
     Common words come first: the dictionary has many names that are one letter away from one.
     """
-    common = common_words()
-    ways: tuple[Callable[[], str], ...] = (
-        lambda: _mended(word, common),
-        lambda: split(word, common),
-        lambda: _like(word),
-        lambda: near(word, lexicon),
-        lambda: split(word, lexicon),
+    common = vocabulary()
+    return (
+        _mended(word, common)
+        or split(word, common)
+        or _like(word)
+        or near(word, lexicon)
+        or split(word, lexicon)
     )
-    return next((found for way in ways if (found := way())), "")
 
 
 @cache
-def common_words() -> frozenset[str]:
-    """Some ten thousand words of English, in alphabetical order in `common_words.txt`."""
-    text = files(__package__).joinpath("common_words.txt").read_text(encoding="utf-8")
+def vocabulary() -> frozenset[str]:
+    """Some ten thousand words of English, in alphabetical order in `vocabulary.txt`."""
+    text = files(__package__).joinpath("vocabulary.txt").read_text(encoding="utf-8")
     return frozenset(text.split())
 
 
 @cache
 def _by_letter() -> Mapping[str, list[str]]:
-    found = defaultdict(list)
-    for word in sorted(common_words()):
+    found: dict[str, list[str]] = defaultdict(list)
+    for word in sorted(vocabulary()):
         found[word[0]].append(word)
-    return found
+    return dict(found)
 
 
 def split(word: str, known: _Words) -> str:
@@ -89,7 +88,9 @@ def _like(word: str) -> str:
     """The common word that is most like it, with the same first letter; else empty."""
     if not SHORTEST_WORD <= len(word) <= LONGEST_WORD:
         return ""
-    return next(iter(difflib.get_close_matches(word, _by_letter()[word[0]], 1, LIKENESS)), "")
+    return next(
+        iter(difflib.get_close_matches(word, _by_letter().get(word[0], ()), 1, LIKENESS)), ""
+    )
 
 
 def _slips(word: str) -> Iterator[str]:

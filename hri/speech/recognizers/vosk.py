@@ -89,12 +89,10 @@ class VoskRecognizer(SoundRecognizer):
 def known_sentences(grammar: Grammar, knows: Callable[[str], bool]) -> list[str]:
     """The sentences whose words the model all knows: Vosk would silently drop the others' words."""
     known = {word for word in grammar.words() if knows(word)}
-    sentences = grammar.sample(MOST_SENTENCES)
-    found = [sentence for sentence in sentences if known.issuperset(sentence.split())]
-    if len(sentences) < MOST_SENTENCES:
-        return found
+    sentences = [sentence.split() for sentence in grammar.sample(MOST_SENTENCES)]
+    found = [" ".join(words) for words in sentences if known.issuperset(words)]
     # Words of a large grammar may be in none of those; alone they can at least be heard.
-    return found + sorted(known.difference(*map(str.split, found)))
+    return found + sorted(known.difference(*sentences))
 
 
 def hypothesis(result: dict[str, Any]) -> Hypothesis:

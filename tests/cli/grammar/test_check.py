@@ -30,6 +30,11 @@ def test_what_the_default_engine_cannot_hear_is_told(grammar, write, capsys):
     out = capsys.readouterr().out
     assert "warning: the grammar needs more than 2000000 states of the recogniser - have" in out
 
+    assert grammar("check", write(rules.replace("end;", "zorblax_ <gone>;"))) == 2
+    said = capsys.readouterr()
+    assert "no rule <gone>" in said.err
+    assert "states of the recogniser" not in said.out + said.err
+
 
 def test_few_of_many_errors_are_shown_unless_all_are_wanted(grammar, write, capsys):
     path = write("\n".join(f"public <a{n}> = (;" for n in range(20)))

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from hri.speech.pronunciation.lexicon import load_lexicon
-from hri.speech.pronunciation.spelling import common_words, meant, near, split
+from hri.speech.pronunciation.spelling import meant, near, split, vocabulary
 
 
 @pytest.mark.parametrize(
@@ -43,8 +43,8 @@ def test_common_words_are_meant_before_names(word, words):
 
 def test_all_common_words_are_known():
     lexicon = load_lexicon()
-    assert len(common_words()) > 10_000
-    assert all(word in lexicon for word in common_words())
+    assert len(vocabulary()) > 10_000
+    assert all(word in lexicon for word in vocabulary())
 
 
 @pytest.mark.parametrize(
