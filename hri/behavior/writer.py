@@ -13,6 +13,7 @@ from hri.behavior.behavior import Behavior
 from hri.behavior.catalog import type_of
 from hri.behavior.network import DEFAULT_INTERVAL, Link, Network
 from hri.behavior.ports import Param
+from hri.core.writing import write_text
 from hri.core.xml import EDITOR_PREFIXES, Element, format_xml
 
 ATTRIBUTES = {
@@ -42,8 +43,8 @@ def write_network(network: Network, path: Path | None = None) -> str:
 
 
 def save_network(network: Network, path: Path) -> None:
-    """Write a network to a file."""
-    path.write_text(write_network(network, path), encoding="utf-8")
+    """Write a network to a file, whole or not at all. Raises HriError when it cannot be written."""
+    write_text(path, write_network(network, path))
 
 
 def _element(authored: Element, attributes: dict[str, str], children: list[Element]) -> Element:

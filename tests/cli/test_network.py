@@ -2,6 +2,7 @@ import pytest
 
 from hri.cli.main import main
 from hri.robot import load_app
+from tests.disk import full_disk
 
 NETWORK = """\
 <BehaviorNetwork invocation_interval="0.02"><Link from="a.value" to="b.input"/>
@@ -71,3 +72,10 @@ def test_format_rewrites_once(network, capsys):
 def test_the_apps_of_the_house_give_nothing_to_warn_of(app):
     for network in load_app(app).load_networks():
         assert [*network.warnings, *network.loose_ends()] == []
+
+
+def test_format_leaves_the_file_as_it_was_on_a_full_disk(network, capsys):
+    with full_disk(after=60):
+        assert main(["network", "format", str(network)]) == 2
+    assert network.read_text() == NETWORK
+    assert "net.xml: cannot be written" in capsys.readouterr().err

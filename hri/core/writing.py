@@ -1,0 +1,218 @@
+"""Writing files so that whoever looks finds the old one or the new one, whole.
+
+The new content is written to a file beside, flushed to the disk, and given the name of the old
+one in one step. A full disk, a killed program or a pulled plug leaves the old file as it was.
+Files that grow while a robot runs, such as recordings, cannot be written this way.
+"""
+
+from __future__ import annotations
+
+import errno
+import fcntl
+import os
+import secrets
+import stat
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from hri.core.errors import HriError
+
+PRIVATE = 0o600
+"""Permissions of a file that only its owner may read."""
+SUFFIX = ".new"
+"""Of the file beside: no loader takes it for one of its own."""
+_LONGEST = 180
+"""Bytes of a name that the name of the file beside repeats; file systems end at 255."""
+_REMEDIES = {
+    errno.ENOSPC: "make room on the disk",
+    errno.EDQUOT: "make room on the disk",
+    errno.EFBIG: "make room on the disk",
+    errno.EROFS: "choose another folder",
+    errno.ENAMETOOLONG: "choose a shorter name",
+    errno.EISDIR: "name a file, not a folder",
+}
+
+
+class NotWritten(HriError):
+    """A file could not be written; what was there before is still there, whole."""
+
+
+def not_written(path: Path, error: OSError) -> NotWritten:
+    """The error that says which file could not be written, why, and what to do."""
+    remedy = _REMEDIES.get(error.errno or 0, "check the folder")
+    return NotWritten(f"{path}: cannot be written: {error.strerror or error} - {remedy}")
+
+
+def write_text(path: Path, text: str, mode: int | None = None) -> os.stat_result:
+    """Write a text in UTF-8; otherwise the same as `write_bytes`."""
+    return write_bytes(path, text.encode("utf-8"), mode)
+
+
+def write_bytes(path: Path, data: bytes, mode: int | None = None) -> os.stat_result:
+    """Make `data` the content of a file, or leave the file as it was; the status of the new file.
+
+    An existing file keeps its permissions and, where allowed, its owner, unless `mode` sets the
+    permissions; a link keeps pointing where it points, and its target is replaced. What is not a
+    regular file, such as a pipe, is written to. Raises NotWritten.
+    """
+    with _refusing(path):
+        if _is_stream(path):
+            with path.open("wb", buffering=0) as stream:
+                _write(stream.fileno(), data)
+                return os.fstat(stream.fileno())
+        with _beside(path, mode, SUFFIX) as (handle, _):
+            _write(handle, data)
+            return os.fstat(handle)
+
+
+@contextmanager
+def replacing(path: Path, mode: int | None = None, suffix: str = SUFFIX) -> Iterator[Path]:
+    """A new, empty file beside `path` for a library to write, which replaces `path` at the end.
+
+    It is flushed to the disk and gets the name of `path` when the block ends, and is deleted when
+    the block raises. `suffix` is for libraries that go by it. Permissions are as for `write_bytes`.
+    Raises NotWritten, also for an OSError of the block.
+    """
+    with _refusing(path), _beside(path, mode, suffix) as (_, new):
+        yield new
+
+
+def leftovers(path: Path) -> list[Path]:
+    """What writers of this file that were killed have left beside it, sorted.
+
+    Files that a running program is writing are not among them. The next writer of the same file
+    deletes them.
+    """
+    target = path.resolve()
+    beginning = _beginning(target)
+    try:
+        names = sorted(os.listdir(target.parent))
+    except OSError:
+        return []
+    beside = [target.with_name(name) for name in names if name.startswith(beginning)]
+    return [file for file in beside if _is_abandoned(file)]
+
+
+def make_folder(folder: Path, mode: int = 0o777) -> None:
+    """Make a folder, and those it lies in, where it is missing. Raises NotWritten."""
+    with _refusing(folder):
+        folder.mkdir(mode, parents=True, exist_ok=True)
+
+
+@contextmanager
+def _refusing(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise not_written(path, error) from error
+
+
+def _is_stream(path: Path) -> bool:
+    """Whether there is something at the path whose place no file may take."""
+    with suppress(OSError):
+        is_device = path.parts[:2] in (("/", "dev"), ("/", "proc"))
+        return is_device or not (path.is_file() or path.is_dir() or not path.exists())
+    return False
+
+
+@contextmanager
+def _beside(path: Path, mode: int | None, suffix: str) -> Iterator[tuple[int, Path]]:
+    """A new file and its handle; it replaces the other when all goes well, and else is deleted."""
+    target = _resolved(path)
+    handle, new = _made_beside(target, mode, suffix)
+    try:
+        yield handle, new
+        os.fsync(handle)
+        os.replace(new, target)
+    except BaseException:
+        with suppress(OSError):
+            new.unlink(missing_ok=True)
+        raise
+    finally:
+        os.close(handle)
+    _flush_folder(target.parent)
+
+
+def _resolved(path: Path) -> Path:
+    """Where links lead from a path, whether or not a file is there."""
+    try:
+        return path.resolve()
+    except (RuntimeError, ValueError) as error:  # links in a circle, a zero byte in the name
+        what = f"{str(path)!r:.80}: cannot be written: {error}"
+        raise NotWritten(f"{what} - choose another name") from error
+
+
+def _made_beside(target: Path, mode: int | None, suffix: str) -> tuple[int, Path]:
+    """A new file with the permissions that the target is to have, locked while it is in use."""
+    if target.is_dir():
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+    before = target.stat() if target.exists() else None
+    if mode is None and before is not None:
+        mode = stat.S_IMODE(before.st_mode)
+    for abandoned in leftovers(target):
+        abandoned.unlink(missing_ok=True)
+    handle, new = _made_locked(target, 0o666 if mode is None else mode & 0o777, suffix)
+    if before is not None:
+        with suppress(OSError):  # only the superuser may give files away
+            os.fchown(handle, before.st_uid, before.st_gid)
+    if mode is not None:
+        os.fchmod(handle, mode)
+    return handle, new
+
+
+def _made_locked(target: Path, mode: int, suffix: str) -> tuple[int, Path]:
+    flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC
+    while True:
+        new = target.with_name(f"{_beginning(target)}{secrets.token_hex(4)}{suffix}")
+        handle = os.open(new, flags, mode)
+        if _is_ours(handle):
+            return handle, new
+        os.close(handle)
+
+
+def _beginning(target: Path) -> str:
+    """How the names of the files begin that are to replace the target."""
+    return f".{os.fsdecode(os.fsencode(target.name)[:_LONGEST])}.new-"
+
+
+def _write(handle: int, data: bytes) -> None:
+    rest = memoryview(data)
+    while rest:
+        rest = rest[os.write(handle, rest) :]
+
+
+def _is_ours(handle: int) -> bool:
+    """Lock a new file; false when another writer took it for an abandoned one before that."""
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:  # a file system without locks, where nothing is ever taken for abandoned
+        return True
+    return os.fstat(handle).st_nlink > 0
+
+
+def _is_abandoned(file: Path) -> bool:
+    """Whether nobody holds the lock of a file that was made to replace another."""
+    try:
+        handle = os.open(file, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
+    except OSError:
+        return False
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    finally:
+        os.close(handle)
+    return True
+
+
+def _flush_folder(folder: Path) -> None:
+    """Let the new name survive a pulled plug; file systems that cannot are left alone."""
+    with suppress(OSError):
+        handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
