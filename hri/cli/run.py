@@ -49,6 +49,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add("--audio", type=Path, metavar="FILE", help="hear this sound file instead of a microphone")
     add("--camera", metavar="FILE|none", help="see this video or image, or nothing")
     add("--record", type=Path, metavar="DIR", help="write events, video, sound, plot there, anew")
+    add("--keep", action="store_true", help="go on from what it felt, and keep what it feels")
     add("--headless", action="store_true", help="draw the face, but show it to nobody")
     add("--duration", type=_seconds, metavar="S", help="end after so many seconds")
     add("--seed", type=int, default=None, metavar="N", help="seed of all that is random")
@@ -88,6 +89,7 @@ def run(options: argparse.Namespace) -> int:
     )
     tasks = robot.app.load_tasks()
     narrator = Narrator(robot)
+    mention_kept(options, narrator)
     session = Session(robot, options, narrator)
     try:
         is_unseen = {"microphone", "camera", "screen"} <= open_senses(robot)
@@ -127,9 +129,21 @@ def check_files(options: argparse.Namespace) -> None:
 
 
 def memory_of(options: argparse.Namespace) -> str:
-    """The file in which feelings outlast the run; none for runs that are to repeat."""
-    repeats = options.fast or options.demo or options.seed is not None
-    return "" if repeats else str(memory_file())
+    """The file in which feelings outlast the run; none unless somebody asked for it."""
+    return str(memory_file()) if options.keep else ""
+
+
+def mention_kept(options: argparse.Namespace, narrator: Narrator) -> None:
+    """Say in one line that feelings were kept earlier which this run leaves alone."""
+    path = memory_file()
+    if path.exists() and not options.keep and not is_to_repeat(options):
+        remedy = "--keep goes on from them, `hri emotion forget` erases them"
+        narrator.tell(f"{path}: feelings of earlier runs are kept there - {remedy}")
+
+
+def is_to_repeat(options: argparse.Namespace) -> bool:
+    """Whether the run is meant to go as it went before, on whatever machine."""
+    return bool(options.fast or options.demo or options.seed is not None)
 
 
 def replaced_devices(options: argparse.Namespace) -> list[Description]:

@@ -105,8 +105,7 @@ def kept(path: Path) -> Memory:
     """What the robot that keeps this file has written. Raises HriError when there is none."""
     memory = recall(path)
     if memory is None:
-        remedy = "run an app without --fast, --demo and --seed"
-        raise HriError(f"{path}: no robot keeps here what it feels - {remedy}")
+        raise HriError(f"{path}: no robot keeps here what it feels - run an app with --keep")
     return memory
 
 
