@@ -12,7 +12,7 @@ import fcntl
 import os
 import secrets
 import stat
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -84,14 +84,14 @@ def leftovers(path: Path) -> list[Path]:
     Files that a running program is writing are not among them. The next writer of the same file
     deletes them.
     """
-    target = path.resolve()
-    beginning = _beginning(target)
-    try:
-        names = sorted(os.listdir(target.parent))
-    except OSError:
-        return []
-    beside = [target.with_name(name) for name in names if name.startswith(beginning)]
-    return [file for file in beside if _is_abandoned(file)]
+    return [file for file in _all_beside(path.resolve()) if _if_abandoned(file, Path.exists)]
+
+
+def delete_leftovers(path: Path) -> None:
+    """Delete what `leftovers` lists. Raises NotWritten."""
+    with _refusing(path):
+        for file in _all_beside(path.resolve()):
+            _if_abandoned(file, Path.unlink)
 
 
 def make_folder(folder: Path, mode: int = 0o777) -> None:
@@ -150,8 +150,8 @@ def _made_beside(target: Path, mode: int | None, suffix: str) -> tuple[int, Path
     before = target.stat() if target.exists() else None
     if mode is None and before is not None:
         mode = stat.S_IMODE(before.st_mode)
-    for abandoned in leftovers(target):
-        abandoned.unlink(missing_ok=True)
+    with suppress(NotWritten):  # somebody else's, in a folder of all
+        delete_leftovers(target)
     handle, new = _made_locked(target, 0o666 if mode is None else mode & 0o777, suffix)
     if before is not None:
         with suppress(OSError):  # only the superuser may give files away
@@ -188,13 +188,26 @@ def _is_ours(handle: int) -> bool:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         return False
-    except OSError:  # a file system without locks, where nothing is ever taken for abandoned
+    except OSError:  # a file system without locks, where nothing is taken for abandoned
         return True
     return os.fstat(handle).st_nlink > 0
 
 
-def _is_abandoned(file: Path) -> bool:
-    """Whether nobody holds the lock of a file that was made to replace another."""
+def _all_beside(target: Path) -> list[Path]:
+    """Files that were made to replace the target, sorted."""
+    try:
+        names = sorted(os.listdir(target.parent))
+    except OSError:
+        return []
+    beginning = _beginning(target)
+    return [target.with_name(name) for name in names if name.startswith(beginning)]
+
+
+def _if_abandoned(file: Path, act: Callable[[Path], object]) -> bool:
+    """Act on a file that was made to replace another, unless its writer lives; whether it did.
+
+    The lock is held meanwhile, so that a writer that just made the file notices.
+    """
     try:
         handle = os.open(file, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
     except OSError:
@@ -202,7 +215,11 @@ def _is_abandoned(file: Path) -> bool:
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:
+        os.close(handle)
         return False
+    try:
+        with suppress(FileNotFoundError):
+            act(file)
     finally:
         os.close(handle)
     return True
