@@ -62,6 +62,9 @@ class Behavior:
     """The palette tab it is shown under."""
     is_sensor: ClassVar[bool] = False
     """Sensors run first in each cycle."""
+    is_relay: ClassVar[bool] = False
+    """Whether it passes on what somebody outside of the network says, with the time of that: what
+    rests on it stops a drive when that somebody falls silent."""
     takes_any_ports: ClassVar[bool] = False
     """Whether a schema that names it as its driver may give it ports of its own."""
     inputs: ClassVar[dict[str, Input[Any]]] = {}

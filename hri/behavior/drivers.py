@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
-from typing import TypeVar
+import logging
+import math
+from typing import Any, TypeVar
 
 import numpy as np
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.library.shaping import deadband
-from hri.behavior.ports import ANGULAR_VELOCITY, DBL_MAX, LINEAR_VELOCITY, Input, Output, Param
+from hri.behavior.ports import (
+    ANGULAR_VELOCITY,
+    DBL_MAX,
+    LINEAR_VELOCITY,
+    Input,
+    InputPort,
+    Output,
+    Param,
+)
 from hri.core.errors import HriError
 from hri.core.signals import Frame, Image, Pose2D, RangeReading, Twist
 from hri.hal.audio_level import AudioLevel
@@ -16,13 +26,15 @@ from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
 from hri.hal.camera import Camera
 from hri.hal.cliff_sensor import CliffSensor
-from hri.hal.drive import DriveSystem, Odometry
+from hri.hal.drive import PATIENCE, DriveSystem, Odometry
 from hri.hal.joystick import Joystick
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Resource
 from hri.hal.screen import Screen
 
 R = TypeVar("R", bound=Resource)
+
+log = logging.getLogger("hri.behavior")
 
 
 class DeviceBehavior(Behavior):
@@ -193,7 +205,7 @@ class MicrophoneLevel(DeviceBehavior):
 class JoystickSticks(DeviceBehavior):
     """Sends where a joystick's sticks are, and the velocity that the first two ask for."""
 
-    is_sensor = True
+    is_sensor = is_relay = True
     joystick_id = Param("joystick", "id of the joystick")
     deadband = Param(
         0.1, "share of the way around the middle that counts as rest", minimum=0, maximum=0.9
@@ -211,14 +223,14 @@ class JoystickSticks(DeviceBehavior):
         self._joystick = self.obtain(self.joystick_id, Joystick)
 
     def compute(self, now: float, dt: float) -> None:
-        axes = self._joystick.axes(now)
-        self.axes.send(axes)
-        self.buttons.send(tuple(map(float, self._joystick.buttons(now))))
+        axes, heard = self._joystick.axes(now), self._joystick.heard(now)
+        self.axes.send(axes, heard)
+        self.buttons.send(tuple(map(float, self._joystick.buttons(now))), heard)
         right, back = (self._asked(axis) for axis in (*axes, 0.0, 0.0)[:2])
         velocity = Twist(-back * self.max_linear, -right * self.max_angular)
-        self.velocity.send(velocity)
-        self.linear_velocity.send(velocity.linear * 100)
-        self.angular_velocity.send(velocity.angular)
+        self.velocity.send(velocity, heard)
+        self.linear_velocity.send(velocity.linear * 100, heard)
+        self.angular_velocity.send(velocity.angular, heard)
 
     def _asked(self, axis: float) -> float:
         """-1 to 1, with rest around the middle."""
@@ -259,7 +271,9 @@ def fitted(image: Image, width: int, height: int) -> Image:
 class DriveCommand(DeviceBehavior):
     """Passes velocities on to the drive, and stops it when they end.
 
-    While nothing comes in it leaves the drive alone, so that somebody else may use it.
+    A velocity that rests on the word of somebody outside, such as a peer over the network, counts
+    for `PATIENCE` seconds after that word. While nothing comes in it leaves the drive alone, so
+    that somebody else may use it.
     """
 
     drive_id = Param("drive", "id of the drive system")
@@ -276,24 +290,34 @@ class DriveCommand(DeviceBehavior):
         self._is_driving = False
 
     def compute(self, now: float, dt: float) -> None:
-        velocity = self._asked()
-        if velocity is not None:
-            self._drive.set_velocity(velocity, now)
+        velocity, until = self._asked()
+        if velocity is not None and now <= until:
+            self._drive.set_velocity(velocity, now, until)
+            self._is_driving = True
         elif self._is_driving:
+            if velocity is not None:
+                log.warning("%s stops: whoever steers it from outside fell silent", self.drive_id)
             self._drive.stop(now)
-        self._is_driving = velocity is not None
+            self._is_driving = False
 
     def stop(self) -> None:
         self._drive.stop(self._clock.now())
         super().stop()
 
-    def _asked(self) -> Twist | None:
+    def _asked(self) -> tuple[Twist | None, float]:
+        """The velocity and until when it counts."""
         if (velocity := self.velocity.value) is not None:
-            return velocity
+            return velocity, counts_until(self.velocity)
         linear, angular = self.linear_velocity.value, self.angular_velocity.value
         if linear is None and angular is None:
-            return None
-        return Twist((linear or 0.0) / 100, angular or 0.0)
+            return None, math.inf
+        until = min(counts_until(self.linear_velocity), counts_until(self.angular_velocity))
+        return Twist((linear or 0.0) / 100, angular or 0.0), until
+
+
+def counts_until(port: InputPort[Any]) -> float:
+    """Until when what a port carries may move the base; infinity for what no outsider said."""
+    return math.inf if port.spoken is None else port.spoken + PATIENCE
 
 
 class OdometryPose(DeviceBehavior):

@@ -71,14 +71,28 @@ class InputPort(Generic[T]):
         """What all links carry; those that sent nothing are left out."""
         return [source.value for source in self.sources if source.value is not None]
 
+    @property
+    def spoken(self) -> float | None:
+        """When the source of `value` spoke last, seconds; None: it is this network, in this tick.
+
+        See `OutputPort.spoken`.
+        """
+        for source in self.sources:
+            if source.value is not None:
+                return source.spoken
+        return None
+
 
 class OutputPort(Generic[T]):
     """What a behavior sends in this tick; empty again at the next."""
 
-    __slots__ = ("_datatype", "_kind", "value")
+    __slots__ = ("_datatype", "_kind", "spoken", "value")
 
     def __init__(self, value: T | None = None, datatype: str = ANY) -> None:
         self.value = value
+        self.spoken: float | None = None
+        """When somebody outside of the network, on whose word the value rests, spoke last: a peer
+        over the network, a joystick. The oldest of them, in seconds; None when there is none."""
         self._datatype = datatype
         # Whole numbers are good enough for a double.
         self._kind = (float, int) if datatype == "double" else DATATYPES[datatype]
@@ -87,11 +101,15 @@ class OutputPort(Generic[T]):
         """Whether a value is of the port's datatype."""
         return isinstance(value, self._kind)
 
-    def send(self, value: T) -> None:
-        """Send a value in this tick. Raises TypeError when it is not of the port's datatype."""
+    def send(self, value: T, spoken: float | None = None) -> None:
+        """Send a value in this tick; `spoken` is for behaviors with `is_relay`.
+
+        Raises TypeError when it is not of the port's datatype.
+        """
         if not isinstance(value, self._kind):
             raise TypeError(f"{_shown(value)} was sent - this output is a {self._datatype}")
         self.value = value
+        self.spoken = spoken
 
 
 class Input(Generic[T]):

@@ -1,10 +1,11 @@
 """Runs a network at its rate: deadlines are absolute, so the mean rate never drifts.
 
 The order of a tick, once and in words: all outputs are emptied; what was injected takes its place
-as links; the behaviors run, sensors first and then in dependency order; the time each one took is
-kept; those who watch outputs are told what was sent. A tick that ends after its deadline is a
-missed interval: it is counted, reported with what took longest, and the deadlines that have passed
-are skipped, never run in a burst.
+as links; the behaviors run, sensors first and then in dependency order, and what rests on the word
+of somebody outside carries the time of that word on; the time each one took is kept; those who
+watch outputs are told what was sent. A tick that ends after its deadline is a missed interval: it
+is counted, reported with what took longest, and the deadlines that have passed are skipped, never
+run in a burst.
 
 A behavior that raises an exception rests for a second, sending nothing, and is tried again; the
 others go on. What depends on it sees empty inputs, which for a drive means: stand still.
@@ -96,6 +97,7 @@ class Runner:
         self._outputs = [
             getattr(behavior, name) for behavior in network.behaviors for name in behavior.outputs
         ]
+        self._carriers = _carriers(network)
         self._order = self._ran = self._timed(network.behaviors)
         self._injected: deque[tuple[InputPort[Any], OutputPort[Any]]] = deque()
         self._watches: list[Watch] = []
@@ -195,11 +197,13 @@ class Runner:
         self._is_ticking = True
         begun = before = perf_counter()
         try:
-            for behavior, timing in self._ran:
+            for behavior, timing, carries in self._ran:
                 try:
                     behavior.compute(now, dt)
                 except Exception as error:
                     self._rest(behavior, now, error)
+                if carries:
+                    _carry(behavior)
                 after = perf_counter()
                 # Written out, in place of `timing.add`: this is the inner loop of it all.
                 timing.last = spent = after - before
@@ -239,8 +243,10 @@ class Runner:
                 slot += skipped
                 self._report_missed(skipped, began_late=began - deadline > ended - began)
 
-    def _timed(self, behaviors: list[Behavior]) -> list[tuple[Behavior, Timing]]:
-        return [(behavior, self.statistics.behaviors[behavior.id]) for behavior in behaviors]
+    def _timed(self, behaviors: list[Behavior]) -> list[tuple[Behavior, Timing, bool]]:
+        """With each its timing, and whether what it sends may rest on the word of a relay."""
+        timings = self.statistics.behaviors
+        return [(one, timings[one.id], one in self._carriers) for one in behaviors]
 
     def _name_of(self, behavior: Behavior) -> str:
         return f"{self.network.name}.{behavior.id}"
@@ -295,7 +301,7 @@ class Runner:
         self.statistics.missed += skipped
         self.statistics.slowest, cause = "", "something else held the loop up"
         if not began_late and self._ran:
-            behavior, _ = max(self._ran, key=lambda ran: ran[1].last)
+            behavior, *_ = max(self._ran, key=lambda ran: ran[1].last)
             self.statistics.slowest, cause = behavior.id, f"slowest was {behavior.id}"
         now = self.context.clock.now()
         if now >= self._tell_after:
@@ -308,3 +314,26 @@ class Runner:
             )
 
     _tell_after = -math.inf
+
+
+def _carriers(network: Network) -> set[Behavior]:
+    """The behaviors that a relay's word reaches, other than relays, which say their own times."""
+    reached = {behavior for behavior in network.behaviors if behavior.is_relay}
+    for behavior in network.behaviors:  # in dependency order
+        if any(link.source in reached for link in network.links if link.target is behavior):
+            reached.add(behavior)
+    return {behavior for behavior in reached if not behavior.is_relay}
+
+
+def _carry(behavior: Behavior) -> None:
+    """Give what it has sent the time of the oldest word among what it was sent."""
+    ports: list[InputPort[Any]] = [getattr(behavior, name) for name in behavior.inputs]
+    words = [
+        source.spoken
+        for port in ports
+        for source in port.sources
+        if source.value is not None and source.spoken is not None
+    ]
+    if words:
+        for name in behavior.outputs:
+            getattr(behavior, name).spoken = min(words)

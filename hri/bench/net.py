@@ -25,7 +25,7 @@ from hri.core.errors import HriError
 from hri.net.client import Client
 from hri.net.inbox import Inbox
 from hri.net.peer import Limits
-from hri.net.protocol import Item, Message, encode
+from hri.net.protocol import Item, Message, Sender, encode
 from hri.net.server import Server
 from hri.net.values import write
 
@@ -159,13 +159,13 @@ def _serve_bridge(pipe: Pipe, messages: int) -> None:
 
     def take(message: Message) -> None:
         nonlocal count
-        inbox.put(*message.items)
+        inbox.put(*message.items, sender=message.sender or Sender())
         count += 1
         if count == messages:
             pipe.send(time.perf_counter())
 
     def reply(message: Message) -> None:
-        inbox.put(*message.items)
+        inbox.put(*message.items, sender=message.sender or Sender())
         server.send(answer)
 
     server.subscribe("one_way", take)

@@ -15,15 +15,22 @@ class Latest(Generic[T]):
         self._lock = threading.Lock()
         self._value: T | None = None
         self._time = 0.0
+        self._spoken: float | None = None
 
-    def set(self, value: T, time: float) -> None:
+    def set(self, value: T, time: float, spoken: float | None = None) -> None:
+        """Write at `time`, in seconds; `spoken` as in `hri.behavior.ports.OutputPort`."""
         with self._lock:
-            self._value, self._time = value, time
+            self._value, self._time, self._spoken = value, time, spoken
 
     def get(self) -> tuple[T | None, float]:
         """The value and its time in seconds; (None, 0.0) before the first."""
         with self._lock:
             return self._value, self._time
+
+    @property
+    def spoken(self) -> float | None:
+        """When somebody outside, on whose word the value rests, spoke last; None: nobody."""
+        return self._spoken
 
     def clear(self) -> None:
         with self._lock:

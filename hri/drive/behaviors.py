@@ -6,6 +6,7 @@ import math
 from typing import Generic, TypeVar
 
 from hri.behavior.behavior import Behavior, Context
+from hri.behavior.drivers import counts_until
 from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
 from hri.core.events import EventBus
 from hri.core.signals import RangeReading, Twist
@@ -25,8 +26,9 @@ _PRUDENCE = 0.7
 class CommandGate(Behavior):
     """Limits what the base is asked for, stops it at obstacles and when nobody asks any more.
 
-    A linked sensor that says nothing for `timeout_s` counts as an obstacle that touches, a linked
-    switch as pressed.
+    What rests on the word of somebody outside, such as a peer over the network, counts for
+    `PATIENCE` seconds after that word. A linked sensor that says nothing for `timeout_s` counts as
+    an obstacle that touches, a linked switch as pressed.
     """
 
     category = "drive"
@@ -63,7 +65,10 @@ class CommandGate(Behavior):
 
     def compute(self, now: float, dt: float) -> None:
         """Take the command, look ahead, limit, send, report: in this order."""
-        self._take_command(now)
+        if now > min(counts_until(self.twist), counts_until(self.speed)):
+            self._gate.halt("timeout")
+        else:
+            self._take_command(now)
         free = self._max_forward(now)
         speed = self.speed.value
         velocity = self._gate.velocity(now, speed=1.0 if speed is None else speed, max_forward=free)

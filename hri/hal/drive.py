@@ -1,11 +1,16 @@
 """The drive base interfaces: commands down, pose up. SI units and radians."""
 
+import math
 from abc import abstractmethod
 from enum import Enum
 
 from hri.core.signals import Pose2D, Twist
 from hri.hal.pending import Pending
 from hri.hal.resource import Resource
+
+PATIENCE = 0.2
+"""Seconds that the word of whoever steers counts for; then the base stands still. The command
+timeout that create_robot has too (`latch_cmd_duration`)."""
 
 
 class Stop(Enum):
@@ -41,8 +46,8 @@ class DriveSystem(Resource):
     """Radians a second squared; motions are cut to it."""
 
     @abstractmethod
-    def set_velocity(self, twist: Twist, now: float) -> None:
-        """Go on with this velocity until the next command."""
+    def set_velocity(self, twist: Twist, now: float, until: float = math.inf) -> None:
+        """Go on with this velocity until the next command, or until that time has come."""
 
     @abstractmethod
     def stop(self, now: float) -> None:

@@ -15,6 +15,10 @@ class Joystick(Resource):
         The order and the signs are those of SDL, as on the devices themselves.
         """
 
+    def heard(self, now: float) -> float:
+        """When the device spoke last, in seconds; one that is asked at every look spoke now."""
+        return now
+
     @abstractmethod
     def buttons(self, now: float) -> tuple[bool, ...]:
         """Which buttons are pressed."""

@@ -77,6 +77,9 @@ class MovingBase(DriveSystem):
     def __init__(self, description: Description, manager: ResourceManager) -> None:
         super().__init__(description, manager)
         self._run: _Run | None = None
+        self._until = math.inf
+        """When the velocity that was sent last counts no more."""
+        self._expiry: Timer | None = None
         self._here = _Here()
 
     def _open(self) -> None:
@@ -120,10 +123,11 @@ class MovingBase(DriveSystem):
 
     # --- velocities ---
 
-    def set_velocity(self, twist: Twist, now: float) -> None:
+    def set_velocity(self, twist: Twist, now: float, until: float = math.inf) -> None:
         self._refuse_while_stopping()
         with self._in_place_of_motion("a velocity came in between - send none while it moves"):
             self._send(twist, now)
+            self._expire_at(until)
 
     def stop(self, now: float) -> None:
         if not self.is_active:
@@ -200,6 +204,24 @@ class MovingBase(DriveSystem):
         share = _HEADROOM * self._move_power / FULL_POWER
         return Twist(self.max_acceleration * share, self.max_angular_acceleration * share)
 
+    # --- velocities that expire ---
+
+    def _expire_at(self, until: float) -> None:
+        """Rest at a time, unless another command comes before it; one timer serves them all."""
+        self._until = until
+        if until < math.inf and self._expiry is None:
+            self._expiry = self.manager.clock.call_at(until, self._expire)
+
+    def _expire(self) -> None:
+        with self._lock:
+            self._expiry = None
+            if not self.is_active:
+                return
+            if self.manager.clock.now() < self._until:
+                self._expire_at(self._until)
+            else:
+                self._try_to_rest()
+
     # --- one motion in place of another ---
 
     def _begin(self, motion: Motion) -> Pending[None]:
@@ -238,7 +260,8 @@ class MovingBase(DriveSystem):
             run.pending.fail(Interrupted(f"{self.id}: {reason}"))
 
     def _forget(self) -> _Run | None:
-        """Let no motion run; the one that ran."""
+        """Let no motion run and no velocity expire; the motion that ran."""
+        self._until = math.inf
         run, self._run = self._run, None
         if run is not None and run.timer is not None:
             run.timer.cancel()

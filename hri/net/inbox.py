@@ -5,17 +5,21 @@ tick until another one comes. When more arrives than ticks pass, strings wait, s
 message of its own; of numbers and truths, which are measurements, only the newest two are kept:
 two, so that two networks of the same rate never find a tick empty because one is a bit late, and
 only two, so that a command is never older than a tick.
+
+With each value goes the time at which its sender spoke last, of whatever; a sender who has hung up
+never spoke. What feeds a drive ends with that, what feeds anything else stays as it was said.
 """
 
 from __future__ import annotations
 
+import math
 import threading
 from collections import deque
 from collections.abc import Mapping
 from typing import Any
 
 from hri.net import values
-from hri.net.protocol import Item
+from hri.net.protocol import Item, Sender
 
 KEPT = {"string": 1000}
 """How many values wait, by datatype; the oldest give way."""
@@ -25,11 +29,12 @@ KEPT_MEASUREMENTS = 2
 class _Waiting:
     """A value and the number of ticks it is still due for; None: until another one comes."""
 
-    __slots__ = ("ticks", "value")
+    __slots__ = ("sender", "ticks", "value")
 
-    def __init__(self, value: Any, ticks: int | None) -> None:
+    def __init__(self, value: Any, ticks: int | None, sender: Sender) -> None:
         self.value = value
         self.ticks = ticks
+        self.sender = sender
 
 
 class Inbox:
@@ -44,7 +49,7 @@ class Inbox:
             for port, datatype in datatypes.items()
         }
 
-    def put(self, *items: Item) -> None:
+    def put(self, *items: Item, sender: Sender) -> None:
         """Keep values for their ports; those for ports that are not there are none of ours.
 
         Raises ProtocolError, keeping none of them, when one has not its port's datatype.
@@ -56,10 +61,10 @@ class Inbox:
                 waiting = self._waiting[item.port]
                 if waiting and waiting[-1].ticks is None:
                     waiting.pop()
-                waiting.append(_Waiting(value, item.count))
+                waiting.append(_Waiting(value, item.count, sender))
 
-    def take(self) -> dict[str, Any]:
-        """The values of this tick, by port."""
+    def take(self) -> dict[str, tuple[Any, float]]:
+        """The values of this tick by port, each with when its sender spoke last, in seconds."""
         taken = {}
         with self._lock:
             for port, waiting in self._waiting.items():
@@ -68,10 +73,10 @@ class Inbox:
         return taken
 
 
-def _next(waiting: deque[_Waiting]) -> Any:
+def _next(waiting: deque[_Waiting]) -> tuple[Any, float]:
     first = waiting[0]
     if first.ticks is not None:
         first.ticks -= 1
         if not first.ticks:
             waiting.popleft()
-    return first.value
+    return first.value, -math.inf if first.sender.is_gone else first.sender.spoken

@@ -165,12 +165,12 @@ class Link(ABC):
             if mask & selectors.EVENT_READ:
                 for line in peer.receive(time.perf_counter()):
                     if line.strip():
-                        self._deliver(line)
+                        self._deliver(line, peer)
         except (PeerError, ProtocolError) as error:
             self._drop(peer, str(error))
 
-    def _deliver(self, line: bytes) -> None:
-        message = decode(line)
+    def _deliver(self, line: bytes, peer: Peer) -> None:
+        message = decode(line, peer)
         for listener in self._listeners.get(message.tag, ()):
             try:
                 listener(message)

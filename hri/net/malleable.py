@@ -15,7 +15,7 @@ from hri.core.errors import HriError
 from hri.net import values
 from hri.net.client import Client
 from hri.net.inbox import Inbox
-from hri.net.protocol import LONGEST, Item, Message, checked_name, split
+from hri.net.protocol import LONGEST, Item, Message, Sender, checked_name, split
 from hri.net.server import Server
 from hri.net.sharing import borrow, give_back
 
@@ -30,6 +30,7 @@ class MalleableBehavior(Behavior):
     """Sends its inputs over TCP, and on its outputs what arrives for them; ports by schema."""
 
     category = "net"
+    is_relay = True
     takes_any_ports = True
     tcp_host = Param("", "the server to connect with; empty: be the server")
     tcp_port = Param(25000, "the port; 0: a free one, for servers", minimum=0, maximum=65535)
@@ -53,6 +54,7 @@ class MalleableBehavior(Behavior):
     def start(self, context: Context) -> None:
         self._inputs = [(name, getattr(self, name), p.datatype) for name, p in self.inputs.items()]
         self._told: set[str] = set()
+        self._clock = context.clock
         self._inbox = Inbox({name: port.datatype for name, port in self.outputs.items()})
         if self.tcp_host:
             self._link = borrow(Client, self.tcp_host, int(self.tcp_port))
@@ -75,9 +77,9 @@ class MalleableBehavior(Behavior):
         ]
         if items:
             self._send(items)
-        for name, value in self._inbox.take().items():
+        for name, (value, spoken) in self._inbox.take().items():
             is_bare = self.keep_quotes or not isinstance(value, str)
-            getattr(self, name).send(value if is_bare else values.unquoted(value))
+            getattr(self, name).send(value if is_bare else values.unquoted(value), spoken)
 
     def stop(self) -> None:
         self._link.unsubscribe(self.tag_name, self._receive)
@@ -95,4 +97,6 @@ class MalleableBehavior(Behavior):
 
     def _receive(self, message: Message) -> None:
         """Keep what has arrived, in the thread of the port."""
-        self._inbox.put(*message.items)
+        sender = message.sender or Sender()
+        sender.spoken = self._clock.now()
+        self._inbox.put(*message.items, sender=sender)

@@ -10,7 +10,7 @@ from collections import deque
 from dataclasses import dataclass
 
 from hri.core.errors import HriError
-from hri.net.protocol import LONGEST
+from hri.net.protocol import LONGEST, Sender
 
 _CHUNK = 65_536
 
@@ -35,7 +35,7 @@ class PeerError(HriError):
     """A peer does what it may not, or is gone."""
 
 
-class Peer:
+class Peer(Sender):
     """A connected socket that never blocks. `send` may be called by any thread."""
 
     def __init__(self, connection: socket.socket, name: str, limits: Limits, now: float) -> None:
@@ -113,6 +113,7 @@ class Peer:
     def close(self) -> None:
         with self._lock:
             self.fault = self.fault or "closed"
+            self.is_gone = True
             with contextlib.suppress(OSError):
                 self.connection.close()
 

@@ -12,9 +12,10 @@ value; lines of more than 64 KiB.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from xml.parsers import expat
 
@@ -43,12 +44,23 @@ class Item:
     """In how many ticks the receiver sends it, 1 to 999999; None: until another one comes."""
 
 
+class Sender:
+    """Who is at the other end of a connection."""
+
+    spoken = -math.inf
+    """When its last message came, in seconds on the clock of whoever keeps its values."""
+    is_gone = False
+    """Whether the connection has ended."""
+
+
 @dataclass(frozen=True, slots=True)
 class Message:
     """What one line carries."""
 
     tag: str
     items: tuple[Item, ...]
+    sender: Sender | None = field(default=None, compare=False)
+    """Who sent it; None for one that did not come over a connection."""
 
 
 def encode(message: Message) -> bytes:
@@ -84,11 +96,11 @@ def split(message: Message) -> tuple[list[bytes], list[Item]]:
     return [_line(message.tag, line) for line in lines if line], too_long
 
 
-def decode(line: bytes) -> Message:
+def decode(line: bytes, sender: Sender | None = None) -> Message:
     """What a line says. Raises ProtocolError, with what is wrong and where."""
     if len(line) > LONGEST:
         raise ProtocolError(f"a line of {len(line)} bytes - keep it within {LONGEST}")
-    return _Reader().read(line)
+    return _Reader().read(line, sender)
 
 
 @lru_cache(1024)
@@ -129,7 +141,7 @@ class _Reader:
         self.count: int | None = None
         self.text: list[str] = []
 
-    def read(self, line: bytes) -> Message:
+    def read(self, line: bytes, sender: Sender | None) -> Message:
         # Not kept in self: it keeps us, and a circle would be left to the garbage collector.
         parser = expat.ParserCreate("UTF-8")
         parser.StartElementHandler = self._start
@@ -144,7 +156,7 @@ class _Reader:
             raise ProtocolError(f"column {error.offset + 1}: {what} - {remedy}") from error
         except _Refused as error:
             raise ProtocolError(f"column {parser.CurrentColumnNumber + 1}: {error}") from error
-        return Message(self.tag, tuple(self.items))
+        return Message(self.tag, tuple(self.items), sender)
 
     def _start(self, name: str, attributes: dict[str, str]) -> None:
         self.depth += 1

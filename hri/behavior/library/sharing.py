@@ -46,12 +46,17 @@ class Share(_OnBoard):
                 if port.value is None:
                     self._slot.clear()
                 else:
-                    self._slot.set(port.value, now)
+                    self._slot.set(port.value, now, port.spoken)
+
+    def stop(self) -> None:
+        """What it shared ends with it: nobody is there who could change it."""
+        self._slot.clear()
 
 
 class Shared(_OnBoard):
     """Takes the newest value of a slot of the robot's board; the port of its type sends it."""
 
+    is_relay = True
     emotion = Output[Any]("emotion", "an emotion state")
     expression = Output[Any]("expression", "an expression")
     prosody = Output[Any]("prosody", "how to say things")
@@ -73,4 +78,4 @@ class Shared(_OnBoard):
         if value is not None:
             for port in self._outputs:
                 if port.takes(value):
-                    port.send(value)
+                    port.send(value, self._slot.spoken)

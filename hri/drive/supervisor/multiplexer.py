@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from hri.core.signals import Twist
+from hri.hal.drive import PATIENCE
 from hri.hal.motion import REST
 
 
@@ -24,9 +25,12 @@ class Level(StrEnum):
 
 SOURCES = (Level.TELEOP, Level.BEHAVIORS, Level.TASKS)
 """Those who command from outside, the most important first."""
-TIMEOUTS: Mapping[Level, float] = {Level.TELEOP: 0.3, Level.BEHAVIORS: 0.2, Level.TASKS: 0.2}
-"""Seconds that a command counts for: the dead-man of teleoperation, and the command timeout that
-create_robot has too (`latch_cmd_duration`)."""
+TIMEOUTS: Mapping[Level, float] = {
+    Level.TELEOP: 0.3,
+    Level.BEHAVIORS: PATIENCE,
+    Level.TASKS: PATIENCE,
+}
+"""Seconds that a command counts for; the first is the dead-man of teleoperation."""
 TOLERANCE = 1.001
 """A command may exceed what the base can do by so much, which is how numbers are rounded."""
 

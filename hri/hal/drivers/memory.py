@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from typing import TypeVar
 
@@ -119,11 +120,20 @@ class MemoryJoystick(Joystick):
     def _open(self) -> None:
         self._axes = (0.0,) * self.description.count("axes", 2, 0, 32)
         self._buttons = (False,) * self.description.count("buttons", 4, 0, 64)
+        self._fell_silent = math.inf
 
     def hold(self, axes: tuple[float, ...], buttons: tuple[bool, ...] = ()) -> None:
         """Move it and press; what is left out goes back to rest."""
+        self._fell_silent = math.inf
         self._axes = _padded(axes, len(self._axes), 0.0)
         self._buttons = _padded(buttons, len(self._buttons), False)
+
+    def fall_silent(self, now: float) -> None:
+        """Go on reading as it is held, without a word from now on: a radio that lost its stick."""
+        self._fell_silent = now
+
+    def heard(self, now: float) -> float:
+        return min(now, self._fell_silent)
 
     def axes(self, now: float) -> tuple[float, ...]:
         return self._axes
