@@ -15,6 +15,7 @@ import trio
 from hri.behavior.behavior import Context
 from hri.behavior.network import load_network
 from hri.behavior.runner import Runner
+from hri.cli.messages import LineFormatter, OptionParser
 from hri.cli.outcome import status_of
 from hri.core.clock import Clock, FakeClock, RealClock
 from hri.core.events import EventBus
@@ -38,7 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="behave", description="Run a behavior network.")
+    parser = OptionParser(prog="behave", description="Run a behavior network.")
     add = parser.add_argument
     add("network", metavar="NETWORK.xml", help="path, or name over the search folders")
     add("--debug", nargs="?", const="", metavar="CATEGORY", help="tell more, of a part or of all")
@@ -88,7 +89,7 @@ class _Lines(logging.StreamHandler[TextIO]):
 def _set_up_logging(debug: str | None) -> None:
     handler = _Lines(sys.stdout)
     form = "%(levelname)s - %(message)s [%(filename)s:%(lineno)d]"
-    handler.setFormatter(logging.Formatter(form))
+    handler.setFormatter(LineFormatter(form))
     ours = logging.getLogger("hri")
     ours.handlers = [handler]
     ours.setLevel(logging.INFO)

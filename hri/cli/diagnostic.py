@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import TypeVar
 
+from hri.cli.messages import OptionParser
 from hri.cli.outcome import status_of
 from hri.core import paths
 from hri.core.clock import Clock, FakeClock, RealClock
@@ -24,7 +25,7 @@ R = TypeVar("R", bound=Resource)
 def parser(name: str, help: str) -> argparse.ArgumentParser:
     """A parser with the options of every diagnostic; `help` begins with its usage line."""
     usage = help.splitlines()[0].removeprefix("Usage: ")
-    made = argparse.ArgumentParser(prog=name, usage=usage, add_help=False)
+    made = OptionParser(prog=name, usage=usage, add_help=False)
     made.add_argument("--help", "-h", action="store_true")
     made.add_argument("--config", default="resource-config")
     made.add_argument("--fast", action="store_true")

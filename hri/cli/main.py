@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import argparse
 import importlib
 import sys
 from collections.abc import Sequence
 
+from hri.cli.messages import OptionParser
 from hri.cli.outcome import status_of
 from hri.core.errors import did_you_mean
+from hri.core.quoting import message_line
 
 COMMANDS = {
     "companion": ("hri.cli.companion", "start the companion (same as `run companion`)"),
@@ -46,7 +47,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     if words[0] not in COMMANDS:
         remedy = did_you_mean(words[0], COMMANDS)
-        print(f'hri: unknown command "{words[0]}" - {remedy}', file=sys.stderr)
+        print(message_line(f'hri: unknown command "{words[0]}" - {remedy}'), file=sys.stderr)
         return 2
     return run_command(words[0], words[1:])
 
@@ -58,7 +59,7 @@ def run_command(name: str, words: Sequence[str]) -> int:
 
 def _run(name: str, words: Sequence[str]) -> int:
     module = importlib.import_module(COMMANDS[name][0])
-    parser = argparse.ArgumentParser(prog=f"hri {name}", description=COMMANDS[name][1])
+    parser = OptionParser(prog=f"hri {name}", description=COMMANDS[name][1])
     module.add_arguments(parser)
     return int(module.run(parser.parse_args(words)))
 

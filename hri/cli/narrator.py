@@ -8,6 +8,7 @@ from collections import Counter
 from pathlib import Path
 from typing import TextIO
 
+from hri.core.quoting import message_line
 from hri.core.signals import Event
 from hri.face.behaviors import FaceRenderer
 from hri.robot import Robot
@@ -90,7 +91,8 @@ class Narrator:
         text = template.format_map(_Known(event.properties))
         x, y = self._pose
         where = f"x {x:5.2f} m  y {y:5.2f} m"
-        self.tell(f"{event.time:7.1f} s  {text:<58}  {self._label:<12} {where}")
+        line = f"{event.time:7.1f} s  {text:<58}  {self._label:<12} {where}"
+        self.tell(message_line(line))
 
     def summary(self) -> None:
         """What the visit came to, and where its recording is."""

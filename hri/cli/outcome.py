@@ -7,17 +7,22 @@ file is wrong, 130 after Ctrl-C. Light to import, so that it holds while the res
 from __future__ import annotations
 
 import errno
+import io
+import logging
 import os
 import sys
 from collections.abc import Callable
 
+from hri.cli.messages import LineFormatter
 from hri.core.errors import HriError
+from hri.core.quoting import message_line
 
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 def status_of(program: Callable[[], int]) -> int:
     """Run a program; its exit status. What is nobody's fault but ours keeps its traceback."""
+    _show_all_characters()
     try:
         status = program()
         sys.stdout.flush()  # Here, for what cannot be written at the exit is nobody's to catch.
@@ -34,7 +39,7 @@ def status_of(program: Callable[[], int]) -> int:
                 _let_go()
                 return 0
             case OSError(filename=str() | os.PathLike() as path, strerror=reason):
-                print(f"{path}: {reason} - check the path", file=sys.stderr)
+                print(message_line(f"{path}: {reason} - check the path"), file=sys.stderr)
                 return 2
             case OSError(errno=number, strerror=reason) if number in _FULL:
                 _let_go()
@@ -42,6 +47,14 @@ def status_of(program: Callable[[], int]) -> int:
                 return 2
         # Without the groups, which would bury the line that is wrong.
         raise alone from None
+
+
+def _show_all_characters() -> None:
+    """What is logged where nobody set up a log, and what no terminal can show, are spelled out."""
+    if logging.lastResort is not None:
+        logging.lastResort.setFormatter(LineFormatter())
+    if isinstance(sys.stdout, io.TextIOWrapper) and sys.stdout.errors == "strict":
+        sys.stdout.reconfigure(errors="backslashreplace")
 
 
 def _alone(error: BaseException) -> BaseException:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import trio
 
+from hri.cli.messages import LineFormatter
 from hri.cli.narrator import Narrator
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
@@ -71,7 +72,9 @@ def _seconds(text: str) -> float:
 def run(options: argparse.Namespace) -> int:
     """Check all files, then live until the end."""
     # Missed ticks are summed up at the end; only what fails is told at once.
-    logging.basicConfig(level=logging.ERROR, format="%(levelname)s - %(message)s")
+    handler = logging.StreamHandler()
+    handler.setFormatter(LineFormatter("%(levelname)s - %(message)s"))
+    logging.basicConfig(level=logging.ERROR, handlers=[handler])
     check_files(options)
     robot = Robot(
         options.app,

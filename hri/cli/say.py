@@ -15,7 +15,8 @@ import trio
 from hri.cli.film import Film
 from hri.cli.voice import NO_FILE, PLAIN_VOICE, open_voice
 from hri.core.clock import RealClock
-from hri.core.errors import LARGEST_FILE, AuthoringError, HriError, did_you_mean
+from hri.core.errors import AuthoringError, HriError, did_you_mean
+from hri.core.reading import LARGEST_FILE
 from hri.core.signals import EmotionState, Expression, Prosody, Speech
 from hri.emotion.display import felt_now, load_display
 from hri.emotion.emotions import NAMES

@@ -8,11 +8,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
 
+from hri.core.quoting import message_line
+
 E = TypeVar("E", bound=BaseException)
 
 
 class HriError(Exception):
-    """Something the user can mend; its text is one line: what is wrong - what to do."""
+    """Something the user can mend; its text is one line: what is wrong - what to do.
+
+    What is quoted in it may come from anybody: see `hri.core.quoting.message_line`.
+    """
+
+    def __str__(self) -> str:
+        return message_line(super().__str__())
 
 
 class NotAvailable(HriError):
@@ -71,52 +79,3 @@ def first_of(group: BaseExceptionGroup[E]) -> E:
     """The first error of a group, or of the groups in it."""
     inner = group.exceptions[0]
     return first_of(inner) if isinstance(inner, BaseExceptionGroup) else inner
-
-
-LARGEST_FILE = 4_000_000
-"""Bytes; no authored file is larger."""
-
-
-def require_file(path: Path, what: str) -> None:
-    """Raise HriError for a path that is no regular file, or is not there at all."""
-    if not path.exists():
-        raise HriError(f"{path}: no such file - check the path")
-    _require_regular(path, what)
-
-
-def _require_regular(path: Path, what: str) -> None:
-    """Looked at before it is opened: a pipe without a writer would keep us for ever."""
-    if path.exists() and not path.is_file():
-        raise HriError(f"{path}: this {what} is no regular file - name a file")
-
-
-def read_bytes(path: Path, what: str) -> bytes:
-    """What an authored file holds.
-
-    Raises HriError when it cannot be read, is no regular file, or is larger than LARGEST_FILE.
-    """
-    try:
-        _require_regular(path, what)
-        with path.open("rb") as file:
-            raw = file.read(LARGEST_FILE + 1)
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise HriError(f"{path}: cannot read this {what}: {reason} - check the path") from error
-    if len(raw) > LARGEST_FILE:
-        raise HriError(f"{path}: this {what} is too large - keep it below {LARGEST_FILE} bytes")
-    return raw
-
-
-def read_text(path: Path, what: str) -> str:
-    """The text of an authored file in UTF-8.
-
-    Raises HriError when it cannot be read, AuthoringError when it is not UTF-8 text.
-    """
-    raw = read_bytes(path, what)
-    try:
-        return raw.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = raw.count(b"\n", 0, error.start) + 1
-        column = error.start - raw.rfind(b"\n", 0, error.start)
-        place = Place(path, line, column)
-        raise AuthoringError(place, "not UTF-8 text", "save the file as UTF-8") from error

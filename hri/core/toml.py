@@ -13,7 +13,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
-from hri.core.errors import AuthoringError, Place, did_you_mean, read_text
+from hri.core.errors import AuthoringError, Place, did_you_mean
+from hri.core.reading import read_text
 
 Key = tuple[str | int, ...]
 Default = TypeVar("Default")

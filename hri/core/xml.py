@@ -16,8 +16,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from xml.parsers import expat
 
-from hri.core.errors import AuthoringError, Place, did_you_mean, read_bytes
+from hri.core.errors import AuthoringError, Place, did_you_mean
 from hri.core.expression import evaluate
+from hri.core.reading import read_bytes
 
 MAX_DEPTH = 64
 MAX_ELEMENTS = 50_000

@@ -15,7 +15,8 @@ from pathlib import Path
 from typing import NoReturn
 
 from hri.core import paths
-from hri.core.errors import HriError, did_you_mean, read_text
+from hri.core.errors import HriError, did_you_mean
+from hri.core.reading import read_text
 from hri.emotion.affect import Imprint, renamed, shifted
 from hri.emotion.imprint_file import LATEST, Fields, decoded, encoded
 from hri.emotion.relations import is_unnamed

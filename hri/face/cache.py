@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from hri.core import paths
-from hri.core.errors import read_bytes
+from hri.core.reading import read_bytes
 from hri.face import exchange
 from hri.face.baking import DisplayList, bake
 from hri.face.drawing import load_drawing

@@ -30,7 +30,8 @@ from typing import Any
 
 import numpy as np
 
-from hri.core.errors import HriError, did_you_mean, read_text
+from hri.core.errors import HriError, did_you_mean
+from hri.core.reading import read_text
 from hri.core.signals import Expression, Gaze, Phoneme, Samples, Speech
 from hri.core.toml import Table, load_toml
 from hri.face import idle

@@ -9,6 +9,7 @@ from __future__ import annotations
 import logging
 
 from hri.core.errors import HriError
+from hri.core.quoting import escaped
 from hri.core.signals import Event
 from hri.net.values import unquoted
 from hri.task.context import TaskContext
@@ -41,13 +42,13 @@ class EventServer(Primitive):
 
     def _raise(self, text: str, now: float) -> None:
         text = unquoted(text)
-        print(f"Received event string: {text}")
+        print(f"Received event string: {escaped(text)}")
         try:
             event = parse_query(text)
         except HriError as error:
             log.warning("%s", error)
             return
-        print(f"Raising event: {write_event(event)}")
+        print(f"Raising event: {escaped(write_event(event))}")
         self._raising = event.name
         try:
             self.context.manager.raise_event(event)

@@ -10,7 +10,8 @@ from hri.behavior.behavior import Context
 from hri.behavior.drivers import DeviceBehavior
 from hri.behavior.ports import Input, Output, Param
 from hri.core import paths
-from hri.core.errors import HriError, read_text
+from hri.core.errors import HriError
+from hri.core.reading import read_text
 from hri.core.signals import Frame
 from hri.simulation.world import SimulatedWorld
 

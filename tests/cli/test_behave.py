@@ -109,7 +109,7 @@ def test_resources_open_only_when_needed_or_all_when_asked(network, tmp_path, ca
 
 def test_an_endless_file_is_refused(capsys):
     assert main(["/dev/zero", "--without-resources"]) == 2
-    assert "no regular file" in capsys.readouterr().err
+    assert "not a regular file" in capsys.readouterr().err
 
 
 def test_it_imports_nothing_heavy(network):

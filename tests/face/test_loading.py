@@ -283,7 +283,7 @@ def test_links_that_lead_nowhere_are_refused(folder: Path, name: str) -> None:
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes are files on POSIX only")
 def test_a_pipe_is_no_drawing(folder: Path) -> None:
     os.mkfifo(folder / "targets" / "pipe.svg")
-    assert "no regular file" in refusal(folder)
+    assert "not a regular file" in refusal(folder)
 
 
 INKSCAPE = """<?xml version="1.0" encoding="UTF-8" standalone="no"?>

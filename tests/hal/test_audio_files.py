@@ -144,7 +144,7 @@ def test_a_file_that_cannot_be_read_fails_the_call_alone(files, open_driver):
     player = open_driver(SpeakerFilePlayer)
     with pytest.raises(HriError, match="no such file"):
         player.play(files / "none.mp3").wait(1.0)
-    with pytest.raises(HriError, match="this sound is no regular file"):
+    with pytest.raises(HriError, match="this sound is not a regular file"):
         player.play(files).wait(1.0)
     player.play(files / "tone.mp3").wait(2.0)
 

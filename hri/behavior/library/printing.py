@@ -10,6 +10,7 @@ from typing import Any
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.ports import DATATYPES, DBL_MAX, Input, Param
+from hri.core.quoting import escaped
 from hri.core.signals import Frame, Utterance
 
 _NAMES = {kind: name for name, kind in DATATYPES.items() if kind is not object} | {int: "double"}
@@ -64,7 +65,7 @@ def worded(value: object) -> str:
             return f"{width} x {height}, number {value.sequence}"
         case Utterance():
             meaning = f"{value.rule} {dict(value.tags)}"
-            return f'"{value.text}" is {meaning}, confidence {value.confidence:.2f}'
+            return f'"{escaped(value.text)}" is {meaning}, confidence {value.confidence:.2f}'
     if is_dataclass(value):
         return ", ".join(f"{f.name} {worded(getattr(value, f.name))}" for f in fields(value))
-    return str(value)
+    return escaped(str(value))

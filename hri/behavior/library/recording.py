@@ -15,7 +15,8 @@ from typing import IO, Any
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.library.timing import TOLERANCE
 from hri.behavior.ports import DBL_MAX, Input, Output, Param
-from hri.core.errors import AuthoringError, HriError, Place, read_text
+from hri.core.errors import AuthoringError, HriError, Place
+from hri.core.reading import read_text
 
 log = logging.getLogger("hri.behavior")
 

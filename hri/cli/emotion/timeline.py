@@ -18,7 +18,8 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
 
-from hri.core.errors import AuthoringError, Place, did_you_mean, read_text
+from hri.core.errors import AuthoringError, Place, did_you_mean
+from hri.core.reading import read_text
 from hri.core.signals import Stimulus
 from hri.core.toml import Table, load_toml
 from hri.emotion.appraisal import (

@@ -10,6 +10,7 @@ import argparse
 import importlib
 import sys
 
+from hri.cli.messages import OptionParser
 from hri.core.errors import AuthoringError
 
 COMMANDS = {
@@ -39,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Only the module of the command that is wanted is loaded: some take their time."""
     module = importlib.import_module(f"hri.cli.grammar.{options.command}")
-    parser = argparse.ArgumentParser(
+    parser = OptionParser(
         prog=f"hri grammar {options.command}",
         description=COMMANDS[options.command],
         epilog=getattr(module, "EXAMPLES", None),

@@ -22,7 +22,8 @@ from typing import Self
 import numpy as np
 
 from hri.core.clock import RealClock
-from hri.core.errors import AuthoringError, HriError, Place, did_you_mean, read_text
+from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
+from hri.core.reading import read_text
 from hri.core.signals import Samples
 from hri.hal.drivers.wav_file import load_sound
 from hri.hal.manager import ResourceManager

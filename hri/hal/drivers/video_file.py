@@ -10,7 +10,8 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from hri.core.errors import HriError, require_file
+from hri.core.errors import HriError
+from hri.core.reading import require_file
 from hri.core.signals import Frame, Image
 from hri.hal.camera import FIELD_OF_VIEW, Camera
 from hri.hal.drivers.picture_file import picture_size

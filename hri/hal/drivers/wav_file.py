@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hri.core.errors import HriError, require_file
+from hri.core.errors import HriError
+from hri.core.reading import require_file
 from hri.core.signals import Samples
 from hri.hal.drivers.channels import CHOICES, OneChannel, channel_of
 from hri.hal.drivers.resampling import resample, resample_blocks

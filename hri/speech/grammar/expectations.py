@@ -22,7 +22,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from hri.core.errors import AuthoringError, Place, read_text
+from hri.core.errors import AuthoringError, Place
+from hri.core.reading import read_text
 from hri.speech.grammar.matching import Parse, parse, refusal
 from hri.speech.grammar.rules import Grammar
 from hri.speech.grammar.tags import Value, read_entries, spell_tags

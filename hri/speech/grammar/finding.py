@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from hri.core.errors import Place
+from hri.core.quoting import message_line
 
 Severity = Literal["error", "warning", "hint", "note"]
 SEVERITIES: tuple[Severity, ...] = ("error", "warning", "hint", "note")
@@ -23,7 +24,7 @@ class Finding:
     remedy: str
 
     def __str__(self) -> str:
-        return f"{self.place}: {self.severity}: {self.what} - {self.remedy}"
+        return message_line(f"{self.place}: {self.severity}: {self.what} - {self.remedy}")
 
 
 def warning(place: Place, what: str, remedy: str) -> Finding:

@@ -18,7 +18,8 @@ from functools import partial
 from pathlib import Path
 
 from hri.core import paths
-from hri.core.errors import AuthoringError, HriError, Place, did_you_mean, read_bytes, read_text
+from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
+from hri.core.reading import read_bytes, read_text
 from hri.speech.grammar import analysis
 from hri.speech.grammar.expressions import RuleReference, Span, rename
 from hri.speech.grammar.jsgf import Document, Import, NameListImport, read_jsgf

@@ -16,7 +16,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from hri.core.errors import AuthoringError, Place, read_text
+from hri.core.errors import AuthoringError, Place
+from hri.core.reading import read_text
 from hri.speech.grammar.expressions import Alternative, Expression, Sequence, Span, Tagged, Token
 from hri.speech.grammar.tags import TagEntry, TagError, Value, read_value
 from hri.speech.grammar.words import normalize

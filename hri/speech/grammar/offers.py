@@ -5,7 +5,8 @@ from __future__ import annotations
 from contextlib import suppress
 
 from hri.core import paths
-from hri.core.errors import HriError, read_text
+from hri.core.errors import HriError
+from hri.core.reading import read_text
 from hri.speech.grammar.jsgf import read_jsgf
 
 MOST_FILES = 100

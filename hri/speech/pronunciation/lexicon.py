@@ -22,7 +22,8 @@ from pathlib import Path
 from typing import Literal
 
 from hri.core import paths
-from hri.core.errors import AuthoringError, HriError, Place, did_you_mean, read_text
+from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
+from hri.core.reading import read_text
 from hri.speech.pronunciation.dictionary import Dictionary, cmu_dictionary
 from hri.speech.pronunciation.guesses import Guesses
 from hri.speech.pronunciation.phones import PHONES, VOWELS, Phones

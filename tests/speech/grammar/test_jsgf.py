@@ -9,7 +9,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from hri.core.errors import LARGEST_FILE, AuthoringError, HriError
+from hri.core.errors import AuthoringError, HriError
+from hri.core.reading import LARGEST_FILE
 from hri.speech.grammar import analysis, load_grammar, read_grammar
 from hri.speech.grammar.expressions import (
     Alternative,
@@ -198,7 +199,7 @@ def test_what_is_no_grammar_file_is_refused(tmp_path):
     with pytest.raises(HriError, match="no such grammar"):
         load_grammar(tmp_path / "none.jsgf")
     os.mkfifo(tmp_path / "pipe.jsgf")
-    with pytest.raises(HriError, match="this grammar is no regular file"):
+    with pytest.raises(HriError, match="this grammar is not a regular file"):
         load_grammar(tmp_path / "pipe.jsgf")
     path = tmp_path / "large.jsgf"
     path.write_bytes(b" " * (LARGEST_FILE + 1))

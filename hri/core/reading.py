@@ -1,0 +1,124 @@
+"""Reading files that anybody may have written, within limits.
+
+Every reader begins here: what is not a regular file, is too large or is not text is refused in one
+line, before it takes memory or keeps the program waiting.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, BinaryIO, NoReturn
+
+from hri.core.errors import AuthoringError, HriError, Place
+
+LARGEST_FILE = 4_000_000
+"""Bytes of an authored file."""
+LONGEST_LINE = 1_000_000
+"""Characters of a line, where a file is read line by line."""
+LARGEST_INTEGER = 1e300
+"""Integers of JSON beyond it are refused: no float holds them."""
+
+
+def exists(path: Path) -> bool:
+    """Whether something is there; a name that no file can have is not."""
+    try:
+        return path.exists()
+    except (OSError, ValueError):
+        return False
+
+
+def require_file(path: Path, what: str, largest: int | None = None) -> None:
+    """Raise HriError for a path that is not a regular file, is not there, or is too large."""
+    if not exists(path):
+        raise HriError(f"{path}: no such file - check the path")
+    with opened(path, what, largest):
+        pass
+
+
+@contextmanager
+def opened(path: Path, what: str, largest: int | None = LARGEST_FILE) -> Iterator[BinaryIO]:
+    """A file to read bytes from; what its reader fails with at the disk is one line, too.
+
+    Raises HriError when it cannot be read, is not a regular file, or has more bytes than
+    `largest`.
+    """
+    with _told(path, what), _open_regular(path, what) as file:
+        if largest is not None and os.fstat(file.fileno()).st_size > largest:
+            _refuse_size(path, what, largest)
+        yield file
+
+
+def _open_regular(path: Path, what: str) -> BinaryIO:
+    try:
+        # Without waiting: a pipe that nobody writes to would keep us forever.
+        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+    except ValueError as error:  # no name that a file can have
+        raise HriError(f"{path}: cannot read this {what}: {error} - check the path") from error
+    if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+        os.close(descriptor)
+        raise HriError(f"{path}: this {what} is not a regular file - name a file")
+    return open(descriptor, "rb")
+
+
+@contextmanager
+def _told(path: Path, what: str) -> Iterator[None]:
+    """Make one line of what the disk fails with."""
+    try:
+        yield
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise HriError(f"{path}: cannot read this {what}: {reason} - check the path") from error
+
+
+def read_bytes(path: Path, what: str, largest: int = LARGEST_FILE) -> bytes:
+    """What an authored file holds.
+
+    Raises HriError when it cannot be read, is not a regular file, or is larger than `largest`.
+    """
+    with opened(path, what, largest) as file:
+        raw = file.read(largest + 1)  # a file of /proc has no size beforehand
+    if len(raw) > largest:
+        _refuse_size(path, what, largest)
+    return raw
+
+
+def _refuse_size(path: Path, what: str, largest: int) -> NoReturn:
+    raise HriError(f"{path}: this {what} is too large - keep it below {largest} bytes")
+
+
+def read_text(path: Path, what: str, largest: int = LARGEST_FILE) -> str:
+    """The text of an authored file in UTF-8.
+
+    Raises HriError when it cannot be read, AuthoringError when it is not UTF-8 text.
+    """
+    raw = read_bytes(path, what, largest)
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = raw.count(b"\n", 0, error.start) + 1
+        column = error.start - raw.rfind(b"\n", 0, error.start)
+        place = Place(path, line, column)
+        raise AuthoringError(place, "not UTF-8 text", "save the file as UTF-8") from error
+
+
+def parse_json(text: str | bytes) -> Any:
+    """What a text of JSON says.
+
+    Raises ValueError with a sentence for what is not JSON, is nested too deeply, or has an integer
+    beyond LARGEST_INTEGER.
+    """
+    try:
+        return json.loads(text, parse_int=_integer)
+    except RecursionError as error:
+        raise ValueError("its brackets are nested too deeply") from error
+
+
+def _integer(digits: str) -> int:
+    if len(digits) > 300:
+        raise ValueError(f"an integer of {len(digits)} digits")
+    return int(digits)
