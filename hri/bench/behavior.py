@@ -11,7 +11,6 @@ import importlib.util
 import json
 import os
 import subprocess
-import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator
@@ -25,6 +24,7 @@ from hri.behavior.network import Network
 from hri.behavior.ports import Input, Output
 from hri.behavior.runner import Runner
 from hri.bench.figures import machine, summary
+from hri.core import child
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.core.events import EventBus
@@ -138,8 +138,8 @@ def ticks(seconds: float) -> dict[str, Any]:
 
 
 def _case(load: str, priority: str, seconds: float) -> dict[str, Any]:
-    command = [sys.executable, "-m", "hri.bench.ticks", load, priority, str(seconds)]
-    done = subprocess.run(command, capture_output=True, text=True)
+    command = child.command("-m", "hri.bench.ticks", load, priority, str(seconds))
+    done = subprocess.run(command, capture_output=True, text=True, env=child.environment())
     if done.returncode:
         raise HriError(f"{' '.join(command)} failed: {done.stderr[-500:]} - run it by hand")
     figures: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
@@ -149,7 +149,7 @@ def _case(load: str, priority: str, seconds: float) -> dict[str, Any]:
 @contextmanager
 def busy_processes(count: int) -> Iterator[list[subprocess.Popen[bytes]]]:
     """Processes that do nothing but keep processors busy."""
-    command = [sys.executable, "-c", "while True: pass"]
+    command = child.command("-c", "while True: pass")
     running = [subprocess.Popen(command) for _ in range(count)]
     try:
         yield running
@@ -173,9 +173,11 @@ def starts(count: int = STARTS) -> list[float]:
 
 
 def _start(path: Path) -> float:
-    command = [sys.executable, "-u", "-m", "hri.cli.behave", str(path), "--invocation-count=1"]
+    command = child.command("-u", "-m", "hri.cli.behave", path, "--invocation-count=1")
     begun = time.perf_counter()
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, text=True, env=child.environment()
+    ) as process:
         assert process.stdout is not None
         for line in process.stdout:
             if line.startswith("Input"):

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 import subprocess
-import sys
 import tempfile
 import time
 from typing import Any
@@ -16,6 +15,7 @@ from typing import Any
 import psutil
 
 from hri.bench.figures import machine, summary
+from hri.core import child
 from hri.core.errors import HriError
 
 SECONDS = 30.0
@@ -26,13 +26,14 @@ SETTLED = 5.0
 def measure(seconds: float = SECONDS) -> dict[str, Any]:
     """Run the companion's demo for some seconds of real time."""
     begun = time.perf_counter()
-    command = [sys.executable, "-m", "hri.cli.main", "companion", "--headless", "--demo"]
+    command = child.command("-m", "hri.cli.main", "companion", "--headless", "--demo")
     with tempfile.TemporaryFile("w+") as errors:
         process = subprocess.Popen(
             [*command, "--duration", str(seconds)],
             stdout=subprocess.PIPE,
             stderr=errors,
             text=True,
+            env=child.environment(),
         )
         first_frame = _wait_for_first_frame(process, begun)
         samples, output = _watch(process)

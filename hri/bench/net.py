@@ -21,6 +21,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from hri.bench.figures import machine, summary
+from hri.bench.workers import safe_start
 from hri.core.errors import HriError
 from hri.net.client import Client
 from hri.net.inbox import Inbox
@@ -86,7 +87,8 @@ class _Other:
         context = multiprocessing.get_context("spawn")
         self._pipe, there = context.Pipe()
         self._process = context.Process(target=serve, args=(there, messages), daemon=True)
-        self._process.start()
+        with safe_start():
+            self._process.start()
         self.port = self.get()
 
     def get(self) -> Any:

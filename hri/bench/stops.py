@@ -9,7 +9,6 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -17,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from hri.core import child
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.core.signals import Twist
@@ -128,7 +128,9 @@ def program_to_zero(tries: int) -> list[float]:
 def ended(bench: Bench, path: str, by: signal.Signals, speed: float = SPEED) -> float:
     """What one program's end takes."""
     code = f"from hri.bench.stops import drive_on; drive_on({path!r}, {speed!r})"
-    program = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.DEVNULL)
+    program = subprocess.Popen(
+        child.command("-c", code), stdin=subprocess.DEVNULL, env=child.environment()
+    )
     try:
         bench.wait("driving", lambda: bench.line.goes(speed))
         time = bench.clock.now()

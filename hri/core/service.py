@@ -15,7 +15,6 @@ import pickle
 import signal
 import struct
 import subprocess
-import sys
 import traceback
 from abc import ABC, abstractmethod
 from collections.abc import Callable
@@ -23,6 +22,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from functools import partial
 from typing import Any, BinaryIO, Generic, TypeVar
 
+from hri.core import child
 from hri.core.errors import HriError, NotAvailable
 
 Question = TypeVar("Question")
@@ -202,13 +202,11 @@ class _Child:
     """The process and its two pipes."""
 
     def __init__(self) -> None:
-        folders = [folder or os.getcwd() for folder in sys.path]
-        environment = os.environ | {"PYTHONPATH": os.pathsep.join(folders)}
         self.process = subprocess.Popen(
-            [sys.executable, "-P", "-c", COMMAND],
+            child.command("-c", COMMAND),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
-            env=environment,
+            env=child.environment(),
             bufsize=0,
         )
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import contextlib
-import os
 import subprocess
-import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+from hri.core import child
 from hri.core.download import Progress, RemoteFile, sha256_of
 from hri.core.errors import NotAvailable
 
@@ -37,7 +36,7 @@ def download_wheel(wheel: Wheel, remote: RemoteFile, file: Path, progress: Progr
     """Bring the wheel by pip. Raises NotAvailable when pip cannot, or brings another one."""
     short = wheel.python.replace(".", "")
     command = [
-        *(sys.executable, "-m", "pip", "download", wheel.requirement, *_OPTIONS),
+        *child.command("-m", "pip", "download", wheel.requirement, *_OPTIONS),
         *("--platform", wheel.platform, "--python-version", wheel.python),
         *("--implementation", "cp", "--abi", f"cp{short}"),
     ]
@@ -54,7 +53,7 @@ def download_wheel(wheel: Wheel, remote: RemoteFile, file: Path, progress: Progr
 
 def _run(command: list[str], folder: Path, size: int, progress: Progress) -> str:
     """What pip says at last, once it has ended."""
-    environment = {**os.environ, "TMPDIR": str(folder), "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
+    environment = child.environment(TMPDIR=str(folder), PIP_DISABLE_PIP_VERSION_CHECK="1")
     with subprocess.Popen(
         command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
     ) as pip:

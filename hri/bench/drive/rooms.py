@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
-from multiprocessing import get_context
 
 import numpy as np
 
 from hri.bench.progress import progress
 from hri.bench.table import Limit, Row, amount, at_least, at_most, share
+from hri.bench.workers import worker_pool
 from hri.simulation.rooms import furnished
 from hri.testing.trips import Journey, Trip
 
@@ -57,7 +56,7 @@ NO_LIMIT = at_least(0.0)
 def rows(quick: bool, workers: int) -> Iterator[Row]:
     """Success, time, collisions and the closest distance to a person, for each case."""
     count = QUICK_ROOMS if quick else ROOMS
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
+    with worker_pool(workers) as pool:
         for number, case in enumerate(CASES):
             drive = partial(through, case=case)
             trips = list(progress(pool.map(drive, range(count)), count, case.name))

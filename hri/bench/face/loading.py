@@ -4,15 +4,14 @@ to draw first, when its loops are not compiled yet.
 
 from __future__ import annotations
 
-import os
 import subprocess
-import sys
 import tempfile
 from collections.abc import Iterator
 
 import numpy as np
 
 from hri.bench.table import Row, amount, at_most
+from hri.core import child
 from hri.core.errors import HriError
 
 ROUNDS = 5
@@ -53,10 +52,10 @@ def rows() -> Iterator[Row]:
 
 
 def _seconds(program: str, cache: str) -> float:
-    environment = {**os.environ, "XDG_CACHE_HOME": cache}
+    environment = child.environment(XDG_CACHE_HOME=cache)
     environment.pop("NUMBA_CACHE_DIR", None)
     run = subprocess.run(
-        [sys.executable, "-c", program], env=environment, capture_output=True, text=True
+        child.command("-c", program), env=environment, capture_output=True, text=True
     )
     if run.returncode:
         raise HriError(f"the face cannot be drawn: {run.stderr.strip()[-300:]} - hri face check")

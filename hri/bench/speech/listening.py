@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import subprocess
-import sys
 import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,6 +12,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from hri.bench.speech.clips import Clip, write_wav
+from hri.core import child
 from hri.core.errors import HriError
 
 ONE_CORE = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
@@ -62,7 +62,7 @@ def listen(grammar: Path, clips: Sequence[Clip], engine: str = "") -> Hearing:
         paths = [Path(folder) / f"{number}.wav" for number in range(len(clips))]
         for path, clip in zip(paths, clips, strict=True):
             write_wav(path, clip)
-        command = [sys.executable, "-m", "hri.cli.main", "grammar", "listen", str(grammar)]
+        command = child.command("-m", "hri.cli.main", "grammar", "listen", grammar)
         command += ["--json", *(["--engine", engine] if engine else [])]
         lines, cpu_s = _run([*command, "--wav", *map(str, paths)])
     by_file: dict[str, list[Heard]] = {str(path): [] for path in paths}
@@ -75,7 +75,8 @@ def listen(grammar: Path, clips: Sequence[Clip], engine: str = "") -> Hearing:
 def _run(command: Sequence[str]) -> tuple[list[str], float]:
     """Lines of a program's output, and its processor time; 0 where the system does not tell."""
     before = _of_children()
-    done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **ONE_CORE})
+    environment = child.environment(**ONE_CORE)
+    done = subprocess.run(command, capture_output=True, text=True, env=environment)
     # Status 1: something was not accepted.
     if done.returncode not in (0, 1):
         words = " ".join(command[:6])

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
-import sys
 import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -16,6 +14,7 @@ from hri.bench.speech.accuracy import ROBOT
 from hri.bench.speech.clips import Clip, write_wav
 from hri.bench.speech.listening import ONE_CORE
 from hri.bench.table import Row, amount, at_most, skipped
+from hri.core import child
 from hri.core.errors import HriError
 
 STARTS = 5
@@ -42,9 +41,9 @@ def rows(clips: Sequence[Clip]) -> Iterator[Row]:
 
 
 def _start(wavs: Sequence[Path]) -> dict[str, float]:
-    # -P: the modules of this folder must not hide packages of the same name.
-    command = [sys.executable, "-P", str(PROGRAM), str(ROBOT), *map(str, wavs)]
-    done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **ONE_CORE})
+    command = child.command(PROGRAM, ROBOT, *wavs)
+    environment = child.environment(**ONE_CORE)
+    done = subprocess.run(command, capture_output=True, text=True, env=environment)
     if done.returncode:
         words = " ".join(command[:4])
         raise HriError(f"{words} failed: {done.stderr[-500:]} - run it by hand")

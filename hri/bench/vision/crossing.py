@@ -5,15 +5,14 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
-from multiprocessing import get_context
 
 from hri.bench.progress import progress
 from hri.bench.table import Row, at_least, share
 from hri.bench.threads import one_thread
 from hri.bench.vision.seeing import seen
+from hri.bench.workers import worker_pool
 from hri.core.signals import FaceBox, People
 from hri.simulation.actors import ACTORS, Optics
 from hri.simulation.film import Film, Role
@@ -65,7 +64,7 @@ def rows(quick: bool, workers: int) -> Iterator[Row]:
 
 
 def _judged(count: int, rate: float, workers: int) -> list[Verdict]:
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
+    with worker_pool(workers) as pool:
         verdicts = pool.map(partial(judge, rate=rate), range(count))
         return list(progress(verdicts, count, f"crossing, {rate:g} a second"))
 

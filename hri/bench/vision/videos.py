@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from functools import partial
-from multiprocessing import get_context
 
 import numpy as np
 
@@ -16,6 +14,7 @@ from hri.bench.table import Limit, Row, amount, at_least, at_most, share
 from hri.bench.threads import one_thread
 from hri.bench.vision.script import Gesture, Script, scripts
 from hri.bench.vision.seeing import seen
+from hri.bench.workers import worker_pool
 from hri.core.signals import HeadGesture, HeadPose, Person
 from hri.vision.agreement import AgreeingRecognizer
 from hri.vision.detectors.chain import AUTO, HAAR
@@ -78,7 +77,7 @@ def _judged(
     films: Sequence[Script], rate: float, setting: str, workers: int
 ) -> dict[str, Judgment]:
     total: dict[str, Judgment] = {}
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
+    with worker_pool(workers) as pool:
         each = pool.map(partial(judge, rate=rate, setting=setting), films)
         what = f"films, {rate:g} a second" + ("" if setting == AUTO else f", {setting}")
         for judgments in progress(each, len(films), what):

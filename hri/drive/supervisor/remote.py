@@ -6,13 +6,12 @@ two. The new one begins latched, and tells why.
 
 from __future__ import annotations
 
-import os
 import select
 import socket
 import subprocess
-import sys
 from dataclasses import replace
 
+from hri.core import child
 from hri.core.clock import Clock
 from hri.core.errors import NotAvailable
 from hri.drive.supervisor.cause import NO_SUPERVISOR
@@ -32,7 +31,7 @@ from hri.drive.supervisor.process import Settings
 from hri.hal.drivers.serial_port import Backoff
 from hri.hal.motion import REST, Way
 
-COMMAND = (sys.executable, "-m", "hri.drive.supervisor")
+COMMAND = child.command("-m", "hri.drive.supervisor")
 """Starts it; its settings come behind."""
 STARTING = 10.0
 """Seconds that the supervisor may take to start, and at first to find its base too."""
@@ -223,7 +222,7 @@ def _started(settings: Settings) -> subprocess.Popen[bytes]:
         stdout=subprocess.DEVNULL,
         # A process group of its own: Ctrl-C is for the program, which then hangs up.
         start_new_session=True,
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+        env=child.environment(),
     )
 
 

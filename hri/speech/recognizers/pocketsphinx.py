@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
-import sys
 import threading
 from collections.abc import Collection
 from contextlib import suppress
@@ -14,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from hri.core import child
 from hri.core.errors import HriError
 from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, HeardWord, Hypothesis, Segment
@@ -137,12 +136,11 @@ def with_floor(samples: Samples) -> Samples:
 
 def _new_process() -> subprocess.Popen[bytes]:
     return subprocess.Popen(
-        # -P: the folder of the script must not hide the package of the same name.
-        [sys.executable, "-P", str(_PROGRAM)],
+        child.command(_PROGRAM),
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+        env=child.environment(),
     )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import sys
 import tempfile
@@ -11,6 +10,7 @@ import threading
 from dataclasses import dataclass
 from pathlib import Path
 
+from hri.core import child
 from hri.core.errors import NotAvailable
 from hri.core.signals import Prosody, Speech
 from hri.hal.drivers.wav_file import read_wav
@@ -81,12 +81,12 @@ def _run(arguments: list[str], order: str, patience: float) -> str:
     """What the process of its own prints. Raises NotAvailable when it fails or hangs."""
     try:
         done = subprocess.run(
-            [sys.executable, "-P", str(_PROGRAM), *arguments],
+            child.command(_PROGRAM, *arguments),
             input=order,
             text=True,
             capture_output=True,
             timeout=patience,
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+            env=child.environment(),
         )
     except subprocess.TimeoutExpired as error:
         raise NotAvailable(f"pyttsx3: no answer within {patience:g} s - {REMEDY}") from error
