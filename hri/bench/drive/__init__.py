@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator
 from typing import Any
 
-from hri.bench.drive import rooms, stopping, wheels, world
+from hri.bench.drive import rooms, steering, stopping, wheels, world
 from hri.bench.table import Row, attempted, report
 
 
@@ -19,6 +19,7 @@ def measure(quick: bool = False) -> dict[str, Any]:
 def rows(quick: bool, workers: int) -> Iterator[Row]:
     """All rows in the order of the table; rooms are driven through in so many processes."""
     yield from attempted("stops", lambda: stopping.rows(quick))
+    yield from attempted("steering", lambda: steering.rows(quick))
     yield from attempted("faults", stopping.faults)
     yield from attempted("odometry", wheels.rows)
     yield from attempted("simulated world", lambda: world.rows(quick))
