@@ -25,6 +25,7 @@ from hri.task.units import (
     UNIT_ANGULAR_VELOCITY,
     UNIT_DISTANCE,
     UNIT_VELOCITY,
+    get_default_units,
     in_si,
 )
 
@@ -44,11 +45,15 @@ async def drive_move_delta(
 ) -> None:
     """Drive straight ahead, backward when negative; a velocity or acceleration of 0 is a usual one.
 
-    Fails when the way is not free, or another task takes the drive.
+    Fails when the way is not free, or another task takes the drive. Raises HriError for a distance
+    beyond `longest_move` of the drive.
     """
+    distance_m = in_si(UNIT_DISTANCE, distance)
+    given = f"{distance:g} {get_default_units(UNIT_DISTANCE)} ({distance_m:g} m)"
+    verbs.refuse_too_long(context, distance_m, given, "see set_default_units for the unit")
     await _move(
         context,
-        in_si(UNIT_DISTANCE, distance),
+        distance_m,
         in_si(UNIT_VELOCITY, velocity) or verbs.CRUISE,
         in_si(UNIT_ACCELERATION, acceleration) or ACCELERATION,
     )

@@ -18,8 +18,9 @@ from hri.drive.behaviors import COMMAND, MOTION
 from hri.drive.gate import REST
 from hri.drive.profile import velocity_for
 from hri.drive.progress import Patience
-from hri.hal.drive import Odometry
+from hri.hal.drive import DriveSystem, Odometry, longest_move, too_long
 from hri.hal.pending import Interrupted
+from hri.hal.resource import Description
 from hri.task.context import TaskContext
 
 CRUISE = 0.3
@@ -42,8 +43,12 @@ _STANDING = 0.005
 async def move(context: TaskContext, distance_m: float, speed: float | None = None) -> float:
     """Drive straight ahead, backward when negative; the distance really travelled, with its sign.
 
-    Raises ValueError for a distance that is not finite or a speed (m/s) that is not above 0.
+    Raises ValueError for a distance that is not finite or a speed (m/s) that is not above 0,
+    HriError for a distance beyond `longest_move` of the drive.
     """
+    refuse_too_long(
+        context, distance_m, f"{distance_m:g} m", f"give {distance_m / 100:g} if you meant cm"
+    )
     way = _Straight(distance_m, _above_0(speed, CRUISE, "m/s"))
     with motion_of(context) as motion:
         return await motion.run(way)
@@ -63,6 +68,18 @@ async def stop(context: TaskContext) -> None:
     """End any motion and wait until the base is at rest, two seconds at most."""
     with motion_of(context) as motion:
         await motion.stop()
+
+
+def refuse_too_long(context: TaskContext, distance_m: float, given: str, remedy: str) -> None:
+    """Raise HriError for a move beyond `longest_move` of the drive.
+
+    `given` is the distance as the caller gave it, with its unit; `remedy` says what to do.
+    """
+    resources = context.resources
+    id = next(iter(resources.ids(DriveSystem)), "drive")
+    description = resources.descriptions.get(id, Description(id, ""))
+    if (longest := longest_move(description)) < abs(distance_m) < math.inf:
+        raise too_long(id, given, longest, remedy)
 
 
 def _above_0(value: float | None, default: float, unit: str) -> float:

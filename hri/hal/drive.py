@@ -4,9 +4,14 @@ import math
 from abc import abstractmethod
 from enum import Enum
 
+from hri.core.errors import HriError
 from hri.core.signals import Pose2D, Twist
 from hri.hal.pending import Pending
-from hri.hal.resource import Resource
+from hri.hal.resource import Description, Resource
+
+LONGEST_MOVE = (20.0, 0.01, 10_000.0)
+"""Default, least and most of the parameter `longest_move`, meters: farther than across a hall, and
+less than a distance in centimeters that was taken for meters."""
 
 PATIENCE = 0.2
 """Seconds that the word of whoever steers counts for; then the base stands still. The command
@@ -45,6 +50,11 @@ class DriveSystem(Resource):
     max_angular_acceleration: float = 2.0
     """Radians a second squared; motions are cut to it."""
 
+    @property
+    def longest_move(self) -> float:
+        """Meters; a longer move is refused. Raises AuthoringError."""
+        return longest_move(self.description)
+
     @abstractmethod
     def set_velocity(self, twist: Twist, now: float, until: float = math.inf) -> None:
         """Go on with this velocity until the next command, or until that time has come."""
@@ -63,7 +73,7 @@ class DriveSystem(Resource):
 
     @abstractmethod
     def move_delta(self, distance: float, velocity: float, acceleration: float) -> Pending[None]:
-        """Drive straight on: metres, m/s, m/s²."""
+        """Drive straight on: meters, m/s, m/s². Raises HriError beyond `longest_move`."""
 
     @abstractmethod
     def turn_delta(self, angle: float, velocity: float, acceleration: float) -> Pending[None]:
@@ -94,3 +104,16 @@ class Odometry(Resource):
     @abstractmethod
     def velocity(self, now: float) -> Twist:
         """Measured velocity."""
+
+
+def longest_move(description: Description) -> float:
+    """What a configuration says of a drive, meters. Raises AuthoringError."""
+    return description.number_within("longest_move", *LONGEST_MOVE)
+
+
+def too_long(drive: str, given: str, longest: float, remedy: str) -> HriError:
+    """The refusal of a move: `given` is how far, with its unit."""
+    return HriError(
+        f"{drive}: a move of {given} is longer than longest_move ({longest:g} m) - {remedy}; "
+        "if you mean it, raise longest_move in the configuration of the drive"
+    )

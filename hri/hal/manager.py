@@ -10,7 +10,7 @@ import logging
 import threading
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Self, TypeVar
+from typing import Any, Literal, Self, TypeVar, overload
 
 from hri.core import paths, registry
 from hri.core.clock import Clock, RealClock
@@ -19,6 +19,7 @@ from hri.core.geometry import Pose3D
 from hri.core.python_file import load_class
 from hri.hal.choices import apply_choices, load_choices
 from hri.hal.configuration import NO_SHAPE, Shape, load_configuration, spec_folders
+from hri.hal.interface_2003 import IDriveSystem, interface_named, resource_of
 from hri.hal.resource import ORIGIN, Description, Resource
 
 log = logging.getLogger("hri.resources")
@@ -91,12 +92,22 @@ class ResourceManager:
             seen.append(stand_in)
             current = self.descriptions[stand_in]
 
-    def obtain(self, id: str, interface: type[R]) -> R:
+    @overload
+    def obtain(self, id: str, interface: type[R]) -> R: ...
+    @overload
+    def obtain(self, id: str, interface: Literal["IDriveSystem"]) -> IDriveSystem: ...
+    @overload
+    def obtain(self, id: str, interface: str) -> Any: ...
+    def obtain(self, id: str, interface: type[Resource] | str) -> Any:
         """The open resource of that id, its stand-in where it is not there; adds a user.
 
-        Raises HriError for an unknown id or a wrong interface, NotAvailable when neither the
-        device nor a stand-in can be opened.
+        `interface` is a class, or a name of 2003: `obtain("drive", "IDriveSystem")` hands out the
+        drive in centimeters. Raises HriError for an unknown id, an unknown or a wrong interface,
+        NotAvailable when neither the device nor a stand-in can be opened.
         """
+        if isinstance(interface, str):
+            needed, made = interface_named(interface)
+            return made(self.obtain(id, needed))
         resource = self._reserved(id)
         if not isinstance(resource, interface):
             self.release(resource)
@@ -105,8 +116,9 @@ class ResourceManager:
             )
         return resource
 
-    def release(self, resource: Resource) -> None:
+    def release(self, resource: Resource | IDriveSystem) -> None:
         """Give back what `obtain` gave; the last user's release deactivates it."""
+        resource = resource_of(resource)
         resource.release()
         with self._lock:
             if not resource.is_active and resource in self._open:

@@ -13,12 +13,12 @@ from abc import abstractmethod
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from hri.core.clock import Timer
 from hri.core.errors import HriError
 from hri.core.signals import Twist
-from hri.hal.drive import DriveSystem, Stop
+from hri.hal.drive import DriveSystem, Stop, longest_move, too_long
 from hri.hal.motion import (
     PERIOD,
     PROMPT,
@@ -71,8 +71,14 @@ class _Here(threading.local):
 class MovingBase(DriveSystem):
     """Executes motions over `_send`, `_brake`, `_set_power`, `_rolled` and `_velocity`."""
 
+    parameters: ClassVar[tuple[str, ...]] = ("longest_move",)
     steering: Steering = PROMPT
     """How the base follows what it is told."""
+
+    @classmethod
+    def check(cls, description: Description) -> None:
+        super().check(description)
+        longest_move(description)
 
     def __init__(self, description: Description, manager: ResourceManager) -> None:
         super().__init__(description, manager)
@@ -156,7 +162,8 @@ class MovingBase(DriveSystem):
     # --- motions ---
 
     def move_delta(self, distance: float, velocity: float, acceleration: float) -> Pending[None]:
-        _finite(distance, "distance", "metres")
+        _finite(distance, "distance", "meters")
+        self._refuse_too_long(distance)
         _positive(velocity, "velocity", "m/s")
         _positive(acceleration, "acceleration", "m/s²")
         velocity = min(velocity, self.max_linear)
@@ -197,6 +204,14 @@ class MovingBase(DriveSystem):
                 return self._begin(Brake())
             start = self._velocity(self.manager.clock.now())
             return self._begin(SlowDown(start, _slower(SMOOTH, self._limits)))
+
+    def _refuse_too_long(self, distance: float) -> None:
+        if abs(distance) > (longest := self.longest_move):
+            remedy = (
+                f"if you meant {distance:g} cm, give {distance / 100:g} or use "
+                f'obtain("{self.id}", "IDriveSystem"), the interface of 2003'
+            )
+            raise too_long(self.id, f"{distance:g} m", longest, remedy)
 
     @property
     def _limits(self) -> Twist:

@@ -66,3 +66,11 @@ def test_a_cancelled_motion_ends_gently_and_then_gives_the_drive_back() -> None:
         context.resources.release(odometry)
 
     drivable().run(drive)
+
+
+def test_a_task_refuses_a_move_beyond_the_longest_in_the_unit_it_was_given_in() -> None:
+    async def drive(context: TaskContext) -> None:
+        with pytest.raises(HriError, match=r"a move of 5000 cm \(50 m\) is longer than longest"):
+            await drive_move_delta(context, 5000.0)
+
+    drivable().run(drive)

@@ -3,6 +3,7 @@ import math
 import pytest
 import trio
 
+from hri.core.errors import HriError
 from hri.core.signals import Twist
 from hri.drive.tasks import move, stop, turn
 from hri.task.context import TaskContext
@@ -124,3 +125,9 @@ def test_move_refuses_what_it_cannot_do(distance: float) -> None:
         trio.run(move, course.task, distance)
     with pytest.raises(ValueError, match="above 0"):
         trio.run(move, course.task, 1.0, 0.0)
+
+
+def test_the_guides_fifty_given_in_meters_is_refused_with_both_readings() -> None:
+    course = Course()
+    with pytest.raises(HriError, match=r"a move of 50 m .* \(20 m\) - give 0\.5 if you meant cm"):
+        trio.run(move, course.task, 50.0)

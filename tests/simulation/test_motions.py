@@ -96,6 +96,14 @@ def test_half_a_metre_as_in_the_guide(robot: Robot) -> None:
     assert robot.velocity() == Twist()
 
 
+@pytest.mark.parametrize("distance", [50.0, -50.0, 20.01])
+def test_a_move_beyond_the_longest_is_refused(robot: Robot, distance: float) -> None:
+    with pytest.raises(HriError, match=r"longest_move \(20 m\)"):
+        robot.drive.move_delta(distance, 20.0, 40.0)
+    robot.clock.advance(1.0)
+    assert robot.pose().x == 0.0
+
+
 @pytest.mark.proves("H25", "H27")
 def test_a_quarter_turn_as_in_the_guide(robot: Robot) -> None:
     robot.drive.turn_delta(math.pi / 2, math.pi / 6, math.pi / 3).wait()
