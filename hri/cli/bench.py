@@ -10,7 +10,7 @@ from typing import Any
 
 from hri.core.errors import HriError
 
-BENCHES = ("behavior", "companion", "drive", "emotion", "face", "net", "speech", "vision")
+BENCHES = ("behavior", "companion", "drive", "emotion", "face", "net", "speech", "vision", "writes")
 """Each is a module of `hri.bench` with `measure() -> dict`."""
 TAKES = {
     "behavior": ("seconds",),
@@ -19,6 +19,7 @@ TAKES = {
     "face": ("quick",),
     "speech": ("quick", "recordings", "draw"),
     "vision": ("quick",),
+    "writes": ("quick",),
 }
 """The options that the `measure` of some of them takes."""
 
@@ -27,7 +28,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("name", choices=BENCHES, help="what to measure")
     about = "how long each case runs (behavior, companion)"
     parser.add_argument("--seconds", type=_seconds, metavar="S", help=about)
-    about = "take every sixth sentence and recording (speech), a tenth (drive, face, vision)"
+    about = (
+        "take every sixth sentence and recording (speech), a tenth (drive, face, vision, writes)"
+    )
     parser.add_argument("--quick", action="store_true", default=None, help=about)
     about = "recordings of people, a folder with a manifest.tsv (speech)"
     parser.add_argument("--recordings", type=Path, metavar="DIR", help=about)

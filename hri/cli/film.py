@@ -16,6 +16,7 @@ from pathlib import Path
 from hri.cli.progress import progress
 from hri.core.errors import HriError
 from hri.core.signals import Image, Samples
+from hri.core.writing import replacing
 from hri.face import FaceModel
 from hri.face.recording import WeightWriter
 from hri.face.scene import Scene
@@ -75,8 +76,8 @@ def add_sound(path: Path, samples: Samples, rate: int) -> bool:
     program = shutil.which("ffmpeg")
     if program is None or path.suffix.lower() != ".mp4":
         return False
-    with tempfile.TemporaryDirectory(dir=path.parent, prefix=".") as folder:
-        wav, whole = Path(folder, "sound.wav"), Path(folder, "whole.mp4")
+    with tempfile.TemporaryDirectory() as folder, replacing(path, suffix=".mp4") as whole:
+        wav = Path(folder, "sound.wav")
         write_wav(wav, samples, rate)
         inputs = ["-i", str(path.resolve()), "-i", str(wav)]
         kinds = ["-c:v", "copy", "-c:a", "aac", "-movflags", "+faststart"]
@@ -85,8 +86,7 @@ def add_sound(path: Path, samples: Samples, rate: int) -> bool:
             done = subprocess.run(words, capture_output=True, timeout=PATIENCE, check=False)
         except (OSError, subprocess.TimeoutExpired) as error:
             raise HriError(f"{program} cannot add the sound: {error} - mend ffmpeg") from error
-        if done.returncode or not whole.is_file():
+        if done.returncode:
             reason = done.stderr.decode("utf-8", "replace").strip().splitlines()[-1:]
             raise HriError(f"{program} cannot add the sound: {' '.join(reason)} - mend ffmpeg")
-        whole.replace(path)
     return True

@@ -12,6 +12,7 @@ from hri.behavior.layout import lay_out
 from hri.behavior.network import Network, load_network
 from hri.behavior.writer import save_network, write_network
 from hri.core.errors import HriError
+from hri.core.writing import write_text
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -68,7 +69,7 @@ def draw(network: Network, options: argparse.Namespace) -> int:
     type_names = {behavior.id: type_of(behavior) for behavior in network.behaviors}
     layout = lay_out(network, type_names)
     if out.suffix == ".svg":
-        out.write_text(to_svg(layout, type_names), encoding="utf-8")
+        write_text(out, to_svg(layout, type_names))
     elif out.suffix == ".png":
         from hri.cli.network_picture import write_png
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 
 from PIL import Image, ImageDraw, ImageFont
 
 from hri.behavior.drawing import COLORS, FAINT, FONT, INK, curve, wire_color
 from hri.behavior.layout import LINE, PADDING, TITLE, Layout, Node
+from hri.core.writing import write_bytes
 
 SCALE = 2
 """Pixels of the picture for each of the layout."""
@@ -17,7 +19,7 @@ STEPS = 24
 
 
 def write_png(layout: Layout, type_names: dict[str, str], out: Path) -> None:
-    """Write the picture; a very large network is drawn smaller."""
+    """Write the picture; a very large network is drawn smaller. Raises HriError."""
     area = layout.width * layout.height
     scale = min(SCALE, (MOST_PIXELS / area) ** 0.5)
     size = (round(layout.width * scale), round(layout.height * scale))
@@ -30,7 +32,9 @@ def write_png(layout: Layout, type_names: dict[str, str], out: Path) -> None:
     linked |= {(wire.link.target.id, wire.link.input) for wire in layout.wires}
     for box in layout.boxes:
         _draw_box(pen, box, type_names, linked)
-    image.save(out)
+    picture = io.BytesIO()
+    image.save(picture, "PNG")
+    write_bytes(out, picture.getvalue())
 
 
 class _Pen:

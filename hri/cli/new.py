@@ -16,6 +16,7 @@ from pathlib import Path
 
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.core.writing import new_folder
 
 TEMPLATES = Path(__file__).with_name("templates")
 NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
@@ -74,11 +75,8 @@ def run(options: argparse.Namespace) -> int:
     if folder.exists():
         raise HriError(f"{folder}: is there already - choose another name, or --to another folder")
     _refuse_taken(name, kind)
-    try:
-        _write(kind, name, folder)
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise HriError(f"{folder}: cannot be written: {reason} - check the folder") from error
+    with new_folder(folder) as new:
+        _write(kind, name, new)
     print(f"{folder}: {KINDS[kind].about}. Next:\n\n  cd {folder}")
     print("  python -m pytest    # where it is missing: pip install pytest")
     for step in KINDS[kind].steps:

@@ -18,6 +18,7 @@ from hri.core.clock import RealClock
 from hri.core.errors import AuthoringError, HriError, did_you_mean
 from hri.core.reading import LARGEST_FILE
 from hri.core.signals import EmotionState, Expression, Prosody, Speech
+from hri.core.writing import write_text
 from hri.emotion.display import felt_now, load_display
 from hri.emotion.emotions import NAMES
 from hri.face import load_face
@@ -94,9 +95,9 @@ def run(options: argparse.Namespace) -> int:
 def _written(speech: Speech, options: argparse.Namespace) -> bool:
     """Write the files that are asked for; whether there were any."""
     if options.phonemes is not None:
-        _write(options.phonemes, json.dumps(times_of(speech), indent=1) + "\n")
+        write_text(options.phonemes, json.dumps(times_of(speech), indent=1) + "\n")
     if options.visemes is not None:
-        _write(options.visemes, json.dumps(visemes_of(speech), indent=1) + "\n")
+        write_text(options.visemes, json.dumps(visemes_of(speech), indent=1) + "\n")
     if options.wav is not None:
         write_wav(options.wav, speech.samples, speech.rate)
     if options.face_video is not None:
@@ -202,14 +203,6 @@ def _rounded(fields: Mapping[str, Any]) -> dict[str, Any]:
         name: round(value, DECIMALS) if isinstance(value, float) else value
         for name, value in fields.items()
     }
-
-
-def _write(path: Path, text: str) -> None:
-    try:
-        path.write_text(text, encoding="utf-8")
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise HriError(f"{path}: cannot be written: {reason} - check the folder") from error
 
 
 async def _play(resources: ResourceManager, speech: Speech) -> None:

@@ -10,6 +10,7 @@ from hri.behavior.catalog import GROUP, find_behavior
 from hri.behavior.schema import Schema, schema_of, write_schema
 from hri.core import registry
 from hri.core.errors import HriError, NotAvailable
+from hri.core.writing import make_folder, write_text
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -42,6 +43,6 @@ def _export(schema: Schema, folder: Path | None) -> None:
         print(write_schema(schema), end="")
         return
     path = folder / "behavior" / f"{schema.type.replace('.', '/')}.xml"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(write_schema(schema), encoding="utf-8")
+    make_folder(path.parent)
+    write_text(path, write_schema(schema))
     print(path)

@@ -5,14 +5,13 @@ from __future__ import annotations
 import hashlib
 import shutil
 import stat
-import tempfile
 import zipfile
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from hri.core.errors import HriError
+from hri.core.writing import new_folder
 
 MOST_FILES = 10_000
 LARGEST_UNPACKED = 8_000_000_000
@@ -44,7 +43,7 @@ def unpack(archive: Path, target: Path, parts: Sequence[Part] = ()) -> None:
     broken, leads out of its folder, would fill the disk, or is not what its parts should be.
     """
     try:
-        with zipfile.ZipFile(archive) as opened, beside(target) as folder:
+        with zipfile.ZipFile(archive) as opened, new_folder(target) as folder:
             members = [member for member in opened.infolist() if not member.is_dir()]
             chosen = _chosen(archive, members, parts)
             _check(archive, [member for member, _ in chosen])
@@ -67,19 +66,6 @@ def check_parts(folder: Path, parts: Iterable[Part]) -> None:
         with file.open("rb") as opened:
             if hashlib.file_digest(opened, "sha256").hexdigest() != part.sha256:
                 raise HriError(f"{file}: damaged, or of another version - fetch it again")
-
-
-@contextmanager
-def beside(target: Path) -> Iterator[Path]:
-    """A new folder beside a place, which takes the place when all goes well and else is deleted."""
-    folder = Path(tempfile.mkdtemp(prefix=".new-", dir=target.parent))
-    try:
-        folder.chmod(0o755)
-        yield folder
-        folder.rename(target)
-    except BaseException:
-        shutil.rmtree(folder, ignore_errors=True)
-        raise
 
 
 def _chosen(

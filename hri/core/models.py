@@ -13,11 +13,12 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from hri.core.archive import Part, beside, check_parts, unpack
+from hri.core.archive import Part, check_parts, unpack
 from hri.core.download import Progress, RemoteFile, download
 from hri.core.errors import HriError, NotAvailable, did_you_mean
 from hri.core.paths import data_folder
 from hri.core.wheel import Wheel, download_wheel
+from hri.core.writing import new_folder
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,7 +221,7 @@ def bring(name: str, source: Path, parts: tuple[Part, ...] = ()) -> Path:
 
 def _copy(source: Path, target: Path, parts: tuple[Part, ...]) -> None:
     check_parts(source, parts)
-    with beside(target) as folder:
+    with new_folder(target) as folder:
         if not parts:
             shutil.copytree(source, folder, dirs_exist_ok=True)
         for part in parts:

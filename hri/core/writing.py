@@ -11,6 +11,7 @@ import errno
 import fcntl
 import os
 import secrets
+import shutil
 import stat
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -78,6 +79,26 @@ def replacing(path: Path, mode: int | None = None, suffix: str = SUFFIX) -> Iter
         yield new
 
 
+@contextmanager
+def new_folder(folder: Path) -> Iterator[Path]:
+    """A new folder beside a place, which takes the place when the block ends.
+
+    It is deleted when the block raises. Raises NotWritten, also for an OSError of the block.
+    """
+    with _refusing(folder):
+        new = folder.with_name(f".new-{secrets.token_hex(4)}")
+        new.mkdir()
+        try:
+            yield new
+            for entry in new.rglob("*"):
+                _flush(entry)
+            new.rename(folder)
+        except BaseException:
+            shutil.rmtree(new, ignore_errors=True)
+            raise
+        _flush(folder.parent)
+
+
 def leftovers(path: Path) -> list[Path]:
     """What writers of this file that were killed have left beside it, sorted.
 
@@ -131,7 +152,7 @@ def _beside(path: Path, mode: int | None, suffix: str) -> Iterator[tuple[int, Pa
         raise
     finally:
         os.close(handle)
-    _flush_folder(target.parent)
+    _flush(target.parent)
 
 
 def _resolved(path: Path) -> Path:
@@ -225,10 +246,10 @@ def _if_abandoned(file: Path, act: Callable[[Path], object]) -> bool:
     return True
 
 
-def _flush_folder(folder: Path) -> None:
-    """Let the new name survive a pulled plug; file systems that cannot are left alone."""
+def _flush(entry: Path) -> None:
+    """Let a file, or the names in a folder, survive a pulled plug, where the system can."""
     with suppress(OSError):
-        handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+        handle = os.open(entry, os.O_RDONLY | os.O_CLOEXEC)
         try:
             os.fsync(handle)
         finally:

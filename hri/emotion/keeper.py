@@ -107,7 +107,7 @@ class Keeper:
         if not self._is_stuck and not self._is_touched():
             try:
                 self._write(replace(self._memory(affect), has_ended=True))
-            except OSError as error:
+            except HriError as error:
                 self._fail(error)
 
     def _resumed(self, memory: Memory | None, dynamics: Dynamics, now: float) -> Affect:
@@ -139,7 +139,7 @@ class Keeper:
     def _poll(self) -> None:
         try:
             self._worker.poll()
-        except OSError as error:
+        except HriError as error:
             self._fail(error)
 
     def _put_aside(self, problem: HriError) -> None:
@@ -151,9 +151,8 @@ class Keeper:
         log.error("%s: %s", self._path, reason)
         self._events.raise_event("memory.refused", file=str(self._path), reason=reason)
 
-    def _fail(self, error: OSError) -> None:
+    def _fail(self, error: HriError) -> None:
         if not self._has_failed:
             self._has_failed = True
-            reason = f"cannot write: {error.strerror} - check the folder"
-            log.error("%s: %s", self._path, reason)
-            self._events.raise_event("memory.failed", file=str(self._path), reason=reason)
+            log.error("%s", error)
+            self._events.raise_event("memory.failed", file=str(self._path), reason=str(error))

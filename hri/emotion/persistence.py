@@ -17,6 +17,7 @@ from typing import NoReturn
 from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
 from hri.core.reading import read_text
+from hri.core.writing import PRIVATE, make_folder, write_text
 from hri.emotion.affect import Imprint, renamed, shifted
 from hri.emotion.imprint_file import LATEST, Fields, decoded, encoded
 from hri.emotion.relations import is_unnamed
@@ -120,18 +121,9 @@ def recall(path: Path) -> Memory | None:
 
 
 def keep(path: Path, memory: Memory) -> Mark:
-    """Write the file, in the place of the one before, as a whole or not at all. Raises OSError."""
-    path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-    new = path.with_name(f"{path.name}.new")
-    new.unlink(missing_ok=True)
-    handle = os.open(new, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
-    with os.fdopen(handle, "w", encoding="utf-8") as file:
-        file.write(dump(memory))
-        file.flush()
-        os.fsync(file.fileno())  # or a pulled plug may leave an empty file under the name
-        mark = mark_of(os.fstat(file.fileno()))
-    os.replace(new, path)
-    return mark
+    """Write the file, in the place of the one before. Raises HriError."""
+    make_folder(path.parent, 0o700)
+    return mark_of(write_text(path, dump(memory), PRIVATE))
 
 
 def put_aside(path: Path) -> Path:

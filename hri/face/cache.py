@@ -10,7 +10,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import tempfile
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -18,7 +17,9 @@ from pathlib import Path
 import numpy as np
 
 from hri.core import paths
+from hri.core.errors import HriError
 from hri.core.reading import read_bytes
+from hri.core.writing import make_folder, write_bytes
 from hri.face import exchange
 from hri.face.baking import DisplayList, bake
 from hri.face.drawing import load_drawing
@@ -103,16 +104,9 @@ def _write(file: Path, display: DisplayList) -> None:
     packed = _packed(display)
     if len(packed) > MOST_BYTES // 4:
         return
-    with suppress(OSError):
-        file.parent.mkdir(parents=True, exist_ok=True)
-        descriptor, new = tempfile.mkstemp(suffix=".new", dir=file.parent)
-        try:
-            with os.fdopen(descriptor, "wb") as out:
-                out.write(packed)
-            os.replace(new, file)
-        except OSError:
-            os.unlink(new)
-            raise
+    with suppress(OSError, HriError):
+        make_folder(file.parent)
+        write_bytes(file, packed)
         _prune(file.parent)
 
 

@@ -11,9 +11,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from hri.core import paths
-from hri.core.errors import HriError
 from hri.core.registry import canonical
 from hri.core.toml import load_toml
+from hri.core.writing import make_folder, write_text
 from hri.hal.resource import Description
 
 CHOOSABLE = ("microphone", "speaker", "camera")
@@ -45,11 +45,8 @@ def save_choices(chosen: dict[str, str]) -> Path:
     path = choices_file()
     # A JSON string is a TOML string as well, whatever the device is called.
     lines = [f"[{id}]\ndevice = {json.dumps(device)}\n" for id, device in chosen.items()]
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text("# Written by `hri doctor --choose`.\n" + "\n".join(lines), "utf-8")
-    except OSError as error:
-        raise HriError(f"{path}: cannot write: {error.strerror} - check the folder") from error
+    make_folder(path.parent)
+    write_text(path, "# Written by `hri doctor --choose`.\n" + "\n".join(lines))
     return path
 
 

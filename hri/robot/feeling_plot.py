@@ -6,13 +6,13 @@ It is text, so that no drawing library has to run beside the robot; any browser 
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from xml.sax.saxutils import escape
 
 from hri.core.signals import EmotionState
+from hri.core.writing import write_text
 
 Moment = tuple[float, EmotionState]
 """A time in seconds and what was felt then."""
@@ -74,10 +74,8 @@ def feeling_plot(moments: Sequence[Moment]) -> str:
 
 
 def write_feeling_plot(moments: Sequence[Moment], path: Path) -> None:
-    """Put the drawing in the place of the one before. Raises OSError."""
-    new = path.with_suffix(".new")
-    new.write_text(feeling_plot(moments), encoding="utf-8")
-    os.replace(new, path)
+    """Put the drawing in the place of the one before. Raises HriError."""
+    write_text(path, feeling_plot(moments))
 
 
 def _mood(moments: Sequence[Moment], axis: _Time) -> Iterable[str]:

@@ -89,11 +89,11 @@ class Recording:
                     worker.submit(partial(write_feeling_plot, tuple(moments), path))
                     drawn = now
                 await clock.sleep(FEELING_EVERY_S)
-        except OSError as error:
-            log.error("the plot of feelings ends here: %s", error.strerror)
+        except HriError as error:
+            log.error("the plot of feelings ends here: %s", error)
         finally:
             worker.close()
-            with contextlib.suppress(OSError):  # a full disk was told about when it filled up
+            with contextlib.suppress(HriError):  # a full disk was told about when it filled up
                 write_feeling_plot(moments, path)
 
     def stop(self) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import itertools
 import math
 from pathlib import Path
@@ -10,6 +11,8 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+
+from hri.core.writing import write_bytes
 
 Line = dict[str, Any]
 
@@ -26,7 +29,7 @@ _MOOD = {"valence": "#2e8b57", "arousal": "#c46210", "dominance": "#6a5acd"}
 
 
 def plot_timeline(events: list[Line], path: Path) -> None:
-    """Draw the events of a log to a PNG file."""
+    """Draw the events of a log to a PNG file. Raises HriError when it cannot be written."""
     figure = Figure(figsize=(16, 10), layout="constrained")
     FigureCanvasAgg(figure)
     talk, mood, motion = figure.subplots(3, 1, sharex=True, height_ratios=[3, 2, 1.4])
@@ -36,7 +39,9 @@ def plot_timeline(events: list[Line], path: Path) -> None:
     end = max((event["t"] for event in events), default=1.0)
     motion.set_xlim(0, max(end, 1.0))
     motion.set_xlabel("seconds")
-    figure.savefig(path, dpi=100, metadata={"Software": "hri"})
+    picture = io.BytesIO()
+    figure.savefig(picture, dpi=100, format="png", metadata={"Software": "hri"})
+    write_bytes(path, picture.getvalue())
 
 
 def _plot_talk(axes: Axes, events: list[Line]) -> None:

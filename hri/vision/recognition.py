@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from hri.core.errors import AuthoringError, HriError, NotAvailable, Place
 from hri.core.signals import Image, Landmarks
+from hri.core.writing import PRIVATE, make_folder, write_text
 from hri.vision.countenance import MOUTH, PUPILS
 
 Vector = NDArray[np.float32]
@@ -86,14 +87,8 @@ class Acquaintances:
     def save(self, path: Path) -> None:
         """Write names and vectors to a file that only its owner can read. Raises HriError."""
         text = json.dumps({n: [v.tolist() for v in s] for n, s in self._samples.items()})
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.touch(mode=0o600)
-            path.chmod(0o600)
-            path.write_text(text + "\n")
-        except OSError as error:
-            reason = error.strerror or str(error)
-            raise HriError(f"{path}: cannot be written: {reason} - check the folder") from error
+        make_folder(path.parent)
+        write_text(path, text + "\n", PRIVATE)
 
     @classmethod
     def load(cls, path: Path, alike: float = ALIKE) -> Acquaintances:

@@ -10,7 +10,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hri.core.errors import HriError
-from hri.core.writing import PRIVATE, leftovers, make_folder, replacing, write_bytes, write_text
+from hri.core.writing import (
+    PRIVATE,
+    leftovers,
+    make_folder,
+    new_folder,
+    replacing,
+    write_bytes,
+    write_text,
+)
 from tests.disk import full_disk
 
 DIES = """
@@ -186,3 +194,14 @@ def test_a_folder_is_made_with_those_it_lies_in_or_refused_in_one_line(tmp_path)
     (tmp_path / "file").write_text("")
     with pytest.raises(HriError, match=r"file/c: cannot be written: .* - check the folder"):
         make_folder(tmp_path / "file" / "c")
+
+
+def test_a_folder_is_there_whole_or_not_at_all(tmp_path):
+    folder = tmp_path / "face"
+    with full_disk(after=3), pytest.raises(HriError, match="make room"), new_folder(folder) as new:
+        (new / "face.toml").write_text("too long")
+    assert os.listdir(tmp_path) == []
+    with new_folder(folder) as new:
+        (new / "face.toml").write_text("whole")
+    assert (folder / "face.toml").read_text() == "whole"
+    assert os.listdir(tmp_path) == ["face"]

@@ -172,7 +172,7 @@ def test_a_simulation_can_be_drawn(
     for color in ((0x2E, 0x8B, 0x57), (0xC4, 0x62, 0x10), (0x6A, 0x5A, 0xCD)):
         assert (picture == color).all(axis=1).sum() > 100
     assert main([*words, str(tmp_path / "missing" / "out.png")]) == 2
-    assert "choose another file" in capsys.readouterr().err
+    assert "out.png: cannot be written: No such file or directory" in capsys.readouterr().err
 
 
 def test_the_names_in_a_drawing_can_be_read() -> None:

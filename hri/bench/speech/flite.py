@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import os
 import wave
 from contextlib import suppress
 from pathlib import Path
@@ -14,6 +13,7 @@ from hri.bench.speech.babble import RATE
 from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.signals import Samples
+from hri.core.writing import make_folder
 from hri.hal.drivers.resampling import resample
 from hri.hal.drivers.wav_file import write_wav
 from hri.speech.synthesizers.flite import speak
@@ -41,11 +41,9 @@ def say(text: str, voice: str) -> Samples:
 def _made(text: str, voice: str, path: Path) -> Samples:
     samples, rate = speak(text, voice)
     spoken = resample(samples, rate, RATE)
-    with suppress(OSError, HriError):  # The cache is only a shortcut.
-        path.parent.mkdir(parents=True, exist_ok=True)
-        arriving = path.with_suffix(f".{os.getpid()}")
-        write_wav(arriving, spoken, RATE)
-        arriving.replace(path)
+    with suppress(HriError):  # The cache is only a shortcut.
+        make_folder(path.parent)
+        write_wav(path, spoken, RATE)
     return spoken
 
 

@@ -6,13 +6,11 @@ import argparse
 from collections.abc import Iterator
 from pathlib import Path
 
-import cv2
-
 from hri.cli.drive.plan import Plan
 from hri.cli.drive.recorded import read_run
 from hri.cli.progress import progress
 from hri.core.errors import HriError
-from hri.core.signals import Image
+from hri.hal.drivers.picture_file import write_picture
 from hri.testing.trips import DEFAULT_POLICY, POLICIES
 
 NAME = "replay"
@@ -46,7 +44,7 @@ def run(options: argparse.Namespace) -> int:
     plan = Plan(read_run(options.run, options.policy or DEFAULT_POLICY))
     out = options.out or Path("run.png")
     if out.suffix.lower() == ".png":
-        _write_picture(out, plan.whole())
+        write_picture(out, plan.whole())
     else:
         _write_film(out, plan, options.speed)
     print(f"{out}: {plan.run.title or options.run}")
@@ -58,14 +56,6 @@ def _speed(text: str) -> float:
     if not 0.1 <= value <= 100:
         raise argparse.ArgumentTypeError(f"{text} - write a factor from 0.1 to 100")
     return value
-
-
-def _write_picture(path: Path, picture: Image) -> None:
-    is_written, data = cv2.imencode(".png", cv2.cvtColor(picture, cv2.COLOR_RGB2BGR))
-    try:
-        path.write_bytes(data.tobytes() if is_written else b"")
-    except OSError as error:
-        raise HriError(f"{path}: {error.strerror} - choose another place") from error
 
 
 def _write_film(path: Path, plan: Plan, speed: float) -> None:

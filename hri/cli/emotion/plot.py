@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import bisect
+import io
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
@@ -12,8 +13,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from hri.cli.emotion.timeline import Happening
-from hri.core.errors import HriError
 from hri.core.signals import EmotionState, Stimulus
+from hri.core.writing import write_bytes
 from hri.emotion.affect import Affect
 from hri.emotion.appraisal import appraise
 from hri.emotion.dynamics import Dynamics
@@ -40,10 +41,9 @@ def plot_affects(
 ) -> None:
     """Draw a simulation to a PNG file. Raises HriError when it cannot be written."""
     figure = figure_of(dynamics, affects, timeline)
-    try:
-        figure.savefig(path, dpi=DPI, format="png", metadata={"Software": "hri"})
-    except OSError as error:
-        raise HriError(f"{path}: {error.strerror} - choose another file") from error
+    picture = io.BytesIO()
+    figure.savefig(picture, dpi=DPI, format="png", metadata={"Software": "hri"})
+    write_bytes(path, picture.getvalue())
 
 
 def figure_of(

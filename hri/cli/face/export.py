@@ -6,7 +6,7 @@ import argparse
 import json
 from pathlib import Path
 
-from hri.core.errors import HriError
+from hri.core.writing import write_text
 from hri.face import load_face
 from hri.face.exchange import exported_face
 
@@ -20,10 +20,6 @@ def run(options: argparse.Namespace) -> int:
     folder = Path(options.face)
     model = load_face(folder if folder.is_dir() else options.face)
     text = json.dumps(exported_face(model), separators=(",", ":"), sort_keys=True)
-    try:
-        options.out.write_text(text + "\n", encoding="utf-8")
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise HriError(f"{options.out}: cannot write: {reason} - choose another place") from error
+    write_text(options.out, text + "\n")
     print(f"{options.out}: {len(text) / 1000:.0f} kB")
     return 0

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.core.writing import make_folder, new_folder
 from hri.face import load_face
 from hri.face.gestures import FILE as GESTURES
 from hri.face.model import stamps_of
@@ -32,11 +33,9 @@ def run(options: argparse.Namespace) -> int:
         raise HriError(f"{folder}: is there already - choose another name, or --dir another folder")
     source = paths.find("faces", options.source)
     load_face(source)
-    try:
-        _copy(source, folder)
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise HriError(f"{folder}: cannot be written: {reason} - check --dir") from error
+    make_folder(folder.parent)
+    with new_folder(folder) as new:
+        _copy(source, new)
     spelled = folder if folder.is_absolute() else f"./{folder}"
     print(f"{folder}: a copy of {source.name}. Next:\n")
     print(f"  draw in {folder / 'neutral.svg'} and {folder / 'targets'}/ with an SVG editor")

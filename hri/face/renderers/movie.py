@@ -11,6 +11,8 @@ from PIL import Image as Picture
 
 from hri.core.errors import HriError
 from hri.core.signals import Image
+from hri.core.writing import replacing
+from hri.hal.drivers.mp4 import is_whole
 
 MOST_PICTURES = 100_000
 """Nearly an hour at 30 a second."""
@@ -20,6 +22,8 @@ SLOWEST, FASTEST = 1.0, 120.0
 """Pictures a second."""
 FASTEST_GIF = 50.0
 """Pictures a second; browsers slow down what is faster."""
+ROOM = 4096
+"""Bytes that a disk must have for an MP4 to be begun."""
 WEBP_QUALITY = 85
 """Of 100."""
 
@@ -34,16 +38,9 @@ def write_movie(path: Path, pictures: Iterable[Image], rate: float) -> None:
     that cannot be written; one that was there before stays as it was.
     """
     check_movie(path, rate)
-    begun = path.with_name(f".{path.name}")
-    try:
-        begun.open("wb").close()  # the writers' own complaints do not say why
-        WRITERS[path.suffix.lower()](begun, _bounded(path, pictures), rate)
-        begun.replace(path)
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise HriError(f"{path}: cannot be written: {reason} - check the folder") from error
-    finally:
-        begun.unlink(missing_ok=True)
+    suffix = path.suffix.lower()
+    with replacing(path, suffix=suffix) as new:
+        WRITERS[suffix](new, _bounded(path, pictures), rate)
 
 
 def check_movie(path: Path, rate: float) -> None:
@@ -71,6 +68,7 @@ def _bounded(path: Path, pictures: Iterable[Image]) -> Iterator[Image]:
 def _write_mp4(path: Path, pictures: Iterator[Image], rate: float) -> None:
     first = next(pictures)
     height, width = first.shape[:2]
+    path.write_bytes(bytes(ROOM))  # OpenCV's own complaints do not say why
     writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"mp4v"), rate, (width, height))
     try:
         if not writer.isOpened():
@@ -79,6 +77,8 @@ def _write_mp4(path: Path, pictures: Iterator[Image], rate: float) -> None:
             writer.write(cv2.cvtColor(picture, cv2.COLOR_RGB2BGR))
     finally:
         writer.release()
+    if not is_whole(path):
+        raise HriError("OpenCV could not write it to its end - make room on the disk")
 
 
 def _write_webp(path: Path, pictures: Iterator[Image], rate: float) -> None:

@@ -11,6 +11,7 @@ from PIL import Image as PillowImage
 
 from hri.core.errors import HriError
 from hri.core.signals import Image
+from hri.core.writing import write_bytes
 from hri.hal.picture import LARGEST_SIDE
 
 
@@ -28,11 +29,7 @@ def write_picture(path: str | Path, image: Image, quality: float = 0.8) -> None:
         raise HriError(f'{path}: no pictures of the kind "{suffix}" - write .jpg or .png')
     settings = [] if suffix == ".png" else [cv2.IMWRITE_JPEG_QUALITY, round(100 * quality)]
     _, code = cv2.imencode(suffix, cv2.cvtColor(image, cv2.COLOR_RGB2BGR), settings)
-    try:
-        path.write_bytes(np.asarray(code).tobytes())
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise HriError(f"{path}: cannot be written: {reason} - check the folder") from error
+    write_bytes(path, np.asarray(code).tobytes())
 
 
 def picture_size(path: Path) -> tuple[int, int] | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import wave
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,6 +12,7 @@ import numpy as np
 from hri.core.errors import HriError
 from hri.core.reading import require_file
 from hri.core.signals import Samples
+from hri.core.writing import write_bytes
 from hri.hal.drivers.channels import CHOICES, OneChannel, channel_of
 from hri.hal.drivers.resampling import resample, resample_blocks
 from hri.hal.drivers.sound_decoder import BLOCK, LEAST_RATE, MOST_RATE, decode
@@ -75,14 +77,12 @@ def read_wav(
 
 
 def write_wav(path: Path, samples: Samples, rate: int) -> None:
-    """Write mono 16-bit PCM. Raises HriError, and leaves no part, when that cannot be done."""
-    try:
-        with open_wav(path, rate) as file:
-            file.writeframes(samples.tobytes())
-    except OSError as error:
-        if path.is_file():
-            path.unlink()
-        raise _not_written(path, error) from error
+    """Write mono 16-bit PCM. Raises HriError when it cannot be written."""
+    whole = io.BytesIO()
+    with wave.open(whole, "wb") as file:
+        file.setparams((1, 2, rate, 0, "NONE", "not compressed"))
+        file.writeframes(samples.tobytes())
+    write_bytes(path, whole.getvalue())
 
 
 def open_wav(path: Path, rate: int) -> wave.Wave_write:

@@ -24,6 +24,7 @@ from typing import Literal
 from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 from hri.core.reading import read_text
+from hri.core.writing import make_folder, write_text
 from hri.speech.pronunciation.dictionary import Dictionary, cmu_dictionary
 from hri.speech.pronunciation.guesses import Guesses
 from hri.speech.pronunciation.phones import PHONES, VOWELS, Phones
@@ -198,23 +199,19 @@ def _is_phone(text: str) -> bool:
 def add_to_lexicon(path: Path, word: str, *variants: Phones) -> tuple[Phones, ...]:
     """Write the ways to say a word into a lexicon, which is made when it is not there.
 
-    They take the place of what it said of the word before, which is returned. The file is replaced
-    as a whole, so nobody reads half of it.
-    Raises AuthoringError when the file has a mistake already, HriError for what is no word or has
-    more than MOST_VARIANTS pronunciations, OSError when it cannot be written.
+    They take the place of what it said of the word before, which is returned.
+    Raises AuthoringError when the file has a mistake already, HriError for what is no word, has
+    more than MOST_VARIANTS pronunciations, or cannot be written.
     """
     if len(word.split()) != 1 or word.startswith(("#", ";")) or "(" in word:
         raise HriError(f'"{word}" is no single word - add one word at a time')
     if len(variants) > MOST_VARIANTS:
         raise HriError(f"more than {MOST_VARIANTS} pronunciations - keep the likeliest")
     word = _folded(word)
-    path = path.resolve()  # What a link leads to is replaced, not the link.
     before = read_lexicon(path).get(word, ()) if path.exists() else ()
     lines = read_text(path, "lexicon").splitlines() if path.exists() else []
     kept = [line for line in lines if not line.strip() or _word(line.split()[0]) != word]
     kept += [f"{word}  {' '.join(phones)}" for phones in dict.fromkeys(variants)]
-    path.parent.mkdir(parents=True, exist_ok=True)
-    arriving = path.with_name(f"{path.name}.new")
-    arriving.write_text("\n".join(kept) + "\n", encoding="utf-8")
-    arriving.replace(path)
+    make_folder(path.parent)
+    write_text(path, "\n".join(kept) + "\n")
     return before
