@@ -50,6 +50,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add("--audio", type=Path, metavar="FILE", help="hear this sound file instead of a microphone")
     add("--camera", metavar="FILE|none", help="see this video or image, or nothing")
     add("--record", type=Path, metavar="DIR", help="write events, video, sound, plot there, anew")
+    add("--record-rejected", action="store_true", help="write there what was said to others, too")
     add("--keep", action="store_true", help="go on from what it felt, and keep what it feels")
     add("--headless", action="store_true", help="draw the face, but show it to nobody")
     add("--duration", type=_seconds, metavar="S", help="end after so many seconds")
@@ -89,6 +90,7 @@ def run(options: argparse.Namespace) -> int:
             "renderer": {"face": options.face, "captions": options.captions},
         },
         record=options.record,
+        record_rejected=options.record_rejected,
     )
     tasks = robot.app.load_tasks()
     narrator = Narrator(robot)

@@ -6,12 +6,16 @@ import contextlib
 import json
 import logging
 import math
+from collections.abc import Collection, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from hri.core.errors import HriError
 from hri.core.events import EventBus
 from hri.core.signals import Event
+
+NOTHING: Mapping[str, Collection[str]] = MappingProxyType({})
 
 log = logging.getLogger("hri.recording")
 
@@ -19,7 +23,14 @@ log = logging.getLogger("hri.recording")
 class EventLog:
     """Writes every event to a file: `t` in seconds, `event`, and the event's properties."""
 
-    def __init__(self, path: Path, events: EventBus) -> None:
+    def __init__(
+        self, path: Path, events: EventBus, withheld: Mapping[str, Collection[str]] = NOTHING
+    ) -> None:
+        """`withheld` names properties that are written empty, by the name of the event.
+
+        Raises HriError when the file cannot be written.
+        """
+        self._withheld = withheld
         try:
             self._file = path.open("w", encoding="utf-8")
         except OSError as error:
@@ -27,7 +38,9 @@ class EventLog:
         self._subscription = events.subscribe("*", self.write)
 
     def write(self, event: Event) -> None:
-        line = {"t": round(event.time, 4), "event": event.name, **event.properties}
+        withheld = self._withheld.get(event.name, ())
+        told = {key: "" if key in withheld else value for key, value in event.properties.items()}
+        line = {"t": round(event.time, 4), "event": event.name, **told}
         try:
             self._file.write(json.dumps(_plain(line), ensure_ascii=False, allow_nan=False) + "\n")
             self._file.flush()

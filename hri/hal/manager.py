@@ -139,6 +139,11 @@ class ResourceManager:
             raise missing
         return None
 
+    def opened(self, interface: type[R]) -> list[R]:
+        """What is open with that interface, stand-ins too, in the order in which it was opened."""
+        with self._lock:
+            return [resource for resource in self._open if isinstance(resource, interface)]
+
     def ids(self, interface: type[Resource]) -> list[str]:
         """Ids of all devices with that interface, as configured; those that stand in come last."""
         stand_ins = {description.text("stand_in") for description in self.descriptions.values()}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from hri.core.signals import Image, Samples
 from hri.hal.resource import Resource
 from hri.hal.screen import Screen
@@ -11,14 +13,18 @@ from hri.hal.speaker import Speaker
 class TeeScreen(Screen):
     """Shows on a screen and writes to another, such as a video file."""
 
-    def __init__(self, screen: Screen, copy: Screen) -> None:
+    def __init__(
+        self, screen: Screen, copy: Screen, mark: Callable[[Image], Image] = lambda image: image
+    ) -> None:
+        """`mark` changes each picture before it is shown and written."""
         Resource.__init__(self, screen.description, screen.manager)
-        self.screen, self.copy = screen, copy
+        self.screen, self.copy, self._mark = screen, copy, mark
         self.width, self.height = screen.width, screen.height
 
     def show(self, image: Image, time: float) -> None:
-        self.screen.show(image, time)
-        self.copy.show(image, time)
+        marked = self._mark(image)
+        self.screen.show(marked, time)
+        self.copy.show(marked, time)
 
     def pressed_keys(self) -> list[str]:
         return self.screen.pressed_keys()

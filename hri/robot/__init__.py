@@ -63,12 +63,14 @@ class Robot:
         parameters: dict[str, dict[str, Any]] | None = None,
         notice: Callable[[str], object] = print,
         record: Path | str | None = None,
+        record_rejected: bool = False,
     ) -> None:
         """Read and check all files; nothing is opened yet.
 
         `devices` replace those of the configuration with the same id. `parameters` overrides
-        parameters of behaviors by their id. `notice` gets a line for each stand-in. `record` is a
-        folder for a recording. Raises HriError or AuthoringError.
+        parameters of behaviors by their id. `notice` gets a line for each stand-in, and one
+        when a recording begins. `record` is a folder for a recording; words that were rejected are
+        written there only with `record_rejected`. Raises HriError or AuthoringError.
         """
         self.app = load_app(app)
         self.clock = clock or RealClock()
@@ -97,6 +99,8 @@ class Robot:
         self.app.check(self.context)
         self.record = None if record is None else Path(record)
         """Folder for a recording; may be set until the robot lives."""
+        self._record_rejected = record_rejected
+        self._notice = notice
         self.recording: Recording | None = None
         self.runners: list[Runner] = []
         """The app's networks as they run, or ran."""
@@ -115,7 +119,13 @@ class Robot:
         """
         try:
             if self.record is not None:
-                self.recording = Recording(self.record, self.events, self.resources)
+                self.recording = Recording(
+                    self.record,
+                    self.events,
+                    self.resources,
+                    self._notice,
+                    with_rejected=self._record_rejected,
+                )
             self.runners = [self.networks.start(network) for network in self._authored]
             self.events.subscribe("speech.heard", self._obey_stop)
             async with trio.open_nursery() as nursery:
@@ -123,9 +133,8 @@ class Robot:
                 nursery.start_soon(self.clock.drive)
                 self.clock.soon(partial(nursery.start_soon, self.networks.run))
                 if self.recording is not None:
-                    self.clock.soon(
-                        partial(nursery.start_soon, self.tasks.run, self.recording.watch)
-                    )
+                    # Announced last: whoever reads of it can end it as any run is ended.
+                    jobs = (self.recording.watch, *jobs, self.recording.announce)
                 for job in jobs:
                     self.clock.soon(partial(nursery.start_soon, self.tasks.run, job))
                 self._ready()

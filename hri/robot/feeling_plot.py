@@ -12,7 +12,7 @@ from pathlib import Path
 from xml.sax.saxutils import escape
 
 from hri.core.signals import EmotionState
-from hri.core.writing import write_text
+from hri.core.writing import PRIVATE, write_text
 
 Moment = tuple[float, EmotionState]
 """A time in seconds and what was felt then."""
@@ -75,7 +75,7 @@ def feeling_plot(moments: Sequence[Moment]) -> str:
 
 def write_feeling_plot(moments: Sequence[Moment], path: Path) -> None:
     """Put the drawing in the place of the one before. Raises HriError."""
-    write_text(path, feeling_plot(moments))
+    write_text(path, feeling_plot(moments), PRIVATE)
 
 
 def _mood(moments: Sequence[Moment], axis: _Time) -> Iterable[str]:

@@ -1,28 +1,37 @@
 """What a visit leaves behind: `events.jsonl`, `face.mp4`, `robot.wav` and `timeline.png`.
 
-`feelings.svg` is there from the first second on and shows the last ten minutes.
+`feelings.svg` is there from the first second on and shows the last ten minutes. Nobody but the
+owner can read any of it, and people are told: in the terminal, by a mark on the face, and aloud
+where a microphone hears them. What was said to others, and so was rejected, is left out.
 """
 
 from __future__ import annotations
 
 import contextlib
 import logging
+import os
 from collections import deque
+from collections.abc import Callable, Collection, Mapping
 from functools import partial
 from pathlib import Path
 
 from hri.core.clock import Worker
 from hri.core.errors import HriError
 from hri.core.events import EventBus
-from hri.core.recording import EventLog, read_events
+from hri.core.privacy import PRIVATE_FOLDER, close_to_others, private_file
+from hri.core.recording import NOTHING, EventLog, read_events
+from hri.core.writing import leftovers, make_folder
 from hri.emotion.behaviors import EmotionModel
 from hri.hal.drivers.wav_file import WavSpeaker
 from hri.hal.manager import ResourceManager
+from hri.hal.microphone import Microphone
 from hri.hal.resource import Description
 from hri.hal.screen import Screen
 from hri.hal.speaker import Speaker
 from hri.hal.tee import TeeScreen, TeeSpeaker
 from hri.robot.feeling_plot import SPAN_S, Moment, write_feeling_plot
+from hri.speech.behaviors import Voice
+from hri.speech.tasks import say
 from hri.task.context import TaskContext
 
 FEELING_EVERY_S = 1.0
@@ -32,24 +41,69 @@ PLOT_EVERY_S = 10.0
 PLOT_LATENCY = 0.05
 """Seconds that a picture takes on the fake clock."""
 
+STREAMS = ("events.jsonl", "face.mp4", "robot.wav")
+"""Files that grow while the robot lives."""
+FILES = (*STREAMS, "timeline.png", "feelings.svg")
+"""All that a recording consists of."""
+REJECTED: Mapping[str, Collection[str]] = {
+    "speech.rejected": ("text", "detail"),
+    "speech.partial": ("text",),
+}
+"""Properties of events that hold words which were rejected, or may be yet."""
+ALOUD = "I am recording."
+"""What is said at the beginning when people can be heard; it waits for no answer."""
+
 log = logging.getLogger("hri.recording")
+
+
+def parts(folder: Path) -> list[Path]:
+    """The files of a recording that are there, with what killed writers left beside them."""
+    files = [folder / name for name in FILES]
+    beside = [left for file in files for left in leftovers(file)]
+    return [file for file in files if os.path.lexists(file)] + beside
 
 
 class Recording:
     """Records a robot while it lives; made before its networks start."""
 
-    def __init__(self, folder: Path, events: EventBus, resources: ResourceManager) -> None:
-        """Raises HriError when the folder cannot be written."""
+    def __init__(
+        self,
+        folder: Path,
+        events: EventBus,
+        resources: ResourceManager,
+        notice: Callable[[str], object] = print,
+        *,
+        with_rejected: bool = False,
+    ) -> None:
+        """`notice` gets the line that announces it; `with_rejected` writes rejected words, too.
+
+        Raises HriError when the folder cannot be written.
+        """
         self.folder = folder
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise HriError(f"{folder}: {error.strerror} - choose another folder") from error
-        self._log = EventLog(folder / "events.jsonl", events)
+        self._notice = notice
+        self._make_private()
+        withheld = NOTHING if with_rejected else REJECTED
+        self._log = EventLog(folder / "events.jsonl", events, withheld)
         self._record_screen(resources)
         self._record_speaker(resources)
 
+    def _make_private(self) -> None:
+        """Close the folder to others, unless it holds what is no recording, and the files."""
+        make_folder(self.folder, PRIVATE_FOLDER)
+        if {*self.folder.iterdir()} <= {*parts(self.folder)}:
+            close_to_others(self.folder)
+        for name in STREAMS:
+            private_file(self.folder / name)
+
+    async def announce(self, context: TaskContext) -> None:
+        """Say that it records: in the terminal, and aloud where a real microphone hears people."""
+        self._notice(f"recording to {self.folder}/, which only you can read")
+        is_heard = any(ear.is_hardware for ear in context.resources.opened(Microphone))
+        if is_heard and context.find_behavior(Voice) is not None:
+            await say(context, ALOUD)
+
     def _record_screen(self, resources: ResourceManager) -> None:
+        from hri.face.renderers.lamp import RECORDING, add_lamp
         from hri.hal.drivers.video_file import VideoFileScreen
 
         screen = resources.obtain("screen", Screen)
@@ -58,7 +112,7 @@ class Recording:
         description = Description("face.mp4", "Hri.VideoFileScreen", {"file": path, **size})
         video = VideoFileScreen(description, resources)
         video.activate()
-        tee = TeeScreen(screen, video)
+        tee = TeeScreen(screen, video, partial(add_lamp, lamp=RECORDING))
         tee.activate()
         resources.substitute("screen", tee)
 

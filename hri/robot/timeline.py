@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from hri.core.writing import write_bytes
+from hri.core.writing import PRIVATE, write_bytes
 
 Line = dict[str, Any]
 
@@ -41,7 +41,7 @@ def plot_timeline(events: list[Line], path: Path) -> None:
     motion.set_xlabel("seconds")
     picture = io.BytesIO()
     figure.savefig(picture, dpi=100, format="png", metadata={"Software": "hri"})
-    write_bytes(path, picture.getvalue())
+    write_bytes(path, picture.getvalue(), PRIVATE)
 
 
 def _plot_talk(axes: Axes, events: list[Line]) -> None:

@@ -1,0 +1,145 @@
+"""A recording is announced, only its owner can read it, and rejected words are left out."""
+
+import stat
+
+import cv2
+import pytest
+
+from hri import Robot
+from hri.core.clock import FakeClock
+from hri.core.recording import read_events
+from hri.hal.microphone import Microphone
+from hri.robot.recording import ALOUD, FILES
+
+APP = """networks = ["face.xml", "feeling.xml"]
+"""
+FACE = """<BehaviorNetwork name="face" invocation_interval="1/30">
+  <Behavior id="voice" type="Hri.Voice"/>
+  <Behavior id="face" type="Hri.Face"/>
+  <Behavior id="renderer" type="Hri.FaceRenderer"/>
+  <Link from="face.weights" to="renderer.weights"/>
+</BehaviorNetwork>
+"""
+FEELING = """<BehaviorNetwork name="feeling" invocation_interval="0.1">
+  <Behavior id="emotion" type="Hri.EmotionModel"/>
+</BehaviorNetwork>
+"""
+SECRET = "water the plants"
+
+
+@pytest.fixture
+def record(tmp_path):
+    """Records some seconds of a robot in which something is rejected; the robot."""
+    (tmp_path / "app.toml").write_text(APP)
+    (tmp_path / "face.xml").write_text(FACE)
+    (tmp_path / "feeling.xml").write_text(FEELING)
+    told = []
+
+    def record(prepare=lambda robot: None, **options):
+        robot = Robot(
+            str(tmp_path), "simulated", clock=FakeClock(), notice=told.append,
+            record=tmp_path / "out", **options,
+        )  # fmt: skip
+        robot.told = told
+        prepare(robot)
+        with robot:
+            robot.wait(0.5)
+            robot.events.raise_event("speech.partial", text=SECRET)
+            robot.events.raise_event(
+                "speech.rejected", reason="not in the grammar", text=SECRET,
+                detail=f'"{SECRET}" is as likely', confidence=0.5,
+            )  # fmt: skip
+            robot.wait(1.5)
+        return robot
+
+    return record
+
+
+def mode(path):
+    return stat.S_IMODE(path.stat().st_mode)
+
+
+def test_a_recording_is_its_owners_alone(record, tmp_path):
+    record()
+    out = tmp_path / "out"
+    assert {file.name for file in out.iterdir()} == set(FILES)
+    assert {file.name: mode(file) for file in out.iterdir()} == dict.fromkeys(FILES, 0o600)
+    assert mode(out) == 0o700
+
+
+def test_a_recording_over_an_older_one_closes_it_to_others(record, tmp_path):
+    out = tmp_path / "out"
+    out.mkdir(mode=0o755)
+    for name in FILES:
+        (out / name).touch(mode=0o644)
+    record()
+    assert {mode(file) for file in out.iterdir()} == {0o600}
+    assert mode(out) == 0o700
+
+
+def test_a_folder_with_other_files_keeps_its_permissions_the_recording_in_it_is_private(
+    record, tmp_path
+):
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "notes.txt").touch(mode=0o644)
+    out.chmod(0o755)
+    record()
+    assert mode(out) == 0o755
+    assert mode(out / "notes.txt") == 0o644
+    assert {mode(out / name) for name in FILES} == {0o600}
+
+
+def test_words_that_were_rejected_are_left_out_and_the_keys_stay(record, tmp_path):
+    record()
+    assert all(SECRET.encode() not in file.read_bytes() for file in (tmp_path / "out").iterdir())
+    events = {event["event"]: event for event in read_events(tmp_path / "out" / "events.jsonl")}
+    rejected = events["speech.rejected"]
+    assert set(rejected) == {"t", "event", "reason", "detail", "text", "confidence"}
+    assert rejected["reason"] == "not in the grammar"
+    assert rejected["text"] == rejected["detail"] == events["speech.partial"]["text"] == ""
+
+
+def test_words_that_were_rejected_are_written_when_it_is_asked_for(record, tmp_path):
+    record(record_rejected=True)
+    events = read_events(tmp_path / "out" / "events.jsonl")
+    assert [e["text"] for e in events if e["event"].startswith("speech.")] == [SECRET, SECRET]
+
+
+def test_a_recording_is_told_in_one_line_and_marked_on_the_face(record, tmp_path):
+    robot = record()
+    (line,) = robot.told
+    assert line.startswith(f"recording to {tmp_path / 'out'}/")
+    film = cv2.VideoCapture(str(tmp_path / "out" / "face.mp4"))
+    film.set(cv2.CAP_PROP_POS_FRAMES, 30)
+    _, picture = film.read()
+    film.release()
+    height, width = picture.shape[:2]
+    blue, green, red = (picture[..., channel].astype(int) for channel in range(3))
+    is_red = (red > 180) & (green < 140) & (blue < 140)
+    rows, _ = is_red[: height // 10, : width // 10].nonzero()
+    assert len(rows) > 20
+    assert abs(rows.mean() / height - 0.045) < 0.01
+
+
+def live_microphone(robot):
+    """Let what stands for the microphone pass for a real one."""
+    ear = robot.resources.obtain("microphone", Microphone)
+    ear.is_hardware = True
+
+
+@pytest.mark.parametrize(("prepare", "said"), [(live_microphone, [ALOUD]), (lambda robot: 0, [])])
+def test_it_is_said_aloud_only_where_a_microphone_hears_people(record, tmp_path, prepare, said):
+    record(prepare)
+    events = read_events(tmp_path / "out" / "events.jsonl")
+    assert [e["text"] for e in events if e["event"] == "speech.said"] == said
+    assert not [e for e in events if e["event"].startswith("question.")]
+
+
+def test_what_is_not_recorded_is_not_marked_or_told(record, tmp_path):
+    def not_recorded(robot):
+        robot.record = None
+
+    robot = record(not_recorded)
+    assert robot.told == []
+    assert not (tmp_path / "out").exists()
