@@ -29,7 +29,7 @@ COMMANDS = {
     "watch": ("hri.cli.watch", "show what is seen: people, ids, pose, gaze and gestures"),
     "drive": ("hri.cli.drive", "drive a base by hand, with a live picture"),
     "bench": ("hri.cli.bench", "measure, and print JSON"),
-    "soak": ("hri.cli.soak", "run a large network for simulated hours and watch it"),
+    "soak": ("hri.cli.soak", "run a large network, or the companion, for simulated hours"),
 }
 """Each command is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
 

@@ -1,10 +1,11 @@
-"""`hri soak`: simulated hours of a large network; exit status 1 when anything leaks or is lost."""
+"""`hri soak`: simulated hours of what must not leak or lose; exit status 1 when anything does."""
 
 from __future__ import annotations
 
 import argparse
 import math
 
+from hri.testing.companion_soak import CompanionSoak
 from hri.testing.soak import Soak
 
 
@@ -12,6 +13,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--hours", type=_hours, default=1.0, metavar="H", help="of simulated time (%(default)g)")
     add("--behaviors", type=_count, default=50, metavar="N", help="in the network (%(default)s)")
+    add("--companion", action="store_true", help="the companion with its visitor, not a network")
 
 
 def _hours(text: str) -> float:
@@ -29,14 +31,36 @@ def _count(text: str) -> int:
 
 
 def run(options: argparse.Namespace) -> int:
-    verdict = Soak(options.hours, options.behaviors, lambda line: print(line, flush=True)).run()
-    print(
+    told, faults = _companion(options) if options.companion else _network(options)
+    print(told)
+    for fault in faults[:20]:
+        print(f"FAULT: {fault}")
+    print("failed" if faults else "passed")
+    return 1 if faults else 0
+
+
+def _network(options: argparse.Namespace) -> tuple[str, list[str]]:
+    """What came of the large network, and what is wrong with it."""
+    verdict = Soak(options.hours, options.behaviors, _tell).run()
+    told = (
         f"{verdict.hours:g} hours, {verdict.ticks} ticks, {verdict.events} events,"
         f" {verdict.tasks} tasks, {verdict.injected} values injected, {verdict.swaps} networks"
         f" swapped, {verdict.drives} drives, {verdict.crossings} bridges;"
         f" drift {verdict.drift:.1e} s, memory {verdict.growth / 1000:+.1f} kB"
     )
-    for fault in verdict.faults[:20]:
-        print(f"FAULT: {fault}")
-    print("failed" if verdict.faults else "passed")
-    return 1 if verdict.faults else 0
+    return told, verdict.faults
+
+
+def _companion(options: argparse.Namespace) -> tuple[str, list[str]]:
+    """What came of the companion, and what is wrong with it."""
+    verdict = CompanionSoak(options.hours, _tell).run()
+    told = (
+        f"{verdict.hours:g} hours, {verdict.visits} visits, {verdict.events} events,"
+        f" {verdict.answered} answers to {verdict.lines} lines;"
+        f" memory {verdict.growth:+.1f} MB"
+    )
+    return told, verdict.faults
+
+
+def _tell(line: str) -> None:
+    print(line, flush=True)
