@@ -6,6 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from hri.core import paths
 from hri.core.models import Catalog, Download, Model, Packaged, bring, fetch, fetched, models_folder
 from hri.speech import models as speech
 from hri.vision import models as vision
@@ -60,7 +61,7 @@ def _state(model: Model) -> str:
 def _fetch(options: argparse.Namespace) -> int:
     if options.source is not None:
         name: str = options.name
-        place = bring(name, options.source.expanduser(), CATALOG.parts(name))
+        place = bring(name, paths.expanded(options.source), CATALOG.parts(name))
     else:
         place = fetch(CATALOG.download(options.name), _ProgressLine(options.name))
     print(place)

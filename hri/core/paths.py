@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import difflib
 import os
+import pwd
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 
 from hri.core.errors import HriError, did_you_mean
@@ -31,7 +33,7 @@ def search_folders() -> Iterator[Path]:
     for variable in VARIABLES:
         for folder in os.environ.get(variable, "").split(":"):
             if folder:
-                yield Path(folder).expanduser()
+                yield expanded(folder)
     yield house()
 
 
@@ -46,9 +48,9 @@ def find(kind: str, name: str) -> Path:
     if not name:
         raise HriError(f"an empty name for something in {kind} - {_meant(kind, name)}")
     try:
-        direct = Path(name).expanduser()
+        direct = expanded(name)
         is_there = direct.exists()
-    except (OSError, RuntimeError, ValueError) as error:
+    except (OSError, ValueError) as error:
         raise HriError(f'"{name[:60]}" is no name of a file - shorten or mend it') from error
     if is_there and (os.sep in name or direct.suffix or name in (os.curdir, os.pardir)):
         return direct
@@ -59,7 +61,7 @@ def find(kind: str, name: str) -> Path:
         ):
             if candidate.exists() and candidate != folder:
                 return candidate
-    beside = Path(spelled).expanduser()
+    beside = expanded(spelled)
     if beside.is_dir() if kind in FOLDERS else beside.is_file():
         return beside
     if name.startswith((".", os.sep, "~")):
@@ -96,24 +98,55 @@ def names(kind: str) -> list[str]:
 
 
 def settings_folder() -> Path:
-    """Where the user's choices are kept (XDG base directory specification)."""
-    base = os.environ.get("XDG_CONFIG_HOME") or "~/.config"
-    return Path(base).expanduser() / "hri"
+    """Where the user's choices are kept."""
+    return _base("XDG_CONFIG_HOME", ".config")
 
 
 def cache_folder() -> Path:
-    """Where what can be made again is kept (XDG base directory specification)."""
-    base = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
-    return Path(base).expanduser() / "hri"
+    """Where what can be made again is kept."""
+    return _base("XDG_CACHE_HOME", ".cache")
 
 
 def data_folder() -> Path:
-    """Where what the user fetched is kept (XDG base directory specification)."""
-    base = os.environ.get("XDG_DATA_HOME") or "~/.local/share"
-    return Path(base).expanduser() / "hri"
+    """Where what the user fetched is kept."""
+    return _base("XDG_DATA_HOME", ".local/share")
 
 
 def state_folder() -> Path:
-    """Where what the robot remembers between runs is kept (XDG base directory specification)."""
-    base = os.environ.get("XDG_STATE_HOME") or "~/.local/state"
-    return Path(base).expanduser() / "hri"
+    """Where what the robot remembers between runs is kept."""
+    return _base("XDG_STATE_HOME", ".local/state")
+
+
+def _base(variable: str, usual: str) -> Path:
+    """Our folder of a kind; a relative one is ignored, as the XDG specification says.
+
+    Raises HriError where there is no home folder either.
+    """
+    named = expanded(os.environ.get(variable, ""))
+    return (named if named.is_absolute() else home() / usual) / "hri"
+
+
+def home() -> Path:
+    """The user's home folder: $HOME, or the one of the system's list of users where it is no path.
+
+    Raises HriError when there is none.
+    """
+    with suppress(KeyError):  # a user whom the system does not list
+        for named in (os.environ.get("HOME", ""), pwd.getpwuid(os.getuid()).pw_dir):
+            if Path(named).is_absolute():
+                return Path(named)
+    raise HriError("no home folder - set HOME to a folder of yours")
+
+
+def expanded(path: Path | str) -> Path:
+    """A path as the user wrote it, with the home folder in place of "~".
+
+    Raises HriError for the home of a user whom there is not.
+    """
+    path = Path(path)
+    if path.parts[:1] == ("~",):
+        return home().joinpath(*path.parts[1:])
+    try:
+        return path.expanduser()
+    except RuntimeError as error:
+        raise HriError(f"{path}: there is no such user - check the path") from error

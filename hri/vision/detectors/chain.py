@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TypeVar
 
+from hri.core import paths
 from hri.core.errors import HriError
 from hri.vision.detectors.blazeface import BlazeFace
 from hri.vision.detectors.face import FaceFinder
@@ -43,7 +43,7 @@ def load_detectors(setting: str = AUTO) -> Detectors:
     problems: list[str] = []
     finder: FaceFinder | None = None
     if setting != AUTO:
-        finder = _tried(lambda: YuNet(Path(setting).expanduser()), problems)
+        finder = _tried(lambda: YuNet(paths.expanded(setting)), problems)
     if finder is None:
         finder = _tried(lambda: BlazeFace(find_face_models() / DETECTOR.name), problems)
     mesh = _tried(lambda: FaceMesh(find_face_models() / MESH.name), problems)

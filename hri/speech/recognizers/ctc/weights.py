@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.core import paths
 from hri.core.errors import HriError, NotAvailable
 
 VARIABLE = "HRI_CTC_WEIGHTS"
@@ -52,7 +53,7 @@ def find_weights(path: str = "") -> Path:
     """
     chosen = path or os.environ.get(VARIABLE, "")
     if chosen:
-        file = Path(chosen).expanduser()
+        file = paths.expanded(chosen)
         if not file.is_file():
             raise NotAvailable(f"no weight file {file} - mend the path, or leave it out")
         return file
