@@ -6,6 +6,7 @@ when the bytes that stop it come in.
 
 from __future__ import annotations
 
+import math
 import os
 import signal
 import subprocess
@@ -65,9 +66,12 @@ class WatchedLine(Line):
             (at for at, data in list(self.came) if at >= time and PROTOCOL.stop in data), None
         )
 
-    def goes(self, speed: float) -> bool:
-        """Whether the last it was told is this velocity."""
-        return bool(self.came) and PROTOCOL.velocity(Twist(speed)) in self.came[-1][1]
+    def goes(self, speed: float, since: float = -math.inf) -> bool:
+        """Whether the last it was told, later than `since`, is this velocity."""
+        if not self.came:
+            return False
+        time, told = self.came[-1]
+        return time > since and PROTOCOL.velocity(Twist(speed)) in told
 
 
 @dataclass
@@ -127,15 +131,23 @@ def program_to_zero(tries: int) -> list[float]:
 
 def ended(bench: Bench, path: str, by: signal.Signals, speed: float = SPEED) -> float:
     """What one program's end takes."""
+    with driving_program(bench, path, speed) as program:
+        time = bench.clock.now()
+        os.kill(program, by)
+        return bench.stop_after(time)
+
+
+@contextmanager
+def driving_program(bench: Bench, path: str, speed: float = SPEED) -> Iterator[int]:
+    """The id of a program that drives the base at this speed while a `with` lasts."""
     code = f"from hri.bench.stops import drive_on; drive_on({path!r}, {speed!r})"
     program = subprocess.Popen(
         child.command("-c", code), stdin=subprocess.DEVNULL, env=child.environment()
     )
     try:
-        bench.wait("driving", lambda: bench.line.goes(speed))
-        time = bench.clock.now()
-        os.kill(program.pid, by)
-        return bench.stop_after(time)
+        began = bench.clock.now()
+        bench.wait("driving", lambda: bench.line.goes(speed, began))
+        yield program.pid
     finally:
         program.kill()
         program.wait()

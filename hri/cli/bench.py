@@ -15,7 +15,7 @@ BENCHES = ("behavior", "companion", "drive", "emotion", "face", "net", "speech",
 TAKES = {
     "behavior": ("seconds",),
     "companion": ("seconds",),
-    "drive": ("quick",),
+    "drive": ("quick", "only"),
     "face": ("quick",),
     "speech": ("quick", "recordings", "draw"),
     "vision": ("quick",),
@@ -32,6 +32,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "take every sixth sentence and recording (speech), a tenth (drive, face, vision, writes)"
     )
     parser.add_argument("--quick", action="store_true", default=None, help=about)
+    about = "only this part, such as chain or rooms; a wrong name lists them all (drive)"
+    parser.add_argument("--only", metavar="PART", help=about)
     about = "recordings of people, a folder with a manifest.tsv (speech)"
     parser.add_argument("--recordings", type=Path, metavar="DIR", help=about)
     about = "another babble of the same people, a number (speech)"
@@ -55,7 +57,7 @@ def run(options: argparse.Namespace) -> int:
     module = importlib.import_module(f"hri.bench.{options.name}")
     given: dict[str, Any] = {
         name: value
-        for name in ("seconds", "quick", "recordings", "draw")
+        for name in ("seconds", "quick", "only", "recordings", "draw")
         if (value := getattr(options, name)) is not None
     }
     for name in given.keys() - TAKES.get(options.name, ()):

@@ -1,4 +1,8 @@
-from hri.bench.drive import rooms, wheels, world
+import pytest
+
+from hri.bench.chain import LINKS, combinations, words
+from hri.bench.drive import measure, rooms, wheels, world
+from hri.core.errors import HriError
 from hri.testing.trips import Trip
 
 
@@ -38,3 +42,15 @@ def test_the_speed_of_the_world_is_measured() -> None:
     (row,) = world.rows(quick=True)
     assert row["unit"] == "times real time"
     assert row["value"] > 20
+
+
+def test_each_combination_of_dead_links_leaves_one_alive_and_is_measured_once() -> None:
+    found = combinations()
+    assert len({words(done) for done in found}) == 3**3 - 2**3 - 1
+    assert all(0 < len(done) < len(LINKS) for done in found)
+
+
+def test_one_part_can_be_measured_alone_and_a_misspelt_one_is_refused() -> None:
+    assert len(measure(only="odometry")["rows"]) == 1
+    with pytest.raises(HriError, match='did you mean "chain"'):
+        measure(only="chian")

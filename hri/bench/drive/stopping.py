@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 
+from hri.bench import chain as links
 from hri.bench import faults as injected
 from hri.bench import stops
 from hri.bench.table import Row, amount, at_least, at_most, share
 
 TRIES, QUICK_TRIES = 100, 10
 HAZARD_MS, PROGRAM_MS = 15.0, 250.0
+CHAIN_TRIES, QUICK_CHAIN_TRIES = 20, 1
+CHAIN_MS = 250.0
+BUSY = 2
+"""Busy processes for each core."""
 
 
 def rows(quick: bool) -> Iterator[Row]:
@@ -22,6 +28,18 @@ def rows(quick: bool) -> Iterator[Row]:
     what = "program killed or frozen at 0.3 m/s to zero velocity on the port, max"
     limit = at_most(PROGRAM_MS)
     yield amount(what, program["max"], "ms", limit, tries=tries, **_rest(program, "max"))
+
+
+def chain(quick: bool) -> Iterator[Row]:
+    """Each combination of program, supervisor and watchdog killed or frozen with one alive."""
+    tries = QUICK_CHAIN_TRIES if quick else CHAIN_TRIES
+    for busy in (0, BUSY * (os.cpu_count() or 1)):
+        figures = links.figures(tries, busy)
+        worst = figures["all"].pop("max")
+        what = "links of the chain killed or frozen at 0.3 m/s to zero velocity on the port, max"
+        if busy:
+            what += f", beside {busy} busy processes"
+        yield amount(what, worst, "ms", at_most(CHAIN_MS), **figures.pop("all"), **figures)
 
 
 def faults() -> Iterator[Row]:

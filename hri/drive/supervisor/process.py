@@ -29,6 +29,7 @@ from hri.drive.supervisor.controller import TURN, Controller
 from hri.drive.supervisor.governor import Body
 from hri.drive.supervisor.limiter import Limits
 from hri.drive.supervisor.link import Packets, decoded_order, encoded
+from hri.drive.supervisor.standby import Lifeline
 from hri.drive.supervisor.supervisor import Rules, Supervisor
 from hri.drive.supervisor.watchdog import Watchdog
 from hri.hal.drivers.serial_port import SerialPort
@@ -56,6 +57,8 @@ class Settings:
     mounts: Mapping[str, Pose2D] = field(default_factory=dict)
     cause: Cause = POWER_UP
     """Why it begins latched."""
+    lifeline: int = -1
+    """Descriptor of the socket to the thread of the program that stands by."""
 
     def encoded(self) -> str:
         return json.dumps(asdict(self))
@@ -89,6 +92,7 @@ class Process:
     def __init__(self, settings: Settings, clock: Clock) -> None:
         self._clock = clock
         self._packets = Packets(socket.socket(fileno=settings.line))
+        self._lifeline = Lifeline(socket.socket(fileno=settings.lifeline))
         protocol = settings.make()
         self._port = SerialPort(settings.port, protocol.baud)
         self._supervisor = Supervisor(
@@ -105,16 +109,19 @@ class Process:
                 self._turn()
         finally:
             self._supervisor.trip(NO_PROGRAM)
-            self._controller.close(self._clock.now())
+            now = self._clock.now()
+            self._controller.close(now)
             self._unwatch()
+            self._lifeline.beat(now)
 
     def _turn(self) -> None:
         self._wait()
         packets = self._packets.receive()
         orders = [order for order in map(decoded_order, packets) if order is not None]
         now = self._clock.now()
-        self._controller.turn(now, orders)
         self._watch(now)
+        self._lifeline.beat(now)
+        self._controller.turn(now, orders)
         if packets:
             self._packets.send(encoded(self._controller.state(now)))
 
@@ -133,18 +140,25 @@ class Process:
             self._unwatch()
         self._openings = self._controller.openings
         if self._watchdog is not None:
-            self._watchdog.beat(now)
-            if self._watchdog.is_silent(now):
-                self._supervisor.trip(NO_WATCHDOG)
-                self._unwatch()
+            self._hear_watchdog(self._watchdog, now)
         if self._watchdog is None and self._port.is_open:
             stop = self._controller.protocol.emergency_stop
             self._watchdog = Watchdog(self._port.fileno(), stop, now)
+            self._lifeline.lend(self._port.fileno(), self._watchdog.pid)
+
+    def _hear_watchdog(self, watchdog: Watchdog, now: float) -> None:
+        watchdog.beat(now)
+        self._supervisor.is_watched = not watchdog.is_late(now)
+        if watchdog.is_dead(now):
+            self._supervisor.trip(NO_WATCHDOG)
+            self._unwatch()
 
     def _unwatch(self) -> None:
         watchdog, self._watchdog = self._watchdog, None
         if watchdog is not None:
             watchdog.close()
+            self._lifeline.withdraw()
+        self._supervisor.is_watched = True
 
 
 def main(settings: str) -> None:

@@ -9,6 +9,8 @@ from __future__ import annotations
 import select
 import socket
 import subprocess
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 
 from hri.core import child
@@ -28,6 +30,7 @@ from hri.drive.supervisor.link import (
 )
 from hri.drive.supervisor.multiplexer import Level
 from hri.drive.supervisor.process import Settings
+from hri.drive.supervisor.standby import Standby
 from hri.hal.drivers.serial_port import Backoff
 from hri.hal.motion import REST, Way
 
@@ -46,15 +49,17 @@ ENDING = 2.0
 
 
 class Child:
-    """One process, with the line to it."""
+    """One process, with the line to it, and the thread that stands by for it."""
 
     def __init__(self, settings: Settings) -> None:
         """Start it. Raises NotAvailable where this machine cannot."""
+        stop = settings.make().emergency_stop
         try:
-            ours, theirs = pair()
-            with ours, theirs:
-                self._process = _started(replace(settings, line=theirs.fileno()))
-                self.packets = Packets(socket.socket(fileno=ours.detach()))
+            with _two_pairs() as (ours, theirs, our_lifeline, its_lifeline):
+                line, lifeline = theirs.fileno(), its_lifeline.fileno()
+                self._process = _started(replace(settings, line=line, lifeline=lifeline))
+                self.packets = Packets(_kept(ours))
+                self._standby = Standby(_kept(our_lifeline), stop)
         except OSError as error:
             raise NotAvailable(f"no supervisor starts: {error} - end other programs") from error
         self.has_spoken = False
@@ -64,7 +69,10 @@ class Child:
         return self._process.pid
 
     def kill(self) -> None:
-        """End it, however it stands; its watchdog stops the base. `is_dead` tells when it has."""
+        """End it, however it stands; its watchdog and the thread that stands by stop the base.
+
+        `is_dead` says when it has ended.
+        """
         self.packets.close()
         self._process.kill()
 
@@ -80,6 +88,7 @@ class Child:
         except subprocess.TimeoutExpired:
             self.kill()
             self._process.wait()
+        self._standby.wait()
 
 
 class Remote(Connection):
@@ -213,11 +222,26 @@ class Remote(Connection):
         return replace(state, report=report, news=news)
 
 
+@contextmanager
+def _two_pairs() -> Iterator[tuple[socket.socket, ...]]:
+    """Both lines of a supervisor, ours before its own each time; closed afterwards unless kept."""
+    with ExitStack() as stack:
+        ends = (*pair(), *pair())
+        for end in ends:
+            stack.enter_context(end)
+        yield ends
+
+
+def _kept(end: socket.socket) -> socket.socket:
+    """The same end of a line, which stays open after its `with`."""
+    return socket.socket(fileno=end.detach())
+
+
 def _started(settings: Settings) -> subprocess.Popen[bytes]:
     """Raises OSError where this machine cannot."""
     return subprocess.Popen(
         [*COMMAND, settings.encoded()],
-        pass_fds=(settings.line,),
+        pass_fds=(settings.line, settings.lifeline),
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         # A process group of its own: Ctrl-C is for the program, which then hangs up.

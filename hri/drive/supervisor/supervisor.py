@@ -16,6 +16,7 @@ from hri.drive.supervisor.cause import (
     DISOBEYS,
     DONE,
     FROZEN,
+    NO_WATCHDOG,
     OBSTACLE,
     POWER_UP,
     SILENT_BASE,
@@ -101,6 +102,8 @@ class Supervisor:
         """What was refused since somebody looked last, at most ten; who reads it clears it."""
         self.room = Room()
         """What is free before the body."""
+        self.is_watched = True
+        """Whether the watchdog answers; without it the base rests."""
         self._multiplexer = Multiplexer(rules.fastest)
         self._limiter = Limiter(rules.limits)
         # On the spot, the wheels run as fast as straight on, half the track from the middle.
@@ -265,6 +268,8 @@ class Supervisor:
     ) -> Decision:
         if self.latch.cause is not None:
             return self._rest(Level.LATCH, self.latch.cause)
+        if not self.is_watched:
+            return self._rest(Level.REFLEX, NO_WATCHDOG)
         if report is None or not 0 <= now - report.time <= max(STALE, 3 * self.rules.period):
             self._reflex.cancel()
             return self._rest(Level.REFLEX, SILENT_BASE)

@@ -25,7 +25,9 @@ AGAIN = 0.05
 """Seconds between two stops for as long as the supervisor is silent."""
 LAST_STOPS = 3
 """Stops that it sends when the supervisor is gone, before it goes too."""
-DEAF = 0.5
+DEAF = 0.16
+"""Seconds without an answer after which the supervisor lets the base rest until one comes."""
+DEAD = 0.5
 """Seconds without an answer after which the supervisor takes the watchdog for dead."""
 BEAT = b"."
 MOST_DESCRIPTORS = 1024
@@ -39,6 +41,7 @@ class Watchdog:
         """`port`: the descriptor of the open port; `stop`: what stops the base from any state."""
         self._line, theirs = socket.socketpair()
         self._heard, self._said = now, -math.inf
+        self._has_ended = False
         self.pid = os.fork()
         if self.pid == 0:
             _guard(theirs.fileno(), port, stop)
@@ -57,13 +60,21 @@ class Watchdog:
         # A line that is full or broken shows as silence.
         with suppress(OSError):
             self._line.send(BEAT)
-        with suppress(OSError):
-            if self._line.recv(4096):
-                self._heard = now
+        try:
+            self._has_ended = not self._line.recv(4096)
+            self._heard = now
+        except BlockingIOError:
+            return  # no answer yet
+        except OSError:
+            self._has_ended = True  # killed with a heartbeat unread
 
-    def is_silent(self, now: float) -> bool:
-        """Whether it can no longer be relied on."""
+    def is_late(self, now: float) -> bool:
+        """Whether it cannot be relied on at this moment."""
         return now - self._heard > DEAF
+
+    def is_dead(self, now: float) -> bool:
+        """Whether it has ended, or stood still for so long that another one is needed."""
+        return self._has_ended or now - self._heard > DEAD
 
     def close(self) -> None:
         """Let it stop the base a last time and go, by itself."""
@@ -85,7 +96,7 @@ def _guard(line: int, port: int, stop: bytes) -> NoReturn:
         _watch(line, port, stop)
         status = 0
     finally:
-        _say_last(port, stop)
+        write_last_stops(port, stop)
         os._exit(status)
 
 
@@ -94,7 +105,7 @@ def _watch(line: int, port: int, stop: bytes) -> None:
     patience = HUSH
     while True:
         if not select.select([line], [], [], patience)[0]:
-            _say(port, stop)
+            write_stop(port, stop)
             patience = AGAIN
         elif _hears(line):
             patience = HUSH
@@ -112,17 +123,18 @@ def _hears(line: int) -> bool:
         return False  # killed with an answer unread
 
 
-def _say(port: int, stop: bytes) -> None:
-    """Write past whatever still waits on the line."""
+def write_stop(port: int, stop: bytes) -> None:
+    """Write past whatever still waits on the line of an open port; what has gone is left alone."""
     with suppress(OSError, termios.error):
         termios.tcflush(port, termios.TCOFLUSH)
     with suppress(OSError):
         os.write(port, stop)
 
 
-def _say_last(port: int, stop: bytes) -> None:
+def write_last_stops(port: int, stop: bytes) -> None:
+    """Write some stops, AGAIN seconds apart, since a byte may get lost; returns after the last."""
     for _ in range(LAST_STOPS):
-        _say(port, stop)
+        write_stop(port, stop)
         select.select([], [], [], AGAIN)
 
 

@@ -291,14 +291,34 @@ def test_a_supervisor_that_dies_leaves_a_base_at_rest_and_another_comes(driving)
     assert driving.state().report.rolled.linear > rolled
 
 
-def test_when_the_watchdog_dies_with_its_supervisor_the_next_one_stops_the_base(driving) -> None:
-    before, watchdog = driving.connection.pid, driving.watchdog()
-    os.kill(before, signal.SIGSTOP)  # so that it cannot notice
-    watchdog.kill()
-    os.kill(before, signal.SIGKILL)
+@pytest.mark.parametrize("watchdog_by", [signal.SIGSTOP, signal.SIGKILL])
+@pytest.mark.parametrize("supervisor_by", [signal.SIGSTOP, signal.SIGKILL])
+def test_without_supervisor_and_watchdog_the_program_stops_the_base_and_starts_others(
+    driving, monkeypatch, supervisor_by, watchdog_by
+) -> None:
+    monkeypatch.setattr(remote, "GONE", 0.5)
+    bench, before, watchdog = driving.bench, driving.connection.pid, driving.watchdog()
+    time = bench.clock.now()
+    watchdog.send_signal(watchdog_by)
+    os.kill(before, supervisor_by)
+    assert bench.stop_after(time) < SOON  # while the loop of this program waits
     another(driving, before)
-    assert not driving.bench.line.base.is_rolling
+    assert _has_ended(watchdog)
     assert driving.stays()
+    assert driving.state().reason.name == "supervisor"
+    drive_to(bench, driving.connection)
+
+
+def test_supervisor_and_watchdog_that_go_on_after_a_rest_know_that_they_were_away(driving) -> None:
+    bench, watchdog = driving.bench, driving.watchdog()
+    time = bench.clock.now()
+    watchdog.suspend()
+    os.kill(driving.connection.pid, signal.SIGSTOP)
+    bench.stop_after(time)
+    os.kill(driving.connection.pid, signal.SIGCONT)
+    watchdog.resume()
+    bench.wait("an answer", lambda: "frozen" in [n.cause.name for n in driving.ask().news])
+    drive_to(bench, driving.connection)
 
 
 def test_one_that_stays_silent_is_killed_and_after_many_deaths_nothing_is_left_behind(
@@ -319,7 +339,8 @@ def test_one_that_stays_silent_is_killed_and_after_many_deaths_nothing_is_left_b
     driving.bench.wait("deaths", has_died_often)
     monkeypatch.undo()
     another(driving, driving.connection.pid)
-    assert program.num_fds() == descriptors
+    # The port is lent to this program, too, a moment after it was opened.
+    driving.bench.wait("the same descriptors", lambda: program.num_fds() == descriptors)
     assert not [c for c in program.children() if c.status() == psutil.STATUS_ZOMBIE]
     drive_to(driving.bench, driving.connection)
 
@@ -361,6 +382,11 @@ def _command_lines() -> Iterator[list[str]]:
     for process in psutil.process_iter():
         with suppress(psutil.Error):
             yield process.cmdline()
+
+
+def _has_ended(process: psutil.Process) -> bool:
+    """Whether it is gone, or waits for nothing but to be collected."""
+    return not process.is_running() or process.status() == psutil.STATUS_ZOMBIE
 
 
 def _fill(path: str) -> None:

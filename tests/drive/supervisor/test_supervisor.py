@@ -178,6 +178,17 @@ def test_a_supervisor_that_stood_still_for_long_does_not_go_on_by_itself() -> No
     assert track.decision.twist == REST
 
 
+def test_while_its_watchdog_is_late_the_base_rests_and_then_goes_on() -> None:
+    track = Track().released()
+    track.run(1.0, GO)
+    track.supervisor.is_watched = False
+    assert track.run(STEP, GO).twist == REST
+    assert track.run(0.3, GO).reason.name == "watchdog"
+    assert track.decision.twist == REST
+    track.supervisor.is_watched = True
+    assert track.run(1.0, GO).twist == GO
+
+
 # --- people and obstacles ---
 
 

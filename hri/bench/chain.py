@@ -1,0 +1,93 @@
+"""How soon a base is told to stop when links of its chain are killed or frozen, in each combination
+that leaves one of program, supervisor and watchdog alive: real processes, as in `stops`.
+"""
+
+from __future__ import annotations
+
+import itertools
+import signal
+import subprocess
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from typing import Any
+
+import psutil
+
+from hri.bench.figures import summary
+from hri.bench.stops import SPEED, Bench, driving_program
+
+LINKS = ("program", "supervisor", "watchdog")
+DEEDS: Mapping[str, signal.Signals] = {"killed": signal.SIGKILL, "frozen": signal.SIGSTOP}
+Combination = Mapping[str, str]
+"""What is done to which links, such as {"supervisor": "frozen", "watchdog": "killed"}."""
+BUSY = "while True: pass"
+"""What a busy process runs."""
+
+
+def combinations() -> list[Combination]:
+    """All 18 in which something is done and one link stays alive."""
+    told = itertools.product(("", *DEEDS), repeat=len(LINKS))
+    each = ({link: deed for link, deed in zip(LINKS, deeds, strict=True) if deed} for deeds in told)
+    return [done for done in each if 0 < len(done) < len(LINKS)]
+
+
+def words(done: Combination) -> str:
+    """For people: "supervisor frozen, watchdog killed"."""
+    return ", ".join(f"{link} {deed}" for link, deed in done.items())
+
+
+def stopped(bench: Bench, path: str, done: Combination, speed: float = SPEED) -> float:
+    """Seconds from the first deed to the bytes that stop the base."""
+    with driving_program(bench, path, speed) as program:
+        links = dict(zip(LINKS, _chain(program), strict=True))
+        try:
+            time = bench.clock.now()
+            for link, deed in done.items():
+                links[link].send_signal(DEEDS[deed])
+            return bench.stop_after(time)
+        finally:
+            _end(links.values())
+
+
+def figures(tries: int, busy: int = 0) -> dict[str, Any]:
+    """Milliseconds by combination and over all, beside so many busy processes."""
+    bench, seconds = Bench(), dict[str, list[float]]()
+    with bench.port() as port, busy_processes(busy):
+        for done in combinations():
+            seconds[words(done)] = [stopped(bench, port.path, done) for _ in range(tries)]
+    together = list(itertools.chain.from_iterable(seconds.values()))
+    told = {name: _told(values) for name, values in seconds.items()}
+    return {"all": _told(together), "combinations": told, "tries": tries, "busy": busy}
+
+
+@contextmanager
+def busy_processes(count: int) -> Iterator[None]:
+    """Processes that take all the time they can get, while a `with` lasts."""
+    running = [subprocess.Popen([sys.executable, "-c", BUSY]) for _ in range(count)]
+    try:
+        yield
+    finally:
+        for process in running:
+            process.kill()
+            process.wait()
+
+
+def _chain(program: int) -> Sequence[psutil.Process]:
+    """The processes of LINKS. Raises ValueError when one is missing."""
+    top = psutil.Process(program)
+    (supervisor,) = top.children()
+    (watchdog,) = supervisor.children()
+    return top, supervisor, watchdog
+
+
+def _end(processes: Iterable[psutil.Process]) -> None:
+    """Nothing of them is left: what is frozen holds the port."""
+    for process in processes:
+        with suppress(psutil.NoSuchProcess):
+            process.kill()
+
+
+def _told(seconds: Sequence[float]) -> dict[str, float]:
+    ms = [1000 * value for value in seconds]
+    return summary(ms, 1) | {"max": round(max(ms), 1)}

@@ -1,0 +1,95 @@
+"""The line between a supervisor and the thread of the program that stands by for it."""
+
+import os
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass, field
+
+import pytest
+
+from hri.drive.supervisor.link import pair
+from hri.drive.supervisor.standby import Lifeline, Standby
+
+STOP = b"stop!"
+
+
+@dataclass
+class Stage:
+    """Both sides, and a pipe in place of the port."""
+
+    ends: tuple[int, int] = field(default_factory=os.pipe)
+
+    def __post_init__(self) -> None:
+        self.ours, theirs = pair()
+        self.lifeline, self.standby = Lifeline(self.ours), Standby(theirs, STOP)
+
+    @property
+    def port(self) -> int:
+        return self.ends[1]
+
+    def lend(self) -> None:
+        self.lifeline.lend(self.port, os.getpid())
+        self.lifeline.beat(0.0)
+
+    def heard(self) -> bytes:
+        """What comes out of the port next; nothing once nobody has it any more."""
+        return os.read(self.ends[0], len(STOP))
+
+
+@pytest.fixture
+def stage() -> Iterator[Stage]:
+    stage = Stage()
+    yield stage
+    stage.lifeline.withdraw()
+    stage.lifeline.beat(100.0)
+    stage.ours.close()
+    stage.standby.wait()
+    for end in stage.ends:
+        with suppress(OSError):
+            os.close(end)
+
+
+def test_for_a_supervisor_that_falls_silent_the_program_stops_the_base_again_and_again(
+    stage,
+) -> None:
+    stage.lend()
+    assert [stage.heard() for _ in range(3)] == [STOP] * 3
+
+
+def test_a_port_that_was_taken_back_is_closed_and_not_written_to(stage) -> None:
+    stage.lend()
+    stage.lifeline.withdraw()
+    stage.lifeline.beat(0.0)
+    os.close(stage.port)
+    assert stage.heard() == b""
+
+
+def test_a_port_that_was_lent_in_the_place_of_another_is_the_one_that_is_stopped(stage) -> None:
+    stage.lend()
+    first, stage.ends = stage.ends, os.pipe()
+    stage.lend()
+    os.close(first[1])
+    assert os.read(first[0], len(STOP)) == b""
+    os.close(first[0])
+    assert stage.heard() == STOP
+
+
+def test_a_word_that_finds_the_line_full_is_said_again() -> None:
+    ours, theirs = pair()
+    lifeline, ends = Lifeline(ours), os.pipe()
+    theirs.setblocking(False)
+    now = 0.0
+    with ours, theirs:
+        for now in range(10_000):  # nobody reads
+            lifeline.beat(now)
+        lifeline.lend(ends[1], os.getpid())
+        lifeline.beat(now)
+        with suppress(BlockingIOError):
+            while theirs.recv(100) != b"+":
+                continue
+            raise AssertionError("it was said into a full line")
+        lifeline.beat(now)
+        assert theirs.recv(100) == b"+"
+        lifeline.withdraw()
+    for end in ends:
+        os.close(end)
