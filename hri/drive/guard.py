@@ -1,4 +1,4 @@
-"""Ties the supervisor of a base to the robot: who is near, who says stop, and what it tells."""
+"""Ties a base to the robot: who says stop, and what its supervisor must know and tells."""
 
 from __future__ import annotations
 
@@ -7,12 +7,13 @@ import math
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
-from hri.core.errors import HriError
+from hri.core.errors import HriError, did_you_mean
 from hri.core.events import Subscription
 from hri.core.signals import Event, People
 from hri.drive.behaviors import COMMAND, MOTION
 from hri.drive.supervisor.announcement import announce
 from hri.drive.supervisor.bus import BaseBus
+from hri.hal.emergency_stop import EmergencyStop
 
 TELL_EVERY = 0.5
 """Seconds between two words about the nearest person; the supervisor believes each for longer."""
@@ -27,25 +28,32 @@ class BaseGuard(Behavior):
 
     "Stop" is a rule of that name that was heard, the event `drive.halt` (its `because` says why),
     or a call of `halt`. Only `release` lets the base move again: it is for something that a person
-    did, never for a program to go on by itself. What the supervisor tells becomes the events
-    `drive.stopped`, `drive.refused` and `drive.faulty`. Without such a base it does nothing.
+    did, never for a program to go on by itself. A base with a supervisor also hears who is near, and
+    what it reports becomes the events `drive.stopped`, `drive.refused`, and `drive.faulty`. A base
+    without one, such as the simulated one, latches in its drive and starts released. Without any
+    base the guard does nothing.
     """
 
     category = "drive"
 
-    base_id = Param("", "id of the bus of the base; the only one there is, without it")
+    base_id = Param(
+        "", "id of the base: its bus, or its drive where it has none; the first one, without it"
+    )
 
     people = Input[People]("people", "everybody who is seen: near them it drives slowly")
     is_latched = Output[bool]("boolean", "true while the base must not move until it is released")
 
     def start(self, context: Context) -> None:
         self._resources, self._board = context.resources, context.board
-        self._bus = self._found(context)
+        self._base = self._found(context)
+        self._bus = self._base if isinstance(self._base, BaseBus) else None
+        self._events = context.events
         self._told = self._seen = -math.inf
         self._nearest = math.nan
         self._subscriptions: list[Subscription] = []
         if self._bus is not None:
             self._watcher = announce(self._bus, context.events)
+        if self._base is not None:
             subscribe = context.events.subscribe
             self._subscriptions = [
                 subscribe("speech.heard", self._hear),
@@ -56,14 +64,17 @@ class BaseGuard(Behavior):
         if (people := self.people.value) is not None:
             self._seen = people.time
             self._nearest = nearest(people)
-        if self._bus is None:
-            return
-        self.is_latched.send(self.must_wait)
+        if self._base is not None:
+            self.is_latched.send(self.must_wait)
+        if self._bus is not None:
+            self._tell_who_is_near(self._bus, now)
+
+    def _tell_who_is_near(self, bus: BaseBus, now: float) -> None:
         # Who sees nobody because it sees nothing says nothing: somebody may be near.
         if now - self._told >= TELL_EVERY and now - self._seen <= SEEN:
             self._told = now
             if not math.isnan(self._nearest):
-                self._bus.hear_person(self._nearest)
+                bus.hear_person(self._nearest)
 
     def stop(self) -> None:
         for subscription in self._subscriptions:
@@ -71,43 +82,52 @@ class BaseGuard(Behavior):
         self._subscriptions.clear()
         if self._bus is not None:
             self._bus.unwatch(self._watcher)
-            self._resources.release(self._bus)
-            self._bus = None
+        if self._base is not None:
+            self._resources.release(self._base)
+        self._base = self._bus = None
 
     @property
     def must_wait(self) -> bool:
         """Whether the base does not move until it is released."""
-        return self._bus is not None and self._bus.state.is_latched
+        return self._base is not None and self._base.is_latched
 
     def halt(self, because: str = "somebody said stop") -> None:
         """The emergency stop; `because` ends the sentence "I stopped because".
 
         It ends the motion of any task: after a release nothing goes on by itself.
         """
-        if self._bus is not None:
-            for slot in (COMMAND, MOTION):
-                self._board.slot(slot).clear()
-            self._bus.stop_latched(because)
+        if self._base is None:
+            return
+        for slot in (COMMAND, MOTION):
+            self._board.slot(slot).clear()
+        self._base.stop_latched(because)
+        if self._bus is None:  # a supervisor tells it by itself
+            words = self._base.explain()
+            self._events.raise_event("drive.stopped", reason="e-stop", words=words)
 
     def release(self) -> None:
         """Let the base move again, because a person wants it."""
-        if self._bus is not None:
-            self._bus.unlatch()
+        if self._base is not None:
+            self._base.unlatch()
 
     def explain(self) -> str:
-        """Why it stopped last, as a sentence; empty without such a base."""
-        return self._bus.explain() if self._bus is not None else ""
+        """Why it stopped last, as a sentence; empty without a base."""
+        return self._base.explain() if self._base is not None else ""
 
-    def _found(self, context: Context) -> BaseBus | None:
-        """Raises HriError for an id that is none, or none of several."""
-        ids = context.resources.ids(BaseBus)
-        if self.base_id and self.base_id not in ids:
-            raise HriError(f'"{self.base_id}" is no base with a supervisor - see docs/bases.md')
-        if not self.base_id and len(ids) > 1:
-            raise HriError(f"several bases: {', '.join(ids)} - name one in base_id")
-        for id in [self.base_id] if self.base_id else ids:
+    def _found(self, context: Context) -> EmergencyStop | None:
+        """The base with a supervisor, else the first drive that is there.
+
+        Raises HriError for an id that is no base, and where several have a supervisor.
+        """
+        buses = context.resources.ids(BaseBus)
+        bases = [*buses, *(id for id in context.resources.ids(EmergencyStop) if id not in buses)]
+        if self.base_id and self.base_id not in bases:
+            raise HriError(f'"{self.base_id}" is no base - {did_you_mean(self.base_id, bases)}')
+        if not self.base_id and len(buses) > 1:
+            raise HriError(f"several bases: {', '.join(buses)} - name one in base_id")
+        for id in [self.base_id] if self.base_id else bases:
             try:
-                return context.resources.obtain(id, BaseBus)
+                return context.resources.obtain(id, EmergencyStop)
             except HriError as error:  # it is not there, whatever stands in for it
                 log.info("%s - nothing to guard", error)
         return None

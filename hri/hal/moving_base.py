@@ -1,7 +1,8 @@
 """A drive system that runs motions by itself: drivers of a base say only how to send and measure.
 
-While a motion runs, a timer of the clock repeats its command every 20 ms, so the base's own
-watchdog stops it when this program falls silent.
+It latches an emergency stop as a base with a supervisor does, but starts released. While a motion
+runs, a timer of the clock repeats its command every 20 ms, so the base's own watchdog stops it when
+this program falls silent.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from hri.core.clock import Timer
 from hri.core.errors import HriError
 from hri.core.signals import Twist
 from hri.hal.drive import DriveSystem, Stop, longest_move, too_long
+from hri.hal.emergency_stop import EmergencyStop
 from hri.hal.motion import (
     PERIOD,
     PROMPT,
@@ -68,7 +70,7 @@ class _Here(threading.local):
     is_stopping = False
 
 
-class MovingBase(DriveSystem):
+class MovingBase(DriveSystem, EmergencyStop):
     """Executes motions over `_send`, `_brake`, `_set_power`, `_rolled` and `_velocity`."""
 
     parameters: ClassVar[tuple[str, ...]] = ("longest_move",)
@@ -87,6 +89,9 @@ class MovingBase(DriveSystem):
         """When the velocity that was sent last counts no more."""
         self._expiry: Timer | None = None
         self._here = _Here()
+        self._is_latched = False
+        self._because = ""
+        """Why it was stopped last."""
 
     def _open(self) -> None:
         self._idle_power = 0.0
@@ -132,7 +137,10 @@ class MovingBase(DriveSystem):
     def set_velocity(self, twist: Twist, now: float, until: float = math.inf) -> None:
         self._refuse_while_stopping()
         with self._in_place_of_motion("a velocity came in between - send none while it moves"):
-            self._send(twist, now)
+            if self._is_latched:
+                self._brake(now)
+            else:
+                self._send(twist, now)
             self._expire_at(until)
 
     def stop(self, now: float) -> None:
@@ -140,6 +148,23 @@ class MovingBase(DriveSystem):
             return  # closing it was a stop
         with self._stopping(), self._in_place_of_motion("the drive was stopped - start it again"):
             self._brake(now)
+
+    # --- the emergency stop ---
+
+    @property
+    def is_latched(self) -> bool:
+        return self._is_latched
+
+    def stop_latched(self, because: str) -> None:
+        with self._lock:
+            self._is_latched, self._because = True, because
+        self.stop(self.manager.clock.now())
+
+    def unlatch(self) -> None:
+        self._is_latched = False
+
+    def explain(self) -> str:
+        return f"I stopped because {self._because}" if self._because else "I have not stopped"
 
     # --- power ---
 
@@ -322,6 +347,8 @@ class MovingBase(DriveSystem):
 
     def _step(self, run: _Run) -> bool:
         """Send a command; False when the motion is over."""
+        if self.is_latched and not isinstance(run.motion, (SlowDown, Brake)):
+            raise HriError(f"{self.explain()} - unlatch the base first")
         now = self.manager.clock.now()
         twist = run.motion.step(now - run.began, self._reading(run, now))
         if twist is None:

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hri.cli.drive import add_arguments, keys, opened, run
+from hri.cli.drive import add_arguments, base_of, keys, opened, run
 from hri.cli.drive.keys import DEAD_MAN, KeyReader, Steering
 from hri.cli.drive.picture import COLUMNS, ROWS, Picture
 from hri.cli.drive.teleop import Teleop
@@ -310,6 +310,16 @@ def test_a_configuration_gives_the_base_and_the_command_its_port(tmp_path):
     bus = resources.obtain("wheels", BaseBus)
     assert bus.description.parameters == {"port": "simulated", "bumps": "left:2 right:3"}
     resources.close()
+
+
+@pytest.mark.usefixtures("registered")
+@pytest.mark.parametrize(("words", "is_latched"), [(["--simulated"], False), ([], True)])
+def test_the_simulated_base_starts_released_and_a_configured_one_latched(words, is_latched):
+    clock = FakeClock()
+    with opened(options(*words, "--config", "create2.xml"), clock) as resources:
+        bus = base_of(resources, options(*words))
+        clock.advance(1.0)
+        assert bus.is_latched is is_latched
 
 
 @pytest.mark.usefixtures("registered")

@@ -16,7 +16,7 @@ from hri.core.signals import Event, HeadPose, People, Person, Twist
 from hri.drive.behaviors import COMMAND, MOTION
 from hri.drive.guard import BaseGuard, nearest
 from hri.drive.supervisor.bus import BaseBus
-from hri.drive.supervisor.devices import BaseDrive
+from hri.hal.drive import DriveSystem
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
 from hri.simulation.world import SimulatedWorld
@@ -54,7 +54,7 @@ class Guarded:
 
     def wait(self, seconds: float, twist: Twist | None = None) -> None:
         """Let the guard look, and a network drive."""
-        drive = self.resources.obtain("drive", BaseDrive) if twist else None
+        drive = self.resources.obtain("drive", DriveSystem) if twist else None
         for _ in range(round(seconds / TICK)):
             self.guard.compute(self.clock.now(), TICK)
             if drive is not None and twist is not None:
@@ -219,3 +219,82 @@ def test_the_nearest_is_unknown_where_one_of_them_is(
 ) -> None:
     who = tuple(Person("p", HeadPose(0.0, 0, 0), distance=d, bearing=0.0) for d in distances)
     assert nearest(People(0.0, who)) == pytest.approx(expected, nan_ok=True)
+
+
+# --- a base without a supervisor ---
+
+
+@pytest.fixture
+def simulated() -> Iterator[ResourceManager]:
+    drive = Description("drive", "Hri.SimulatedDrive")
+    with ResourceManager([WORLD, drive], FakeClock()) as resources:
+        yield resources
+
+
+def test_the_simulated_base_begins_released(simulated: ResourceManager) -> None:
+    guarded = Guarded(simulated).started()
+    assert not guarded.guard.must_wait
+    assert guarded.guard.is_latched.value is False
+    assert guarded.guard.explain() == "I have not stopped"
+    guarded.wait(1.0, Twist(0.2))
+    assert guarded.speed == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize(
+    ("event", "properties", "words"),
+    [
+        ("speech.heard", {"rule": "stop"}, "somebody said stop"),
+        ("drive.halt", {"because": "the red button is pressed"}, "the red button is pressed"),
+        ("drive.halt", {}, "I was told to"),
+    ],
+)
+def test_the_simulated_base_latches_a_stop_until_a_person_releases_it(
+    simulated: ResourceManager, event: str, properties: dict[str, str], words: str
+) -> None:
+    guarded = Guarded(simulated).started()
+    guarded.wait(1.0, Twist(0.2))
+    guarded.events.raise_event(event, **properties)
+    guarded.wait(2.0, Twist(0.2))
+    assert guarded.speed == 0.0
+    assert guarded.guard.is_latched.value is True
+    assert guarded.guard.explain() == f"I stopped because {words}"
+    assert guarded.stopped() == [f"I stopped because {words}"]
+    guarded.guard.release()
+    guarded.wait(1.0, Twist(0.2))
+    assert guarded.speed == pytest.approx(0.2)
+
+
+def test_a_latched_simulated_base_refuses_motions_and_says_why(simulated: ResourceManager) -> None:
+    guarded = Guarded(simulated).started()
+    drive = simulated.obtain("drive", DriveSystem)
+    going = drive.move_delta(2.0, 0.2, 0.4)
+    guarded.wait(1.0)
+    guarded.guard.halt("you said stop")
+    assert going.is_done
+    for begun in (drive.move_delta(0.5, 0.2, 0.4), drive.turn_delta(1.0, 1.0, 1.0)):
+        with pytest.raises(HriError, match="I stopped because you said stop - unlatch"):
+            begun.result()
+    with pytest.raises(HriError, match="you said stop"):
+        drive.move_and_turn(0.2, 0.4, 0.0, 1.0)
+    drive.halt().wait(2)
+    assert guarded.speed == 0.0
+
+
+def test_closing_and_opening_the_drive_does_not_open_its_latch(simulated: ResourceManager) -> None:
+    guarded = Guarded(simulated).started()
+    guarded.guard.halt()
+    guarded.guard.stop()
+    assert not guarded.guard.must_wait
+    assert Guarded(simulated).started().guard.must_wait
+
+
+def test_where_the_base_is_not_there_its_stand_in_is_guarded() -> None:
+    base = Description("base", "Hri.Create2", {"port": "/dev/null/none"})
+    drive = Description("drive", "Hri.BaseDrive", {"stand_in": "simulated_drive"}, bus="base")
+    simulated = Description("simulated_drive", "Hri.SimulatedDrive")
+    with ResourceManager([WORLD, base, drive, simulated], FakeClock()) as resources:
+        guarded = Guarded(resources).started()
+        guarded.events.raise_event("speech.heard", rule="stop")
+        guarded.wait(1.0, Twist(0.2))
+        assert guarded.guard.must_wait
+        assert guarded.speed == 0.0

@@ -182,8 +182,8 @@ def test_the_tasks_of_2003_go_through_the_networks_of_a_robot(robot):
 
 @pytest.mark.proves("T04")
 def test_a_way_that_is_not_free_fails_the_task(robot):
-    with pytest.raises(HriError, match=r"got -?\d.* of 30.00 m far - clear the way"):
-        navigation.DriveMoveDelta(3000, 40)
+    with pytest.raises(HriError, match=r"got -?\d.* of 19.00 m far - clear the way"):
+        navigation.DriveMoveDelta(1900, 40)
 
 
 @pytest.mark.proves("T24")

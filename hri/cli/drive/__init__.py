@@ -37,7 +37,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     about = "serial port of the base, such as /dev/ttyUSB0; or the word replay, to draw a RUN"
     add("port", nargs="?", default="", help=about)
-    add("--simulated", action="store_true", help="an emulated base in the simulated world")
+    add(
+        "--simulated", action="store_true", help="an emulated base in the simulated world, released"
+    )
     add("--base", choices=sorted(NAMES), help="kind of the base (default: ask at the port)")
     add("--window", action="store_true", help="show it in a window too, which takes keys as well")
     add("--config", metavar="FILE", help="take the base, with its wiring, from a configuration")
@@ -51,13 +53,21 @@ def run(options: argparse.Namespace) -> int:
     keyboard, screen = own_terminal()
     print("Looking for the base...", flush=True)
     with opened(options, RealClock()) as resources:
-        bus = resources.obtain(resources.ids(BaseBus)[0], BaseBus)
+        bus = base_of(resources, options)
         odometry = resources.obtain(ODOMETRY, Odometry)
         title = f"{bus.protocol.title} at {bus.description.text('port')}"
         windows = [_window(resources, bus, title)] if options.window else []
         with TerminalView(keyboard, screen, title) as view:
             Teleop(bus, odometry, [view, *windows]).run(resources.clock)
     return 0
+
+
+def base_of(resources: ResourceManager, options: argparse.Namespace) -> BaseBus:
+    """The base, open; an emulated one is released, since nobody can be hurt by it."""
+    bus = resources.obtain(resources.ids(BaseBus)[0], BaseBus)
+    if options.simulated:
+        bus.unlatch()
+    return bus
 
 
 def _window(resources: ResourceManager, bus: BaseBus, title: str) -> View:

@@ -47,8 +47,9 @@ from hri.drive.supervisor.multiplexer import Level
 from hri.drive.supervisor.process import Settings, rules
 from hri.drive.supervisor.remote import Remote
 from hri.drive.supervisor.supervisor import Supervisor
+from hri.hal.emergency_stop import EmergencyStop
 from hri.hal.range_sensor import RangeSensor
-from hri.hal.resource import Description, Resource
+from hri.hal.resource import Description
 
 if TYPE_CHECKING:
     from hri.hal.manager import ResourceManager
@@ -66,7 +67,7 @@ _LEAST, _MOST = {"clearance": 0.0}, {"jerk": 100.0, "angular_jerk": 500.0}
 Watcher = Callable[[State], object]
 
 
-class BaseBus(Resource):
+class BaseBus(EmergencyStop):
     """A base on a serial port, with its supervisor; the devices of the base sit on this bus.
 
     Parameters: `port`, those of the protocol, the fields of `Limits` and of `Body` (SI units and
@@ -110,14 +111,17 @@ class BaseBus(Resource):
         """What the supervisor said last."""
         return self._connection.state
 
+    @property
+    def is_latched(self) -> bool:
+        return self.state.is_latched
+
     def stop_latched(self, because: str) -> None:
-        """The emergency stop, until `unlatch`; `because` ends the sentence "I stopped because"."""
         self._unlatching = None
         self._stopping = Cause("e-stop", because[:LONGEST_WORDS])
         self._poll()
 
     def unlatch(self) -> None:
-        """Somebody says that the base may move: never call this by yourself.
+        """Let the base move, because a person says so.
 
         A base that does not report yet is released as soon as it does, within UNLATCHING seconds.
         """
@@ -160,7 +164,6 @@ class BaseBus(Resource):
         self._order(Dock(self.state.time))
 
     def explain(self) -> str:
-        """What to answer to "why did you stop?"."""
         state = self.state
         if state.is_latched:
             return state.reason.words

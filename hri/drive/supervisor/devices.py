@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import ClassVar
 
-from hri.core.errors import HriError, did_you_mean
+from hri.core.errors import did_you_mean
 from hri.core.geometry import along_arc
 from hri.core.signals import Pose2D, RangeReading, Twist
 from hri.drive.supervisor.bus import STALE, BaseBus
@@ -21,7 +21,7 @@ from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
 from hri.hal.cliff_sensor import CliffSensor
 from hri.hal.drive import Odometry
-from hri.hal.motion import REST, SlowDown, Steering, Way
+from hri.hal.motion import REST, Steering, Way
 from hri.hal.moving_base import MovingBase
 from hri.hal.pending import Pending
 from hri.hal.range_sensor import RangeSensor
@@ -84,16 +84,26 @@ class BaseDrive(OnBase, MovingBase):
         """What is allowed whoever comes near; a motion planned faster might lag behind and fail."""
         return within_hardware(self.bus.limits.cap(is_near=True), self.bus.fastest)
 
+    @property
+    def is_latched(self) -> bool:
+        return self.bus.is_latched
+
+    def stop_latched(self, because: str) -> None:
+        self.bus.stop_latched(because)
+
+    def unlatch(self) -> None:
+        self.bus.unlatch()
+
+    def explain(self) -> str:
+        return self.bus.explain()
+
     def move_delta(self, distance: float, velocity: float, acceleration: float) -> Pending[None]:
         if distance < 0:
             velocity = min(velocity, self._slowest.backward)
         return super().move_delta(distance, velocity, acceleration)
 
     def _send(self, twist: Twist, now: float) -> None:
-        run = self._run
-        if run and self.bus.state.is_latched and not isinstance(run.motion, SlowDown):
-            raise HriError(f"{self.bus.explain()} - unlatch the base first")
-        source = Level.TASKS if run else Level.BEHAVIORS
+        source = Level.TASKS if self._run else Level.BEHAVIORS
         if source is not self._source:
             self.bus.ask(self._source, None)
             self._source = source
