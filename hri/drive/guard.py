@@ -28,10 +28,10 @@ class BaseGuard(Behavior):
 
     "Stop" is a rule of that name that was heard, the event `drive.halt` (its `because` says why),
     or a call of `halt`. Only `release` lets the base move again: it is for something that a person
-    did, never for a program to go on by itself. A base with a supervisor also hears who is near, and
-    what it reports becomes the events `drive.stopped`, `drive.refused`, and `drive.faulty`. A base
-    without one, such as the simulated one, latches in its drive and starts released. Without any
-    base the guard does nothing.
+    did, never for a program to go on by itself. A base with a supervisor also hears who is near,
+    and what it reports becomes the events `drive.stopped`, `drive.refused`, and `drive.faulty`. A
+    base without one, such as the simulated one, latches in its drive and starts released. Without
+    any base the guard does nothing.
     """
 
     category = "drive"
