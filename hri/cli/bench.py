@@ -10,13 +10,18 @@ from typing import Any
 
 from hri.core.errors import HriError
 
-BENCHES = ("behavior", "companion", "drive", "emotion", "face", "net", "speech", "vision", "writes")
+BENCHES = (
+    "behavior", "companion", "drive", "emotion", "face", "inputs", "net", "speech", "vision",
+    "writes",
+)  # fmt: skip
 """Each is a module of `hri.bench` with `measure() -> dict`."""
+OPTIONS = ("seconds", "quick", "only", "recordings", "draw", "tries", "seed", "keep")
 TAKES = {
     "behavior": ("seconds",),
     "companion": ("seconds",),
     "drive": ("quick", "only"),
     "face": ("quick",),
+    "inputs": ("tries", "seed", "keep", "only"),
     "speech": ("quick", "recordings", "draw"),
     "vision": ("quick",),
     "writes": ("quick",),
@@ -32,12 +37,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "take every sixth sentence and recording (speech), a tenth (drive, face, vision, writes)"
     )
     parser.add_argument("--quick", action="store_true", default=None, help=about)
-    about = "only this part, such as chain or rooms; a wrong name lists them all (drive)"
+    about = "only this part, such as chain or rooms; a wrong name lists them all (drive,"
+    about += " inputs: a reader)"
     parser.add_argument("--only", metavar="PART", help=about)
     about = "recordings of people, a folder with a manifest.tsv (speech)"
     parser.add_argument("--recordings", type=Path, metavar="DIR", help=about)
     about = "another babble of the same people, a number (speech)"
     parser.add_argument("--draw", type=_draw, metavar="N", help=about)
+    about = "how many inputs are tried over all readers, 100000 if not said (inputs)"
+    parser.add_argument("--tries", type=_tries, metavar="N", help=about)
+    about = "of the random inputs, a number (inputs)"
+    parser.add_argument("--seed", type=_draw, metavar="N", help=about)
+    about = "keep what failed there, and go on there when called again (inputs)"
+    parser.add_argument("--keep", type=Path, metavar="DIR", help=about)
+
+
+def _tries(text: str) -> int:
+    if not text.isdecimal() or not 1 <= len(text) <= 9 or int(text) == 0:
+        raise argparse.ArgumentTypeError(f"{text} - write how many, such as 100000")
+    return int(text)
 
 
 def _seconds(text: str) -> float:
@@ -56,9 +74,7 @@ def _draw(text: str) -> int:
 def run(options: argparse.Namespace) -> int:
     module = importlib.import_module(f"hri.bench.{options.name}")
     given: dict[str, Any] = {
-        name: value
-        for name in ("seconds", "quick", "only", "recordings", "draw")
-        if (value := getattr(options, name)) is not None
+        name: value for name in OPTIONS if (value := getattr(options, name)) is not None
     }
     for name in given.keys() - TAKES.get(options.name, ()):
         raise HriError(f"bench {options.name} takes no --{name} - leave it out")

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
+import lzma
+import os
 import shutil
 import stat
+import struct
 import zipfile
+import zlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
@@ -18,6 +23,13 @@ LARGEST_UNPACKED = 8_000_000_000
 """Bytes; no model is larger."""
 LARGEST_GROWTH = 50
 """Times that unpacking may swell an archive: models of numbers hardly pack at all."""
+BROKEN = (
+    zipfile.BadZipFile, zlib.error, lzma.LZMAError, NotImplementedError, RuntimeError, EOFError,
+    ValueError, struct.error,
+)  # fmt: skip
+"""What a damaged archive may raise, besides OSError."""
+LONGEST_NAME = 255
+"""Bytes of the name of a file or folder, as file systems have it."""
 _BLOCK = 1 << 18
 _REMEDY = "take the one that `hri models list` names"
 
@@ -53,7 +65,11 @@ def unpack(archive: Path, target: Path, parts: Sequence[Part] = ()) -> None:
                 with opened.open(member) as packed, place.open("xb") as file:
                     shutil.copyfileobj(packed, file, _BLOCK)
             check_parts(folder, parts)
-    except (zipfile.BadZipFile, NotImplementedError, RuntimeError, EOFError, ValueError) as error:
+    except BROKEN as error:
+        raise HriError(f"{archive}: cannot be unpacked: {error} - fetch it again") from error
+    except OSError as error:
+        if error.errno not in (None, errno.EINVAL):  # of bzip2, of a place before the beginning
+            raise
         raise HriError(f"{archive}: cannot be unpacked: {error} - fetch it again") from error
 
 
@@ -78,12 +94,19 @@ def _chosen(
             raise HriError(f"{archive}: has no {part.path} - {_REMEDY}")
     if parts:
         return [(paths[part.path], PurePosixPath(part.name)) for part in parts]
-    tops = {PurePosixPath(path).parts[0] for path in paths if path}
+    tops = {PurePosixPath(path).parts[:1] for path in paths}
     skipped = len(tops) == 1 and all("/" in path for path in paths)
     return [
         (member, PurePosixPath(*PurePosixPath(path).parts[skipped:]))
         for path, member in paths.items()
     ]
+
+
+def check_members(archive: zipfile.ZipFile, largest: int) -> None:
+    """Raises ValueError when what is in an archive has more than `largest` bytes unpacked."""
+    size = sum(member.file_size for member in archive.infolist())
+    if size > largest:
+        raise ValueError(f"it swells to {size} bytes")
 
 
 def _check(archive: Path, members: list[zipfile.ZipInfo]) -> None:
@@ -93,6 +116,10 @@ def _check(archive: Path, members: list[zipfile.ZipInfo]) -> None:
         raise HriError(f"{archive}: {len(members)} files are no model - {remedy}")
     for member in members:
         path = PurePosixPath(member.filename)
+        if not path.parts or max(len(os.fsencode(part)) for part in path.parts) > LONGEST_NAME:
+            raise HriError(
+                f'{archive}: "{member.filename}" cannot be the name of a file - {remedy}'
+            )
         is_link = stat.S_ISLNK(member.external_attr >> 16)
         if path.is_absolute() or ".." in path.parts or "\\" in member.filename or is_link:
             raise HriError(f'{archive}: "{member.filename[:60]}" leads elsewhere - {remedy}')

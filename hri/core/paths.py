@@ -19,6 +19,22 @@ FOLDERS = ("apps", "faces")
 """Kinds of which each one is a folder."""
 
 
+def exists(path: Path) -> bool:
+    """Whether something is there; under a name that no file can have, nothing is."""
+    try:
+        return path.exists()
+    except (OSError, ValueError):
+        return False
+
+
+def is_file(path: Path) -> bool:
+    """Whether a regular file is there; under a name that no file can have, none is."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
 def house() -> Path:
     """The folder with `faces/`, `grammars/`, ...: the checkout, or `hri/data` of a wheel."""
     package = Path(__file__).resolve().parents[1]
@@ -59,10 +75,10 @@ def find(kind: str, name: str) -> Path:
         for candidate in (
             below / spelling for below in (folder / kind, folder) for spelling in (name, spelled)
         ):
-            if candidate.exists() and candidate != folder:
+            if exists(candidate) and candidate != folder:
                 return candidate
     beside = expanded(spelled)
-    if beside.is_dir() if kind in FOLDERS else beside.is_file():
+    if exists(beside) and beside.is_dir() == (kind in FOLDERS):
         return beside
     if name.startswith((".", os.sep, "~")):
         raise HriError(f"{name}: no such file or folder - check the path")

@@ -6,30 +6,22 @@ line, before it takes memory or keeps the program waiting.
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import stat
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, BinaryIO, NoReturn
+from typing import Any, BinaryIO, NoReturn, TextIO
 
 from hri.core.errors import AuthoringError, HriError, Place
+from hri.core.paths import exists
 
 LARGEST_FILE = 4_000_000
 """Bytes of an authored file."""
-LONGEST_LINE = 1_000_000
-"""Characters of a line, where a file is read line by line."""
 LARGEST_INTEGER = 1e300
 """Integers of JSON beyond it are refused: no float holds them."""
-
-
-def exists(path: Path) -> bool:
-    """Whether something is there; a name that no file can have is not."""
-    try:
-        return path.exists()
-    except (OSError, ValueError):
-        return False
 
 
 def require_file(path: Path, what: str, largest: int | None = None) -> None:
@@ -106,14 +98,38 @@ def read_text(path: Path, what: str, largest: int = LARGEST_FILE) -> str:
         raise AuthoringError(place, "not UTF-8 text", "save the file as UTF-8") from error
 
 
-def parse_json(text: str | bytes) -> Any:
-    """What a text of JSON says.
+@contextmanager
+def read_lines(path: Path, what: str, largest: int, longest: int) -> Iterator[Iterator[str]]:
+    """The lines of a text in UTF-8 one by one, with their ends, for files that need not fit memory.
+
+    Raises HriError when it cannot be read, is not text, or has more bytes than `largest` or a line
+    of more than `longest` characters.
+    """
+    with opened(path, what, largest) as file:
+        lines = io.TextIOWrapper(file, encoding="utf-8-sig", newline="")
+        try:
+            yield _bounded(path, what, lines, longest)
+        except UnicodeDecodeError as error:
+            raise HriError(f"{path}: not a text file - save it in UTF-8") from error
+        finally:
+            lines.detach()
+
+
+def _bounded(path: Path, what: str, lines: TextIO, longest: int) -> Iterator[str]:
+    while line := lines.readline(longest):
+        if len(line) == longest:
+            raise HriError(f"{path}: this {what} has a line without end - write shorter lines")
+        yield line
+
+
+def parse_json(text: str | bytes, parse_constant: Callable[[str], Any] | None = None) -> Any:
+    """What a text of JSON says; `parse_constant` is for NaN and Infinity, as in `json.loads`.
 
     Raises ValueError with a sentence for what is not JSON, is nested too deeply, or has an integer
     beyond LARGEST_INTEGER.
     """
     try:
-        return json.loads(text, parse_int=_integer)
+        return json.loads(text, parse_int=_integer, parse_constant=parse_constant)
     except RecursionError as error:
         raise ValueError("its brackets are nested too deeply") from error
 

@@ -11,13 +11,18 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from hri.core.errors import HriError
+from hri.core.errors import AuthoringError, HriError, Place
 from hri.core.events import EventBus
+from hri.core.reading import parse_json, read_text
 from hri.core.signals import Event
 
 NOTHING: Mapping[str, Collection[str]] = MappingProxyType({})
 
 log = logging.getLogger("hri.recording")
+
+LARGEST_LOG = 100_000_000
+"""Bytes of a log of events: some ten hours of a busy robot."""
+_REMEDY = "delete this line, or record anew"
 
 
 class EventLog:
@@ -40,9 +45,9 @@ class EventLog:
     def write(self, event: Event) -> None:
         withheld = self._withheld.get(event.name, ())
         told = {key: "" if key in withheld else value for key, value in event.properties.items()}
-        line = {"t": round(event.time, 4), "event": event.name, **told}
+        when = {"t": round(event.time, 4), "event": event.name}
         try:
-            self._file.write(json.dumps(_plain(line), ensure_ascii=False, allow_nan=False) + "\n")
+            self._file.write(_line({**when, **told, **when}) + "\n")
             self._file.flush()
         except OSError as error:
             self._subscription.cancel()
@@ -56,8 +61,37 @@ class EventLog:
 
 
 def read_events(path: Path) -> list[dict[str, Any]]:
-    """The lines of a log, oldest first."""
-    return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+    """The lines of a log, oldest first.
+
+    A last line that has no end was cut off, and is left out. Raises HriError for a file that cannot
+    be read, AuthoringError for a line that is not an event.
+    """
+    whole, _, _ = read_text(path, "log of events", LARGEST_LOG).rpartition("\n")
+    return [_read(line, Place(path, i)) for i, line in enumerate(whole.split("\n"), 1) if line]
+
+
+def _read(line: str, place: Place) -> dict[str, Any]:
+    try:
+        found = parse_json(line)
+    except ValueError as error:
+        raise AuthoringError(place, f"not JSON: {error}", _REMEDY) from error
+    if not (isinstance(found, dict) and "event" in found and "t" in found):
+        raise AuthoringError(place, "not an event", _REMEDY)
+    return found
+
+
+def _line(values: dict[str, Any]) -> str:
+    line = json.dumps(_plain(values), ensure_ascii=False, allow_nan=False)
+    # Halves of letters, which UTF-8 does not have, are spelled out as JSON can.
+    return line if _is_text(line) else json.dumps(_plain(values), allow_nan=False)
+
+
+def _is_text(line: str) -> bool:
+    try:
+        line.encode("utf-8")
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def _plain(value: Any) -> Any:

@@ -22,12 +22,24 @@ REQUIRED: Any = object()
 LARGEST = 1e300
 """Numbers beyond it, infinity and NaN among them, mean nothing in an authored file."""
 
+LARGEST_TOML = 1_000_000
+"""Bytes of a file: some 3 seconds of reading on a slow machine."""
+DEEPEST = 32
+"""Parts of a dotted key, `a.b.c` has three. Each line below a deep header repeats all of it."""
+
+_NAME = r"""(?:[A-Za-z0-9_-]++|"[^"\n]*+"|'[^'\n]*+')"""
+_DEEP_KEY = re.compile(rf"(?<![A-Za-z0-9_-])(?:{_NAME}[ \t]*+\.[ \t]*+){{{DEEPEST}}}")
 _POSITION = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 
 
 def load_toml(path: Path, what: str = "TOML file") -> Table:
-    """The root table of a file. Raises AuthoringError on a syntax error, HriError if unreadable."""
-    text = read_text(path, what)
+    """The root table of a file.
+
+    Raises AuthoringError on a syntax error and for a key of more than DEEPEST parts, HriError for
+    a file that cannot be read or is larger than LARGEST_TOML.
+    """
+    text = read_text(path, what, LARGEST_TOML)
+    _check_depth(path, text)
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -42,6 +54,13 @@ def load_toml(path: Path, what: str = "TOML file") -> Table:
             Place(path), "brackets or numbers without end", "shorten it"
         ) from error
     return Table(data, path, (), locate_keys(text))
+
+
+def _check_depth(path: Path, text: str) -> None:
+    if deep := _DEEP_KEY.search(text):
+        line = text.count("\n", 0, deep.start()) + 1
+        place = Place(path, line, deep.start() - text.rfind("\n", 0, deep.start()))
+        raise AuthoringError(place, f"a key of more than {DEEPEST} parts", "write fewer dots")
 
 
 class Table:
@@ -191,7 +210,8 @@ _ENTRY = re.compile(
     r"""^(\s*)((?:"[^"]*"|'[^']*'|[A-Za-z0-9_-]+)(?:\s*\.\s*(?:"[^"]*"|'[^']*'|[A-Za-z0-9_-]+))*)\s*="""
 )
 _PART = re.compile(r""""([^"]*)"|'([^']*)'|([A-Za-z0-9_-]+)""")
-_INLINE = re.compile(r"""("[^"]*"|'[^']*'|[A-Za-z0-9_-]+)\s*=(?!=)""")
+# Nothing is looked at twice: a word of a million letters must not take a million times as long.
+_INLINE = re.compile(r"""("[^"]*+"|'[^']*+'|(?<![A-Za-z0-9_-])[A-Za-z0-9_-]++)\s*+=(?!=)""")
 
 
 def locate_keys(text: str) -> dict[Key, Place]:

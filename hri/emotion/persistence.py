@@ -16,7 +16,8 @@ from typing import NoReturn
 
 from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
-from hri.core.reading import read_text
+from hri.core.paths import exists
+from hri.core.reading import parse_json, read_text
 from hri.core.writing import PRIVATE, make_folder, write_text
 from hri.emotion.affect import Imprint, renamed, shifted
 from hri.emotion.imprint_file import LATEST, Fields, decoded, encoded
@@ -85,8 +86,8 @@ def dump(memory: Memory) -> str:
 def parse(text: str) -> Memory:
     """A memory of its text. Raises HriError for what is damaged, or of another version."""
     try:
-        data = json.loads(text, parse_constant=_refuse)
-    except (ValueError, RecursionError) as error:
+        data = parse_json(text, parse_constant=_refuse)
+    except ValueError as error:
         raise HriError(f"no JSON: {error}") from error
     fields = Fields(data, "the file")
     if (schema := fields.value("schema")) != SCHEMA:
@@ -115,7 +116,7 @@ def recall(path: Path) -> Memory | None:
     """
     if not os.path.lexists(path):
         return None
-    if not path.exists():
+    if not exists(path):
         raise HriError(f"{path} links to {os.readlink(path)}, which is not there - mend the link")
     return parse(read_text(path, "memory of feelings"))
 

@@ -19,6 +19,7 @@ from typing import TextIO
 import numpy as np
 
 from hri.core.errors import AuthoringError, HriError, Place
+from hri.core.reading import read_lines
 from hri.face.baking import Vector
 from hri.face.gestures import Track
 from hri.face.model import FaceModel
@@ -54,6 +55,8 @@ LONGEST = 3600.0
 MOST_ROWS = int(LONGEST * FRAMES) + 1
 MOST_COLUMNS = 400
 MOST_BYTES = 200_000_000
+LONGEST_LINE = 20_000
+"""Characters: four hundred cells fit."""
 LARGEST = 10.0
 """Of a value in a file: a weight, or radians."""
 
@@ -117,15 +120,8 @@ def read_weights(path: Path, model: FaceModel) -> Track:
 
     Raises AuthoringError with the place of what is wrong, HriError for a file that cannot be read.
     """
-    try:
-        if path.stat().st_size > MOST_BYTES:
-            raise HriError(f"{path}: larger than {MOST_BYTES:,} bytes - cut it into parts")
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            return _track(path, csv.reader(file), model)
-    except OSError as error:
-        raise HriError(f"{path}: cannot read: {error.strerror} - check the path") from error
-    except UnicodeDecodeError as error:
-        raise HriError(f"{path}: this is no text - save it as CSV in UTF-8") from error
+    with read_lines(path, "recording of a face", MOST_BYTES, LONGEST_LINE) as lines:
+        return _track(path, csv.reader(lines), model)
 
 
 def timecode(seconds: float) -> str:

@@ -20,7 +20,6 @@ picture on; only speech and gestures begin then.
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -31,7 +30,7 @@ from typing import Any
 import numpy as np
 
 from hri.core.errors import HriError, did_you_mean
-from hri.core.reading import read_text
+from hri.core.reading import parse_json, read_text
 from hri.core.signals import Expression, Gaze, Phoneme, Samples, Speech
 from hri.core.toml import Table, load_toml
 from hri.face import idle
@@ -273,7 +272,7 @@ def _phonemes(step: Table) -> tuple[Phoneme, ...]:
     """Times as `hri say --phonemes` writes them."""
     text = read_text(step.path.parent / step.string("phonemes"), "file of phoneme times")
     try:
-        rows: Any = json.loads(text)["phonemes"]
+        rows: Any = parse_json(text)["phonemes"]
         if not 0 < len(rows) <= MOST_PHONEMES:
             raise ValueError("too many, or none")
         return tuple(_phoneme(row) for row in rows)

@@ -79,4 +79,4 @@ def load_app(name: str) -> App:
 def _beside(folder: Path, name: str) -> Path:
     """A network of the app's folder, or one found by name."""
     own = folder / name
-    return own if own.is_file() else paths.find("config", name)
+    return own if paths.is_file(own) else paths.find("config", name)

@@ -53,7 +53,9 @@ def write_event(event: Event, clock: Clock | None = None) -> str:
     """
     _check_name(event.name)
     seconds = event.time if clock is None else _since_1970(event, clock)
-    parts = [f"{{Event {event.name} [time {seconds:g}]"]
+    # Since 1970 as 2003 wrote it, which is too coarse for a time that is read again.
+    time = f"{seconds:g}" if clock is not None else _exact(f"{seconds:g}", seconds)
+    parts = [f"{{Event {event.name} [time {time}]"]
     for name in sorted(event.properties):
         _check_name(name)
         parts.append(f" ({name}: {_written(name, event.properties[name])})")
@@ -98,13 +100,13 @@ def parse_query(text: str) -> Event:
     properties: dict[str, Any] = {}
     for pair in rest.split("&") if mark and rest else ():
         key, equals, value = pair.partition("=")
-        key = unquote(key)
+        key = _plain(key)
         if not equals or not key:
             raise _wrong(text, f'"{pair:.40}" is not like property=value')
         if key in properties:
             raise _wrong(text, f'"{key:.40}" is there twice')
-        properties[key] = unquote(value)
-    return _checked(unquote(name), 0.0, properties)
+        properties[key] = _plain(value)
+    return _checked(_plain(name), 0.0, properties)
 
 
 def _checked(name: str, time: float, properties: dict[str, Any]) -> Event:
@@ -129,8 +131,13 @@ def _value(name: str, value: Any) -> float | str:
 def _written(name: str, value: Any) -> str:
     value = _value(name, value)
     if isinstance(value, float):
-        return f"{value:f}"
+        return _exact(f"{value:f}", value)
     return '"' + "".join(_ESCAPES.get(letter, letter) for letter in value) + '"'
+
+
+def _exact(usual: str, value: float) -> str:
+    """A number as 2003 writes it where that says it all, else with all its digits."""
+    return usual if float(usual) == value else repr(value)
 
 
 def _queried(name: str, value: Any) -> str:
@@ -153,6 +160,14 @@ def _unescaped(words: str) -> str:
 
 def _quoted(text: str) -> str:
     return quote(text, safe=_KEPT, errors="surrogatepass")
+
+
+def _plain(quoted: str) -> str:
+    """The text of a quoted one; bytes that are no text show as such."""
+    try:
+        return unquote(quoted, errors="surrogatepass")
+    except UnicodeDecodeError:
+        return unquote(quoted)
 
 
 def _since_1970(event: Event, clock: Clock) -> float:

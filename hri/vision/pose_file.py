@@ -8,14 +8,16 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TextIO
 
 from hri.core.errors import AuthoringError, HriError, Place
+from hri.core.reading import read_lines
 from hri.core.signals import HeadPose
 
 COLUMNS = ("t_s", "pitch_deg", "yaw_deg", "roll_deg")
 SLOWEST, FASTEST = 9.5, 105.0
 """Poses a second that the recognizer is made for, with some tolerance."""
+LARGEST_FILE = 200_000_000
+"""Bytes; poses are read one by one."""
 LONGEST_LINE = 100_000
 """Characters; a longer line is no line of numbers."""
 
@@ -48,19 +50,14 @@ def read_poses(path: Path, remarks: Remarks) -> Iterator[HeadPose]:
     that is missing and for what is no number, HriError for a file that cannot be read.
     """
     try:
-        with path.open(encoding="utf-8-sig", errors="strict", newline="") as file:
-            yield from _poses(path, file, remarks)
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise HriError(f"{path}: cannot be read: {reason} - check the path") from error
-    except UnicodeDecodeError as error:
-        raise HriError(f"{path}: not a text file - write CSV in UTF-8") from error
+        with read_lines(path, "file of poses", LARGEST_FILE, LONGEST_LINE) as lines:
+            yield from _poses(path, lines, remarks)
     except csv.Error as error:
         raise HriError(f"{path}: not a CSV file: {error} - write {','.join(COLUMNS)}") from error
 
 
-def _poses(path: Path, file: TextIO, remarks: Remarks) -> Iterator[HeadPose]:
-    rows = csv.reader(_bounded(path, file))
+def _poses(path: Path, lines: Iterator[str], remarks: Remarks) -> Iterator[HeadPose]:
+    rows = csv.reader(lines)
     header = [name.strip() for name in next(rows, [])]
     places = []
     for name in COLUMNS:
@@ -103,11 +100,3 @@ def _numbers(path: Path, line: int, row: list[str], places: list[int]) -> list[f
             what = f"{name} is {json.dumps(text[:40], ensure_ascii=False)}"  # in one line
             raise AuthoringError(Place(path, line), what, "write a number") from error
     return numbers
-
-
-def _bounded(path: Path, file: TextIO) -> Iterator[str]:
-    """The lines of a file; one without end is refused before it fills the memory."""
-    while line := file.readline(LONGEST_LINE):
-        if len(line) == LONGEST_LINE:
-            raise HriError(f"{path}: a line without end - write CSV, a row a line")
-        yield line

@@ -17,6 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.errors import AuthoringError, HriError, NotAvailable, Place
+from hri.core.paths import exists
+from hri.core.reading import parse_json, read_bytes
 from hri.core.signals import Image, Landmarks
 from hri.core.writing import PRIVATE, make_folder, write_text
 from hri.vision.countenance import MOUTH, PUPILS
@@ -32,6 +34,8 @@ ALIKE = 0.4
 MOST_SAMPLES = 20
 """Vectors that are kept of a name; the oldest go."""
 MOST_NAMES = 1000
+LARGEST_FILE = 50_000_000
+"""Bytes of a file of faces."""
 
 
 class FaceEmbedder(Protocol):
@@ -97,18 +101,14 @@ class Acquaintances:
         Raises AuthoringError for another file, HriError for one that cannot be read.
         """
         known = cls(alike)
-        if not path.exists():
+        if not exists(path):
             return known
+        text = read_bytes(path, "file of faces", LARGEST_FILE)
         try:
-            text = path.read_bytes()
-        except OSError as error:
-            reason = error.strerror or str(error)
-            raise HriError(f"{path}: cannot be read: {reason} - check the path") from error
-        try:
-            for name, vectors in json.loads(text).items():
+            for name, vectors in parse_json(text).items():
                 for vector in vectors:
                     known.learn(name, np.array(vector, np.float32))
-        except (ValueError, AttributeError, TypeError, HriError) as error:
+        except (ValueError, AttributeError, TypeError, OverflowError, HriError) as error:
             remedy = "delete it and let the robot learn the names anew"
             raise AuthoringError(Place(path), f"no file of faces: {error}", remedy) from error
         return known

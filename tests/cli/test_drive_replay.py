@@ -83,7 +83,7 @@ def test_a_recording_of_a_robot_is_drawn_by_its_odometry(tmp_path: Path) -> None
     ("text", "what"),
     [
         ("", "empty"),
-        ("nonsense", "no JSON"),
+        ("nonsense", "not JSON"),
         ("[1]", "no JSON object"),
         ('{"goal": 3}', "no description"),
         ("{}", "nobody moved"),
@@ -100,7 +100,7 @@ def test_a_file_that_is_no_run_says_what_is_wrong(tmp_path: Path, text: str, wha
 
 def test_a_run_that_is_not_there_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["drive", "replay", "/nowhere/run.jsonl"]) != 0
-    assert "cannot be read" in capsys.readouterr().err
+    assert "cannot read this run" in capsys.readouterr().err
 
 
 @given(st.binary(max_size=200))
@@ -125,7 +125,7 @@ def written(folder: Path, *lines: object) -> str:
 @pytest.mark.parametrize("x", [math.nan, math.inf, 1e300, 10**400, None, "far"])
 def test_a_recorded_pose_that_is_nowhere_is_named(tmp_path: Path, x: object) -> None:
     pose = {"event": "odometry", "t": 0, "x_cm": x, "y_cm": 0, "heading_rad": 0}
-    with pytest.raises(HriError, match=r"run\.jsonl:1: no pose"):
+    with pytest.raises(HriError, match=r"run\.jsonl:1: (no pose|not JSON: an integer)"):
         read_run(written(tmp_path, pose), "full")
 
 

@@ -16,7 +16,7 @@ import pytest
 from hri.cli import main
 from hri.cli import models as command
 from hri.core import archive as archives
-from hri.core.archive import Part
+from hri.core.archive import Part, unpack
 from hri.core.errors import HriError, NotAvailable
 from hri.core.models import (
     Catalog,
@@ -444,3 +444,27 @@ def test_the_user_replaces_a_damaged_model(server, home):
     assert bring("faces", home / "own.zip", model.parts) == folder
     assert (folder / "nose.net").read_bytes() == b"nose"
     assert bring("faces", home / "nowhere", model.parts) == folder
+
+
+def damaged_archives():
+    """Archives that Python's reader fails with in its own ways."""
+    for method in (zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA):
+        file = io.BytesIO()
+        with zipfile.ZipFile(file, "w", method) as archive:
+            archive.writestr("model/a.mdl", bytes(range(256)) * 40)
+        raw = bytearray(file.getvalue())
+        raw[60:90] = bytes(30)
+        yield bytes(raw)
+    for name in (".", "/", "./", "a" * 300 + "/b"):
+        file = io.BytesIO()
+        with zipfile.ZipFile(file, "w") as archive:
+            archive.writestr(zipfile.ZipInfo(name), "")
+        yield file.getvalue()
+
+
+@pytest.mark.parametrize("raw", list(damaged_archives()))
+def test_an_archive_that_is_damaged_or_has_strange_names_is_one_line(raw, tmp_path):
+    (tmp_path / "a.zip").write_bytes(raw)
+    with pytest.raises(HriError, match=" - "):
+        unpack(tmp_path / "a.zip", tmp_path / "target")
+    assert [entry.name for entry in tmp_path.iterdir()] == ["a.zip"]

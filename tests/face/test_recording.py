@@ -99,8 +99,8 @@ def test_a_recording_of_the_app_is_read(tmp_path: Path) -> None:
         (HEADER + "\n0:0:0:0,61,0,1e9\n", "2:1: MouthSmileLeft is 1e9"),
         (HEADER + "\n0:0:0:0,61,0,0\n2:0:0:0,61,0,0\n", "3:1: longer than 3600 s"),
         (",".join(["Timecode", *map(str, range(900))]) + "\n", "901 columns - keep to 400"),
-        (HEADER + "\n" + "9" * 200_000 + ",61,0,0\n", "field larger than"),
-        ("\x00\x01\xff", "no column Timecode|no text"),
+        (HEADER + "\n" + "9" * 200_000 + ",61,0,0\n", "a line without end"),
+        ("\x00\x01\xff", "not a text file"),
     ],
 )
 def test_a_file_that_cannot_be_played_says_where_and_why(

@@ -16,7 +16,7 @@ SHOOT = (
 
 NAMES = st.text(string.ascii_letters + string.digits + "._-*?&=%äöü", min_size=1, max_size=20)
 VALUES = st.one_of(
-    st.text(max_size=30),
+    st.text(st.characters(), max_size=30),  # halves of letters, too
     st.floats(allow_nan=False, allow_infinity=False),
     st.integers(-(10**9), 10**9),
 )
@@ -119,12 +119,8 @@ def test_the_query_form_loses_nothing(raised):
 
 @pytest.mark.proves("T16")
 @given(EVENTS)
-def test_the_text_form_loses_nothing_but_decimals(raised):
-    read = parse_event(write_event(raised))
-    assert read.name == raised.name
-    for name, value in raised.properties.items():
-        expected = float(f"{value:f}") if isinstance(value, float) else value
-        assert read.properties[name] == expected
+def test_the_text_form_loses_nothing(raised):
+    assert parse_event(write_event(raised)) == raised
 
 
 PIECES = st.lists(

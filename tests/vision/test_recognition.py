@@ -73,7 +73,7 @@ def test_a_damaged_file_is_told(tmp_path, text):
 
 
 def test_a_file_that_cannot_be_read_or_written_is_told(tmp_path):
-    with pytest.raises(HriError, match="cannot be read"):
+    with pytest.raises(HriError, match="not a regular file"):
         Acquaintances.load(tmp_path)
     with pytest.raises(HriError, match="cannot be written"):
         Acquaintances().save(tmp_path)

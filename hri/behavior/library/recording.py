@@ -16,7 +16,7 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.library.timing import TOLERANCE
 from hri.behavior.ports import DBL_MAX, Input, Output, Param
 from hri.core.errors import AuthoringError, HriError, Place
-from hri.core.reading import read_text
+from hri.core.reading import parse_json, read_text
 
 log = logging.getLogger("hri.behavior")
 
@@ -91,7 +91,7 @@ def _read(line: str, place: Place) -> tuple[float, Any]:
     remedy = 'write {"t": 0.1, "value": 3}, with a number, text, truth or array'
     value: Any
     try:
-        match json.loads(line):
+        match parse_json(line):
             case {"t": int() | float() as time, "value": bool() | str() as word, **rest}:
                 value = word
             case {"t": int() | float() as time, "value": int() | float() as number, **rest}:
@@ -100,7 +100,7 @@ def _read(line: str, place: Place) -> tuple[float, Any]:
                 value = tuple(map(float, elements))
             case _:
                 raise AuthoringError(place, "this is no recorded value", remedy)
-    except (ValueError, TypeError, OverflowError, RecursionError) as error:
+    except (ValueError, TypeError, OverflowError) as error:
         raise AuthoringError(place, "this is no recorded value", remedy) from error
     if rest:
         raise AuthoringError(place, f'"{next(iter(rest))}" has no place here', remedy)

@@ -8,7 +8,6 @@ A run is a file of JSON lines. The first says where it was: `world` (the text of
 
 from __future__ import annotations
 
-import json
 import math
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
@@ -18,6 +17,7 @@ from typing import Any
 
 from hri.cli.drive.plan import Moment, Point, Run
 from hri.core.errors import HriError
+from hri.core.reading import parse_json, read_text
 from hri.core.signals import Pose2D
 from hri.simulation.layout import load_layout
 from hri.simulation.rooms import furnished
@@ -64,19 +64,13 @@ def _driven(number: int, policy: str) -> Run:
 
 
 def _lines(path: Path) -> Iterator[Mapping[str, Any]]:
-    try:
-        if path.stat().st_size > MOST_BYTES:
-            raise HriError(f"{path}: larger than {MOST_BYTES // 10**6} MB - give a shorter run")
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise HriError(
-            f"{path}: cannot be read: {error} - name a run or a room's number"
-        ) from error
-    for number, row in enumerate(text.splitlines(), 1):
+    text = read_text(path, "run, or number of a room", MOST_BYTES)
+    *rows, last = text.split("\n")
+    for number, row in enumerate([*rows, last] if last else rows, 1):
         try:
-            line = json.loads(row)
-        except (ValueError, RecursionError) as error:
-            raise HriError(f"{path}:{number}: no JSON - give a file of a run") from error
+            line = parse_json(row)
+        except ValueError as error:
+            raise HriError(f"{path}:{number}: not JSON: {error} - give a file of a run") from error
         if not isinstance(line, dict):
             raise HriError(f"{path}:{number}: no JSON object - give a file of a run")
         yield line

@@ -62,9 +62,9 @@ def read_source(path: Path) -> str:
 
     Raises HriError when it cannot be read, AuthoringError when it is no text in that encoding.
     """
-    if path.is_dir():
+    if paths.exists(path) and path.is_dir():
         raise HriError(f"{path}: this is a folder - name a grammar file in it")
-    if not path.exists():
+    if not paths.exists(path):
         raise HriError(f"{path}: no such grammar file - check the path")
     raw = read_bytes(path, "grammar")
     match = _ENCODING.match(raw)
@@ -237,7 +237,8 @@ class _Loader:
         key = file.own[use.name]
         path = next((path for path in _places_of(file.document.path, use.file)), None)
         if path is None:
-            near = [entry.name for entry in sorted(file.document.path.parent.glob("*.txt"))[:100]]
+            beside = sorted(file.document.path.parent.glob("*.txt"))[:100]
+            near = [entry.name for entry in beside if entry.name != use.file]
             remedy = did_you_mean(use.file, near, "put it beside the grammar")
             self._report(file, use.span, f'no list of names "{use.file}"', remedy)
         else:
@@ -304,23 +305,27 @@ def _find_grammar(importer: Document, grammar: str) -> Path | None:
     inside = Path(*grammar.split("."))
     inside = inside.with_name(f"{inside.name}.jsgf")
     beside = importer.path.parent / inside.name
-    if beside.is_file():
+    if paths.is_file(beside):
         return beside
     levels = importer.name.count(".") + 1
     for folder in list(importer.path.resolve().parents)[:levels]:
-        if (folder / inside).is_file():
+        if paths.is_file(folder / inside):
             return folder / inside
     return next(_places_of(importer.path, str(inside)), None)
 
 
 def _places_of(importer: Path, file: str) -> Iterator[Path]:
-    """Where a file is: beside a grammar, or in a search folder, or in `grammars/` there."""
+    """Where a file is: beside a grammar, or in a search folder, or in `grammars/` there.
+
+    A path or a link that leads out of these folders is passed over: a grammar may come from
+    anybody, and must not read whatever lies on the machine.
+    """
     folders = (
         below for folder in paths.search_folders() for below in (folder / "grammars", folder)
     )
     for folder in (importer.parent, *folders):
         place = folder / file
-        if place.exists() and not place.is_dir():
+        if paths.is_file(place) and place.resolve().is_relative_to(folder.resolve()):
             yield place
 
 

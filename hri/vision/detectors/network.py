@@ -10,7 +10,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.core.errors import NotAvailable
+from hri.core.errors import HriError, NotAvailable
+from hri.core.reading import read_bytes
 
 Tensor = NDArray[np.float32]
 
@@ -21,13 +22,9 @@ LARGEST = 64_000_000
 def read_network_file(file: Path, remedy: str) -> bytes:
     """What is in the file of a network. Raises NotAvailable with the remedy when it is none."""
     try:
-        size = file.stat().st_size
-        if not 0 < size <= LARGEST:
-            raise NotAvailable(f"{file}: {size} bytes are no network of ours - {remedy}")
-        return file.read_bytes()
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise NotAvailable(f"{file}: {reason} - {remedy}") from error
+        return read_bytes(file, "network", LARGEST)
+    except HriError as error:
+        raise NotAvailable(f"{error}, or {remedy}") from error
 
 
 class Network:

@@ -223,3 +223,30 @@ def test_a_forgotten_import_of_a_part_is_told(put, tmp_path, monkeypatch):
         "write <go> = words;",
         "write import <numbers.small>; for the one of that grammar",
     ]
+
+
+@pytest.mark.parametrize("way", ["absolute", "upwards", "link"])
+def test_a_list_is_read_from_the_grammars_folder_and_the_search_path_only(way, tmp_path):
+    """A grammar may come from anybody; it must not read the machine's files."""
+    (tmp_path / "secret.txt").write_text("robin\n")
+    folder = tmp_path / "grammars"
+    folder.mkdir()
+    (folder / "link.txt").symlink_to(tmp_path / "secret.txt")
+    names = {
+        "absolute": str(tmp_path / "secret.txt"), "upwards": "../secret.txt", "link": "link.txt"
+    }  # fmt: skip
+    text = (
+        f'#JSGF V1.0;\ngrammar a;\nimport "{names[way]}" as <who>;\npublic <call> = call <who>;\n'
+    )
+    (folder / "a.jsgf").write_text(text)
+    with pytest.raises(AuthoringError, match="put it beside the grammar") as refused:
+        load_grammar(folder / "a.jsgf")
+    assert "robin" not in str(refused.value)
+
+
+def test_a_list_with_a_name_that_no_file_has_is_one_line(tmp_path):
+    file = tmp_path / "a.jsgf"
+    name = "a" * 300
+    file.write_text(f'#JSGF V1.0;\ngrammar a;\nimport "{name}" as <who>;\npublic <a> = <who>;\n')
+    with pytest.raises(AuthoringError, match="no list of names"):
+        load_grammar(file)

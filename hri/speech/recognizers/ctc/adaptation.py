@@ -17,10 +17,14 @@ from pathlib import Path
 
 import numpy as np
 
+from hri.core.archive import BROKEN, check_members
 from hri.core.errors import HriError
+from hri.core.reading import opened
 from hri.speech.recognizers.ctc.weights import Tensor
 
 FILE = Path(__file__).with_name("adaptation.npz")
+LARGEST = 20_000_000
+"""Bytes of the file, and of all that is packed in it."""
 TALL, WIDE = ".tall", ".wide"
 """Ends of the names of the two factors of a matrix's change."""
 
@@ -32,7 +36,8 @@ def adapted(tensors: Mapping[str, Tensor], file: Path = FILE) -> dict[str, Tenso
     """
     result = dict(tensors)
     try:
-        with np.load(file, allow_pickle=False) as changes:
+        with opened(file, "adaptation", LARGEST) as raw, np.load(raw) as changes:
+            check_members(changes.zip, LARGEST)
             for key in changes.files:
                 if key.endswith(WIDE):
                     continue
@@ -41,6 +46,6 @@ def adapted(tensors: Mapping[str, Tensor], file: Path = FILE) -> dict[str, Tenso
                 if key.endswith(TALL):
                     change = change @ changes[name + WIDE].astype(np.float32)
                 result[name] = tensors[name] + change.reshape(tensors[name].shape)
-    except (OSError, EOFError, KeyError, ValueError) as error:
+    except (OSError, KeyError, TypeError, AttributeError, MemoryError, *BROKEN) as error:
         raise HriError(f"{file}: no adaptation of this network: {error} - reinstall hri") from error
     return result

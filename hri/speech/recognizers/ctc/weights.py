@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from hri.core import paths
 from hri.core.errors import HriError, NotAvailable
+from hri.core.reading import read_bytes
 
 VARIABLE = "HRI_CTC_WEIGHTS"
 """Environment variable that names a weight file elsewhere."""
@@ -85,12 +86,9 @@ def read_tensors(file: Path) -> Mapping[str, Tensor]:
     Raises NotAvailable when it cannot be read, or is not such a file.
     """
     try:
-        with file.open("rb") as opened:
-            raw = opened.read(LARGEST + 1)
-    except OSError as error:
-        raise NotAvailable(f"{file}: {error.strerror or error} - {_REMEDY}") from error
-    if len(raw) > LARGEST:
-        raise NotAvailable(f"{file}: too large for a weight file - {_REMEDY}")
+        raw = read_bytes(file, "weight file", LARGEST)
+    except HriError as error:
+        raise NotAvailable(f"{error}, or {_REMEDY}") from error
     try:
         return _tensors(raw)
     except (struct.error, ValueError, KeyError, UnicodeDecodeError) as error:

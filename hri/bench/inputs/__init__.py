@@ -1,0 +1,204 @@
+"""Bad inputs for every reader: which end in anything but a result or a refusal in one line.
+
+Each reader runs in a child process whose time and memory are watched. An input that makes it print
+a traceback, crash, hang, take more than 5 seconds or 300 MB, or leave a part behind is a failure.
+The inputs depend on the seed and their number alone: the same command tries the same ones.
+"""
+
+from __future__ import annotations
+
+import json
+import selectors
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import IO, Any
+
+from hri.bench.figures import machine
+from hri.bench.inputs.readers import READERS
+from hri.core.child import command, environment
+from hri.core.errors import HriError, did_you_mean
+from hri.core.writing import write_bytes, write_text
+
+MOST_SECONDS = 5.0
+"""Of processor time for one input."""
+MOST_BYTES = 300_000_000
+"""By which the memory of the process may grow for one input."""
+PATIENCE = 120.0
+"""Seconds without a word from the child; a busy machine takes some."""
+BATCH = 500
+"""Tries after which what was found is saved."""
+MOST_KEPT = 20
+"""Failures of one reader that are told."""
+PROGRESS = "progress.json"
+
+
+@dataclass
+class Tally:
+    """What became of the inputs of one reader."""
+
+    tries: int = 0
+    taken: int = 0
+    refused: int = 0
+    slowest_s: float = 0.0
+    slowest: int = 0
+    """Number of the input."""
+    largest_mb: float = 0.0
+    largest: int = 0
+    failures: list[dict[str, Any]] = field(default_factory=list)
+    failed: int = 0
+
+    def count(self, report: Mapping[str, Any]) -> str:
+        """Take a report of the child; what was wrong, or nothing."""
+        number, what, why = int(report["number"]), report["what"], report["why"]
+        self.tries = number + 1
+        seconds, megabytes = report["seconds"], report["bytes"] / 1e6
+        if seconds > self.slowest_s:
+            self.slowest_s, self.slowest = round(seconds, 3), number
+        if megabytes > self.largest_mb:
+            self.largest_mb, self.largest = round(megabytes, 1), number
+        if what in ("taken", "refused"):
+            self.taken += what == "taken"
+            self.refused += what == "refused"
+            if seconds > MOST_SECONDS:
+                what, why = "slow", f"{seconds:.1f} s"
+            elif report["bytes"] > MOST_BYTES:
+                what, why = "large", f"{megabytes:.0f} MB"
+            else:
+                return ""
+        self.failed += 1
+        if len(self.failures) < MOST_KEPT:
+            self.failures.append({"number": number, "what": what, "why": why})
+        return str(what)
+
+
+def measure(
+    tries: int = 100_000, seed: int = 1, keep: Path | None = None, only: str | None = None
+) -> dict[str, Any]:
+    """Try `tries` inputs over all readers, or over one; what happened by reader.
+
+    In the folder `keep` are the inputs that failed, and how far it got: the same command goes on
+    there. Raises HriError for an unknown reader or a folder of another seed.
+    """
+    if only is not None and only not in READERS:
+        raise HriError(f'no reader "{only}" - {did_you_mean(only, READERS)}')
+    names = list(READERS) if only is None else [only]
+    tallies = _resumed(keep, seed)
+    for position, name in enumerate(names):
+        tally = tallies.setdefault(name, Tally())
+        share = tries // len(names) + (position < tries % len(names))
+        while tally.tries < share:
+            last = min(tally.tries + BATCH, share)
+            _try(name, seed, tally, last, keep)
+            _save(keep, seed, tallies)
+            _show(f"{name}: {tally.tries} of {share}, {tally.failed} failed")
+    return _report({name: tallies[name] for name in names}, seed)
+
+
+def _report(tallies: Mapping[str, Tally], seed: int) -> dict[str, Any]:
+    worst = max(tallies.items(), key=lambda item: item[1].slowest_s)
+    largest = max(tallies.items(), key=lambda item: item[1].largest_mb)
+    failed = sum(tally.failed for tally in tallies.values())
+    return {
+        "bench": "inputs",
+        "machine": machine(),
+        "seed": seed,
+        "tries": sum(tally.tries for tally in tallies.values()),
+        "failed": failed,
+        "slowest": {"reader": worst[0], "seconds": worst[1].slowest_s},
+        "largest": {"reader": largest[0], "megabytes": largest[1].largest_mb},
+        "limits": {"seconds": MOST_SECONDS, "megabytes": MOST_BYTES / 1e6},
+        "passed": failed == 0,
+        "readers": {name: asdict(tally) for name, tally in tallies.items()},
+    }
+
+
+def _try(name: str, seed: int, tally: Tally, last: int, keep: Path | None) -> None:
+    """Go on until `last`; a child that crashes or hangs is replaced behind the input it had."""
+    while tally.tries < last:
+        with tempfile.TemporaryDirectory() as folder:
+            for report in _child(name, seed, tally.tries, last, Path(folder)):
+                if tally.count(report):
+                    _keep(keep, name, int(report["number"]), Path(folder))
+
+
+def _child(name: str, seed: int, first: int, last: int, folder: Path) -> Iterator[dict[str, Any]]:
+    """The reports of a child process; when it ends too early, one about its end."""
+    words = [name, str(seed), str(first), str(last), str(folder)]
+    program = command("-m", "hri.bench.inputs.trial", *words)
+    number = first
+    with (
+        tempfile.TemporaryFile() as told,
+        subprocess.Popen(
+            program, stdout=subprocess.PIPE, stderr=told, text=True, env=environment()
+        ) as child,
+    ):
+        assert child.stdout is not None
+        try:
+            for line in _lines(child.stdout):
+                report = json.loads(line)
+                number = report["number"] + 1
+                yield report
+            status = child.wait(PATIENCE)
+            why = f"status {status}"
+        except (TimeoutError, subprocess.TimeoutExpired):
+            why = f"nothing for {PATIENCE:g} s"
+        finally:
+            child.kill()
+        told.seek(0)
+        last_words = told.read()[-300:].decode(errors="replace")
+    if number < last:
+        why = f"{why}: {last_words.strip()}"
+        yield {"number": number, "seconds": 0.0, "bytes": 0, "what": "ended", "why": why}
+
+
+def _lines(stream: IO[str]) -> Iterator[str]:
+    """The lines of a stream. Raises TimeoutError when none comes."""
+    with selectors.DefaultSelector() as selector:
+        selector.register(stream, selectors.EVENT_READ)
+        while True:
+            if not selector.select(PATIENCE):
+                raise TimeoutError
+            line = stream.readline()
+            if not line:
+                return
+            yield line
+
+
+def _keep(keep: Path | None, name: str, number: int, folder: Path) -> None:
+    """Copy the input that failed to the folder of the user."""
+    if keep is None:
+        return
+    source = folder / READERS[name].file
+    if source.is_file():
+        target = keep / f"{name.replace(' ', '-').replace(',', '')}-{number}{source.suffix}"
+        write_bytes(target, source.read_bytes())
+
+
+def _resumed(keep: Path | None, seed: int) -> dict[str, Tally]:
+    """How far an earlier run with this folder got."""
+    if keep is None:
+        return {}
+    keep.mkdir(parents=True, exist_ok=True)
+    file = keep / PROGRESS
+    if not file.is_file():
+        return {}
+    known = json.loads(file.read_text())
+    if known["seed"] != seed:
+        raise HriError(f"{keep} is of seed {known['seed']} - give that seed or another folder")
+    return {name: Tally(**fields) for name, fields in known["readers"].items()}
+
+
+def _save(keep: Path | None, seed: int, tallies: Mapping[str, Tally]) -> None:
+    if keep is not None:
+        readers = {name: asdict(tally) for name, tally in tallies.items()}
+        write_text(keep / PROGRESS, json.dumps({"seed": seed, "readers": readers}, indent=1))
+
+
+def _show(line: str) -> None:
+    if sys.stderr.isatty():
+        sys.stderr.write(f"\r{line}\x1b[K")
+        sys.stderr.flush()

@@ -1,0 +1,277 @@
+"""Good inputs that bad ones are made of: the shipped files, and small files made here."""
+
+from __future__ import annotations
+
+import io
+import json
+import struct
+import tempfile
+import wave
+import zipfile
+from collections.abc import Callable, Iterable
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from hri.core import paths
+from hri.core.signals import Speech
+
+RATE = 16_000
+"""Samples a second of the sounds."""
+
+
+def shipped(patterns: Iterable[str]) -> list[bytes]:
+    """What the files of the house hold whose paths fit the patterns, the smallest first."""
+    found = {file for pattern in patterns for file in paths.house().glob(pattern)}
+    contents = sorted({file.read_bytes() for file in found}, key=len)
+    assert contents, f"the house has no {patterns}"
+    return contents
+
+
+def stimulus_file() -> str:
+    """The name of the shipped file of stimuli, in whose place another one is read."""
+    return min(file.name for file in (paths.house() / "emotions/stimuli").glob("*.toml"))
+
+
+def _lines(*texts: str) -> list[bytes]:
+    return [text.encode() for text in texts]
+
+
+def apps() -> list[bytes]:
+    """An app of shipped networks."""
+    networks = 'networks = ["networks/wander", "networks/follow"]'
+    return _lines(f'about = "An app"\n{networks}\ntasks = ["converse"]\n')
+
+
+def choices() -> list[bytes]:
+    """What `hri doctor --choose` writes."""
+    return _lines('[microphone]\ndevice = "USB Audio"\n\n[camera]\ndevice = "/dev/video0"\n')
+
+
+def timelines() -> list[bytes]:
+    """Both forms of `hri emotion simulate`."""
+    toml = '[[event]]\nt = 20\ngoal = "charger"\nutility = 1.0\nlikelihood_after = 0.0\n\n'
+    return _lines(
+        "# seconds stimulus intensity person\n1.5 praise 0.8 Anna\n2 scold 1\n3e1 greeting\n",
+        toml + '[[event]]\nt = 30\nstimulus = "praise"\nintensity = 0.5\nperson = "Anna"\n',
+    )
+
+
+def event_forms() -> list[bytes]:
+    """Events as people read them."""
+    return _lines(
+        '{Event Examples.PhotoEvent.Shoot [time 0] (count: 3.000000) (name: "a_")}',
+        '{Event a.b [time 1.7e9] (x: -1e-9) (y: 0.1) (text: "a\\"b\\\\\\n\\u00e9 \\t")}',
+    )
+
+
+def event_queries() -> list[bytes]:
+    """Events over the wire."""
+    return _lines(
+        "Examples.PhotoEvent.Shoot?count=3&name=a_", "a.b?x=%20%3D%C3%A9&y=1e-9&z=%ED%A0%80"
+    )
+
+
+def expectations() -> list[bytes]:
+    """A test of a grammar."""
+    return _lines(
+        "grammar companion\n+ go back one meter => move: distance=-1\n+ hello robot => greet: {}\n"
+        "- fly to the moon  # not understood\n// a comment\n+ go back one meter =>\n"
+    )
+
+
+def expressions() -> list[bytes]:
+    """Values of parameters."""
+    return _lines("-5*pi/6", "(1+2)/3-e*2.5", "+-1e3")
+
+
+def formulas() -> list[bytes]:
+    """How strong a stimulus is."""
+    return _lines('clip(value, 0, 1)*(kind == "a") + min(a, b, 2e-3)/max(1, abs(c)) < 3')
+
+
+def weights() -> list[bytes]:
+    """A recording of a face, as an app on a phone writes it."""
+    head = "Timecode,BlendShapeCount,EyeBlinkLeft,JawOpen,HeadYaw\n"
+    rows = "".join(f"00:00:00:{i:02}.000,61,0.1,{i / 60},0.2\n" for i in range(50))
+    return _lines(head + rows)
+
+
+def poses() -> list[bytes]:
+    """The turns of a head over time."""
+    rows = "".join(f"{i / 30:.3f},{i % 7},{-i % 5},0.5\n" for i in range(60))
+    return _lines("t_s,pitch_deg,yaw_deg,roll_deg\n" + rows)
+
+
+def lexicons() -> list[bytes]:
+    """How words sound."""
+    return _lines("# cats\nschrodinger  SH R OW1 D IH0 NG ER0\nread(2) R EH1 D\nread R IY D\n")
+
+
+def names() -> list[bytes]:
+    """A list that a grammar imports."""
+    return _lines("# Who\nRobin Smith\nthe boss = Alex\nroom twelve = 12\nyes = true\n")
+
+
+def manifests() -> list[bytes]:
+    """Recordings and what is said in them."""
+    row = "a.wav\tgo back one meter\tmove: distance=-1\nb.wav\t-\n"
+    return _lines("file\tsentence\ttags\n" + row, "a.wav\thello robot\n")
+
+
+def memories() -> list[bytes]:
+    """What a robot feels between runs."""
+    from hri.emotion.model import load_emotions
+    from hri.emotion.persistence import Memory, dump
+
+    dynamics = load_emotions("neutral").dynamics()
+    affect = dynamics.rest(0.0)
+    for name, person in (("praise", "Ann"), ("scold", "Bob"), ("bump", None)):
+        affect = dynamics.feel(affect, name, 0.7, affect.time + 3.0, person)
+    return [dump(Memory(affect.imprint, affect.time + 3.0, 1e9)).encode()]
+
+
+def people() -> list[bytes]:
+    """Faces by name."""
+    vectors = [[0.1 * number for number in range(16)], [0.5] * 16]
+    return [json.dumps({"Anna": vectors, "Ben": vectors[:1]}).encode()]
+
+
+def load_personality_file(path: Path) -> object:
+    """A personality by the path of its file."""
+    from hri.emotion.personality import load_personality
+
+    return load_personality(str(path))
+
+
+def runs() -> list[bytes]:
+    """Recordings of a robot and of a trip."""
+    trip = [json.dumps({"goal": [1, 2], "radius": 0.2, "title": "room"})] + [
+        json.dumps({"t": i / 10, "robot": [i, 0, 0.1], "people": [[1, 1]], "seen": []})
+        for i in range(20)
+    ]
+    return event_logs() + _lines("\n".join(trip) + "\n")
+
+
+def event_logs() -> list[bytes]:
+    """What a robot's recording holds."""
+    odometry = [
+        json.dumps({"t": i / 10, "event": "odometry", "x_cm": i, "y_cm": -i, "heading_rad": 0.1})
+        for i in range(20)
+    ]
+    heard = json.dumps({"t": 2.0, "event": "speech.heard", "text": "hello", "tags": {"a": [1]}})
+    return _lines("\n".join([*odometry, heard]) + "\n")
+
+
+def value_logs() -> list[bytes]:
+    """What a ValueRecorder writes."""
+    values = (1.5, "a text", True, [1, 2.5], 3)
+    lines = [json.dumps({"t": i / 10, "value": value}) for i, value in enumerate(values)]
+    return _lines("\n".join(lines) + "\n")
+
+
+def wire_lines() -> list[bytes]:
+    """Frames of the bridge."""
+    return _lines(
+        '<tutorial><number count="1">5.000000</number></tutorial>',
+        '<server><event count="2">"Examples.Event?count=3&amp;name=a_"</event></server>',
+        "<a><values>(1, 2.5, 3)</values><text>&lt;plain&gt; &#65;</text></a>",
+    )
+
+
+def _samples() -> np.ndarray[tuple[int], np.dtype[np.int16]]:
+    time = np.arange(RATE // 10) / RATE
+    return np.asarray(8000 * np.sin(2 * np.pi * 440 * time), np.int16)
+
+
+def wavs() -> list[bytes]:
+    """PCM of 16 and 8 bits, one channel and two."""
+    made = []
+    for channels, width in ((1, 2), (2, 2), (1, 1)):
+        file = io.BytesIO()
+        with wave.open(file, "wb") as sound:
+            sound.setparams((channels, width, RATE, 0, "NONE", "not compressed"))
+            sound.writeframes(np.repeat(_samples(), channels).tobytes())
+        made.append(file.getvalue())
+    return made
+
+
+def sounds() -> list[bytes]:
+    """Ogg, FLAC and MP3."""
+    import soundfile
+
+    made = []
+    for kind in ("OGG", "FLAC", "MP3"):
+        file = io.BytesIO()
+        soundfile.write(file, _samples(), RATE, format=kind)
+        made.append(file.getvalue())
+    return made
+
+
+def pictures() -> list[bytes]:
+    """A small picture in four formats."""
+    import cv2
+
+    picture = np.add.outer(np.arange(24), np.arange(32)).astype(np.uint8)
+    suffixes = (".png", ".jpg", ".bmp", ".webp")
+    return [cv2.imencode(suffix, picture)[1].tobytes() for suffix in suffixes]
+
+
+def videos() -> list[bytes]:
+    """A film of some pictures, and a picture that stands for one."""
+    import cv2
+
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, "a.avi")
+        writer = cv2.VideoWriter(str(file), cv2.VideoWriter.fourcc(*"MJPG"), 10.0, (32, 24))
+        for shade in range(8):
+            writer.write(np.full((24, 32, 3), 30 * shade, np.uint8))
+        writer.release()
+        return [file.read_bytes(), *pictures()[:2]]
+
+
+def archives() -> list[bytes]:
+    """Archives of a model, packed and as it is."""
+    made = []
+    for method in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_LZMA):
+        file = io.BytesIO()
+        with zipfile.ZipFile(file, "w", method) as archive:
+            archive.writestr("model/am/final.mdl", bytes(range(256)) * 4)
+            archive.writestr("model/conf/model.conf", "--rate=16000\n")
+            archive.writestr("model/empty/", "")
+        made.append(file.getvalue())
+    return made
+
+
+def adaptation() -> list[bytes]:
+    """A small change of the recognizer's network."""
+    from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
+
+    tensors = read_tensors(find_weights())
+    name, tensor = min(tensors.items(), key=lambda entry: entry[1].size)
+    file = io.BytesIO()
+    np.savez_compressed(file, allow_pickle=False, **{name: np.zeros(tensor.shape, np.float16)})
+    return [file.getvalue()]
+
+
+def tensors() -> list[bytes]:
+    """A weight file with two small tensors."""
+    values = np.arange(6, dtype="<f4").tobytes()
+    head = b"HAMAPK\x01\x02" + struct.pack("<I", 2)
+    for name, shape, offset in ((b"a.weight", (2, 3), 0), (b"b", (6,), len(values))):
+        head += struct.pack("<H", len(name)) + name + struct.pack("<BB", 0, len(shape))
+        head += struct.pack(f"<{len(shape)}I", *shape) + struct.pack("<QQ", offset, len(values))
+    return [head + b"\0" * (-len(head) % 16) + values * 2]
+
+
+@cache
+def silent_voice() -> Callable[[str], Speech]:
+    """What speaks the texts of a scene without a sound."""
+    from hri.core.clock import FakeClock
+    from hri.hal.manager import ResourceManager
+    from hri.hal.resource import Description
+    from hri.speech.synthesizers.silent import SilentVoice
+
+    description = Description("voice", "Hri.SilentVoice", {})
+    return SilentVoice(description, ResourceManager((), FakeClock())).synthesize

@@ -1,0 +1,67 @@
+import json
+from pathlib import Path
+from random import Random
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hri.bench import inputs
+from hri.bench.inputs.mutation import LARGEST, mutated
+from hri.bench.inputs.readers import READERS
+from hri.core.errors import HriError
+
+SEEDS = [b'[a]\nb = 1.5 # "c"\n', b"<a><b c='d'/></a>"]
+
+
+@given(st.booleans(), st.integers(0, 10**6))
+def test_an_input_is_the_same_for_the_same_numbers_and_bounded(is_text: bool, number: int) -> None:
+    made = mutated(SEEDS, is_text, Random(f"1/a/{number}"))
+    assert made == mutated(SEEDS, is_text, Random(f"1/a/{number}"))
+    assert len(made) <= LARGEST
+
+
+def test_inputs_that_differ_are_made() -> None:
+    made = {mutated(SEEDS, True, Random(f"1/a/{number}")) for number in range(100)}
+    assert len(made) > 90
+
+
+def test_a_reader_is_tried_and_a_second_call_goes_on(tmp_path: Path) -> None:
+    first = inputs.measure(tries=20, only="expression", keep=tmp_path)
+    assert first["passed"]
+    tally = first["readers"]["expression"]
+    assert tally["taken"] + tally["refused"] == tally["tries"] == 20
+    more = inputs.measure(tries=30, only="expression", keep=tmp_path)
+    assert more["tries"] == 30
+    assert (
+        json.loads((tmp_path / inputs.PROGRESS).read_text())["readers"]["expression"]["tries"] == 30
+    )
+    with pytest.raises(HriError, match="is of seed 1"):
+        inputs.measure(tries=30, seed=2, keep=tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("report", "what"),
+    [
+        ({"what": "traceback", "why": "ValueError"}, "traceback"),
+        ({"what": "refused", "seconds": 6.0}, "slow"),
+        ({"what": "taken", "bytes": 400_000_000}, "large"),
+        ({"what": "refused"}, ""),
+    ],
+)
+def test_what_breaks_a_limit_is_counted(report: dict[str, object], what: str) -> None:
+    tally = inputs.Tally()
+    usual = {"number": 7, "seconds": 0.1, "bytes": 0, "why": ""}
+    assert tally.count({**usual, **report}) == what
+    assert tally.tries == 8
+    assert [failure["what"] for failure in tally.failures] == ([what] if what else [])
+
+
+def test_an_unknown_reader_is_one_line() -> None:
+    with pytest.raises(HriError, match='did you mean "grammar"'):
+        inputs.measure(only="gramar")
+
+
+def test_every_reader_takes_its_good_inputs() -> None:
+    for name, reader in READERS.items():
+        assert all(reader.seeds()), name
