@@ -11,8 +11,8 @@ from typing import Any
 from hri.core.errors import HriError
 
 BENCHES = (
-    "behavior", "companion", "drive", "emotion", "face", "inputs", "net", "speech", "vision",
-    "writes",
+    "behavior", "companion", "drive", "emotion", "face", "inputs", "net", "people",
+    "speech", "vision", "writes",
 )  # fmt: skip
 """Each is a module of `hri.bench` with `measure() -> dict`."""
 OPTIONS = ("seconds", "quick", "only", "recordings", "draw", "tries", "seed", "keep")
@@ -22,6 +22,7 @@ TAKES = {
     "drive": ("quick", "only"),
     "face": ("quick",),
     "inputs": ("tries", "seed", "keep", "only"),
+    "people": ("quick",),
     "speech": ("quick", "recordings", "draw"),
     "vision": ("quick",),
     "writes": ("quick",),
@@ -34,7 +35,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     about = "how long each case runs (behavior, companion)"
     parser.add_argument("--seconds", type=_seconds, metavar="S", help=about)
     about = (
-        "take every sixth sentence and recording (speech), a tenth (drive, face, vision, writes)"
+        "take every sixth sentence and recording (speech),"
+        " a tenth (drive, face, people, vision, writes)"
     )
     parser.add_argument("--quick", action="store_true", default=None, help=about)
     about = "only this part, such as chain or rooms; a wrong name lists them all (drive,"

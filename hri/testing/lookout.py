@@ -31,17 +31,21 @@ class Lookout:
         self._last: frozenset[int] = frozenset()
         self.in_sight: frozenset[int] = frozenset()
         """Numbers of those in the two newest pictures that have been looked through."""
+        self.covered: frozenset[int] = frozenset()
+        """Numbers of those in the picture that was taken last, looked through or not."""
 
     def look(self, now: float) -> People | None:
         """What the tracker says now; None when it says nothing new."""
         if now < self._next - 1e-6:
             return None
         self._next = now + PICTURE_S
-        self._pictures.append(self._taken(now))
+        taken = self._taken(now)
+        self.covered = _numbers(taken)
+        self._pictures.append(taken)
         if len(self._pictures) <= DELAY:
             return None
         people = self._pictures.popleft()
-        newest = frozenset(int(person.id[1:]) for person in people.persons)
+        newest = _numbers(people)
         self.in_sight, self._last = newest & self._last, newest
         return people
 
@@ -62,3 +66,7 @@ class Lookout:
         pose = self._world.base.pose
         free = self._world.room.cast(pose.x, pose.y, pose.heading + bearing)
         return float(free) >= distance
+
+
+def _numbers(people: People) -> frozenset[int]:
+    return frozenset(int(person.id[1:]) for person in people.persons)

@@ -26,6 +26,7 @@ from hri.hal.resource import Description
 from hri.simulation.person import RADIUS as PERSON
 from hri.simulation.rooms import ROBOT, Crowd, Furnished, Point
 from hri.simulation.world import SimulatedWorld
+from hri.testing.collisions import CONTACT, MOVING, Collision, Witness, hit_by
 from hri.testing.lookout import Lookout
 
 POLICIES = {
@@ -59,10 +60,6 @@ TICK = 0.05
 LONGEST_S = 180.0
 GIVES_UP_S = 30.0
 """Seconds in which a robot that gets nowhere, or touches something all the time, gives up."""
-MOVING = 0.01
-"""Metres a second; slower stands."""
-CONTACT = 0.01
-"""Metres between two bodies that touch."""
 
 
 @dataclass
@@ -77,10 +74,8 @@ class Trip:
     way: float = 0.0
     hits: int = 0
     """Times it drove into a thing."""
-    people_hit: int = 0
-    """Times it touched somebody while it moved."""
-    people_met: int = 0
-    """Times somebody touched it while it stood."""
+    collisions: list[Collision] = field(default_factory=list)
+    """Touches between it and people, by time."""
     person_gap: float = math.inf
     """Smallest distance between the robot's body and a person's."""
     person_gap_moving: float = math.inf
@@ -96,6 +91,16 @@ class Trip:
         first = {"world": room.text, "goal": room.goal, "radius": ROBOT, "title": title}
         lines = [json.dumps(line) for line in (first, *self.track)]
         path.write_text("\n".join([*lines, ""]), encoding="utf-8")
+
+    @property
+    def people_hit(self) -> int:
+        """Times it touched somebody while it moved."""
+        return sum(collision.is_moving for collision in self.collisions)
+
+    @property
+    def people_met(self) -> int:
+        """Times somebody touched it while it stood."""
+        return len(self.collisions) - self.people_hit
 
     @property
     def is_clean(self) -> bool:
@@ -137,7 +142,9 @@ class Journey:
         self._people = context.board.slot(PEOPLE)
         network = load_network(paths.find("config/networks", f"{POLICIES[policy]}.xml"))
         self._runner = Runner(network, context)
-        self._touches = {"thing": False, "person": False}
+        self._witness = Witness(ROBOT)
+        self.trip.collisions = self._witness.collisions
+        self._touches_thing = False
         self._spot, self._moved_at = start, 0.0
 
     def run(self, longest: float = LONGEST_S) -> Trip:
@@ -161,12 +168,13 @@ class Journey:
             self._crowd.step(now)
         if self._lookout is not None and (people := self._lookout.look(now)) is not None:
             self._people.set(people, now)
+        self._testify(now, before)
         self._runner.tick(now)
         self.world.advance(now)
         after = self.world.base.pose
         self.trip.way += math.hypot(after.x - before.x, after.y - before.y)
         after_speed = abs(self.world.base.velocity.linear)
-        self._judge(now, after, max(before_speed, after_speed) > MOVING)
+        self._judge(now, after, max(before_speed, after_speed))
         if after_speed >= before_speed:
             self._judge_approach(now, before, after)
         if math.hypot(after.x - self._spot.x, after.y - self._spot.y) > 0.2:
@@ -180,22 +188,25 @@ class Journey:
         self.trip.is_there = stands and math.dist((pose.x, pose.y), self.room.goal) < 0.25
         return self.trip.is_there or now > longest or now - self._moved_at > GIVES_UP_S
 
-    def _judge(self, now: float, pose: Pose2D, is_moving: bool) -> None:
+    def _judge(self, now: float, pose: Pose2D, speed: float) -> None:
         trip, places = self.trip, [person.place(now) for person in self.world.people]
         gap = min(math.dist((pose.x, pose.y), place) for place in places) - ROBOT - PERSON
         trip.person_gap = min(trip.person_gap, gap)
-        if is_moving:
+        if speed > MOVING:
             trip.person_gap_moving = min(trip.person_gap_moving, gap)
-        touches_person = gap < CONTACT
-        if touches_person and not self._touches["person"]:
-            if is_moving:
-                trip.people_hit += 1
-            else:
-                trip.people_met += 1
+        self._witness.watch(now, pose, speed, places)
         clearance = self.room.room.clearance(pose.x, pose.y) - ROBOT
-        touches = clearance < CONTACT if not self._touches["thing"] else clearance < 3 * CONTACT
-        trip.hits += touches and not self._touches["thing"]
-        self._touches = {"thing": touches, "person": touches_person}
+        touches = clearance < CONTACT if not self._touches_thing else clearance < 3 * CONTACT
+        trip.hits += touches and not self._touches_thing
+        self._touches_thing = touches
+
+    def _testify(self, now: float, pose: Pose2D) -> None:
+        """Note whom each sensor covers now."""
+        places = [person.place(now) for person in self.world.people]
+        for sensor, people in hit_by(dict(self._ends(now, pose)), places).items():
+            self._witness.see(now, sensor, people)
+        if self._lookout is not None:
+            self._witness.see(now, "camera", sorted(self._lookout.covered))
 
     def _judge_approach(self, now: float, before: Pose2D, after: Pose2D) -> None:
         for number in self._lookout.in_sight if self._lookout is not None else ():
@@ -211,12 +222,12 @@ class Journey:
             "t": round(now, 2),
             "robot": _rounded((pose.x, pose.y, pose.heading)),
             "people": [_rounded(place) for place in people],
-            "seen": [_rounded(point) for point in self._seen(now, pose)],
+            "seen": [_rounded(point) for _, point in self._ends(now, pose)],
         }
         self.trip.track.append(told)
 
-    def _seen(self, now: float, pose: Pose2D) -> Iterator[Point]:
-        """Where the beams end that hit something."""
+    def _ends(self, now: float, pose: Pose2D) -> Iterator[tuple[str, Point]]:
+        """Where the beams end that hit something, by the ids of the sensors."""
         for id in self._sensors:
             sensor = self._resources.obtain(id, RangeSensor)
             distance = sensor.read(now).distance
@@ -227,7 +238,7 @@ class Journey:
                     mount.x + distance * math.cos(mount.yaw),
                     mount.y + distance * math.sin(mount.yaw),
                 )
-                yield placed(pose, *way)
+                yield id, placed(pose, *way)
 
 
 def _rounded(values: Sequence[float]) -> list[float]:

@@ -3,6 +3,7 @@ import pytest
 from hri.bench.chain import LINKS, combinations, words
 from hri.bench.drive import measure, rooms, wheels, world
 from hri.core.errors import HriError
+from hri.testing.collisions import Collision
 from hri.testing.trips import Trip
 
 
@@ -22,7 +23,7 @@ def test_rooms_that_were_not_reached_are_named_and_fail_the_row() -> None:
 
 def test_one_collision_with_somebody_fails_a_row() -> None:
     found = trips(10, 10)
-    found[3].people_hit = 1
+    found[3].collisions.append(Collision(3.0, 0.2, 1.0, 0.0, (), 0.0))
     reached, people = rooms.told("full", found, is_limited=True)
     assert (reached["count"], people["value"]) == (9, 1)
     assert not people["passed"]

@@ -56,11 +56,18 @@ NO_LIMIT = at_least(0.0)
 def rows(quick: bool, workers: int) -> Iterator[Row]:
     """Success, time, collisions and the closest distance to a person, for each case."""
     count = QUICK_ROOMS if quick else ROOMS
+    for number, (case, trips) in enumerate(driven(CASES, count, workers)):
+        yield from told(case.name, trips, is_limited=number == 0)
+
+
+def driven(
+    cases: Sequence[Case], count: int, workers: int
+) -> Iterator[tuple[Case, Sequence[Trip]]]:
+    """The trips through the first `count` rooms for each case, in so many processes."""
     with worker_pool(workers) as pool:
-        for number, case in enumerate(CASES):
+        for case in cases:
             drive = partial(through, case=case)
-            trips = list(progress(pool.map(drive, range(count)), count, case.name))
-            yield from told(case.name, trips, is_limited=number == 0)
+            yield case, list(progress(pool.map(drive, range(count)), count, case.name))
 
 
 def through(seed: int, case: Case) -> Trip:
