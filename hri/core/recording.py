@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
-import logging
 import math
 from collections.abc import Collection, Mapping
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from hri.core.errors import AuthoringError, HriError, Place
+from hri.core.errors import AuthoringError, Place
 from hri.core.events import EventBus
+from hri.core.growing import GrowingFile
 from hri.core.reading import parse_json, read_text
 from hri.core.signals import Event
 
 NOTHING: Mapping[str, Collection[str]] = MappingProxyType({})
-
-log = logging.getLogger("hri.recording")
 
 LARGEST_LOG = 100_000_000
 """Bytes of a log of events: some ten hours of a busy robot."""
@@ -33,31 +30,23 @@ class EventLog:
     ) -> None:
         """`withheld` names properties that are written empty, by the name of the event.
 
-        Raises HriError when the file cannot be written.
+        Raises HriError when the file cannot be written, or another program writes it now.
         """
         self._withheld = withheld
-        try:
-            self._file = path.open("w", encoding="utf-8")
-        except OSError as error:
-            raise HriError(f"{path}: cannot write: {error.strerror} - check the folder") from error
+        self._file = GrowingFile(path)
         self._subscription = events.subscribe("*", self.write)
 
     def write(self, event: Event) -> None:
         withheld = self._withheld.get(event.name, ())
         told = {key: "" if key in withheld else value for key, value in event.properties.items()}
         when = {"t": round(event.time, 4), "event": event.name}
-        try:
-            self._file.write(_line({**when, **told, **when}) + "\n")
-            self._file.flush()
-        except OSError as error:
+        if not self._file.append(f"{_line({**when, **told, **when})}\n".encode()):
             self._subscription.cancel()
-            log.error("the log of events ends here: %s", error.strerror)
 
     def close(self) -> None:
         """Stop listening; a second call does nothing."""
         self._subscription.cancel()
-        with contextlib.suppress(OSError):  # a full disk was told about when it filled up
-            self._file.close()
+        self._file.close()
 
 
 def read_events(path: Path) -> list[dict[str, Any]]:

@@ -41,8 +41,13 @@ class NotWritten(HriError):
 
 def not_written(path: Path, error: OSError) -> NotWritten:
     """The error that says which file could not be written, why, and what to do."""
+    return NotWritten(f"{path}: cannot be written: {reason_of(error)}")
+
+
+def reason_of(error: OSError) -> str:
+    """Why the disk refused something, and what to do."""
     remedy = _REMEDIES.get(error.errno or 0, "check the folder")
-    return NotWritten(f"{path}: cannot be written: {error.strerror or error} - {remedy}")
+    return f"{error.strerror or error} - {remedy}"
 
 
 def write_text(path: Path, text: str, mode: int | None = None) -> os.stat_result:
@@ -185,11 +190,16 @@ def _made_beside(target: Path, mode: int | None, suffix: str) -> tuple[int, Path
 def _made_locked(target: Path, mode: int, suffix: str) -> tuple[int, Path]:
     flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC
     while True:
-        new = target.with_name(f"{_beginning(target)}{secrets.token_hex(4)}{suffix}")
+        new = name_beside(target, suffix)
         handle = os.open(new, flags, mode)
         if _is_ours(handle):
             return handle, new
         os.close(handle)
+
+
+def name_beside(target: Path, suffix: str = SUFFIX) -> Path:
+    """A name for a file that does not last, which `leftovers` knows after a crash."""
+    return target.with_name(f"{_beginning(target)}{secrets.token_hex(4)}{suffix}")
 
 
 def _beginning(target: Path) -> str:

@@ -14,11 +14,11 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TextIO
 
 import numpy as np
 
-from hri.core.errors import AuthoringError, HriError, Place
+from hri.core.errors import AuthoringError, Place
+from hri.core.growing import GrowingFile
 from hri.core.reading import read_lines
 from hri.face.baking import Vector
 from hri.face.gestures import Track
@@ -69,7 +69,6 @@ class WeightWriter:
     def __init__(self, path: Path, model: FaceModel) -> None:
         """Raises HriError when the file cannot be written."""
         self._model = model
-        self._path = path
         self._angles = _angles(model)
         named = {channel: number for number, channel in enumerate(model.channels)}
         arkit = [_channel(column) for column in TARGETS]
@@ -79,10 +78,7 @@ class WeightWriter:
         self._extra_numbers = [named[channel] for channel in self._extras]
         self._head = [(named.get(channel), radians) for channel, radians in self._angles.items()]
         self._begin: float | None = None
-        try:
-            self._file: TextIO | None = path.open("w", encoding="utf-8", newline="")
-        except OSError as error:
-            raise HriError(f"{path}: cannot write: {error.strerror} - check the folder") from error
+        self._file = GrowingFile(path)
         self._write([TIMECODE, COUNT, *COLUMNS, *self._extras])
 
     def write(self, now: float, vector: Vector) -> None:
@@ -98,21 +94,10 @@ class WeightWriter:
 
     def close(self) -> None:
         """End the file; a second call does nothing."""
-        if self._file is not None:
-            file, self._file = self._file, None
-            try:
-                file.close()
-            except OSError as error:
-                log.error("%s: %s", self._path, error.strerror)
+        self._file.close()
 
     def _write(self, cells: Sequence[str]) -> None:
-        if self._file is None:
-            return
-        try:
-            self._file.write(",".join(cells) + "\n")
-        except OSError as error:
-            log.error("%s ends here: %s", self._path, error.strerror)
-            self.close()
+        self._file.append((",".join(cells) + "\n").encode())
 
 
 def read_weights(path: Path, model: FaceModel) -> Track:

@@ -155,7 +155,10 @@ class Recording:
         self._log.close()
 
     def plot(self) -> None:
-        """Draw `timeline.png` from the log."""
+        """Draw `timeline.png` from the log; where that cannot be done, one line says so."""
         from hri.robot.timeline import plot_timeline
 
-        plot_timeline(read_events(self.folder / "events.jsonl"), self.folder / "timeline.png")
+        try:
+            plot_timeline(read_events(self.folder / "events.jsonl"), self.folder / "timeline.png")
+        except HriError as error:
+            log.error("no timeline: %s", error)

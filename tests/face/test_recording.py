@@ -115,5 +115,5 @@ def test_a_file_that_cannot_be_played_says_where_and_why(
 def test_a_file_that_is_not_there_or_cannot_be_written_is_told(tmp_path: Path) -> None:
     with pytest.raises(HriError, match="cannot read"):
         read_weights(tmp_path / "nothing.csv", MODEL)
-    with pytest.raises(HriError, match="cannot write"):
+    with pytest.raises(HriError, match="cannot be written"):
         WeightWriter(tmp_path / "no folder" / "face.csv", MODEL)

@@ -7,9 +7,13 @@ import pytest
 
 from hri import Robot
 from hri.core.clock import FakeClock
+from hri.core.errors import HriError
+from hri.core.growing import GrowingFile
 from hri.core.recording import read_events
+from hri.hal.drivers.wav_file import read_wav
 from hri.hal.microphone import Microphone
 from hri.robot.recording import ALOUD, FILES
+from tests.disk import full_disk
 
 APP = """networks = ["face.xml", "feeling.xml"]
 """
@@ -143,3 +147,27 @@ def test_what_is_not_recorded_is_not_marked_or_told(record, tmp_path):
     robot = record(not_recorded)
     assert robot.told == []
     assert not (tmp_path / "out").exists()
+
+
+def test_on_a_full_disk_the_robot_goes_on_and_each_file_ends_with_one_line(
+    record, tmp_path, caplog
+):
+    with full_disk(after=30_000):
+        robot = record()
+    assert robot.lived >= 2.0
+    out = tmp_path / "out"
+    ended = [message.partition(" ends here: ")[0] for message in caplog.messages]
+    assert {str(out / "face.mp4"), str(out / "robot.wav")} <= set(ended)
+    assert len(ended) == len(set(ended))
+    assert not any("\n" in message for message in caplog.messages)
+    assert read_events(out / "events.jsonl")
+    assert len(read_wav(out / "robot.wav")[0]) > 0
+
+
+def test_two_robots_do_not_record_into_one_folder(record, tmp_path):
+    (tmp_path / "out").mkdir()
+    other = GrowingFile(tmp_path / "out" / "events.jsonl")
+    other.append(b"{}\n")
+    with pytest.raises(HriError, match=r"events.jsonl: another program is writing it - choose"):
+        record()
+    assert (tmp_path / "out" / "events.jsonl").read_bytes() == b"{}\n"

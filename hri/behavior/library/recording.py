@@ -10,12 +10,13 @@ import json
 import logging
 import math
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.library.timing import TOLERANCE
 from hri.behavior.ports import DBL_MAX, Input, Output, Param
 from hri.core.errors import AuthoringError, HriError, Place
+from hri.core.growing import GrowingFile
 from hri.core.reading import parse_json, read_text
 
 log = logging.getLogger("hri.behavior")
@@ -31,11 +32,7 @@ class ValueRecorder(Behavior):
     input = Input[Any]("any", "numbers, texts, truths or arrays")
 
     def start(self, context: Context) -> None:
-        try:
-            self._file: IO[str] = open(self.file, "w", encoding="utf-8")  # noqa: SIM115
-        except OSError as error:
-            what = f"{self.id}: cannot write {self.file}: {error.strerror}"
-            raise HriError(f"{what} - choose another file") from error
+        self._file = GrowingFile(Path(self.file))
         self._begin = context.clock.now()
         self._lines = 0
 
@@ -43,7 +40,7 @@ class ValueRecorder(Behavior):
         for value in self.input.values:
             if self._lines < self.max_lines:
                 line = json.dumps({"t": round(now - self._begin, 6), "value": _plain(value)})
-                self._file.write(line + "\n")
+                self._file.append(f"{line}\n".encode())
                 self._lines += 1
                 if self._lines == self.max_lines:
                     log.warning("%s: %s is full - raise max_lines", self.id, self.file)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import wave
 from functools import partial
 from pathlib import Path
 
@@ -11,7 +10,7 @@ from hri.core.errors import HriError
 from hri.core.signals import Samples
 from hri.hal.audio_file import LONGEST_RECORDING, AudioFilePlayer, AudioFileRecorder
 from hri.hal.drivers.partner import use_partner
-from hri.hal.drivers.wav_file import load_sound, open_wav
+from hri.hal.drivers.wav_file import GrowingWav, load_sound
 from hri.hal.ear import Ear
 from hri.hal.microphone import Microphone
 from hri.hal.pending import Pending
@@ -105,7 +104,7 @@ class MicrophoneFileRecorder(AudioFileRecorder):
         if not 0 < seconds <= LONGEST_RECORDING:
             raise ValueError(f"{seconds:g} s - record more than 0 and at most 3600 s")
         self.stop()
-        file = open_wav(Path(path), self._microphone.rate)
+        file = GrowingWav(Path(path), self._microphone.rate)
         self._recording = _Recording(file, self._microphone.listen(), seconds)
         return self._recording.pending
 
@@ -121,7 +120,7 @@ class MicrophoneFileRecorder(AudioFileRecorder):
 class _Recording:
     """One file on its way from the ear to the disk."""
 
-    def __init__(self, file: wave.Wave_write, ear: Ear, seconds: float) -> None:
+    def __init__(self, file: GrowingWav, ear: Ear, seconds: float) -> None:
         self._clock = ear.microphone.manager.clock
         self._file, self._ear = file, ear
         self._left = round(seconds * ear.rate)
@@ -150,10 +149,8 @@ class _Recording:
 
     def _write(self) -> None:
         samples = self._ear.read(self._clock.now())[: self._left]
-        try:
-            self._file.writeframesraw(samples.tobytes())
-        except OSError as error:
-            self.pending.fail(HriError(f"recording: {error.strerror} - make room on the disk"))
+        if not self._file.append(samples):
+            self.pending.fail(HriError("the recording ended early - make room on the disk"))
             self._finish()
         self._left -= len(samples)
         self._written += len(samples)

@@ -14,6 +14,7 @@ from hri.core.errors import HriError
 from hri.core.reading import require_file
 from hri.core.signals import Frame, Image
 from hri.hal.camera import FIELD_OF_VIEW, Camera
+from hri.hal.drivers.growing_movie import GrowingMovie
 from hri.hal.drivers.picture_file import picture_size
 from hri.hal.picture import LARGEST_SIDE
 from hri.hal.screen import Screen
@@ -164,7 +165,8 @@ class VideoFileScreen(Screen):
     """Writes pictures to an MP4 file with a constant rate.
 
     A picture that comes late is held for the missing ones, one that comes early replaces none.
-    Encoding runs in a thread; when it falls far behind real time, pictures are dropped.
+    Encoding runs in a thread; when it falls far behind real time, pictures are dropped. The file
+    can be watched at any time, up to a second ago, also when the program is killed.
     """
 
     parameters = ("file", "width", "height", "rate")
@@ -172,11 +174,8 @@ class VideoFileScreen(Screen):
     def _open(self) -> None:
         self._take_size()
         self.rate = self.description.number_within("rate", 30.0, 1.0, 240.0)
-        path = self.description.text("file")
-        code = cv2.VideoWriter.fourcc(*"mp4v")
-        self._writer = cv2.VideoWriter(path, code, self.rate, (self.width, self.height))
-        if not self._writer.isOpened():
-            raise HriError(f"{path}: cannot write this video - check the folder")
+        path = Path(self.description.text("file"))
+        self._movie = GrowingMovie(path, (self.width, self.height), self.rate)
         # Sound and events begin now, too; the first picture is held from here on.
         self._start = self.manager.clock.now()
         self._count = 0
@@ -201,11 +200,10 @@ class VideoFileScreen(Screen):
             if image.shape[:2] != (self.height, self.width):
                 size = (self.width, self.height)
                 image = np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA), np.uint8)
-            picture = cv2.cvtColor(image, cv2.COLOR_RGB2BGR)
             for _ in range(repeats):
-                self._writer.write(picture)
+                self._movie.write(image)
 
     def _close(self) -> None:
         self._pictures.put(None)
         self._thread.join()
-        self._writer.release()
+        self._movie.close()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import io
+import struct
 import wave
 from collections.abc import Iterator
 from pathlib import Path
@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from hri.core.errors import HriError
+from hri.core.growing import GrowingFile
 from hri.core.reading import require_file
 from hri.core.signals import Samples
 from hri.core.writing import write_bytes
@@ -21,6 +22,10 @@ from hri.hal.speaker import Speaker
 
 LONGEST = 4 * 3600.0
 """Seconds; a longer recording is refused, so that it cannot fill the memory."""
+PUMP = 0.5
+"""Seconds between two writes of what a speaker plays to a file."""
+MOST_BYTES = 2**32 - 40
+"""Of sound that the header of a file can tell of; readers find more behind it."""
 TAIL = 1.0
 """Seconds of silence heard after a file, so that its last word is seen to end."""
 
@@ -78,26 +83,39 @@ def read_wav(
 
 def write_wav(path: Path, samples: Samples, rate: int) -> None:
     """Write mono 16-bit PCM. Raises HriError when it cannot be written."""
-    whole = io.BytesIO()
-    with wave.open(whole, "wb") as file:
-        file.setparams((1, 2, rate, 0, "NONE", "not compressed"))
-        file.writeframes(samples.tobytes())
-    write_bytes(path, whole.getvalue())
+    write_bytes(path, _header(rate, len(samples)) + samples.tobytes())
 
 
-def open_wav(path: Path, rate: int) -> wave.Wave_write:
-    """A file to write mono 16-bit PCM to. Raises HriError when it cannot be written."""
-    try:
-        path.open("wb").close()  # of what wave cannot open it complains twice
-        file = wave.open(str(path), "wb")  # noqa: SIM115 - who asked for it closes it
-    except OSError as error:
-        raise _not_written(path, error) from error
-    file.setparams((1, 2, rate, 0, "NONE", "not compressed"))
-    return file
+class GrowingWav:
+    """Appends sound to a file of mono 16-bit PCM, which can be heard at any time."""
+
+    def __init__(self, path: Path, rate: int) -> None:
+        """Raises HriError when the file cannot be written."""
+        self._file = GrowingFile(path)
+        self._rate, self._count = rate, 0
+        self._file.append(_header(rate, 0))
+
+    def append(self, samples: Samples) -> bool:
+        """Write samples at the end; whether they are there."""
+        is_written = self._file.append(samples.tobytes())
+        if is_written:
+            self._count += len(samples)
+            self._file.patch(0, _header(self._rate, self._count))
+        return is_written
+
+    def close(self) -> None:
+        self._file.close()
 
 
-def _not_written(path: Path, error: OSError) -> HriError:
-    return HriError(f"{path}: cannot be written: {error.strerror or error} - check the folder")
+def _header(rate: int, count: int) -> bytes:
+    """What stands before so many samples; it cannot say more than 4 GB."""
+    size = min(2 * count, MOST_BYTES)
+    layout = struct.pack("<4sIHHIIHH", b"fmt ", 16, 1, 1, rate, 2 * rate, 2, 16)
+    return (
+        struct.pack("<4sI4s", b"RIFF", 36 + size, b"WAVE")
+        + layout
+        + struct.pack("<4sI", b"data", size)
+    )
 
 
 def _mono_blocks(file: wave.Wave_read, channel: str) -> Iterator[Samples]:
@@ -141,23 +159,30 @@ class WavMicrophone(Microphone):
 
 
 class WavSpeaker(Speaker):
-    """Writes what it plays to a file, silence between the sounds included."""
+    """Writes what it plays to a file, silence between the sounds included.
+
+    The file can be heard at any time, up to half a second ago, also when the program is killed.
+    """
 
     parameters = ("file", "rate")
 
     def _open(self) -> None:
         self.rate = self.description.count("rate", 22050, LEAST_RATE, MOST_RATE)
-        self._file = open_wav(Path(self.description.text("file")), self.rate)
-        self._origin = self.manager.clock.now()
+        self._file = GrowingWav(Path(self.description.text("file")), self.rate)
+        self._clock = self.manager.clock
+        self._origin = self._clock.now()
         self._written = 0
         self._source, self._source_rate = np.zeros(0, np.int16), self.rate
         self._sound: Samples = self._source
+        self._heard = 0
+        """Samples of the sound that are written."""
         self._begun = self._origin
+        self._wait()
 
     def play(self, samples: Samples, rate: int, now: float) -> None:
         self.stop(now)
         self._source, self._source_rate = samples, rate
-        self._sound, self._begun = resample(samples, rate, self.rate), now
+        self._sound, self._begun, self._heard = resample(samples, rate, self.rate), now, 0
 
     def extend(self, samples: Samples, now: float) -> None:
         if len(self._sound):
@@ -172,22 +197,35 @@ class WavSpeaker(Speaker):
 
     def stop(self, now: float) -> None:
         """Write the sound as far as it was heard."""
-        heard = self._sound[: round((now - self._begun) * self.rate)]
+        self._write_until(now)
         self._sound = self._sound[:0]
+
+    def _wait(self) -> None:
+        self._timer = self._clock.call_at(self._clock.now() + PUMP, self._pump)
+
+    def _pump(self) -> None:
+        self._write_until(self._clock.now())
+        self._wait()
+
+    def _write_until(self, now: float) -> None:
+        """Write what was heard up to now, silence where nothing was."""
+        heard = self._sound[self._heard : max(0, round((now - self._begun) * self.rate))]
         if len(heard):
-            self._pad_to(self._begun)
+            self._pad_to(self._begun + self._heard / self.rate)
             self._write(heard)
+            self._heard += len(heard)
+        if self._heard >= len(self._sound):
+            self._pad_to(now)
 
     def _pad_to(self, time: float) -> None:
         while (gap := round((time - self._origin) * self.rate) - self._written) > 0:
             self._write(np.zeros(min(gap, BLOCK), np.int16))
 
     def _write(self, samples: Samples) -> None:
-        self._file.writeframes(samples.tobytes())
+        self._file.append(samples)
         self._written += len(samples)
 
     def _close(self) -> None:
-        now = self.manager.clock.now()
-        self.stop(now)
-        self._pad_to(now)
+        self._timer.cancel()
+        self.stop(self._clock.now())
         self._file.close()
