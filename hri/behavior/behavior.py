@@ -132,6 +132,11 @@ class Behavior:
             raise HriError(f'{cls.__name__} has no {kind} "{name}" - {remedy}')
         return table[name]
 
+    @property
+    def steers(self) -> tuple[str, str] | None:
+        """Id of the drive that it steers, and its rank, which only it may have; None for most."""
+        return None
+
     def check(self) -> None:
         """Read the authored files it needs, before anything is opened. Raises HriError."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
+from dataclasses import replace
 from typing import Any, TypeVar
 
 import numpy as np
@@ -27,6 +28,7 @@ from hri.hal.bumper import Bumper
 from hri.hal.camera import Camera
 from hri.hal.cliff_sensor import CliffSensor
 from hri.hal.drive import PATIENCE, DriveSystem, Odometry
+from hri.hal.helm import Outranked, Rank, Writer
 from hri.hal.joystick import Joystick
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Resource
@@ -35,6 +37,8 @@ from hri.hal.screen import Screen
 R = TypeVar("R", bound=Resource)
 
 log = logging.getLogger("hri.behavior")
+
+STEERING_RANKS = tuple(rank.value for rank in Rank if rank is not Rank.NOBODY)
 
 
 class DeviceBehavior(Behavior):
@@ -273,10 +277,15 @@ class DriveCommand(DeviceBehavior):
 
     A velocity that rests on the word of somebody outside, such as a peer over the network, counts
     for `PATIENCE` seconds after that word. While nothing comes in it leaves the drive alone, so
-    that somebody else may use it.
+    that somebody else may use it. Several that write one drive need different ranks; while one of
+    a higher rank steers, the others wait. With the rank "teleop", a velocity of 0 counts as
+    nothing: it is that of a stick at rest.
     """
 
     drive_id = Param("drive", "id of the drive system")
+    rank = Param(
+        "behaviors", "what its commands are worth, where no task gave them", among=STEERING_RANKS
+    )
     velocity = Input[Twist]("twist", "what to drive with; goes before the other two")
     linear_velocity = Input[float]("double", "cm/s, 0 when only the other comes", LINEAR_VELOCITY)
     angular_velocity = Input[float](
@@ -286,26 +295,53 @@ class DriveCommand(DeviceBehavior):
     def start(self, context: Context) -> None:
         super().start(context)
         self._drive = self.obtain(self.drive_id, DriveSystem)
+        self._writer = Writer(self, f'the behavior "{self.id}"', Rank(self.rank))
+        try:
+            self._drive.claim(self._writer)
+        except HriError:
+            self._give_back()
+            raise
         self._clock = context.clock
-        self._is_driving = False
+        self._is_driving = self._is_waiting = False
+
+    @property
+    def steers(self) -> tuple[str, str]:
+        return self.drive_id, self.rank
 
     def compute(self, now: float, dt: float) -> None:
         velocity, until = self._asked()
         if velocity is not None and now <= until:
-            self._drive.set_velocity(velocity, now, until)
-            self._is_driving = True
+            self._steer(velocity, now, until)
         elif self._is_driving:
             if velocity is not None:
                 log.warning("%s stops: whoever steers it from outside fell silent", self.drive_id)
-            self._drive.stop(now)
+            self._drive.let_go(self._writer, now)
             self._is_driving = False
 
     def stop(self) -> None:
-        self._drive.stop(self._clock.now())
+        self._drive.leave(self._writer, self._clock.now())
         super().stop()
+
+    def _steer(self, velocity: Twist, now: float, until: float) -> None:
+        rank = Rank(self.velocity.rank or self.rank)
+        try:
+            self._drive.set_velocity(velocity, now, until, replace(self._writer, rank=rank))
+        except Outranked as error:
+            if not self._is_waiting and rank is not Rank.NOBODY:
+                log.warning("%s", error)
+                self._is_waiting = True
+            self._is_driving = False
+        else:
+            self._is_driving, self._is_waiting = True, False
 
     def _asked(self) -> tuple[Twist | None, float]:
         """The velocity and until when it counts."""
+        velocity, until = self._wish()
+        if velocity == Twist() and self.rank == Rank.TELEOP:
+            velocity = None
+        return velocity, until
+
+    def _wish(self) -> tuple[Twist | None, float]:
         if (velocity := self.velocity.value) is not None:
             return velocity, counts_until(self.velocity)
         linear, angular = self.linear_velocity.value, self.angular_velocity.value

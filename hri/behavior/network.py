@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import heapq
 import logging
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -105,6 +106,13 @@ class Network:
         log.debug("link %s (%s)", self.links[-1], sends.datatype)
         getattr(receiver, input).sources.append(getattr(sender, output))
 
+    def place_of(self, behavior: Behavior) -> Place:
+        """Where a behavior stands in the file; the file itself where it stands in none."""
+        for element in self.document or ():
+            if element.tag == "Behavior" and element.get("id") == behavior.id:
+                return element.place
+        return Place(self.path)
+
     def loose_ends(self) -> list[str]:
         """A sentence for each behavior that takes something, but that no link reaches."""
         fed = {link.target.id for link in self.links}
@@ -195,7 +203,24 @@ def load_network(name: str | Path) -> Network:
             element.check((), ("from", "to"))
             network.connect(element.get("from"), element.get("to"), element.place)
     network.sort()
+    refuse_second_writers([network])
     return network
+
+
+def refuse_second_writers(networks: Iterable[Network]) -> None:
+    """Raise AuthoringError where two behaviors steer one drive with the same rank."""
+    steering: dict[tuple[str, str], str] = {}
+    for network in networks:
+        for behavior in network.behaviors:
+            if behavior.steers is None:
+                continue
+            place = f'"{behavior.id}" ({network.place_of(behavior)})'
+            other = steering.setdefault(behavior.steers, place)
+            if other != place:
+                drive, rank = behavior.steers
+                what = f'"{behavior.id}" steers "{drive}" with the rank "{rank}", as {other} does'
+                remedy = "take one out, put an Hri.PriorityArbiter before one, or change its rank"
+                raise AuthoringError(network.place_of(behavior), what, remedy)
 
 
 def _interval(root: Element) -> float:

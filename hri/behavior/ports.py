@@ -82,17 +82,25 @@ class InputPort(Generic[T]):
                 return source.spoken
         return None
 
+    @property
+    def rank(self) -> str:
+        """The rank of whoever asks for `value`; see `OutputPort.rank`."""
+        return next((source.rank for source in self.sources if source.value is not None), "")
+
 
 class OutputPort(Generic[T]):
     """What a behavior sends in this tick; empty again at the next."""
 
-    __slots__ = ("_datatype", "_kind", "spoken", "value")
+    __slots__ = ("_datatype", "_kind", "rank", "spoken", "value")
 
     def __init__(self, value: T | None = None, datatype: str = ANY) -> None:
         self.value = value
         self.spoken: float | None = None
         """When somebody outside of the network, on whose word the value rests, spoke last: a peer
         over the network, a joystick. The oldest of them, in seconds; None when there is none."""
+        self.rank = ""
+        """Of a command: the rank of whoever asks for it, as in `hri.hal.helm`; without one, it is
+        that of the behavior which passes it on to the drive."""
         self._datatype = datatype
         # Whole numbers are good enough for a double.
         self._kind = (float, int) if datatype == "double" else DATATYPES[datatype]

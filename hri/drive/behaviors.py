@@ -11,6 +11,7 @@ from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
 from hri.core.events import EventBus
 from hri.core.signals import RangeReading, Twist
 from hri.drive.gate import REST, Limits, VelocityGate, max_forward
+from hri.hal.helm import Rank
 
 T = TypeVar("T")
 
@@ -50,7 +51,9 @@ class CommandGate(Behavior):
     speed = Input[float]("double", "factor on every command")
     range = Input[RangeReading]("range", "sensors that look ahead; any number")
     bump = Input[bool]("boolean", "switches that stop driving forward; any number")
-    velocity = Output[Twist]("twist", "for the base, at every tick")
+    velocity = Output[Twist](
+        "twist", "for the base, at every tick, with the rank of whoever asks: a task or a behavior"
+    )
 
     def start(self, context: Context) -> None:
         self._slot = context.board.slot(self.slot)
@@ -60,6 +63,8 @@ class CommandGate(Behavior):
         self._ranges = _LastWords(self.range, self.timeout_s)
         self._bumps = _LastWords(self.bump, self.timeout_s)
         self._taken: tuple[Twist, float] | None = None
+        self._asker = ""
+        """The rank of whoever asked last; an empty one is that of the network."""
         self._was_bumped = False
         self._must_let_go = False
 
@@ -73,6 +78,7 @@ class CommandGate(Behavior):
         speed = self.speed.value
         velocity = self._gate.velocity(now, speed=1.0 if speed is None else speed, max_forward=free)
         self.velocity.send(velocity)
+        self.velocity.rank = self._rank(now)
         self._reporter.report(self._gate, now)
 
     def stop(self) -> None:
@@ -107,11 +113,19 @@ class CommandGate(Behavior):
         if twist is not None:
             if not self._must_let_go:
                 self._gate.command(twist, now)
+                self._asker = ""
             return
         command, time = self._slot.get()
         if command is not None and (command, time) != self._taken:
             self._taken = (command, time)
             self._gate.command(command, time)
+            self._asker = Rank.TASKS
+
+    def _rank(self, now: float) -> str:
+        """Of who asks; a network that asks for rest asks, too, and a task that does has ended."""
+        if self.twist.value is not None:
+            return ""
+        return self._asker if self._gate.is_asked(now) else Rank.NOBODY
 
     def _max_forward(self, now: float) -> float:
         """How fast it may go forward, in m/s; a touch ends a motion for good."""

@@ -61,6 +61,11 @@ class VelocityGate:
     def is_going_forward(self) -> bool:
         return self.current.linear > 0 or self.target.linear > 0
 
+    def is_asked(self, now: float) -> bool:
+        """Whether somebody asks for motion, or it has not come to rest since."""
+        is_fresh = now - self._command_time <= self.limits.timeout_s
+        return self.is_moving or (is_fresh and self._command != REST)
+
     def command(self, twist: Twist, now: float) -> None:
         """Ask for a velocity, valid until the timeout."""
         if not (math.isfinite(twist.linear) and math.isfinite(twist.angular)):

@@ -6,6 +6,7 @@ from enum import Enum
 
 from hri.core.errors import HriError
 from hri.core.signals import Pose2D, Twist
+from hri.hal.helm import PROGRAM, Writer
 from hri.hal.pending import Pending
 from hri.hal.resource import Description, Resource
 
@@ -34,7 +35,9 @@ class DriveSystem(Resource):
     commands by themselves, need the clock to run, and replace each other. A motion that another
     command ends fails with Interrupted, once that command was given; a callback may then ask for
     the next motion, but not in answer to `stop` or `halt`. A motion whose hardware fails ends with
-    HriError, and the base brakes.
+    HriError, and the base brakes. Commands of several writers are arbitrated by their ranks, see
+    `hri.hal.helm`: a command is refused with Outranked while somebody steers who is not less
+    important. A stop is everybody's, and always wins.
 
     Ways and angles may be negative, velocities of `move_delta` and `turn_delta` and all
     accelerations must be above 0; what the base cannot reach is cut to what it can. HriError is
@@ -56,8 +59,25 @@ class DriveSystem(Resource):
         return longest_move(self.description)
 
     @abstractmethod
-    def set_velocity(self, twist: Twist, now: float, until: float = math.inf) -> None:
-        """Go on with this velocity until the next command, or until that time has come."""
+    def claim(self, writer: Writer) -> None:
+        """Let nobody else of the same rank steer by a claim, until `leave`. Raises HriError."""
+
+    @abstractmethod
+    def leave(self, writer: Writer, now: float) -> None:
+        """Give up a claim, and let go."""
+
+    @abstractmethod
+    def let_go(self, writer: Writer, now: float) -> None:
+        """Steer no more: the base stops, unless somebody else steers it."""
+
+    @abstractmethod
+    def set_velocity(
+        self, twist: Twist, now: float, until: float = math.inf, by: Writer = PROGRAM
+    ) -> None:
+        """Go on with this velocity until the next command, or until that time has come.
+
+        Raises Outranked while somebody else steers who is not less important than `by`.
+        """
 
     @abstractmethod
     def stop(self, now: float) -> None:

@@ -18,7 +18,7 @@ from typing import Any, Self
 import trio
 
 from hri.behavior.behavior import Behavior, Context
-from hri.behavior.network import Network
+from hri.behavior.network import Network, refuse_second_writers
 from hri.behavior.runner import Runner
 from hri.core import paths
 from hri.core.clock import Clock, RealClock
@@ -88,6 +88,7 @@ class Robot:
         self.resources.check()
         self._authored = self.app.load_networks()
         _override(self._authored, parameters or {})
+        refuse_second_writers(self._authored)
         for network in self._authored:
             network.check()
         self.events = EventBus(self.clock)

@@ -61,8 +61,8 @@ class OfSensor(OnBase):
 class BaseDrive(OnBase, MovingBase):
     """Asks the supervisor, which has the last word.
 
-    Velocities of networks go before those of motions; when one takes the other's place, the other's
-    last word is taken back.
+    A command arrives there with the rank of whoever gave it; when another rank takes its place, the
+    last word of the one before is taken back.
     """
 
     # The supervisor limits the jerk, and the line takes its time: what is told shows 75 ms later.
@@ -71,7 +71,7 @@ class BaseDrive(OnBase, MovingBase):
 
     def _open(self) -> None:
         super()._open()
-        self._source = Level.BEHAVIORS
+        self._source = Level.NOBODY
         limits = self.bus.limits
         self.max_acceleration = min(limits.acceleration, limits.deceleration)
         self.max_angular_acceleration = min(
@@ -103,11 +103,12 @@ class BaseDrive(OnBase, MovingBase):
         return super().move_delta(distance, velocity, acceleration)
 
     def _send(self, twist: Twist, now: float) -> None:
-        source = Level.TASKS if self._run else Level.BEHAVIORS
-        if source is not self._source:
+        source = Level(self._helm.rank(now))
+        if source is not self._source and self._source is not Level.NOBODY:
             self.bus.ask(self._source, None)
-            self._source = source
-        self.bus.ask(source, twist)
+        self._source = source
+        if source is not Level.NOBODY:
+            self.bus.ask(source, twist)
 
     def _brake(self, now: float) -> None:
         self.bus.brake()

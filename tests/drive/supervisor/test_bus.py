@@ -59,7 +59,7 @@ class Robot:
         return self
 
     def go(self, seconds: float, twist: Twist = GO) -> None:
-        """As a network does: a velocity at each tick."""
+        """As a program does: a velocity every 20 ms."""
         for _ in range(round(seconds / 0.02)):
             self.drive.set_velocity(twist, self.clock.now())
             self.clock.advance(0.02)
@@ -168,7 +168,7 @@ def test_a_velocity_and_a_motion_replace_each_other(robot) -> None:
     robot.go(0.1, Twist(0.0, -0.5))
     with pytest.raises(Interrupted):
         pending.result()
-    assert robot.bus.state.level == "behaviors"
+    assert robot.bus.state.level == "tasks"
 
 
 def test_teleoperation_goes_before_the_network_and_lets_go_by_itself(robot) -> None:

@@ -1,0 +1,321 @@
+"""A base that carries out one command at a time, of one writer at a time.
+
+A velocity counts until the next command. While a motion runs, a timer of the clock repeats its
+command every 20 ms, so the base's own watchdog stops it when this program falls silent. A stop
+always wins; an emergency stop latches as that of a base with a supervisor does, but a base without
+one starts released.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+import threading
+from abc import abstractmethod
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from hri.core.clock import Timer
+from hri.core.errors import HriError
+from hri.core.signals import Twist
+from hri.hal.drive import DriveSystem
+from hri.hal.emergency_stop import EmergencyStop
+from hri.hal.helm import HOLD, PROGRAM, Helm, Writer
+from hri.hal.motion import PERIOD, PROMPT, Brake, Motion, Reading, SlowDown, Steering, Way
+from hri.hal.pending import Interrupted, Pending
+from hri.hal.resource import Description
+
+if TYPE_CHECKING:
+    from hri.hal.manager import ResourceManager
+
+log = logging.getLogger("hri.resources")
+
+FULL_POWER = 100.0
+
+
+@dataclass(eq=False)
+class _Run:
+    """A motion on its way."""
+
+    motion: Motion
+    pending: Pending[None]
+    began: float
+    due: float
+    """When its next command is sent."""
+    origin: Way
+    """What the wheels had rolled when it began."""
+    timer: Timer | None = None
+
+
+class _Here(threading.local):
+    """What this thread is about."""
+
+    is_stopping = False
+
+
+class SteeredBase(DriveSystem, EmergencyStop):
+    """Carries out commands over `_send`, `_brake`, `_set_power`, `_rolled` and `_velocity`."""
+
+    steering: Steering = PROMPT
+    """How the base follows what it is told."""
+
+    def __init__(self, description: Description, manager: ResourceManager) -> None:
+        super().__init__(description, manager)
+        self._helm = Helm(self.id)
+        self._run: _Run | None = None
+        self._until = math.inf
+        """When the velocity that was sent last counts no more."""
+        self._expiry: Timer | None = None
+        self._here = _Here()
+        self._is_latched = False
+        self._because = ""
+        """Why it was stopped last."""
+
+    def _open(self) -> None:
+        self._idle_power = 0.0
+        self._move_power = FULL_POWER
+
+    def deactivate(self) -> None:
+        ended = None
+        try:
+            with self._lock:
+                ended = self._forget()
+                super().deactivate()
+        finally:
+            self._interrupt(ended, "the drive was closed - open it again")
+
+    def _close(self) -> None:
+        self._idle_power = 0.0
+        self._try_to_rest()
+
+    # --- what a driver fills in ---
+
+    @abstractmethod
+    def _send(self, twist: Twist, now: float) -> None:
+        """Pass a velocity on to the hardware."""
+
+    @abstractmethod
+    def _brake(self, now: float) -> None:
+        """Let the hardware stop as fast as it can."""
+
+    @abstractmethod
+    def _set_power(self, percent: float, now: float) -> None:
+        """Let the motors use so much of their force, 0 to 100."""
+
+    @abstractmethod
+    def _rolled(self, now: float) -> Way:
+        """How far the wheels have carried the base since it was switched on."""
+
+    @abstractmethod
+    def _velocity(self, now: float) -> Twist:
+        """What the wheels measure."""
+
+    # --- who steers ---
+
+    def claim(self, writer: Writer) -> None:
+        with self._lock:
+            self._helm.claim(writer)
+
+    def leave(self, writer: Writer, now: float) -> None:
+        self.let_go(writer, now)
+        with self._lock:
+            self._helm.leave(writer)
+
+    def let_go(self, writer: Writer, now: float) -> None:
+        with self._lock:
+            if self._helm.is_free_for(writer, now):
+                self.stop(now)
+
+    # --- velocities ---
+
+    def set_velocity(
+        self, twist: Twist, now: float, until: float = math.inf, by: Writer = PROGRAM
+    ) -> None:
+        self._refuse_while_stopping()
+        reason = "a velocity came in between - send none while it moves"
+        with self._in_place_of_motion(reason, by, now + HOLD):
+            if self._is_latched:
+                self._brake(now)
+            else:
+                self._send(twist, now)
+            self._expire_at(until)
+
+    def stop(self, now: float) -> None:
+        if not self.is_active:
+            return  # closing it was a stop
+        with self._stopping(), self._in_place_of_motion("the drive was stopped - start it again"):
+            self._helm.let_go()
+            self._brake(now)
+
+    # --- the emergency stop ---
+
+    @property
+    def is_latched(self) -> bool:
+        return self._is_latched
+
+    def stop_latched(self, because: str) -> None:
+        with self._lock:
+            self._is_latched, self._because = True, because
+        self.stop(self.manager.clock.now())
+
+    def unlatch(self) -> None:
+        self._is_latched = False
+
+    def explain(self) -> str:
+        return f"I stopped because {self._because}" if self._because else "I have not stopped"
+
+    # --- velocities that expire ---
+
+    def _expire_at(self, until: float) -> None:
+        """Rest at a time, unless another command comes before it; one timer serves them all."""
+        self._until = until
+        if until < math.inf and self._expiry is None:
+            self._expiry = self.manager.clock.call_at(until, self._expire)
+
+    def _expire(self) -> None:
+        with self._lock:
+            self._expiry = None
+            if not self.is_active:
+                return
+            if self.manager.clock.now() < self._until:
+                self._expire_at(self._until)
+            else:
+                self._try_to_rest()
+
+    # --- one motion in place of another ---
+
+    def _begin(self, motion: Motion) -> Pending[None]:
+        """Run a motion in place of the one before."""
+        clock = self.manager.clock
+        pending: Pending[None] = Pending(clock, on_cancel=lambda: self._abandon(pending))
+        reason = "another command took its place - wait for the one before"
+        with self._in_place_of_motion(reason, PROGRAM):
+            now = clock.now()
+            self._run = run = _Run(motion, pending, now, now, self._rolled(now))
+            self._set_power(self._move_power, now)
+            self._tick(run)
+        return pending
+
+    @contextmanager
+    def _in_place_of_motion(
+        self, reason: str, by: Writer | None = None, until: float = math.inf
+    ) -> Iterator[None]:
+        """Give a command while no motion runs, `by` somebody who steers until that time.
+
+        Raises Outranked when somebody else steers, and then changes nothing. Whoever asked for the
+        motion that it ended is told last and outside of the lock, and may ask for the next at once.
+        """
+        ended = None
+        try:
+            with self._lock:
+                self._refuse_closed()
+                if by is not None:
+                    self._helm.take(by, self.manager.clock.now(), until)
+                ended = self._forget()
+                try:
+                    yield
+                except Exception:
+                    self._try_to_rest()
+                    raise
+        finally:
+            self._interrupt(ended, reason)
+
+    def _interrupt(self, run: _Run | None, reason: str) -> None:
+        if run is not None:
+            run.pending.fail(Interrupted(f"{self.id}: {reason}"))
+
+    def _forget(self) -> _Run | None:
+        """Let no motion run and no velocity expire; the motion that ran."""
+        self._until = math.inf
+        run, self._run = self._run, None
+        if run is not None and run.timer is not None:
+            run.timer.cancel()
+        return run
+
+    def _abandon(self, pending: Pending[None]) -> None:
+        """Brake when the motion of that call still is the one that runs."""
+        with self._lock:
+            if self._run is not None and self._run.pending is pending:
+                self._forget()
+                self._helm.let_go()
+                self._brake(self.manager.clock.now())
+
+    @contextmanager
+    def _stopping(self) -> Iterator[None]:
+        """A stop wins: who is told of it in here cannot answer with the next motion."""
+        before, self._here.is_stopping = self._here.is_stopping, True
+        try:
+            yield
+        finally:
+            self._here.is_stopping = before
+
+    def _refuse_while_stopping(self) -> None:
+        if self.is_active and self._here.is_stopping:
+            raise Interrupted(f"{self.id}: the drive is being stopped - move it afterwards")
+
+    def _refuse_closed(self) -> None:
+        if not self.is_active:
+            raise HriError(f"{self.id}: the drive is closed - obtain it first")
+
+    # --- the timer ---
+
+    def _tick(self, run: _Run) -> None:
+        """Say the next command of a motion, unless something else has taken its place."""
+        try:
+            with self._lock:
+                if self._run is not run or self._step(run):
+                    return
+                self._end()
+        except Exception as error:
+            self._fail(run, error)
+        else:
+            run.pending.complete(None)
+
+    def _step(self, run: _Run) -> bool:
+        """Send a command; False when the motion is over."""
+        if self.is_latched and not isinstance(run.motion, (SlowDown, Brake)):
+            raise HriError(f"{self.explain()} - unlatch the base first")
+        now = self.manager.clock.now()
+        twist = run.motion.step(now - run.began, self._reading(run, now))
+        if twist is None:
+            return False
+        if run.motion.is_braking:
+            self._brake(now)
+        else:
+            self._send(twist, now)
+        run.due = max(run.due + PERIOD, now)
+        run.timer = self.manager.clock.call_at(run.due, lambda: self._tick(run))
+        return True
+
+    def _reading(self, run: _Run, now: float) -> Reading:
+        rolled, origin = self._rolled(now), run.origin
+        way = Way(rolled.linear - origin.linear, rolled.angular - origin.angular)
+        return Reading(way, self._velocity(now), self.steering)
+
+    def _end(self) -> None:
+        """Let the base rest, with no motion that runs."""
+        self._forget()
+        self._helm.let_go()
+        now = self.manager.clock.now()
+        try:
+            self._brake(now)
+        finally:
+            self._set_power(self._idle_power, now)
+
+    def _fail(self, run: _Run, error: Exception) -> None:
+        """End a motion that cannot go on, whatever the hardware says to that."""
+        with self._lock:
+            if self._run is run:
+                self._try_to_rest()
+        if not isinstance(error, HriError):
+            log.error("%s: a motion failed: %s", self.id, error, exc_info=error)
+            error = HriError(f"{error or type(error).__name__} - see that the base is connected")
+        run.pending.fail(HriError(f"{self.id}: {error}"))
+
+    def _try_to_rest(self) -> None:
+        try:
+            self._end()
+        except Exception as error:
+            log.error("%s: it does not stop: %s - switch the base off", self.id, error)
