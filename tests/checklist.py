@@ -22,6 +22,10 @@ tests that show ours doing it. `make checklist` writes this page from the marker
 """
 
 
+PROVES = "proves"
+"""The property of a report with the rows that its test proves."""
+
+
 class Checklist:
     """Collects what the tests of a run prove."""
 
@@ -36,9 +40,9 @@ class Checklist:
         self.is_whole = False
         self.complaints: list[str] = []
 
-    def pytest_collection_modifyitems(
-        self, config: pytest.Config, items: list[pytest.Item]
-    ) -> None:
+    def pytest_configure(self, config: pytest.Config) -> None:
+        if hasattr(config, "workerinput"):
+            return  # one of several processes; the one that started it adds them up
         option = config.option
         paths = [str(word).partition("::")[0] for word in config.invocation_params.args]
         is_chosen = (
@@ -47,14 +51,17 @@ class Checklist:
         self.is_whole = not is_chosen and not any(Path(path).exists() for path in paths)
         if self.is_writing and not self.is_whole:
             raise pytest.UsageError("--checklist needs the whole suite - leave the rest out")
+
+    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
         for item in items:
             rows = {row for mark in item.iter_markers("proves") for row in mark.args}
             if unknown := rows - self.rows:
                 raise pytest.UsageError(f"{item.nodeid} proves unknown rows {sorted(unknown)}")
-            if rows:
-                self.claimed[_test_of(item.nodeid)] |= rows
+            # With the report it also comes out of the processes that run the tests in parallel.
+            item.user_properties.append((PROVES, sorted(rows)))
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        self.claimed[_test_of(report.nodeid)] |= set(dict(report.user_properties)[PROVES])
         if report.when == "call" or not report.passed:
             self.outcomes[_test_of(report.nodeid)].add(report.outcome)
 

@@ -24,6 +24,7 @@ from hri.behavior.ports import LINEAR_VELOCITY, Output
 from hri.behavior.runner import Runner
 from hri.bench.stops import PATIENCE, SPEED, Bench
 from hri.bench.table import Row, amount, at_most
+from hri.core import child
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.core.events import EventBus
@@ -118,12 +119,12 @@ def _ended(bench: Bench, process: subprocess.Popen[str], by: signal.Signals) -> 
 def _process(call: str) -> Iterator[subprocess.Popen[str]]:
     """One of the programs below, which is killed at the end."""
     code = f"from {__name__} import *; {call}"
-    # -P: what lies in the current folder is none of the program's modules.
     process = subprocess.Popen(
-        [sys.executable, "-P", "-c", code],
+        child.command("-c", code),
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         text=True,
+        env=child.environment(),
     )
     try:
         yield process
