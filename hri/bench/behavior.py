@@ -141,7 +141,7 @@ def _case(load: str, priority: str, seconds: float) -> dict[str, Any]:
     command = child.command("-m", "hri.bench.ticks", load, priority, str(seconds))
     done = subprocess.run(command, capture_output=True, text=True, env=child.environment())
     if done.returncode:
-        raise HriError(f"{' '.join(command)} failed: {done.stderr[-500:]} - run it by hand")
+        raise HriError(f"{' '.join(command)} failed: {done.stderr[-500:].strip()} - run it by hand")
     figures: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
     return figures
 

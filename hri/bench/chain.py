@@ -7,7 +7,6 @@ from __future__ import annotations
 import itertools
 import signal
 import subprocess
-import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from typing import Any
@@ -16,6 +15,7 @@ import psutil
 
 from hri.bench.figures import summary
 from hri.bench.stops import SPEED, Bench, driving_program
+from hri.core import child
 
 LINKS = ("program", "supervisor", "watchdog")
 DEEDS: Mapping[str, signal.Signals] = {"killed": signal.SIGKILL, "frozen": signal.SIGSTOP}
@@ -64,7 +64,7 @@ def figures(tries: int, busy: int = 0) -> dict[str, Any]:
 @contextmanager
 def busy_processes(count: int) -> Iterator[None]:
     """Processes that take all the time they can get, while a `with` lasts."""
-    running = [subprocess.Popen([sys.executable, "-c", BUSY]) for _ in range(count)]
+    running = [subprocess.Popen(child.command("-c", BUSY)) for _ in range(count)]
     try:
         yield
     finally:

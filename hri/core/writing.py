@@ -46,7 +46,7 @@ def not_written(path: Path, error: OSError) -> NotWritten:
 
 def reason_of(error: OSError) -> str:
     """Why the disk refused something, and what to do."""
-    remedy = _REMEDIES.get(error.errno or 0, "check the folder")
+    remedy = _REMEDIES.get(error.errno or 0, "check the path")
     return f"{error.strerror or error} - {remedy}"
 
 

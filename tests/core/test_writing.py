@@ -114,7 +114,7 @@ def loops(folder: Path) -> Path:
 
 WRONG = {
     "a folder": (lambda folder: folder, "name a file, not a folder"),
-    "in no folder": (lambda folder: folder / "none" / "file", "check the folder"),
+    "in no folder": (lambda folder: folder / "none" / "file", "check the path"),
     "too long": (lambda folder: folder / ("x" * 300), "choose a shorter name"),
     "a zero byte": (lambda folder: folder / "a\0b", "choose another name"),
     "links in a circle": (loops, "c"),
@@ -192,7 +192,7 @@ def test_a_folder_is_made_with_those_it_lies_in_or_refused_in_one_line(tmp_path)
     make_folder(tmp_path / "a" / "b", 0o700)
     assert mode_of(tmp_path / "a" / "b") == 0o700
     (tmp_path / "file").write_text("")
-    with pytest.raises(HriError, match=r"file/c: cannot be written: .* - check the folder"):
+    with pytest.raises(HriError, match=r"file/c: cannot be written: .* - check the path"):
         make_folder(tmp_path / "file" / "c")
 
 

@@ -80,7 +80,7 @@ def _run(command: Sequence[str]) -> tuple[list[str], float]:
     # Status 1: something was not accepted.
     if done.returncode not in (0, 1):
         words = " ".join(command[:6])
-        raise HriError(f"{words} failed: {done.stderr[-500:]} - run it by hand")
+        raise HriError(f"{words} failed: {done.stderr[-500:].strip()} - run it by hand")
     return done.stdout.splitlines(), _of_children() - before
 
 

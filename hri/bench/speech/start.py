@@ -46,6 +46,6 @@ def _start(wavs: Sequence[Path]) -> dict[str, float]:
     done = subprocess.run(command, capture_output=True, text=True, env=environment)
     if done.returncode:
         words = " ".join(command[:4])
-        raise HriError(f"{words} failed: {done.stderr[-500:]} - run it by hand")
+        raise HriError(f"{words} failed: {done.stderr[-500:].strip()} - run it by hand")
     figures: dict[str, float] = json.loads(done.stdout)
     return figures
