@@ -79,7 +79,7 @@ def _run(command: Sequence[str]) -> tuple[list[str], float]:
     done = subprocess.run(command, capture_output=True, text=True, env=environment)
     # Status 1: something was not accepted.
     if done.returncode not in (0, 1):
-        words = " ".join(command[:6])
+        words = " ".join(command[:7])
         raise HriError(f"{words} failed: {done.stderr[-500:].strip()} - run it by hand")
     return done.stdout.splitlines(), _of_children() - before
 
