@@ -19,7 +19,7 @@ run: $(VENV)/.run
 
 test: $(VENV)/.dev
 	@$(FETCH_FACES)
-	$(BIN)/python -m pytest -n logical $(OPTIONS)
+	$(BIN)/python -m pytest -n logical --dist loadfile $(OPTIONS)
 
 check: $(VENV)/.dev
 	$(BIN)/ruff format --check .
@@ -32,7 +32,7 @@ docs: $(VENV)/.dev
 	@echo "open build/reference/index.html"
 
 checklist: $(VENV)/.dev
-	$(BIN)/python -m pytest -n logical --checklist $(OPTIONS)
+	$(BIN)/python -m pytest -n logical --dist loadfile --checklist $(OPTIONS)
 
 format: $(VENV)/.dev
 	$(BIN)/ruff format .
