@@ -28,6 +28,7 @@ COMMANDS = {
     "emotion": ("hri.cli.emotion", "check and try out emotions"),
     "watch": ("hri.cli.watch", "show what is seen: people, ids, pose, gaze and gestures"),
     "drive": ("hri.cli.drive", "drive a base by hand, with a live picture"),
+    "token": ("hri.cli.token", "show the token that lets programs move the robot from outside"),
     "bench": ("hri.cli.bench", "measure, and print JSON"),
     "soak": ("hri.cli.soak", "run a large network, or the companion, for simulated hours"),
 }

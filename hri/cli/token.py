@@ -1,0 +1,18 @@
+"""`hri token`: show what programs show to move the robot over a network."""
+
+from __future__ import annotations
+
+import argparse
+
+from hri.core.token import new_token, own_token
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    about = "make another one; programs that run go on with those who have shown the old one"
+    parser.add_argument("--new", action="store_true", help=about)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print the token, which is made if there is none."""
+    print(new_token() if options.new else own_token())
+    return 0
