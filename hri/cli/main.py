@@ -26,6 +26,7 @@ COMMANDS = {
     "face": ("hri.cli.face", "check, render and show faces"),
     "gesture": ("hri.cli.gesture", "tell nods and shakes in a video, a camera or series of poses"),
     "emotion": ("hri.cli.emotion", "check and try out emotions"),
+    "forget": ("hri.cli.forget", "erase what is kept about people, or about one of them"),
     "watch": ("hri.cli.watch", "show what is seen: people, ids, pose, gaze and gestures"),
     "drive": ("hri.cli.drive", "drive a base by hand, with a live picture"),
     "token": ("hri.cli.token", "show the token that lets programs move the robot from outside"),

@@ -142,7 +142,7 @@ def mention_kept(options: argparse.Namespace, narrator: Narrator) -> None:
     """Say in one line that feelings were kept earlier which this run leaves alone."""
     path = memory_file()
     if path.exists() and not options.keep and not is_to_repeat(options):
-        remedy = "--keep goes on from them, `hri emotion forget` erases them"
+        remedy = "--keep goes on from them, `hri forget` erases them"
         narrator.tell(f"{path}: feelings of earlier runs are kept there - {remedy}")
 
 

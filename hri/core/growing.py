@@ -86,3 +86,20 @@ class GrowingFile:
             handle, self._handle = self._handle, None
             with suppress(OSError):
                 os.close(handle)
+
+
+def is_growing(path: Path) -> bool:
+    """Whether a program is writing the file now."""
+    try:
+        handle = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+    except OSError:
+        return False
+    try:
+        fcntl.flock(handle, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    except OSError:  # a file system without locks
+        return False
+    finally:
+        os.close(handle)
+    return False

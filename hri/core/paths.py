@@ -133,6 +133,11 @@ def state_folder() -> Path:
     return _base("XDG_STATE_HOME", ".local/state")
 
 
+def own_folders() -> tuple[Path, ...]:
+    """All four."""
+    return settings_folder(), cache_folder(), data_folder(), state_folder()
+
+
 def _base(variable: str, usual: str) -> Path:
     """Our folder of a kind; a relative one is ignored, as the XDG specification says.
 

@@ -1,17 +1,34 @@
-"""Files and folders that nobody but their owner can read."""
+"""What concerns people: files and folders that only their owner can read, and names in texts."""
 
 from __future__ import annotations
 
 import os
+import re
 import stat
+import unicodedata
 from contextlib import suppress
 from pathlib import Path
 
+from hri.core import paths
 from hri.core.writing import PRIVATE, make_folder, not_written
 
 PRIVATE_FOLDER = 0o700
 """Permissions of a folder that only its owner may enter."""
 _OTHERS = stat.S_IRWXG | stat.S_IRWXO
+
+
+def is_same_name(one: str, other: str) -> bool:
+    """Whether two names are the same but for capital letters and how accents are written."""
+    return _folded(one) == _folded(other)
+
+
+def is_named(person: str, text: str) -> bool:
+    """Whether a person is named in a text, as whole words, in capital letters or not."""
+    return re.search(rf"(?<!\w){re.escape(_folded(person))}(?!\w)", _folded(text)) is not None
+
+
+def _folded(text: str) -> str:
+    return unicodedata.normalize("NFC", unicodedata.normalize("NFC", text).casefold())
 
 
 def private_folder(folder: Path) -> None:
@@ -21,6 +38,17 @@ def private_folder(folder: Path) -> None:
     """
     make_folder(folder, PRIVATE_FOLDER)
     close_to_others(folder)
+
+
+def folder_for(file: Path) -> None:
+    """Make the folder of a private file, where it is missing; our own is closed to others.
+
+    One that somebody else made for more than this file stays as it is. Raises NotWritten.
+    """
+    if file.parent in paths.own_folders():
+        private_folder(file.parent)
+    else:
+        make_folder(file.parent, PRIVATE_FOLDER)
 
 
 def private_file(path: Path) -> None:

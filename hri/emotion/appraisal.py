@@ -112,6 +112,16 @@ class ObjectEvent:
 OccEvent = GoalEvent | ActionEvent | ObjectEvent
 
 
+def people_of(event: OccEvent) -> set[str]:
+    """Everybody who has a part in it, beside the robot itself."""
+    match event:
+        case GoalEvent(owner=owner, agent=agent):
+            return {person for person in (owner, agent) if person not in (None, SELF)}
+        case ActionEvent(agent=agent):
+            return {agent} - {SELF}
+    return set()
+
+
 @dataclass(frozen=True, slots=True)
 class Appraisal:
     """What an event means."""

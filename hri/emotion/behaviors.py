@@ -15,7 +15,7 @@ from hri.core.signals import EmotionState, Expression, Gaze, People, Prosody, St
 from hri.emotion.acting import NOTHING_ACTED, whole_vector
 from hri.emotion.affect import Affect
 from hri.emotion.announcer import Announcer
-from hri.emotion.appraisal import OccEvent, name_of
+from hri.emotion.appraisal import OccEvent, name_of, people_of
 from hri.emotion.display import HONEST, felt_now, load_display
 from hri.emotion.keeper import Keeper
 from hri.emotion.label import CALM
@@ -23,6 +23,7 @@ from hri.emotion.ledger import Cause
 from hri.emotion.model import load_emotions
 from hri.emotion.personality import load_personality
 from hri.emotion.reasons import labels_called, why_words
+from hri.emotion.relations import is_unnamed
 from hri.emotion.reloading import Reloading
 from hri.emotion.triggers import Triggers
 
@@ -42,7 +43,8 @@ class EmotionModel(Behavior):
     """What the robot feels: moved by stimuli, colored by a personality.
 
     Raises `emotion.changed` (label, valence, arousal, dominance: the mood's) when the label changes
-    or the valence has moved, and `mood.changed` when the name of the mood changes.
+    or the valence has moved, `mood.changed` when the name of the mood changes, and `person.named`
+    (person, name) when somebody with a name first does something: it says who took part.
     """
 
     category = "emotion"
@@ -84,6 +86,7 @@ class EmotionModel(Behavior):
             self._keeper = Keeper(paths.expanded(self.memory), self.personality, context)
             self._affect = self._keeper.recall(self._dynamics)
         self._announcer = Announcer(context.events)
+        self._involved: set[str] = set()
         stimuli = self._files.model.stimuli.values()
         self._triggers = Triggers(stimuli, context, self.feel)
 
@@ -121,10 +124,13 @@ class EmotionModel(Behavior):
         """
         now, doer = self._clock.now(), self._name_of(person)
         self._affect = self._dynamics.feel(self._affect, name, intensity, now, doer)
+        self._involve(person, doer)
 
     def appraise(self, event: OccEvent) -> None:
         """Something happened just now to a goal, by a deed, or with an object."""
         self._affect = self._dynamics.appraise(self._affect, event, self._clock.now())
+        for person in people_of(event):
+            self._involve(person, name_of(person))
 
     def feeling(self) -> EmotionState:
         """What is felt now."""
@@ -177,6 +183,12 @@ class EmotionModel(Behavior):
         self._people = people
         if fresh := {id: name for id, name in names.items() if id not in known}:
             self._affect = self._dynamics.rename(self._affect, fresh)
+
+    def _involve(self, person: str | None, name: str | None) -> None:
+        """Tell, once a run, that somebody with a name takes part."""
+        if name is not None and not is_unnamed(name) and name not in self._involved:
+            self._involved.add(name)
+            self._context.events.raise_event("person.named", person=person, name=name)
 
     def _name_of(self, person: str | None) -> str | None:
         """The name of somebody who is seen, if it is known; else what they are called already."""

@@ -11,6 +11,7 @@ from pathlib import Path
 from hri.behavior.behavior import Context
 from hri.core.clock import Clock, Worker
 from hri.core.errors import HriError
+from hri.core.whereabouts import note
 from hri.emotion.affect import Affect, Imprint
 from hri.emotion.dynamics import Dynamics
 from hri.emotion.persistence import (
@@ -19,6 +20,7 @@ from hri.emotion.persistence import (
     Memory,
     keep,
     mark_of,
+    memory_file,
     put_aside,
     recall,
     without_unnamed,
@@ -43,6 +45,8 @@ class Keeper:
     def __init__(self, path: Path, personality: str, context: Context) -> None:
         """`personality` is the robot's, for those who read the file."""
         self._path = path
+        if path != memory_file():
+            note("feelings", path)
         self._personality = personality
         self._events = context.events
         self._clock: Clock = context.clock

@@ -8,20 +8,26 @@ whole or one person at a time. A file that cannot be used is put aside, never ov
 from __future__ import annotations
 
 import errno
+import glob
 import json
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import NoReturn
+from typing import NoReturn, TypeVar
 
 from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
 from hri.core.paths import exists
+from hri.core.privacy import close_to_others, folder_for, is_named, is_same_name
 from hri.core.reading import parse_json, read_text
-from hri.core.writing import PRIVATE, make_folder, write_text
+from hri.core.writing import PRIVATE, leftovers, write_text
 from hri.emotion.affect import Imprint, renamed, shifted
 from hri.emotion.imprint_file import LATEST, Fields, decoded, encoded
+from hri.emotion.ledger import Origin
 from hri.emotion.relations import is_unnamed
+
+T = TypeVar("T")
 
 SCHEMA = 1
 SIGN_OF_LIFE_S = 60.0
@@ -123,7 +129,7 @@ def recall(path: Path) -> Memory | None:
 
 def keep(path: Path, memory: Memory) -> Mark:
     """Write the file, in the place of the one before. Raises HriError."""
-    make_folder(path.parent, 0o700)
+    folder_for(path)
     return mark_of(write_text(path, dump(memory), PRIVATE))
 
 
@@ -138,31 +144,41 @@ def put_aside(path: Path) -> Path:
     while os.path.lexists(aside := path.with_name(f"{path.stem}.unusable-{number}{path.suffix}")):
         number += 1
     path.rename(aside)
+    close_to_others(aside)
     return aside
+
+
+def traces(path: Path) -> list[Path]:
+    """The file, those that were put aside, and what killed writers left, as far as there are any.
+
+    Among them what the writers of earlier versions left.
+    """
+    aside = sorted(path.parent.glob(f"{glob.escape(path.stem)}.unusable-*{path.suffix}"))
+    found = [path, *aside, path.with_name(f"{path.name}.new"), *leftovers(path)]
+    return [file for file in found if os.path.lexists(file)]
 
 
 def forget(path: Path, person: str | None = None) -> bool:
     """Forget all that was felt, or a person; whether there was anything to forget.
 
     With a person, what the robot thinks of them goes, and what they caused has no name any more. A
-    robot that runs forgets it too, within a second. Files that were put aside go as well when all
+    robot that runs forgets it too, within a second. Files beside it (`traces`) go as well when all
     is forgotten. Raises HriError for somebody it does not know, for a file that cannot be used, and
     for one that cannot be written.
     """
     try:
         if person is None:
-            found = [path, *path.parent.glob(f"{path.stem}.unusable-*{path.suffix}")]
-            there = [file for file in found if os.path.lexists(file)]
-            for file in there:
-                file.unlink()
-            return bool(there)
+            found = traces(path)
+            for file in found:
+                file.unlink(missing_ok=True)
+            return bool(found)
         memory = recall(path)
         if memory is None:
             return False
-        known = people(memory.imprint)
-        if person not in known:
-            raise HriError(f'nobody called "{person}" - {did_you_mean(person, known)}')
         imprint, count = without(memory.imprint, person), memory.forgettings + 1
+        if imprint == memory.imprint:
+            remedy = did_you_mean(person, people(memory.imprint))
+            raise HriError(f'nobody called "{person}" - {remedy}')
         keep(path, replace(memory, imprint=imprint, forgettings=count))
     except OSError as error:
         raise HriError(f"{path}: {error.strerror} - check the folder") from error
@@ -177,8 +193,20 @@ def people(imprint: Imprint) -> set[str]:
 
 
 def without(imprint: Imprint, person: str) -> Imprint:
-    """The same without a person: what they caused stays felt, but nobody has done it."""
-    return renamed(imprint, {person: None})
+    """The same without a person: what they caused stays felt, but nobody has done it.
+
+    What is felt for a goal, a deed or a thing that is called by their name goes.
+    """
+    called = {name: None for name in people(imprint) if is_same_name(person, name)}
+    rest = renamed(imprint, called)
+
+    def others(causes: Mapping[Origin, T]) -> dict[Origin, T]:
+        called = {origin for origin in causes if is_named(person, origin.name.partition(".")[2])}
+        return {origin: of for origin, of in causes.items() if origin not in called}
+
+    return rest._replace(
+        ledger=others(rest.ledger), fresh=others(rest.fresh), habituation=others(rest.habituation)
+    )
 
 
 def without_unnamed(imprint: Imprint) -> Imprint:

@@ -11,9 +11,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from hri.core import paths
+from hri.core.privacy import folder_for
 from hri.core.registry import canonical
 from hri.core.toml import load_toml
-from hri.core.writing import make_folder, write_text
+from hri.core.writing import PRIVATE, write_text
 from hri.hal.resource import Description
 
 CHOOSABLE = ("microphone", "speaker", "camera")
@@ -45,8 +46,8 @@ def save_choices(chosen: dict[str, str]) -> Path:
     path = choices_file()
     # A JSON string is a TOML string as well, whatever the device is called.
     lines = [f"[{id}]\ndevice = {json.dumps(device)}\n" for id, device in chosen.items()]
-    make_folder(path.parent)
-    write_text(path, "# Written by `hri doctor --choose`.\n" + "\n".join(lines))
+    folder_for(path)
+    write_text(path, "# Written by `hri doctor --choose`.\n" + "\n".join(lines), PRIVATE)
     return path
 
 

@@ -20,6 +20,7 @@ from hri.core.errors import HriError
 from hri.core.events import EventBus
 from hri.core.privacy import PRIVATE_FOLDER, close_to_others, private_file
 from hri.core.recording import NOTHING, EventLog, read_events
+from hri.core.whereabouts import note
 from hri.core.writing import leftovers, make_folder
 from hri.emotion.behaviors import EmotionModel
 from hri.hal.drivers.wav_file import WavSpeaker
@@ -82,6 +83,7 @@ class Recording:
         self.folder = folder
         self._notice = notice
         self._make_private()
+        note("recording", folder)
         withheld = NOTHING if with_rejected else REJECTED
         self._log = EventLog(folder / "events.jsonl", events, withheld)
         self._record_screen(resources)

@@ -7,6 +7,7 @@ import logging
 from collections import deque
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
@@ -28,6 +29,8 @@ class FaceNames(Behavior):
     """Names the people it was told about; learns nobody by itself.
 
     `remember` takes the face of a person for a name, `forget` erases one, `forget_all` everything.
+    When somebody else changes the file, as `hri forget` does, that counts within a second. Raises
+    `person.named` (person: the id, name) when a face is recognized.
     """
 
     category = "vision"
@@ -48,15 +51,21 @@ class FaceNames(Behavior):
         self._told = ""
         """What was told last of a model that fails."""
         self._recognizer: FaceRecognizer | None = None
+        self._events = context.events
+        self._checked = context.clock.now()
+        self._mark: tuple[int, int] | None = None
+        """Of the file as it was read or written last; None when there was none."""
         if self.model:
-            path = paths.expanded(self.file)
-            known = Acquaintances.load(path) if self.file else Acquaintances()
-            self._recognizer = FaceRecognizer(embedder(self.model), known)
+            self._recognizer = FaceRecognizer(embedder(self.model), Acquaintances())
+            self._reread()
         self._worker: Worker[tuple[str, str]] = context.clock.worker(self.latency)
 
     def compute(self, now: float, dt: float) -> None:
         """Pass people on with the names that are known, and look at one who is due."""
         self._take_names()
+        if now - self._checked >= LOOK_EVERY:
+            self._checked = now
+            self._look_at_file()
         if (frame := self.image.value) is not None and self._recognizer is not None:
             self._frames.append(frame)
         if (people := self.people.value) is None:
@@ -79,12 +88,14 @@ class FaceNames(Behavior):
         recognizer = self._ready()
         if person not in self._seen:
             raise HriError(f'no face of "{person}" is seen - wait until they look at the robot')
+        self._reread()
         recognizer.learn(name, *self._seen[person])
-        self._names[person] = name
+        self._name(person, name)
         self._save()
 
     def forget(self, name: str) -> bool:
         """Erase a name and its faces; whether it was known. Raises HriError without a model."""
+        self._reread()
         was_known = self._ready().known.forget(name)
         self._names = {id: other for id, other in self._names.items() if other != name}
         self._save()
@@ -103,12 +114,36 @@ class FaceNames(Behavior):
 
     def _save(self) -> None:
         if self.file:
-            self._ready().known.save(paths.expanded(self.file))
+            path = paths.expanded(self.file)
+            self._ready().known.save(path)
+            self._mark = _mark_of(path)
+
+    def _look_at_file(self) -> None:
+        try:
+            self._reread()
+        except HriError as error:
+            log.warning("%s: %s", self.id, error)
+
+    def _reread(self) -> None:
+        """Know whom the file knows, if somebody else has changed it. Raises HriError."""
+        path = paths.expanded(self.file)
+        if self._recognizer is None or not self.file or (mark := _mark_of(path)) == self._mark:
+            return
+        self._mark = mark
+        self._recognizer.known = Acquaintances.load(path)
+        known = self._recognizer.known.names
+        self._names = {id: name for id, name in self._names.items() if name in known}
+
+    def _name(self, person: str, name: str) -> None:
+        """Call somebody who is seen by a name; empty when nobody knows it."""
+        if name and self._names.get(person) != name:
+            self._events.raise_event("person.named", person=person, name=name)
+        self._names[person] = name
 
     def _take_names(self) -> None:
         try:
             for id, name in self._worker.poll():
-                self._names[id] = name
+                self._name(id, name)
         except HriError as error:
             if str(error) != self._told:
                 log.warning("%s: %s", self.id, error)
@@ -136,6 +171,15 @@ class FaceNames(Behavior):
         self._looked = {other: at for other, at in self._looked.items() if other in self._seen}
         self._looked[id] = now
         self._worker.submit(partial(_named, self._recognizer, id, *self._seen[id]))
+
+
+def _mark_of(path: Path) -> tuple[int, int] | None:
+    """By which a file is known again; None when there is none."""
+    try:
+        status = path.stat()
+    except OSError:
+        return None
+    return status.st_ino, status.st_mtime_ns
 
 
 def _named(

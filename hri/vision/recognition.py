@@ -18,9 +18,11 @@ from numpy.typing import NDArray
 
 from hri.core.errors import AuthoringError, HriError, NotAvailable, Place
 from hri.core.paths import exists
+from hri.core.privacy import folder_for
 from hri.core.reading import parse_json, read_bytes
 from hri.core.signals import Image, Landmarks
-from hri.core.writing import PRIVATE, make_folder, write_text
+from hri.core.whereabouts import note
+from hri.core.writing import PRIVATE, write_text
 from hri.vision.countenance import MOUTH, PUPILS
 
 Vector = NDArray[np.float32]
@@ -89,10 +91,14 @@ class Acquaintances:
         return name
 
     def save(self, path: Path) -> None:
-        """Write names and vectors to a file that only its owner can read. Raises HriError."""
+        """Write names and vectors to a file that only its owner can read, and note where it is.
+
+        Raises HriError.
+        """
         text = json.dumps({n: [v.tolist() for v in s] for n, s in self._samples.items()})
-        make_folder(path.parent)
+        folder_for(path)
         write_text(path, text + "\n", PRIVATE)
+        note("faces", path)
 
     @classmethod
     def load(cls, path: Path, alike: float = ALIKE) -> Acquaintances:

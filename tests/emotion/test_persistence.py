@@ -14,7 +14,7 @@ from hri.core.errors import HriError
 from hri.core.events import EventBus
 from hri.core.signals import Event
 from hri.emotion.affect import Affect
-from hri.emotion.appraisal import GoalEvent, name_of
+from hri.emotion.appraisal import ActionEvent, GoalEvent, name_of
 from hri.emotion.behaviors import EmotionModel
 from hri.emotion.model import load_emotions
 from hri.emotion.persistence import (
@@ -199,6 +199,29 @@ def test_forgetting_erases_a_person_or_all_that_there_is(tmp_path: Path) -> None
     assert "Ann" not in path.read_text()
     assert forget(path)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_what_is_called_by_a_persons_name_is_forgotten_with_them_and_nobody_else_is() -> None:
+    affect = lived([(0, "praise", 1.0, "Ann Lee"), (1, "praise", 1.0, "ann")])
+    for goal in ("the party of Ann", "the annual party"):
+        affect = DYNAMICS.appraise(affect, GoalEvent(goal, 0.5, 0.7), affect.time)
+    kept = dump(Memory(without(affect.imprint, "Ann"), affect.time, 1e9))
+    assert "Ann Lee" in kept
+    assert "the annual party" in kept
+    assert '"ann"' not in kept
+    assert "party of Ann" not in kept
+
+
+def test_it_is_told_once_who_takes_part_by_name(tmp_path: Path) -> None:
+    run = Run(tmp_path / "feelings.json")
+    told: list[Any] = []
+    run.context.events.subscribe("person.named", lambda event: told.append(event.properties))
+    for person in ("Ann", "p1", None, "Ann"):
+        run.model.feel("praise", 1.0, person)
+    run.model.appraise(ActionEvent("rescue", 0.8, agent="Bob"))
+    run.model.appraise(ActionEvent("blunder", -0.8))
+    run.model.appraise(GoalEvent("exam", 0.5, 1.0, owner="Cid"))
+    assert [properties["name"] for properties in told] == ["Ann", "Bob", "Cid"]
 
 
 def test_a_robot_that_runs_forgets_a_person_too(tmp_path: Path) -> None:

@@ -8,6 +8,7 @@ from hri.core.signals import Frame
 from hri.hal.manager import ResourceManager
 from hri.vision.naming import FaceNames
 from hri.vision.people import PeopleTracker
+from hri.vision.recognition import Acquaintances
 from tests.vision.stage import Player, Stage, standing
 from tests.vision.test_people import ANNA, BEN
 
@@ -30,7 +31,8 @@ class Party:
         self.stage, self.clock = stage, FakeClock()
         self.behavior = FaceNames("names", **parameters)
         resources = ResourceManager([], self.clock)
-        self.behavior.start(Context(self.clock, EventBus(self.clock), resources))
+        self.events = EventBus(self.clock)
+        self.behavior.start(Context(self.clock, self.events, resources))
         self.tracker = PeopleTracker(stage.detectors())
 
     def names(self, seconds: float = 2.5) -> list[str]:
@@ -85,6 +87,33 @@ def test_names_outlive_the_program_only_in_the_file_that_was_set(stage, tmp_path
     assert "Ben" in again.names()
     again.behavior.forget_all()
     assert set(Party(stage, model=MODEL, file=str(file)).names()) == {""}
+
+
+def test_whom_somebody_else_has_the_file_forget_a_running_robot_forgets(stage, tmp_path):
+    file = tmp_path / "faces.json"
+    party = Party(stage, model=MODEL, file=str(file))
+    party.names()
+    party.behavior.remember("p1", "Anna")
+    party.behavior.remember("p2", "Ben")
+    known = Acquaintances.load(file)
+    known.forget("Anna")
+    known.save(file)
+    assert "Anna" not in party.names()
+    party.behavior.remember("p2", "Benjamin")
+    assert "Anna" not in file.read_text()
+    file.unlink()
+    assert party.names() == ["", ""]
+
+
+def test_the_name_of_who_is_recognized_is_told_once(stage):
+    party = Party(stage, model=MODEL)
+    told = []
+    party.events.subscribe("person.named", lambda event: told.append(event.properties))
+    party.names()
+    party.behavior._recognizer.known._alike = 0.95
+    party.behavior.remember("p1", "Anna")
+    party.names()
+    assert told == [{"person": "p1", "name": "Anna"}]
 
 
 def test_a_model_that_fails_costs_the_names_alone_and_is_told_once(stage, caplog):

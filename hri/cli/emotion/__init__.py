@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import argparse
 
-from hri.cli.emotion import check, forget, list, simulate, watch
+from hri.cli import forget
+from hri.cli.emotion import check, list, simulate, watch
 
 COMMANDS = {
     "check": (check, "load all emotion files, run their self-tests, report what is wrong"),
     "list": (list, "show personalities, stimuli and emotions"),
     "simulate": (simulate, "play events and print what is felt"),
     "watch": (watch, "show what a running robot feels"),
-    "forget": (forget, "erase what the robot remembers, or one person"),
+    "forget": (forget, "the same as `hri forget`"),
 }
 """Each is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
 

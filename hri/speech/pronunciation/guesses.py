@@ -6,11 +6,15 @@ from contextlib import suppress
 from pathlib import Path
 
 from hri.core import paths
+from hri.core.errors import HriError
+from hri.core.privacy import close_to_others, folder_for, private_file
 from hri.speech.pronunciation.letter_to_sound import guesses
 from hri.speech.pronunciation.phones import PHONES, Phones
 
 EDITION = "2"
 """Changes when the rules of `letter_to_sound` do; guesses of another edition are not read."""
+GUESSES = "guessed-words-*.txt"
+"""Files of all editions, in the folder of caches."""
 LARGEST_CACHE = 1_000_000
 """Bytes; a larger file is begun anew."""
 _KNOWN = frozenset(PHONES)
@@ -37,10 +41,11 @@ class Guesses:
 
     def _keep(self, word: str, found: tuple[Phones, ...]) -> None:
         line = "\t".join([word, *(" ".join(phones) for phones in found)])
-        with suppress(OSError):
+        with suppress(OSError, HriError):
             if self._path.exists() and not self._path.is_file():
                 return  # A pipe would wait for a reader for ever.
-            self._path.parent.mkdir(parents=True, exist_ok=True)
+            folder_for(self._path)
+            private_file(self._path)
             is_full = self._path.exists() and self._path.stat().st_size > LARGEST_CACHE
             with self._path.open("w" if is_full else "a", encoding="utf-8") as file:
                 file.write(line + "\n")
@@ -50,6 +55,7 @@ def _read(path: Path) -> dict[str, tuple[Phones, ...]]:
     """The words of a cache file; lines that make no sense are left out."""
     if not path.is_file():
         return {}
+    close_to_others(path)
     try:
         with path.open("rb") as file:
             lines = file.read(LARGEST_CACHE * 2).decode("utf-8", errors="replace").splitlines()

@@ -23,8 +23,9 @@ from typing import Literal
 
 from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
+from hri.core.privacy import folder_for
 from hri.core.reading import read_text
-from hri.core.writing import make_folder, write_text
+from hri.core.writing import PRIVATE, write_text
 from hri.speech.pronunciation.dictionary import Dictionary, cmu_dictionary
 from hri.speech.pronunciation.guesses import Guesses
 from hri.speech.pronunciation.phones import PHONES, VOWELS, Phones
@@ -212,6 +213,7 @@ def add_to_lexicon(path: Path, word: str, *variants: Phones) -> tuple[Phones, ..
     lines = read_text(path, "lexicon").splitlines() if path.exists() else []
     kept = [line for line in lines if not line.strip() or _word(line.split()[0]) != word]
     kept += [f"{word}  {' '.join(phones)}" for phones in dict.fromkeys(variants)]
-    make_folder(path.parent)
-    write_text(path, "\n".join(kept) + "\n")
+    folder_for(path)
+    is_own = path.parent == paths.settings_folder()
+    write_text(path, "\n".join(kept) + "\n", PRIVATE if is_own else None)
     return before

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import os
+import stat
 
 import pytest
 from hypothesis import given
@@ -229,3 +230,12 @@ class TestGuesses:
         for number in range(100):
             Guesses(path)[f"word{number}"]
         assert path.stat().st_size < 150
+
+
+def test_only_its_owner_can_read_which_words_were_looked_up(tmp_path):
+    cache = tmp_path / "guesses.txt"
+    Guesses(cache)["quillobrand"]
+    assert stat.S_IMODE(cache.stat().st_mode) == 0o600
+    cache.chmod(0o644)
+    assert Guesses(cache)["quillobrand"]
+    assert stat.S_IMODE(cache.stat().st_mode) == 0o600

@@ -1,0 +1,60 @@
+"""`hri forget`: erases what is kept about people, or about one of them."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from hri.core.errors import HriError, did_you_mean
+from hri.robot import kept
+from hri.robot.kept import Trace
+
+EPILOG = """\
+A robot that is running forgets it, too, within a second or so. What somebody made on purpose goes
+only after a yes: recordings, and without a name your lexicon and your choice of devices. Where
+nobody can be asked, it stays, and is named."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.epilog = EPILOG
+    about = "forget only this person: what is thought of them, what they did by name, their face"
+    parser.add_argument("person", nargs="?", metavar="NAME", help=about)
+    parser.add_argument("--yes", action="store_true", help="delete recordings, too, without asking")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Erase what is found, place by place; what fails at one keeps none of the others."""
+    person = options.person
+    found = kept.traces(person)
+    if not found:
+        known = kept.people()
+        if person and known:
+            raise HriError(f'nobody called "{person}" - {did_you_mean(person, known)}')
+        print("there is nothing to forget")
+    status = 0
+    for trace in found:
+        try:
+            print(_forgotten(trace, options.yes))
+        except HriError as error:
+            print(error, file=sys.stderr)
+            status = 2
+    return status
+
+
+def _forgotten(trace: Trace, has_yes: bool) -> str:
+    """Erase it, if it may be; what became of it, in a line."""
+    what = trace.kept.about if trace.person is None else f"{trace.kept.about}: {trace.person}"
+    if trace.needs_yes and not has_yes and not _is_allowed(f"{trace.place}: {what} - delete it?"):
+        return f"{trace.place}: {what} - it stays; --yes deletes it"
+    trace.erase()
+    return f"{trace.place}: {what} - forgotten"
+
+
+def _is_allowed(question: str) -> bool:
+    """The answer of whoever sits at the terminal; no when nobody does."""
+    if not sys.stdin.isatty():
+        return False
+    try:
+        return input(f"{question} [y/N] ").strip().lower() in ("y", "yes")
+    except EOFError:
+        return False

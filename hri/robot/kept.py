@@ -1,0 +1,300 @@
+"""All that is kept about people, in one list, and how it is forgotten: as a whole, or by name.
+
+Whatever else the program writes is about the robot, or is what somebody asked for by the name of a
+file: a picture, a film, a sound.
+"""
+
+from __future__ import annotations
+
+import os
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+from hri.core import paths
+from hri.core.errors import HriError
+from hri.core.growing import is_growing
+from hri.core.privacy import is_named, is_same_name
+from hri.core.reading import opened, parse_json
+from hri.core.whereabouts import noted, tidy
+from hri.core.writing import PRIVATE, leftovers, write_text
+from hri.emotion import persistence
+from hri.hal import choices
+from hri.robot.recording import parts
+from hri.speech.pronunciation.guesses import GUESSES
+from hri.speech.pronunciation.lexicon import user_lexicon
+from hri.vision.recognition import Acquaintances
+
+
+class Kept(ABC):
+    """One kind of what is kept."""
+
+    about: ClassVar[str]
+    """What it is, for people."""
+
+    @abstractmethod
+    def places(self) -> list[Path]:
+        """The files and folders that there are."""
+
+    def people(self) -> set[str]:
+        """Everybody it knows by name; of texts nobody can tell."""
+        return set()
+
+    @abstractmethod
+    def concerns(self, place: Path, person: str) -> bool:
+        """Whether something of a person is kept there."""
+
+    @abstractmethod
+    def forget(self, place: Path, person: str) -> None:
+        """Erase what is kept of a person there. Raises HriError."""
+
+    def needs_yes(self, person: str | None) -> bool:
+        """Whether somebody made it on purpose, so that it goes only after a yes."""
+        return False
+
+    def delete(self, place: Path) -> None:
+        """Erase all that is kept there. Raises HriError."""
+        _delete(place, *leftovers(place))
+
+
+class Feelings(Kept):
+    """Mood, causes, drives and relations, in each file that a robot kept."""
+
+    about = "what was felt, and what the robot thinks of people"
+
+    def places(self) -> list[Path]:
+        files = dict.fromkeys((persistence.memory_file(), *noted("feelings")))
+        return [file for file in files if persistence.traces(file)]
+
+    def people(self) -> set[str]:
+        return set().union(*map(self._people_of, self.places()))
+
+    def concerns(self, place: Path, person: str) -> bool:
+        is_known = any(is_same_name(person, known) for known in self._people_of(place))
+        return is_known or any(_mentions(file, person) for file in persistence.traces(place))
+
+    def forget(self, place: Path, person: str) -> None:
+        """Of the file itself the person, of what lies beside it, or cannot be used, the whole."""
+        with suppress(HriError):
+            persistence.forget(place, person)
+        _delete(*(file for file in persistence.traces(place) if _mentions(file, person)))
+
+    def delete(self, place: Path) -> None:
+        persistence.forget(place)
+
+    @staticmethod
+    def _people_of(place: Path) -> set[str]:
+        with suppress(HriError):
+            if (memory := persistence.recall(place)) is not None:
+                return persistence.people(memory.imprint)
+        return set()
+
+
+class Faces(Kept):
+    """Faces that were given a name, as numbers."""
+
+    about = "faces and their names"
+
+    def places(self) -> list[Path]:
+        return noted("faces")
+
+    def people(self) -> set[str]:
+        return set().union(*map(self._people_of, self.places()))
+
+    def concerns(self, place: Path, person: str) -> bool:
+        is_known = any(is_same_name(person, name) for name in self._people_of(place))
+        return is_known or _mentions(place, person)
+
+    def forget(self, place: Path, person: str) -> None:
+        """The person; the whole file when it cannot be used."""
+        try:
+            known = Acquaintances.load(place)
+        except HriError:
+            self.delete(place)
+            return
+        for name in known.names:
+            if is_same_name(person, name):
+                known.forget(name)
+        known.save(place)
+
+    @staticmethod
+    def _people_of(place: Path) -> set[str]:
+        with suppress(HriError):
+            return set(Acquaintances.load(place).names)
+        return set()
+
+
+class Lines(Kept):
+    """A text file with a line for each word."""
+
+    def concerns(self, place: Path, person: str) -> bool:
+        return any(_is_of(person, line) for line in _lines(place))
+
+    def forget(self, place: Path, person: str) -> None:
+        rest = [line for line in _lines(place) if not _is_of(person, line)]
+        write_text(place, "".join(f"{line}\n" for line in rest), PRIVATE)
+
+
+class LookedUpWords(Lines):
+    """A cache: how words that no dictionary has are said, names among them."""
+
+    about = "words that were looked up"
+
+    def places(self) -> list[Path]:
+        return sorted(paths.cache_folder().glob(GUESSES))
+
+
+class OwnWords(Lines):
+    """How the user says words, names among them."""
+
+    about = "your lexicon"
+
+    def places(self) -> list[Path]:
+        return _there(user_lexicon())
+
+    def needs_yes(self, person: str | None) -> bool:
+        return person is None
+
+
+class Devices(Kept):
+    """A device may bear the name of whose it is."""
+
+    about = "your choice of devices"
+
+    def places(self) -> list[Path]:
+        return _there(choices.choices_file())
+
+    def needs_yes(self, person: str | None) -> bool:
+        return person is None
+
+    def concerns(self, place: Path, person: str) -> bool:
+        return _mentions(place, person)
+
+    def forget(self, place: Path, person: str) -> None:
+        chosen = choices.load_choices()
+        rest = {id: name for id, name in chosen.items() if not is_named(person, name)}
+        choices.save_choices(rest)
+
+
+class Recordings(Kept):
+    """Folders of recordings, wherever they are."""
+
+    about = "a recording"
+
+    def places(self) -> list[Path]:
+        return [folder for folder in noted("recording") if parts(folder)]
+
+    def concerns(self, place: Path, person: str) -> bool:
+        return any(_mentions(file, person) for file in parts(place) if file.suffix == ".jsonl")
+
+    def needs_yes(self, person: str | None) -> bool:
+        return True
+
+    def forget(self, place: Path, person: str) -> None:
+        """A recording goes whole: whose voice and looks a film answers to cannot be cut out."""
+        self.delete(place)
+
+    def delete(self, place: Path) -> None:
+        """Raises HriError as long as a robot writes it."""
+        if any(is_growing(file) for file in parts(place)):
+            raise HriError(f"{place}: it is still being recorded - end the robot first")
+        _delete(*parts(place))
+        with suppress(OSError):  # what else lies there is not ours
+            place.rmdir()
+
+
+KEPT: tuple[Kept, ...] = (
+    Feelings(), Faces(), LookedUpWords(), OwnWords(), Devices(), Recordings(),
+)  # fmt: skip
+"""The one list. What the program begins to keep about people is added here."""
+
+
+@dataclass(frozen=True, slots=True)
+class Trace:
+    """What is kept at one place, of a person or of everybody."""
+
+    kept: Kept
+    place: Path
+    person: str | None
+
+    @property
+    def needs_yes(self) -> bool:
+        """Whether somebody made it on purpose, so that it goes only after a yes."""
+        return self.kept.needs_yes(self.person)
+
+    def erase(self) -> None:
+        """Forget it. Raises HriError when it cannot be read or written."""
+        if self.person is None:
+            self.kept.delete(self.place)
+        else:
+            self.kept.forget(self.place, self.person)
+        tidy()
+
+
+def traces(person: str | None = None) -> list[Trace]:
+    """Where something is kept of a person, or at all. Raises HriError for what cannot be read."""
+    return [
+        Trace(kept, place, person)
+        for kept in KEPT
+        for place in kept.places()
+        if person is None or kept.concerns(place, person)
+    ]
+
+
+def people() -> set[str]:
+    """Everybody who is known by name."""
+    return set().union(*(kept.people() for kept in KEPT))
+
+
+def _there(file: Path) -> list[Path]:
+    return [file] if os.path.lexists(file) or leftovers(file) else []
+
+
+def _delete(*files: Path) -> None:
+    for file in files:
+        try:
+            file.unlink(missing_ok=True)
+        except OSError as error:
+            raise HriError(f"{file}: cannot be deleted: {error.strerror} - delete it") from error
+
+
+def _lines(file: Path) -> list[str]:
+    """The lines of a text, whatever is in it."""
+    if not file.is_file():
+        return []
+    with opened(file, "text", None) as text:
+        return text.read().decode("utf-8", "replace").splitlines()
+
+
+def _is_of(person: str, line: str) -> bool:
+    """Whether a line of a lexicon is for one of the names of a person, or a comment has it."""
+    word = line if line.startswith(("#", ";")) else line.partition("\t")[0].split(" ")[0]
+    return any(is_named(name, word) for name in person.split())
+
+
+def _mentions(file: Path, person: str) -> bool:
+    """Whether a file of JSON or text names a person."""
+    return any(is_named(person, text) for line in _lines(file) for text in _texts(line))
+
+
+def _texts(line: str) -> Iterator[str]:
+    """What a line says: the texts of its JSON, or the line itself where it is none."""
+    try:
+        yield from _texts_in(parse_json(line))
+    except ValueError:
+        yield line
+
+
+def _texts_in(value: Any) -> Iterator[str]:
+    match value:
+        case str():
+            yield value
+        case dict():
+            for key, item in value.items():
+                yield from (key, *_texts_in(item))
+        case list():
+            for item in value:
+                yield from _texts_in(item)

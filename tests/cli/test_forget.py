@@ -1,0 +1,232 @@
+"""`hri forget`: afterwards no file that the program wrote has anything of who was forgotten."""
+
+import io
+import json
+import shutil
+import stat
+
+import numpy as np
+import pytest
+
+import hri.face.renderers.kernel  # noqa: F401 - its code is not compiled into each test's folder
+from hri.cli.main import main
+from hri.core import paths
+from hri.core.clock import FakeClock
+from hri.core.events import EventBus
+from hri.core.recording import EventLog
+from hri.core.whereabouts import note, noted, whereabouts_file
+from hri.emotion.model import load_emotions
+from hri.emotion.persistence import Memory, keep, memory_file, recall
+from hri.hal.choices import choices_file, save_choices
+from hri.robot import kept
+from hri.vision.recognition import Acquaintances
+
+ANNA = "Quillobrand"
+"""No dictionary knows how she is said."""
+BEN = "Wexlafert"
+TASKS = f"""
+
+async def introduce(context):
+    await context.clock.sleep(2.0)
+    companion = Companion.of(context)
+    companion.emotion.feel("praise", 1.0, "{ANNA}")
+    companion.emotion.feel("scold", 0.5, "{BEN}")
+    companion.say("Good evening.")
+"""
+
+
+@pytest.fixture(autouse=True)
+def home(tmp_path, monkeypatch):
+    """A user of their own."""
+    for name in ("CONFIG", "CACHE", "STATE"):
+        monkeypatch.delenv(f"XDG_{name}_HOME", raising=False)
+    monkeypatch.setenv("HOME", str(tmp_path))
+    return tmp_path
+
+
+def forget(*words):
+    return main(["forget", *words])
+
+
+def holding(folder, name):
+    """The names of all files below a folder that hold a name, in their bytes or their own names."""
+    found = set()
+    for file in folder.rglob("*"):
+        held = file.name.encode() + (file.read_bytes() if file.is_file() else b"")
+        if name.lower().encode() in held.lower():
+            found.add(file.name)
+    return found
+
+
+def open_to_others(home):
+    """What lies in the folders of the program, and they themselves, that others can read."""
+    state, settings, cache = memory_file().parent, choices_file().parent, paths.cache_folder()
+    folders = (state, settings, cache, home / "out", home / "known")
+    files = [file for folder in folders for file in folder.iterdir() if file.is_file()]
+    return {path for path in (*folders, *files) if stat.S_IMODE(path.stat().st_mode) & 0o077}
+
+
+def an_app(folder):
+    """The companion, to whom two people did something."""
+    app = folder / "app"
+    shutil.copytree(paths.find("apps", "companion"), app)
+    toml = app / "app.toml"
+    toml.write_text(toml.read_text().replace('"converse"', '"converse", "introduce"'))
+    (app / "tasks.py").write_text((app / "tasks.py").read_text() + TASKS)
+    return app
+
+
+def a_config(folder):
+    """The simulated robot with a small screen."""
+    text = paths.find("config", "simulated").read_text()
+    config = folder / "small.xml"
+    config.write_text(text.replace('"640"', '"160"').replace('"480"', '"120"'))
+    return config
+
+
+def live(home, authored):
+    """What a robot and its owner do in a while: live, learn a face, say a name, choose devices."""
+    words = ("--config", a_config(authored), "--record", home / "out", "--duration", 6)
+    assert main(["run", str(an_app(authored)), *map(str, words), "--fast", "--keep"]) == 0
+    known = Acquaintances()
+    known.learn(ANNA, np.array([1.0, 0.0]))
+    known.save(home / "known" / "faces.json")
+    assert main(["grammar", "pronounce", ANNA]) == 0
+    assert main(["grammar", "pronounce", ANNA, "--add", "K W IH L"]) == 0
+    assert main(["grammar", "pronounce", BEN, "--add", "W EH K S"]) == 0
+    save_choices({"microphone": f"Headset of {ANNA}", "speaker": "USB"})
+
+
+@pytest.mark.proves("R11")
+def test_nothing_of_who_was_forgotten_is_in_any_file_that_the_program_wrote(
+    tmp_path_factory, home, capsys
+):
+    memory_file().parent.mkdir(parents=True)
+    memory_file().write_text(f'{{"damaged": "{ANNA}')
+    memory_file().with_name("feelings.json.new").write_text(ANNA)
+    memory_file().with_name("feelings.json.new").chmod(0o600)
+    live(home, tmp_path_factory.mktemp("authored"))
+    out = home / "out"
+    kept_of_her = {
+        "feelings.json", "feelings.json.new", "feelings.unusable-1.json", "faces.json",
+        "events.jsonl", "guessed-words-2.txt", "lexicon.txt", "devices.toml",
+    }  # fmt: skip
+    assert holding(home, ANNA) == kept_of_her
+    assert open_to_others(home) == set()
+
+    capsys.readouterr()
+    assert forget(ANNA.lower()) == 0
+    assert holding(home, ANNA) == {"events.jsonl"}
+    assert f"{out}: a recording: {ANNA.lower()} - it stays" in capsys.readouterr().out
+    assert forget(ANNA, "--yes") == 0
+    assert holding(home, ANNA) == set()
+    assert not out.exists()
+    assert not whereabouts_file().exists() or str(out) not in whereabouts_file().read_text()
+    assert BEN in recall(memory_file()).imprint.relations
+    assert holding(home, BEN) == {"feelings.json", "lexicon.txt"}
+
+    assert main(["emotion", "forget", "--yes"]) == 0
+    assert holding(home, BEN) == set()
+    assert kept.traces() == []
+    capsys.readouterr()
+    assert forget() == 0
+    assert "nothing to forget" in capsys.readouterr().out
+
+
+def test_forgetting_in_the_old_words_asks_nobody_and_names_what_stays(home, capsys, monkeypatch):
+    monkeypatch.setattr("builtins.input", lambda question: pytest.fail("nobody is there"))
+    out = a_recording(home / "out")
+    assert main(["emotion", "forget"]) == 0
+    assert f"{out}: a recording - it stays; --yes deletes it" in capsys.readouterr().out
+    assert (out / "events.jsonl").exists()
+
+
+@pytest.mark.parametrize(
+    ("answer", "stays"), [("y", False), ("yes", False), ("", True), ("n", True)]
+)
+def test_a_recording_is_deleted_after_a_yes(home, capsys, monkeypatch, answer, stays):
+    out = a_recording(home / "out", f"We met {ANNA}.")
+    other = a_recording(home / "other", f"We met {BEN}.")
+    asked = []
+    monkeypatch.setattr("sys.stdin", Terminal())
+    monkeypatch.setattr("builtins.input", lambda question: asked.append(question) or answer)
+    assert forget(ANNA) == 0
+    assert len(asked) == 1
+    assert str(out) in asked[0]
+    assert out.exists() == stays
+    assert other.exists()
+
+
+def test_of_a_folder_with_other_files_only_the_recording_is_deleted(home):
+    out = a_recording(home / "out")
+    (out / "notes.txt").write_text("mine")
+    assert forget("--yes") == 0
+    assert [file.name for file in out.iterdir()] == ["notes.txt"]
+
+
+def test_a_recording_that_goes_on_stays_until_its_robot_has_ended(home, capsys):
+    out = a_recording(home / "out")
+    log = EventLog(out / "events.jsonl", EventBus(FakeClock()))
+    assert forget("--yes") == 2
+    assert f"{out}: it is still being recorded - end the robot" in capsys.readouterr().err
+    assert (out / "face.mp4").exists()
+    log.close()
+    assert forget("--yes") == 0
+    assert not out.exists()
+
+
+def test_whoever_is_not_known_is_told_of_those_who_are(home, capsys):
+    dynamics = load_emotions("neutral").dynamics()
+    affect = dynamics.feel(dynamics.rest(0.0), "praise", 1.0, 0.0, BEN)
+    keep(memory_file(), Memory(affect.imprint, 0.0, 1e9))
+    assert forget(BEN[:-1]) == 2
+    assert f'did you mean "{BEN}"' in capsys.readouterr().err
+
+
+def test_one_whose_name_is_part_of_another_is_forgotten_alone(home):
+    known = Acquaintances()
+    for number, name in enumerate(("Ann", "Ann Lee", "Annabel")):
+        known.learn(name, np.eye(3)[number])
+    known.save(home / "faces.json")
+    assert forget("ann") == 0
+    assert Acquaintances.load(home / "faces.json").names == ["Ann Lee", "Annabel"]
+
+
+def test_what_cannot_be_read_keeps_nothing_else_from_being_forgotten(home, capsys):
+    memory_file().parent.mkdir(parents=True)
+    memory_file().write_text(f'{{"damaged": "{ANNA}')
+    (home / "faces.json").write_text(f'["{ANNA}"')
+    note("faces", home / "faces.json")
+    a_recording(home / "out", f"\n{ANNA}\n")
+    assert forget(ANNA, "--yes") == 0
+    assert holding(home, ANNA) == set()
+
+
+def test_where_recordings_are_is_noted_once_and_only_as_long_as_they_are_there(home):
+    out = a_recording(home / "out")
+    note("recording", out)
+    assert noted("recording") == [out]
+    shutil.rmtree(out)
+    assert noted("recording") == []
+    assert stat.S_IMODE(whereabouts_file().stat().st_mode) == 0o600
+    whereabouts_file().write_text('no JSON\n{"kind": 1}\n[]\n')
+    assert noted("recording") == []
+    a_recording(home / "again")
+    assert noted("recording") == [home / "again"]
+
+
+class Terminal(io.StringIO):
+    """A standard input at which somebody sits."""
+
+    def isatty(self):
+        return True
+
+
+def a_recording(out, said="Hello."):
+    """What a robot would leave behind."""
+    out.mkdir()
+    line = {"t": 1.0, "event": "speech.said", "text": said}
+    (out / "events.jsonl").write_text(json.dumps(line) + "\n")
+    (out / "face.mp4").write_bytes(b"film")
+    note("recording", out)
+    return out
