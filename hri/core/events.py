@@ -4,13 +4,25 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from hri.core.clock import Clock
+from hri.core.errors import HriError
 from hri.core.signals import Event
 
 Listener = Callable[[Event], object]
+
+# fmt: off
+OWN_SUBJECTS = frozenset((
+    "battery", "behavior", "bumper", "camera", "cliff", "drive", "emotion", "emotions", "face",
+    "gesture", "grammar", "head", "memory", "microphone", "odometry", "person", "question",
+    "recording", "speech", "stimulus", "target", "task", "vision", "visitor", "window",
+))
+# fmt: on
+"""What the robot's own events are about: the first word of their names."""
+OWN_KEYS = frozenset(("t", "event", "outside"))
+"""What the line of an event in a recording says beside its properties."""
 
 log = logging.getLogger("hri.events")
 
@@ -48,9 +60,19 @@ class EventBus:
 
     def raise_event(self, name: str, /, **properties: Any) -> Event:
         """Tell all listeners whose pattern fits, now; one that fails keeps none from hearing."""
-        event = Event(name, self.clock.now(), properties)
+        return self._tell(Event(name, self.clock.now(), properties))
+
+    def raise_from_outside(self, event: Event) -> Event:
+        """Raise an event of another program, now and marked as such.
+
+        Raises HriError as `check_from_outside` does.
+        """
+        check_from_outside(event)
+        return self._tell(replace(event, time=self.clock.now(), is_from_outside=True))
+
+    def _tell(self, event: Event) -> Event:
         for subscription in tuple(self.subscriptions):
-            if matches(subscription.pattern, name):
+            if matches(subscription.pattern, event.name):
                 subscription.tell(event)
         return event
 
@@ -59,6 +81,19 @@ class EventBus:
         subscription = Subscription(pattern, listener, self)
         self.subscriptions.append(subscription)
         return subscription
+
+
+def is_own(name: str) -> bool:
+    """Whether an event of that name is one that the robot itself raises, or is told by."""
+    return name.partition(".")[0] in OWN_SUBJECTS
+
+
+def check_from_outside(event: Event) -> None:
+    """Raise HriError for an event that would pass for what the robot has sensed or done itself."""
+    if is_own(event.name):
+        raise HriError(f'only the robot itself raises "{event.name}" - choose another name')
+    for name in OWN_KEYS & event.properties.keys():
+        raise HriError(f'"{event.name}" has a property "{name}" - choose another name for it')
 
 
 def matches(pattern: str, name: str) -> bool:

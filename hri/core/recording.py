@@ -39,8 +39,10 @@ class EventLog:
     def write(self, event: Event) -> None:
         withheld = self._withheld.get(event.name, ())
         told = {key: "" if key in withheld else value for key, value in event.properties.items()}
-        when = {"t": round(event.time, 4), "event": event.name}
-        if not self._file.append(f"{_line({**when, **told, **when})}\n".encode()):
+        own = {"t": round(event.time, 4), "event": event.name}
+        if event.is_from_outside:
+            own["outside"] = True
+        if not self._file.append(f"{_line({**own, **told, **own})}\n".encode()):
             self._subscription.cancel()
 
     def close(self) -> None:

@@ -379,6 +379,8 @@ class Event:
     time: float = 0.0
     """Seconds of the clock at which it was raised; 0 before."""
     properties: Mapping[str, Any] = field(default_factory=dict)
+    is_from_outside: bool = False
+    """Whether another program raised it, over the network: nothing that the robot has sensed."""
 
     def get_property(self, name: str, kind: type[T]) -> T:
         """The value of a property, which must be of a type; a whole number is a float as well.
