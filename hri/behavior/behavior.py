@@ -19,6 +19,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from hri.behavior.doors import Doors
+from hri.behavior.effects import Effect
 from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
 from hri.core.clock import Clock
 from hri.core.errors import HriError, did_you_mean
@@ -28,6 +30,7 @@ from hri.hal.manager import ResourceManager
 
 if TYPE_CHECKING:
     from hri.behavior.networks import Networks
+    from hri.behavior.runner import Runner
     from hri.behavior.schema import Schema
 
 
@@ -40,6 +43,11 @@ class Context:
     resources: ResourceManager
     board: Board = field(default_factory=Board)
     seed: int = 0
+    doors: Doors = field(default_factory=Doors)
+    runners: list[Runner] = field(default_factory=list)
+    """All that run, in the order they were started."""
+    has_tasks: bool = False
+    """Whether tasks run beside the networks."""
 
     @cached_property
     def networks(self) -> Networks:
@@ -65,6 +73,9 @@ class Behavior:
     is_relay: ClassVar[bool] = False
     """Whether it passes on what somebody outside of the network says, with the time of that: what
     rests on it stops a drive when that somebody falls silent."""
+    may_do: frozenset[Effect]
+    """What values at its inputs may do besides what its outputs lead to. Without a word: nothing
+    for a class that only computes, anything for one with a `start` or an `__init__` of its own."""
     takes_any_ports: ClassVar[bool] = False
     """Whether a schema that names it as its driver may give it ports of its own."""
     inputs: ClassVar[dict[str, Input[Any]]] = {}

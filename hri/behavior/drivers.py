@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from hri.behavior.behavior import Behavior, Context
+from hri.behavior.effects import NOTHING, Effect
 from hri.behavior.library.shaping import deadband
 from hri.behavior.ports import (
     ANGULAR_VELOCITY,
@@ -21,7 +22,7 @@ from hri.behavior.ports import (
     Param,
 )
 from hri.core.errors import HriError
-from hri.core.signals import Frame, Image, Pose2D, RangeReading, Twist
+from hri.core.signals import Event, Frame, Image, Pose2D, RangeReading, Twist
 from hri.hal.audio_level import AudioLevel
 from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
@@ -245,6 +246,7 @@ class ImageDisplay(DeviceBehavior):
     """Shows the pictures that come in on a screen, as large as they fit."""
 
     category = "GUI"
+    may_do = NOTHING
     screen_id = Param("screen", "id of the screen")
     image = Input[Frame]("image", "the picture; without one the last stays")
 
@@ -279,9 +281,11 @@ class DriveCommand(DeviceBehavior):
     for `PATIENCE` seconds after that word. While nothing comes in it leaves the drive alone, so
     that somebody else may use it. Several that write one drive need different ranks; while one of
     a higher rank steers, the others wait. With the rank "teleop", a velocity of 0 counts as
-    nothing: it is that of a stick at rest.
+    nothing: it is that of a stick at rest. After the event `drive.halt` who asks for motion is
+    heard again only after having let go once.
     """
 
+    may_do = frozenset({Effect.MOVES})
     drive_id = Param("drive", "id of the drive system")
     rank = Param(
         "behaviors", "what its commands are worth, where no task gave them", among=STEERING_RANKS
@@ -302,7 +306,8 @@ class DriveCommand(DeviceBehavior):
             self._give_back()
             raise
         self._clock = context.clock
-        self._is_driving = self._is_waiting = False
+        self._is_driving = self._is_waiting = self._must_let_go = False
+        self._subscription = context.events.subscribe("drive.halt", self._halt)
 
     @property
     def steers(self) -> tuple[str, str]:
@@ -310,6 +315,9 @@ class DriveCommand(DeviceBehavior):
 
     def compute(self, now: float, dt: float) -> None:
         velocity, until = self._asked()
+        if self._must_let_go:
+            self._must_let_go = velocity not in (None, Twist()) and now <= until
+            velocity = None
         if velocity is not None and now <= until:
             self._steer(velocity, now, until)
         elif self._is_driving:
@@ -319,8 +327,13 @@ class DriveCommand(DeviceBehavior):
             self._is_driving = False
 
     def stop(self) -> None:
+        self._subscription.cancel()
         self._drive.leave(self._writer, self._clock.now())
         super().stop()
+
+    def _halt(self, event: Event) -> None:
+        self._drive.stop(self._clock.now())
+        self._must_let_go = True
 
     def _steer(self, velocity: Twist, now: float, until: float) -> None:
         rank = Rank(self.velocity.rank or self.rank)

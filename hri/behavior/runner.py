@@ -117,6 +117,7 @@ class Runner:
         except BaseException:
             self.stop()
             raise
+        self.context.runners.append(self)
 
     def _start(self, behavior: Behavior) -> None:
         try:
@@ -135,6 +136,8 @@ class Runner:
         if self._is_ticking:
             self._ends_after_tick = True
             return
+        if self in self.context.runners:
+            self.context.runners.remove(self)
         while self._started:
             behavior = self._started.pop()
             try:
@@ -171,6 +174,11 @@ class Runner:
     @property
     def is_watched(self) -> bool:
         return bool(self._watches)
+
+    @property
+    def watched(self) -> tuple[OutputPort[Any], ...]:
+        """The outputs that somebody watches."""
+        return tuple(watch.port for watch in self._watches)
 
     def tick(self, now: float) -> float:
         """One cycle; returns how long it took in seconds."""

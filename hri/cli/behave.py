@@ -15,6 +15,7 @@ import trio
 from hri.behavior.behavior import Context
 from hri.behavior.network import load_network
 from hri.behavior.runner import Runner
+from hri.cli.doors import add_door_options, doors_of
 from hri.cli.messages import LineFormatter, OptionParser
 from hri.cli.outcome import status_of
 from hri.core.clock import Clock, FakeClock, RealClock
@@ -51,6 +52,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
     add("--realtime", action="store_true", help="run ahead of other programs, where allowed")
     add("--fast", action="store_true", help="fake time, as fast as the machine can")
+    add_door_options(parser)
     return parser
 
 
@@ -109,7 +111,8 @@ def _behave(options: argparse.Namespace) -> int:
     network.check()
     if options.invocation_interval is not None:
         network.interval = options.invocation_interval
-    runner = Runner(network, Context(clock, EventBus(clock), resources))
+    lent = Context(clock, EventBus(clock), resources, doors=doors_of(options))
+    runner = Runner(network, lent)
     try:
         if options.load_all_resources:
             for id in resources.ids(Resource):

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import trio
 
+from hri.cli.doors import add_door_options, doors_of
 from hri.cli.messages import LineFormatter
 from hri.cli.narrator import Narrator
 from hri.core.clock import FakeClock, RealClock
@@ -61,6 +62,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add("--face", default="robot", metavar="NAME", help="from faces/")
     add("--captions", action="store_true", help="write what is said below the face")
     add("--demo", action="store_true", help="a simulated person visits for two minutes")
+    add_door_options(parser)
 
 
 def _seconds(text: str) -> float:
@@ -91,6 +93,7 @@ def run(options: argparse.Namespace) -> int:
         },
         record=options.record,
         record_rejected=options.record_rejected,
+        doors=doors_of(options),
     )
     tasks = robot.app.load_tasks()
     narrator = Narrator(robot)

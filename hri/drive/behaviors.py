@@ -7,6 +7,7 @@ from typing import Generic, TypeVar
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.drivers import counts_until
+from hri.behavior.effects import NOTHING
 from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
 from hri.core.events import EventBus
 from hri.core.signals import RangeReading, Twist
@@ -34,6 +35,7 @@ class CommandGate(Behavior):
 
     category = "drive"
 
+    may_do = NOTHING
     max_linear = Param(0.4, "metres a second", minimum=0.01, maximum=2)
     max_angular = Param(1.2, "radians a second", minimum=0.01, maximum=6)
     acceleration = Param(0.4, "metres a second squared", minimum=0.05, maximum=5)
@@ -67,6 +69,7 @@ class CommandGate(Behavior):
         """The rank of whoever asked last; an empty one is that of the network."""
         self._was_bumped = False
         self._must_let_go = False
+        self._subscription = context.events.subscribe("drive.halt", lambda event: self.halt())
 
     def compute(self, now: float, dt: float) -> None:
         """Take the command, look ahead, limit, send, report: in this order."""
@@ -82,6 +85,7 @@ class CommandGate(Behavior):
         self._reporter.report(self._gate, now)
 
     def stop(self) -> None:
+        self._subscription.cancel()
         self.halt()
 
     def halt(self) -> None:

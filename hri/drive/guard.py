@@ -6,6 +6,7 @@ import logging
 import math
 
 from hri.behavior.behavior import Behavior, Context
+from hri.behavior.effects import Effect
 from hri.behavior.ports import Input, Output, Param
 from hri.core.errors import HriError, did_you_mean
 from hri.core.events import Subscription
@@ -36,6 +37,7 @@ class BaseGuard(Behavior):
 
     category = "drive"
 
+    may_do = frozenset({Effect.MOVES})  # it drives slowly only near people
     base_id = Param(
         "", "id of the base: its bus, or its drive where it has none; the first one, without it"
     )

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from hri.behavior.behavior import Behavior, Context
+from hri.behavior.effects import NOTHING
 from hri.behavior.ports import Input, Output, Param
 from hri.core.clock import Worker
 from hri.core.errors import HriError
@@ -54,6 +55,7 @@ class Face(Behavior):
 
     category = "face"
 
+    may_do = NOTHING
     face = Param("robot", "name of a folder in faces/, or a path")
     latency = Param(
         PICTURE_LEAD, "seconds until weights are seen on the screen", minimum=0, maximum=1
@@ -191,6 +193,7 @@ class FaceRecorder(Behavior):
 
     category = "face"
 
+    may_do = NOTHING
     face = Param("robot", "name of a folder in faces/, or a path")
     file = Param("face.csv", "where to write; what is there is overwritten")
     weights = Input[FaceWeights]("weights", "what to record")
@@ -223,6 +226,7 @@ class FaceRenderer(Behavior):
 
     category = "face"
 
+    may_do = NOTHING
     screen_id = Param("screen", "id of the screen")
     face = Param("robot", "name of a folder in faces/, or a path")
     captions = Param(False, "write what is said below the face")

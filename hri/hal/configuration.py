@@ -48,6 +48,8 @@ class Configuration:
     shapes: tuple[Shape, ...]
     devices: tuple[Description, ...]
     """Buses, devices and groups, in the order of the file."""
+    trusted: tuple[str, ...] = ()
+    """Ports of the bridge that anybody may write to (`hri.behavior.doors`)."""
 
 
 def load_configuration(path: Path) -> Configuration:
@@ -55,7 +57,7 @@ def load_configuration(path: Path) -> Configuration:
     root = load_xml(path, "resource configuration")
     if root.tag != "Resources":
         raise root.error(f"the root is <{root.tag}>", "write <Resources> around it all")
-    root.check(("Dimensions", "Devices", "Groups"))
+    root.check(("Dimensions", "Devices", "Groups"), ("trusted",))
     shapes: list[Shape] = []
     devices: list[Description] = []
     for section in root:
@@ -71,7 +73,8 @@ def load_configuration(path: Path) -> Configuration:
             devices.extend(_description(group) for group in section)
     _refuse_twins(devices)
     _refuse_strangers(devices)
-    return Configuration(path, tuple(shapes), tuple(devices))
+    trusted = tuple(root.get("trusted", "").split())
+    return Configuration(path, tuple(shapes), tuple(devices), trusted)
 
 
 def _bus_or_device(element: Element) -> list[Description]:

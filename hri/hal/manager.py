@@ -36,8 +36,11 @@ class ResourceManager:
         clock: Clock,
         notice: Callable[[str], object] = print,
         shapes: Iterable[Shape] = (),
+        trusted: tuple[str, ...] = (),
     ) -> None:
         """`notice` gets one line for each stand-in that is used."""
+        self.trusted = trusted
+        """What the configuration says of ports of the bridge that anybody may write to."""
         self.clock = clock
         self.descriptions = {description.id: description for description in descriptions}
         self.notice = notice
@@ -62,7 +65,7 @@ class ResourceManager:
         devices = configuration.devices
         if not clock.is_fake:  # runs that repeat know nothing of this user's devices
             devices = apply_choices(devices, load_choices())
-        resources = cls(devices, clock, shapes=configuration.shapes)
+        resources = cls(devices, clock, shapes=configuration.shapes, trusted=configuration.trusted)
         resources.check()
         return resources
 

@@ -10,8 +10,13 @@ import socket
 import time
 from contextlib import suppress
 
+from hri.core.errors import HriError
+from hri.core.quoting import escaped
+from hri.core.token import load_token
+from hri.net import control
 from hri.net.link import Link
-from hri.net.peer import Limits
+from hri.net.peer import Limits, Peer
+from hri.net.protocol import Message
 
 log = logging.getLogger("hri.net")
 
@@ -24,8 +29,12 @@ TO_CONNECT = 5.0
 class Client(Link):
     """Connects to a server, and again whenever the connection is lost."""
 
-    def __init__(self, host: str, port: int, limits: Limits | None = None) -> None:
+    def __init__(
+        self, host: str, port: int, limits: Limits | None = None, *, shows_token: bool = False
+    ) -> None:
+        """`shows_token`: begin each connection with the token of this user, if there is one."""
         super().__init__(host, port, limits)
+        self._shows_token = shows_token
         self._addresses: list[tuple[int, tuple[str, int]]] = []
         self._dialing: socket.socket | None = None
         self._pause = FIRST_PAUSE
@@ -75,6 +84,22 @@ class Client(Link):
         # Also when this connection is lost at once, the next one is not tried in a rush.
         self._next = time.perf_counter() + FIRST_PAUSE
         self._add(dialed, self.address)
+        if self._shows_token:
+            self._introduce()
+
+    def _introduce(self) -> None:
+        try:
+            token = load_token()
+        except HriError as error:
+            log.warning("%s: goes without the token: %s", self.address, error)
+            return
+        if token is not None:
+            self.send(control.introduction(token))
+
+    def _obey(self, message: Message, peer: Peer) -> bool:
+        if (why := control.why_refused(message)) is not None:
+            log.warning("%s: %s", self.address, escaped(why))
+        return False
 
     def _give_up(self, dialed: socket.socket, code: int) -> float:
         """End an attempt; in how many seconds to try the next address."""

@@ -11,6 +11,7 @@ This is what TCPConnection with its StringTerminatedProtocol was in 2003.
 
 from __future__ import annotations
 
+import os
 import socket
 import threading
 import time
@@ -19,6 +20,9 @@ from contextlib import suppress
 from types import TracebackType
 
 from hri.core.errors import HriError
+from hri.core.token import VARIABLE, load_token
+from hri.net import control
+from hri.net.loopback import is_loopback
 from hri.net.protocol import LONGEST
 
 _CHUNK = 65_536
@@ -27,12 +31,22 @@ _CHUNK = 65_536
 class Connection:
     """A client that sends and reads lines, and blocks while it does; for one thread at a time."""
 
-    def __init__(self, host: str = "127.0.0.1", port: int = 25000, timeout: float = 10.0) -> None:
+    def __init__(
+        self,
+        host: str = "127.0.0.1",
+        port: int = 25000,
+        timeout: float = 10.0,
+        token: str | None = None,
+    ) -> None:
         """Connect; `timeout` in seconds holds for this, and for each read and send.
 
-        Raises HriError when nobody answers.
+        The first line shows the `token`; without one, that of the user, if there is one: on this
+        machine from its file, elsewhere from HRI_TOKEN alone. An empty one shows none. Raises
+        HriError when nobody answers, or the user's token cannot be used.
         """
         self.timeout = timeout
+        if token is None:
+            token = _users_token(host)
         try:
             self._socket = socket.create_connection((host, port), timeout)
         except OSError as error:
@@ -44,6 +58,8 @@ class Connection:
         self._rest = b""
         self._lines: list[str] = []
         self._reader: threading.Thread | None = None
+        if token:
+            self._socket.sendall(control.introduction(token))
 
     def __enter__(self) -> Connection:
         return self
@@ -117,3 +133,8 @@ class Connection:
                 continue  # the timeout of a `send` in another thread
             except (EOFError, OSError):
                 return
+
+
+def _users_token(host: str) -> str | None:
+    """What to show to a host: another machine gets nothing that was not meant for one."""
+    return load_token() if os.environ.get(VARIABLE) or is_loopback(host) else None

@@ -1,7 +1,9 @@
 """The event server: events of other programs are raised here, and names of ours are told to them.
 
-What comes is text in the query form, `Examples.PhotoEvent.Shoot?count=5&delay=1`. The task ends
-when an event comes that has "End" in its name.
+What comes is text in the query form, `Examples.PhotoEvent.Shoot?count=5&delay=1`. Who sends it
+shows the token, since a task may do anything when it hears an event. Names that begin with a
+capital may come, and those that `events` of app.toml allows; no event passes for one of the robot's
+own. The task ends when an event comes that has "End" in its name.
 """
 
 from __future__ import annotations
@@ -9,6 +11,7 @@ from __future__ import annotations
 import logging
 
 from hri.core.errors import HriError
+from hri.core.events import check_from_outside
 from hri.core.quoting import escaped
 from hri.core.signals import Event
 from hri.net.values import unquoted
@@ -44,15 +47,23 @@ class EventServer(Primitive):
         text = unquoted(text)
         print(f"Received event string: {escaped(text)}")
         try:
-            event = parse_query(text)
+            event = self._allowed(parse_query(text))
         except HriError as error:
             log.warning("%s", error)
             return
         print(f"Raising event: {escaped(write_event(event))}")
         self._raising = event.name
         try:
-            self.context.manager.raise_event(event)
+            self.context.events.raise_from_outside(event)
         finally:
             self._raising = ""
         if "End" in event.name:
             self.set_status(TaskStatus.SUCCESS)
+
+    def _allowed(self, event: Event) -> Event:
+        """Raises HriError for an event that may not come from outside."""
+        check_from_outside(event)
+        if not self.context.networks.context.doors.takes(event.name):
+            remedy = "name it in events of app.toml, or begin it with a capital"
+            raise HriError(f'"{event.name}" may not come from outside - {remedy}')
+        return event

@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 import threading
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from hri.net import values
@@ -24,6 +24,9 @@ from hri.net.protocol import Item, Sender
 KEPT = {"string": 1000}
 """How many values wait, by datatype; the oldest give way."""
 KEPT_MEASUREMENTS = 2
+
+Admits = Callable[[str, Sender], bool]
+"""Whether a value for a port, from that sender, may come in."""
 
 
 class _Waiting:
@@ -63,11 +66,16 @@ class Inbox:
                     waiting.pop()
                 waiting.append(_Waiting(value, item.count, sender))
 
-    def take(self) -> dict[str, tuple[Any, float]]:
-        """The values of this tick by port, each with when its sender spoke last, in seconds."""
+    def take(self, admits: Admits = lambda port, sender: True) -> dict[str, tuple[Any, float]]:
+        """The values of this tick by port, each with when its sender spoke last, in seconds.
+
+        What `admits` does not let in is forgotten.
+        """
         taken = {}
         with self._lock:
             for port, waiting in self._waiting.items():
+                while waiting and not admits(port, waiting[0].sender):
+                    waiting.popleft()
                 if waiting:
                     taken[port] = _next(waiting)
         return taken

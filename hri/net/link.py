@@ -19,6 +19,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
 
+from hri.net import control
 from hri.net.peer import Limits, Peer, PeerError
 from hri.net.protocol import Message, ProtocolError, decode
 
@@ -92,6 +93,13 @@ class Link(ABC):
     @abstractmethod
     def _tend(self, now: float) -> float:
         """Make progress with connections to come; the time at which to be called again."""
+
+    @abstractmethod
+    def _obey(self, message: Message, peer: Peer) -> bool:
+        """Do what a message for the bridge itself says; whether listeners get it, too.
+
+        Raises PeerError when it costs the connection.
+        """
 
     @abstractmethod
     def _hang_up(self) -> None:
@@ -171,6 +179,9 @@ class Link(ABC):
 
     def _deliver(self, line: bytes, peer: Peer) -> None:
         message = decode(line, peer)
+        peer.heard = time.perf_counter()
+        if message.tag == control.TAG and not self._obey(message, peer):
+            return
         for listener in self._listeners.get(message.tag, ()):
             try:
                 listener(message)

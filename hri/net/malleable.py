@@ -10,11 +10,16 @@ import os
 from typing import Any
 
 from hri.behavior.behavior import Behavior, Context
+from hri.behavior.effects import ANYTHING, NOTHING
 from hri.behavior.ports import Input, Output, Param
 from hri.core.errors import HriError
-from hri.net import values
+from hri.core.quoting import quoted
+from hri.net import control, values
 from hri.net.client import Client
+from hri.net.door import Door
 from hri.net.inbox import Inbox
+from hri.net.link import Link
+from hri.net.loopback import is_loopback
 from hri.net.protocol import LONGEST, Item, Message, Sender, checked_name, split
 from hri.net.server import Server
 from hri.net.sharing import borrow, give_back
@@ -42,7 +47,10 @@ class MalleableBehavior(Behavior):
 
     def check(self) -> None:
         """Raises HriError for a datatype or a name that cannot travel."""
-        checked_name(self.tag_name)
+        if checked_name(self.tag_name) == control.TAG:
+            raise HriError(
+                f'{self.id}: the tag "{control.TAG}" is the bridge\'s own - take another'
+            )
         ports: dict[str, Input[Any] | Output[Any]] = {**self.inputs, **self.outputs}
         for name, port in ports.items():
             checked_name(name)
@@ -56,12 +64,27 @@ class MalleableBehavior(Behavior):
         self._told: set[str] = set()
         self._clock = context.clock
         self._inbox = Inbox({name: port.datatype for name, port in self.outputs.items()})
-        if self.tcp_host:
-            self._link = borrow(Client, self.tcp_host, int(self.tcp_port))
-        else:
-            host = self.bind or os.environ.get(BIND) or LOOPBACK
-            self._link = borrow(Server, host, int(self.tcp_port))
+        self._events = context.events
+        # The other end may be a robot, to which this program shows the token.
+        self.may_do = ANYTHING if self.tcp_host else NOTHING
+        self._door = Door(self, self.tag_name, context)
+        self._is_told_to_stop = False
+        self._link = self._opened(context.doors.allows_remote)
         self._link.subscribe(self.tag_name, self._receive)
+        self._link.subscribe(control.TAG, self._obey)
+
+    def _opened(self, allows_remote: bool) -> Link:
+        """Raises HriError when it would let other machines in and nobody has allowed it."""
+        port = int(self.tcp_port)
+        if self.tcp_host:
+            shows_token = allows_remote or is_loopback(self.tcp_host)
+            return borrow(Client, self.tcp_host, port, shows_token=shows_token)
+        host = self.bind or os.environ.get(BIND) or LOOPBACK
+        if not allows_remote and not is_loopback(host):
+            where = "bind" if self.bind else BIND
+            what = f"{where} {quoted(host)} lets other machines in"
+            raise HriError(f"{what} - start it with --allow-remote, or bind to {LOOPBACK}")
+        return borrow(Server, host, port)
 
     @property
     def port_in_use(self) -> int:
@@ -77,12 +100,17 @@ class MalleableBehavior(Behavior):
         ]
         if items:
             self._send(items)
-        for name, (value, spoken) in self._inbox.take().items():
+        self._door.look()
+        if self._is_told_to_stop:
+            self._is_told_to_stop = False
+            self._events.raise_event("drive.halt", because="I was told to over the network")
+        for name, (value, spoken) in self._inbox.take(self._door.admits).items():
             is_bare = self.keep_quotes or not isinstance(value, str)
             getattr(self, name).send(value if is_bare else values.unquoted(value), spoken)
 
     def stop(self) -> None:
         self._link.unsubscribe(self.tag_name, self._receive)
+        self._link.unsubscribe(control.TAG, self._obey)
         give_back(self._link)
 
     def _send(self, items: list[Item]) -> None:
@@ -99,4 +127,8 @@ class MalleableBehavior(Behavior):
         """Keep what has arrived, in the thread of the port."""
         sender = message.sender or Sender()
         sender.spoken = self._clock.now()
-        self._inbox.put(*message.items, sender=sender)
+        self._inbox.put(*self._door.admitted(message.items, sender), sender=sender)
+
+    def _obey(self, message: Message) -> None:
+        """Stop at the next tick, whoever on this machine says so."""
+        self._is_told_to_stop = True

@@ -10,6 +10,7 @@ from collections import deque
 from dataclasses import dataclass
 
 from hri.core.errors import HriError
+from hri.net.loopback import is_from_loopback
 from hri.net.protocol import LONGEST, Sender
 
 _CHUNK = 65_536
@@ -29,6 +30,8 @@ class Limits:
     """Lines a second, with one second's worth at once; a faster peer is read less often."""
     patience: float = 10.0
     """Seconds that a line may take from its first byte to its end."""
+    silence: float = 10.0
+    """Seconds without a message after which a peer gives way to a new one, when all are there."""
 
 
 class PeerError(HriError):
@@ -51,6 +54,10 @@ class Peer(Sender):
         """No reading before this time."""
         self.unfinished_since = math.inf
         """When the line began that has not ended yet."""
+        self.is_local = is_from_loopback(connection)
+        """Whether it is on this machine."""
+        self.heard = now
+        """When its last message came, or it did."""
         self._limits = limits
         self._lock = threading.Lock()
         self._outgoing: deque[bytes] = deque()
@@ -76,6 +83,9 @@ class Peer(Sender):
                 if self.backlog > self._limits.backlog:
                     self.fault = f"{self.backlog} bytes wait for it - it has to read faster"
             return bool(frame or self.fault)
+
+    def tell(self, line: bytes) -> None:
+        self.send(line)
 
     def flush(self) -> None:
         """Send what was kept, as far as the socket takes it."""

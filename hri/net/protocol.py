@@ -51,6 +51,15 @@ class Sender:
     """When its last message came, in seconds on the clock of whoever keeps its values."""
     is_gone = False
     """Whether the connection has ended."""
+    is_authorized = False
+    """Whether it has shown the token."""
+    refused: frozenset[str] = frozenset()
+    """The ports that took no value of it, as it was told."""
+    name = "somebody"
+    """Who it is, for people."""
+
+    def tell(self, line: bytes) -> None:
+        """Send a line to it alone, as far as there is a connection."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,8 +11,11 @@ import socket
 import time
 
 from hri.core.errors import HriError
+from hri.core.token import is_token
+from hri.net import control
 from hri.net.link import Link
-from hri.net.peer import Limits
+from hri.net.peer import Limits, Peer, PeerError
+from hri.net.protocol import Message
 
 log = logging.getLogger("hri.net")
 
@@ -47,12 +50,43 @@ class Server(Link):
             self._rests_until = time.perf_counter() + REST
             self._warn(f"cannot let anybody in: {error.strerror}")
             return
-        if len(self._peers) < self._limits.peers:
+        if self._has_room(time.perf_counter()):
             self._has_warned = False
             self._add(connection, f"{host}:{port}")
             return
         connection.close()
         self._warn(f"turned {host} away: {len(self._peers)} peers")
+
+    def _has_room(self, now: float) -> bool:
+        """Whether one more may come; who has been silent for long gives way."""
+        if len(self._peers) < self._limits.peers:
+            return True
+        silent = min(self._peers, key=lambda peer: (peer.is_authorized, peer.heard))
+        if now - silent.heard < self._limits.silence:
+            return False
+        log.debug("%s: %s gives way to another one", self.address, silent.name)
+        self._remove(silent)
+        return True
+
+    def _obey(self, message: Message, peer: Peer) -> bool:
+        token = control.shown_token(message)
+        if token is not None:
+            self._authorize(peer, token)
+        if not control.asks_to_stop(message):
+            return False
+        may_stop = peer.is_local or peer.is_authorized
+        if not may_stop:
+            peer.tell(control.refusal("from another machine it takes the token to stop the robot"))
+        return may_stop
+
+    def _authorize(self, peer: Peer, token: str) -> None:
+        try:
+            peer.is_authorized = is_token(token)
+        except HriError as error:
+            raise PeerError(str(error)) from error
+        if not peer.is_authorized:
+            peer.tell(control.refusal("this is not the token"))
+            raise PeerError("it showed a wrong token")
 
     def _warn(self, what: str) -> None:
         if not self._has_warned:

@@ -25,8 +25,10 @@ class _Shared:
 _shared = _Shared()
 
 
-def borrow(kind: type[Client] | type[Server], host: str, port: int) -> Link:
+def borrow(kind: type[Client] | type[Server], host: str, port: int, **options: bool) -> Link:
     """The link of this process to a port; give it back. Raises HriError when it cannot be had.
+
+    `options` are for the one who opens it.
 
     A server on port 0 gets a free port, which is shared with nobody.
     """
@@ -34,7 +36,7 @@ def borrow(kind: type[Client] | type[Server], host: str, port: int) -> Link:
         key = (kind, host, port)
         link = _shared.links.get(key)
         if link is None:
-            link = kind(host, port)
+            link = kind(host, port, **options)  # type: ignore[arg-type]
             _shared.links[(kind, host, link.port)] = link
         _shared.users[link] = _shared.users.get(link, 0) + 1
         return link

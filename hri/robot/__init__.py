@@ -18,6 +18,7 @@ from typing import Any, Self
 import trio
 
 from hri.behavior.behavior import Behavior, Context
+from hri.behavior.doors import Doors
 from hri.behavior.network import Network, refuse_second_writers
 from hri.behavior.runner import Runner
 from hri.core import paths
@@ -64,13 +65,15 @@ class Robot:
         notice: Callable[[str], object] = print,
         record: Path | str | None = None,
         record_rejected: bool = False,
+        doors: Doors | None = None,
     ) -> None:
         """Read and check all files; nothing is opened yet.
 
         `devices` replace those of the configuration with the same id. `parameters` overrides
         parameters of behaviors by their id. `notice` gets a line for each stand-in, and one
         when a recording begins. `record` is a folder for a recording; words that were rejected are
-        written there only with `record_rejected`. Raises HriError or AuthoringError.
+        written there only with `record_rejected`. `doors` says what may come in over the network,
+        beside what the app and the configuration say. Raises HriError or AuthoringError.
         """
         self.app = load_app(app)
         self.clock = clock or RealClock()
@@ -83,7 +86,11 @@ class Robot:
         configuration = _with_devices(authored, devices)
         self.configuration = _with_seed(configuration, seed)
         self.resources = ResourceManager(
-            self.configuration.devices, self.clock, notice, self.configuration.shapes
+            self.configuration.devices,
+            self.clock,
+            notice,
+            self.configuration.shapes,
+            self.configuration.trusted,
         )
         self.resources.check()
         self._authored = self.app.load_networks()
@@ -93,7 +100,8 @@ class Robot:
             network.check()
         self.events = EventBus(self.clock)
         self.board = Board()
-        context = Context(self.clock, self.events, self.resources, self.board, seed)
+        own = (doors or Doors()).with_more(self.app.trusted, self.app.events)
+        context = Context(self.clock, self.events, self.resources, self.board, seed, own)
         self.networks = context.networks
         self.tasks = TaskManager(context, _behaviors_of(self._authored))
         self.context = self.tasks.context

@@ -26,6 +26,10 @@ class App:
     tasks: tuple[str, ...]
     """Coroutine functions in the app's `tasks.py`, or names of the group `hri.tasks`; all run
     beside each other."""
+    trusted: tuple[str, ...] = ()
+    """Ports of the bridge that anybody may write to (`hri.behavior.doors`)."""
+    events: tuple[str, ...] = ()
+    """Names of events that may come from outside, beside those of 2003."""
 
     def load_networks(self) -> list[Network]:
         """The networks, checked and in dependency order."""
@@ -72,8 +76,10 @@ def load_app(name: str) -> App:
     about = table.string("about", "")
     networks = tuple(_beside(folder, name) for name in table.strings("networks"))
     tasks = tuple(table.strings("tasks", []))
+    trusted = tuple(table.strings("trusted", []))
+    events = tuple(table.strings("events", []))
     table.finish()
-    return App(folder, about, networks, tasks)
+    return App(folder, about, networks, tasks, trusted, events)
 
 
 def _beside(folder: Path, name: str) -> Path:

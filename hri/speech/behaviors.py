@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from hri.behavior.behavior import Context
+from hri.behavior.effects import Effect
 from hri.behavior.ports import Input, Param
 from hri.speech.listener import Listener
 from hri.speech.voice import Saying, Voice
@@ -13,6 +14,7 @@ __all__ = ["Listener", "Saying", "SpeakOn", "Voice"]
 class SpeakOn(Voice):
     """Says its text each time its input becomes true."""
 
+    may_do = frozenset({Effect.SPEAKS})
     trigger = Input[bool]("boolean", "what makes it speak when it becomes true")
     text = Param("hello", "what it says")
 

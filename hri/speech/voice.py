@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 from hri.behavior.behavior import Behavior, Context
+from hri.behavior.effects import Effect
 from hri.behavior.ports import Input, Output, Param
 from hri.core.clock import Worker
 from hri.core.signals import Prosody, Speech
@@ -71,6 +72,7 @@ class Voice(Behavior):
 
     category = "speech"
 
+    may_do = frozenset({Effect.SPEAKS})
     prosody = Input[Prosody]("prosody", "how it is said", is_optional=True)
     speech = Output[Speech]("speech", "what is being said, as far as it is made")
     position = Output[float]("double", "seconds of it that have been heard")

@@ -25,6 +25,7 @@ class TaskManager:
 
     def __init__(self, context: Context, planned: Mapping[str, Behavior] | None = None) -> None:
         """`planned`: behaviors of networks that will be started, by `network.id`."""
+        context.has_tasks = True
         self.clock = context.clock
         self.events = context.events
         self.claims = Claims(context.clock)

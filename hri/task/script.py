@@ -17,6 +17,7 @@ from functools import partial
 import trio
 
 from hri.behavior.behavior import Context
+from hri.behavior.doors import Doors
 from hri.core.clock import Clock, RealClock
 from hri.core.events import EventBus
 from hri.hal.manager import ResourceManager
@@ -31,9 +32,9 @@ _make: Callable[[], TaskManager]
 class _Stage:
     """Resources, networks and tasks with no app around them."""
 
-    def __init__(self, config: str, clock: Clock) -> None:
+    def __init__(self, config: str, clock: Clock, doors: Doors) -> None:
         resources = ResourceManager.load(config, clock)
-        self._context = Context(clock, EventBus(clock), resources)
+        self._context = Context(clock, EventBus(clock), resources, doors=doors)
         self._finished = trio.Event()
         self.manager = TaskManager(self._context)
         self._thread = LoopThread(clock, "task manager", self._run)
@@ -70,15 +71,19 @@ class _Stage:
             self._thread.join()
 
 
-def use(config: str = "resource-config", clock: Clock | None = None) -> None:
+def use(
+    config: str = "resource-config", clock: Clock | None = None, doors: Doors | None = None
+) -> None:
     """Choose the configuration and the clock of scripts, before their first task.
+
+    `doors` says what may come in over the network, beside what the configuration says.
 
     Raises RuntimeError when tasks run already.
     """
     global _make
     with _lock:
         _refuse_second()
-        _make = partial(_started, config, clock)
+        _make = partial(_started, config, clock, doors)
 
 
 def get_task_manager() -> TaskManager:
@@ -109,8 +114,8 @@ def leave(manager: TaskManager) -> None:
             _current = None
 
 
-def _started(config: str, clock: Clock | None) -> TaskManager:
-    stage = _Stage(config, clock or RealClock())
+def _started(config: str, clock: Clock | None, doors: Doors | None) -> TaskManager:
+    stage = _Stage(config, clock or RealClock(), doors or Doors())
     stage.start()
     return stage.manager
 
@@ -123,4 +128,4 @@ def _refuse_second() -> None:
         )
 
 
-_make = partial(_started, "resource-config", None)
+_make = partial(_started, "resource-config", None, None)

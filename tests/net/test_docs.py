@@ -71,7 +71,9 @@ def test_the_program_runs_as_it_is(server, heard, tmp_path):
 
 def test_the_messages_on_the_page_are_messages():
     messages = [block for block in blocks("xml") if "BehaviorSchema" not in block]
-    assert [decode(block.encode()).tag for block in messages] == ["tutorial", "event_server"]
+    assert [decode(block.encode()).tag for block in messages] == [
+        *("tutorial", "hri", "hri", "event_server"),
+    ]
 
 
 def test_the_schema_on_the_page_makes_a_behavior(tmp_path, monkeypatch):

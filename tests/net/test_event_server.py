@@ -4,11 +4,12 @@ from pathlib import Path
 import pytest
 import trio
 
+from hri.behavior.doors import Doors
 from hri.core import paths
 from hri.net.connection import Connection
 from hri.net.event_server import EventServer
 from hri.task.task import find_task, task
-from tests.net.conftest import WITHIN
+from tests.net.conftest import WITHIN, Taken
 from tests.task.stage import Stage
 
 
@@ -133,3 +134,67 @@ def test_it_survives_the_loss_of_its_network(caplog):
         "door.closed",
     ]
     assert not [record for record in caplog.records if record.levelname == "ERROR"]
+
+
+@task("Tests.Door")
+async def door(context, lines, token):
+    """The event server, and a program that sends it lines; what was raised here meanwhile."""
+    raised = []
+    context.events.subscribe("*", raised.append)
+    server = context.manager.install(EventServer)
+    await context.clock.sleep(0.05)
+    behavior = context.behaviors["Examples.EventServer.server"]
+    taken = Taken()
+    behavior._link.subscribe("event_server", taken)
+    port = behavior.port_in_use
+    with Connection("127.0.0.1", port, WITHIN, token) as connection:
+        for line in lines:
+            connection.send(sent(line.replace("&", "&amp;")))
+        await trio.to_thread.run_sync(taken.wait_for, len(lines))
+        await context.clock.sleep(0.1 * len(lines) + 0.2)
+    server.cancel()
+    return raised
+
+
+FORGED = [
+    "speech.heard?rule=stop&text=stop",
+    "speech.heard?rule=go_forward",
+    "head.nodded",
+    "drive.halt",
+    "gesture.asked?name=nod",
+    "stimulus.felt?stimulus=praise",
+    "window.closed",
+    "%73peech.heard?rule=yes",
+]
+
+
+def raised(lines, token=None, events=()):
+    stage = Stage()
+    stage.context.networks.context.doors = Doors().with_more(events=events)
+    return stage.run(door, lines, token)
+
+
+@pytest.mark.parametrize("events", [(), ("*",), ("speech.*",)])
+def test_no_event_from_outside_passes_for_the_robots_own(events, caplog):
+    assert raised(FORGED, events=events) == []
+    assert "only the robot itself raises" in caplog.text
+
+
+def test_events_from_outside_are_marked_and_come_under_an_allow_list(caplog):
+    lines = ["Examples.PhotoEvent.Shoot?count=1", "door.opened", "lamp.lit"]
+    found = raised(lines, events=("door.*",))
+    assert [(event.name, event.is_from_outside) for event in found] == [
+        ("Examples.PhotoEvent.Shoot", True),
+        ("door.opened", True),
+    ]
+    assert '"lamp.lit" may not come from outside' in caplog.text
+
+
+def test_without_the_token_no_event_comes_in(caplog):
+    assert raised(["Examples.PhotoEvent.Shoot?count=1"], token="") == []
+    assert "event_server.event may do anything" in caplog.text
+
+
+@pytest.mark.parametrize("key", ["t", "event", "outside"])
+def test_no_property_passes_for_what_a_recording_says(key, caplog):
+    assert raised([f"Examples.Event?{key}=speech.heard"]) == []

@@ -10,6 +10,7 @@ import pytest
 
 from hri.core.errors import HriError
 from hri.net.client import Client, _own_echo
+from hri.net.control import introduction
 from hri.net.protocol import Item, Message, encode
 from hri.net.server import Server
 from hri.net.sharing import borrow, give_back
@@ -225,6 +226,49 @@ def test_those_above_the_count_are_turned_away(links, caplog):
     for peer in kept:
         peer.close()
     assert here.wait_for_peers(0, WITHIN)
+
+
+def test_silent_peers_do_not_hold_all_places(links):
+    """Somebody who has something to say gets in, and those who spoke lately stay."""
+    server, _ = links
+    here = server(peers=4, silence=0.0)
+    taken = Taken()
+    here.subscribe("t", taken)
+    speaks, *silent = [raw(here.port) for _ in range(4)]
+    assert here.wait_for_peers(4, WITHIN)
+    speaks.sendall(encode(message("here")))
+    taken.wait_for(1)
+    for number in range(3):
+        new = raw(here.port)
+        new.sendall(encode(message("new")))
+        taken.wait_for(2 + number)
+        assert silent[number].recv(1) == b""
+        silent.append(new)
+    assert len(here._peers) == 4
+    speaks.sendall(encode(message("still here")))
+    taken.wait_for(5)
+    for peer in (speaks, *silent):
+        peer.close()
+
+
+def test_of_silent_peers_the_one_that_showed_the_token_goes_last(links, monkeypatch):
+    monkeypatch.setenv("HRI_TOKEN", "known-to-somebody")
+    server, _ = links
+    here = server(peers=2, silence=0.0)
+    known, stranger = raw(here.port), raw(here.port)
+    heard = Taken()
+    here.subscribe("hri", heard)
+    known.sendall(introduction("known-to-somebody") + b"<hri><stop/></hri>\n")
+    heard.wait_for(1)
+    assert here.wait_for_peers(2, WITHIN)
+    taken = Taken()
+    here.subscribe("t", taken)
+    stranger.sendall(encode(message("later than the other")))
+    taken.wait_for(1)
+    with raw(here.port):
+        assert stranger.recv(1) == b""
+    for peer in (known, stranger):
+        peer.close()
 
 
 def misbehave(port, kind, seed):

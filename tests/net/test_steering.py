@@ -5,6 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hri.behavior.behavior import Behavior
+from hri.behavior.doors import Doors
 from hri.behavior.drivers import DriveCommand, JoystickSticks
 from hri.behavior.library.arithmetic import Addition, Multiplication
 from hri.behavior.library.constant import Constant
@@ -66,6 +67,7 @@ class Stage:
             Description("drive", "Hri.SimulatedDrive", bus="world"),
             Description("joystick", "Hri.MemoryJoystick"),
         )
+        self.lent.doors = Doors(trusted=("malleable",))
         self.clock = self.lent.clock
         self.world = self.lent.resources.obtain("world", SimulatedWorld)
         self.lent.resources.obtain("drive", DriveSystem)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from hri.behavior.behavior import Behavior
+from hri.behavior.effects import NOTHING
 from hri.behavior.ports import Output, Param
 from hri.core.expression import evaluate
 
@@ -22,6 +23,7 @@ class Constant(Behavior):
     """Sends the same value at every tick."""
 
     category = "operators"
+    may_do = NOTHING
     parsed_value = Param("0", 'a number, a text, an array such as "1, 2, 3", true or false')
     value = Output[Any]("any", "the value")
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from hri.behavior.behavior import Behavior, Context
+from hri.behavior.effects import NOTHING
 from hri.behavior.library.timing import TOLERANCE
 from hri.behavior.ports import DBL_MAX, Input, Output, Param
 from hri.core.errors import AuthoringError, HriError, Place
@@ -27,6 +28,7 @@ MOST_LINES = 10_000_000
 class ValueRecorder(Behavior):
     """Writes all that comes in to a file, with its time; several links give several lines."""
 
+    may_do = NOTHING
     file = Param("values.jsonl", "where to write; what is there is overwritten")
     max_lines = Param(100_000, "then it stops recording", minimum=1, maximum=MOST_LINES)
     input = Input[Any]("any", "numbers, texts, truths or arrays")

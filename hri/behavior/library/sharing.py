@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from hri.behavior.behavior import Behavior, Context
+from hri.behavior.effects import NOTHING
 from hri.behavior.ports import Input, Output, Param
 from hri.core.errors import HriError
 from hri.core.latest import Latest
@@ -24,6 +25,7 @@ class _OnBoard(Behavior):
 class Share(_OnBoard):
     """Puts what comes in on the robot's board, for other networks and tasks."""
 
+    may_do = NOTHING
     emotion = Input[Any]("emotion", "an emotion state")
     expression = Input[Any]("expression", "an expression")
     prosody = Input[Any]("prosody", "how to say things")
@@ -57,6 +59,7 @@ class Shared(_OnBoard):
     """Takes the newest value of a slot of the robot's board; the port of its type sends it."""
 
     is_relay = True
+    may_do = NOTHING
     emotion = Output[Any]("emotion", "an emotion state")
     expression = Output[Any]("expression", "an expression")
     prosody = Output[Any]("prosody", "how to say things")

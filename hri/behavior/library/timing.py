@@ -6,6 +6,7 @@ from collections import deque
 from typing import Any
 
 from hri.behavior.behavior import Behavior
+from hri.behavior.effects import NOTHING
 from hri.behavior.ports import Input, Output, Param
 from hri.core.errors import HriError
 
@@ -16,6 +17,7 @@ TOLERANCE = 1e-6
 class Delay(Behavior):
     """Sends what came in, some time later; ticks without a value come later, too."""
 
+    may_do = NOTHING
     delay_s = Param(1.0, "seconds", minimum=0, maximum=60)
     input = Input[Any]("any", "a value")
     delayed = Output[Any]("any", "the value of that time; the newest when several are due at once")

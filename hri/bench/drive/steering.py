@@ -18,6 +18,7 @@ import numpy as np
 import trio
 
 from hri.behavior.behavior import Behavior, Context
+from hri.behavior.doors import Doors
 from hri.behavior.drivers import DriveCommand, JoystickSticks
 from hri.behavior.network import Network
 from hri.behavior.ports import LINEAR_VELOCITY, Output
@@ -194,7 +195,8 @@ def _lent(path: str) -> Context:
         Description("drive", "Hri.BaseDrive", bus="base"),
         Description("joystick", "Hri.MemoryJoystick"),
     ]
-    return Context(clock, EventBus(clock), ResourceManager(devices, clock))
+    doors = Doors(trusted=(TAG,))
+    return Context(clock, EventBus(clock), ResourceManager(devices, clock), doors=doors)
 
 
 def _network(source: Behavior, input: str) -> Network:

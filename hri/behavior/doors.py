@@ -1,0 +1,38 @@
+"""What a program lets in from outside; said by whoever starts it, never by a network file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from string import ascii_uppercase
+
+from hri.core.events import matches
+
+NAMES_OF_2003 = tuple(f"{letter}*" for letter in ascii_uppercase)
+"""Patterns of events that begin with a capital, such as `Examples.PhotoEvent.Shoot`: no event that
+the robot raises itself does."""
+
+
+@dataclass(frozen=True)
+class Doors:
+    """What the command line, app.toml and the resource configuration say together."""
+
+    allows_remote: bool = False
+    """Whether other machines may connect."""
+    trusted: tuple[str, ...] = ()
+    """Ports of the bridge that anybody may write to, as `tag` or `tag.port`; `*` in a name stands
+    for any characters."""
+    events: tuple[str, ...] = NAMES_OF_2003
+    """Names of events that may come from outside, with `*` as above."""
+
+    def with_more(self, trusted: Iterable[str] = (), events: Iterable[str] = ()) -> Doors:
+        """The same, and these as well."""
+        return replace(self, trusted=(*self.trusted, *trusted), events=(*self.events, *events))
+
+    def trusts(self, tag: str, port: str) -> bool:
+        """Whether anybody may write to a port."""
+        return any(matches(one, tag) or matches(one, f"{tag}.{port}") for one in self.trusted)
+
+    def takes(self, event: str) -> bool:
+        """Whether an event of that name may come from outside."""
+        return any(matches(pattern, event) for pattern in self.events)
