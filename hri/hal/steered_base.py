@@ -23,7 +23,18 @@ from hri.core.signals import Twist
 from hri.hal.drive import DriveSystem
 from hri.hal.emergency_stop import EmergencyStop
 from hri.hal.helm import HOLD, PROGRAM, Helm, Writer
-from hri.hal.motion import PERIOD, PROMPT, Brake, Motion, Reading, SlowDown, Steering, Way
+from hri.hal.motion import (
+    PERIOD,
+    PROMPT,
+    REST,
+    Brake,
+    Motion,
+    Ramp,
+    Reading,
+    SlowDown,
+    Steering,
+    Way,
+)
 from hri.hal.pending import Interrupted, Pending
 from hri.hal.resource import Description
 
@@ -285,6 +296,8 @@ class SteeredBase(DriveSystem, EmergencyStop):
             self._brake(now)
         else:
             self._send(twist, now)
+        if isinstance(run.motion, Ramp) and run.motion.goal == REST == twist:
+            self._helm.let_go()  # it has no end, but has nothing more to do
         run.due = max(run.due + PERIOD, now)
         run.timer = self.manager.clock.call_at(run.due, lambda: self._tick(run))
         return True

@@ -13,6 +13,7 @@ from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError
 from hri.core.events import EventBus
 from hri.core.signals import Twist
+from hri.drive.behaviors import COMMAND
 from hri.drive.supervisor.bus import BaseBus
 from hri.hal.drive import DriveSystem
 from hri.hal.helm import Outranked
@@ -146,6 +147,18 @@ def test_a_script_moves_the_base_while_the_gate_of_a_network_is_idle(stage: Stag
     pending = stage.drive.move_delta(0.2, 0.2, 0.4)
     stage.run(2.5)
     pending.result()
+
+
+def test_a_script_that_drove_freely_and_stopped_holds_the_drive_no_longer(stage: Stage) -> None:
+    stage.start("moving", GATED)
+    stage.drive.move_and_turn(0.2, 0.4, 0.0, 1.0)
+    assert stage.run(1.0) == pytest.approx(0.2)
+    stage.drive.move_and_turn(0.0, 0.4, 0.0, 1.0)
+    assert stage.run(1.5) == 0.0
+    for _ in range(20):
+        stage.context.board.slot(COMMAND).set(Twist(-0.1), stage.clock.now())
+        speed = stage.run(0.05)
+    assert speed == pytest.approx(-0.1)
 
 
 def test_a_script_does_not_undo_what_a_network_wants(stage: Stage) -> None:
