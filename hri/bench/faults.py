@@ -195,6 +195,12 @@ FAULTS: Mapping[str, Fault] = {
     "half of the bytes lost": Fault(_spoiled("lost", 0.5), "stale"),
     "every tenth byte damaged": Fault(_spoiled("damaged", 0.1), "stale"),
     "packets halved": Fault(_spoiled("halved", 0.9), "stale"),
+    "every hundredth byte damaged": Fault(_spoiled("damaged", 0.01), "garbled"),
+    "reports 0.3 s late": Fault(_spoiled("report_delay", 0.3), "late"),
+    "line 0.15 s late in both directions": Fault(_spoiled("delay", 0.15), "late"),
+    "answers of an Arduino 0.3 s late": Fault(
+        _spoiled("report_delay", 0.3), "unsteady", kind=ARDUINO
+    ),
     "supervisor frozen for 0.3 s": Fault(_time_passes(0.3), "frozen"),
     "supervisor frozen for 2 s": Fault(_time_passes(2.0), "frozen"),
     "clock set back": Fault(_time_passes(-1.0), "frozen"),

@@ -212,12 +212,14 @@ class ArduinoBridge(BaseProtocol):
             if not line or line == ACKNOWLEDGED:
                 continue
             self._heard = now
-            if self._owed and self._takes(line, now):
+            if not (self._owed and self._takes(line, now)):
+                self.senseless += len(line)
+            elif not self._owed:
                 found.append(self._report(now))
         return found
 
     def _takes(self, line: bytes, now: float) -> bool:
-        """Whether a line is the last answer of a round; what makes no sense ends the round."""
+        """Whether a line is the next answer of a round; what makes no sense ends the round."""
         question = self._owed[0]
         numbers = [int(word) for word in line.split()] if NUMBERS.fullmatch(line) else []
         if question.kind == "counts" and len(numbers) == 2:
@@ -230,7 +232,7 @@ class ArduinoBridge(BaseProtocol):
         del self._owed[0]
         if not self._owed:
             self._odometer.add(*self._counts, now)
-        return not self._owed
+        return True
 
     def _give_up(self, now: float) -> None:
         """Ask again when the base has fallen silent, so that no answer is taken for another's."""

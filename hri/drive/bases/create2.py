@@ -161,7 +161,9 @@ class Create2(BaseProtocol):
         return bytes(LONGEST_COMMAND) + bytes([SAFE]) + self.stop * 2
 
     def feed(self, data: bytes, now: float) -> list[BaseReport]:
-        return [self._report(values, now) for values in self._stream.feed(data)]
+        packets = self._stream.feed(data)
+        self.senseless = self._stream.senseless
+        return [self._report(values, now) for values in packets]
 
     def _report(self, values: Mapping[int, int], now: float) -> BaseReport:
         self._odometer.add(values[LEFT_COUNT], values[RIGHT_COUNT], now)
@@ -230,6 +232,8 @@ class Stream:
         self._format = struct.Struct(">BB" + "".join("B" + FORMATS[p] for p in packets) + "B")
         self._head = bytes([HEADER, self._format.size - 3])
         self._buffer = bytearray()
+        self.senseless = 0
+        """Bytes so far that belong to no packet."""
 
     def feed(self, data: bytes) -> list[dict[int, int]]:
         """The values by packet number, for each packet that these bytes complete."""
@@ -245,6 +249,7 @@ class Stream:
         # What is left may be the beginning of a packet: from its head, or the head's first byte.
         keep = start if start >= 0 else len(buffer) - buffer.endswith(self._head[:1])
         del buffer[:keep]
+        self.senseless += keep - size * len(found)
         return found
 
     def _values(self, packet: bytearray) -> dict[int, int] | None:

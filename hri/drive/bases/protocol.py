@@ -113,6 +113,8 @@ class BaseProtocol(ABC):
     each velocity. Alone it means nothing."""
     farewell: ClassVar[bytes] = b""
     """Leaves the base to itself, standing and silent."""
+    senseless: int = 0
+    """Bytes fed so far that belong to nothing that such a base says."""
     track: float
     """Meters between the wheels."""
     limits: Twist

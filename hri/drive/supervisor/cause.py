@@ -25,6 +25,8 @@ POWER_UP = Cause("power-up", "I was switched on just now")
 LOST_PORT = Cause("lost port", "I lost the line to my wheels")
 JAMMED = Cause("jammed", "the line to my wheels takes no more")
 SILENT_BASE = Cause("stale", "my base says nothing, so I cannot know what it senses")
+GARBLED = Cause("garbled", "much of what my base says is damaged - see the line to it")
+UNSTEADY = Cause("unsteady", "my base falls silent again and again - see the line to it")
 FROZEN = Cause("frozen", "the program that watches over me stood still")
 NO_WATCHDOG = Cause("watchdog", "the watchdog that watches over my supervisor fell silent")
 NO_SUPERVISOR = Cause("supervisor", "my supervisor was gone")
@@ -32,6 +34,11 @@ NO_PROGRAM = Cause("program", "the program that drives me is gone")
 OBSTACLE = Cause("obstacle", "something is in the way")
 DOCKING = Cause("docking", "I go to my dock by myself - release me to drive again")
 DISOBEYS = Cause("disobeys", "my base no longer obeys: its button, its charger or its own guard")
+
+
+def late(seconds: float) -> Cause:
+    """The base reports its motion so many seconds after it was told to move."""
+    return Cause("late", f"what my base reports is {seconds:.2f} s late")
 
 
 def spelled(place: str) -> str:

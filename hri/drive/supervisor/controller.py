@@ -14,6 +14,7 @@ from dataclasses import replace
 from hri.core.errors import HriError, NotAvailable
 from hri.drive.bases.protocol import BaseProtocol, BaseReport, Greeting
 from hri.drive.supervisor.cause import DOCKING, DONE, JAMMED, LOST_PORT, Cause
+from hri.drive.supervisor.decision import Decision
 from hri.drive.supervisor.link import (
     Ask,
     Brake,
@@ -29,7 +30,8 @@ from hri.drive.supervisor.link import (
     Trip,
 )
 from hri.drive.supervisor.multiplexer import Command, Level
-from hri.drive.supervisor.supervisor import Decision, Supervisor
+from hri.drive.supervisor.noise import Noise
+from hri.drive.supervisor.supervisor import Supervisor
 from hri.hal.drivers.serial_port import Port
 from hri.hal.motion import REST, Way
 
@@ -62,6 +64,7 @@ class Controller:
         self._report: BaseReport | None = None
         self._carried = Way()
         """What the wheels rolled in former openings."""
+        self._noise = Noise()
         self._greetings: deque[Greeting] = deque()
         self._is_opening = False
         """Whether the base is being greeted as a stranger: what it says is from before."""
@@ -173,6 +176,7 @@ class Controller:
         self.protocol = self._make()
         self.openings += 1
         self._is_opening = True
+        self._noise = Noise()
         self._greet(now)
 
     def _greet(self, now: float, waking: Sequence[Greeting] = ()) -> None:
@@ -180,13 +184,15 @@ class Controller:
         self._greeted_at = now
 
     def _fed(self, data: bytes, now: float) -> list[BaseReport]:
-        reports = []
+        reports, senseless = [], self.protocol.senseless
         for report in self.protocol.feed(data, now):
             rolled, carried = report.rolled, self._carried
             way = Way(rolled.linear + carried.linear, rolled.angular + carried.angular)
             reports.append(replace(report, rolled=way))
         if self._is_opening:
             return []
+        self._noise.add(len(data), self.protocol.senseless - senseless, now)
+        self.supervisor.hear_noise(self._noise.share)
         if reports:
             self._report = reports[-1]
         return reports

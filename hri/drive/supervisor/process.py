@@ -29,8 +29,9 @@ from hri.drive.supervisor.controller import TURN, Controller
 from hri.drive.supervisor.governor import Body
 from hri.drive.supervisor.limiter import Limits
 from hri.drive.supervisor.link import Packets, decoded_order, encoded
+from hri.drive.supervisor.rules import Rules
 from hri.drive.supervisor.standby import Lifeline
-from hri.drive.supervisor.supervisor import Rules, Supervisor
+from hri.drive.supervisor.supervisor import Supervisor
 from hri.drive.supervisor.watchdog import Watchdog
 from hri.hal.drivers.serial_port import SerialPort
 from hri.hal.resource import Description

@@ -7,23 +7,28 @@ what it is told, and what it does not understand it takes for a reason to stand.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import replace
 
-from hri.core.signals import Pose2D, Twist
-from hri.drive.bases.protocol import BaseReport, Sensors
+from hri.core.signals import Twist
+from hri.drive.bases.protocol import BaseReport
 from hri.drive.supervisor.cause import (
     DISOBEYS,
     DONE,
     FROZEN,
+    GARBLED,
     NO_WATCHDOG,
     OBSTACLE,
     POWER_UP,
     SILENT_BASE,
+    UNSTEADY,
     Cause,
+    late,
 )
 from hri.drive.supervisor.cliffs import Floor
-from hri.drive.supervisor.governor import Body, Room, room, safe_speed
+from hri.drive.supervisor.decision import Decision
+from hri.drive.supervisor.governor import Room, room, safe_speed
 from hri.drive.supervisor.hazards import (
     Fault,
     Hazard,
@@ -34,17 +39,22 @@ from hri.drive.supervisor.hazards import (
     pressed_buttons,
     pressing,
 )
+from hri.drive.supervisor.lag import Lag
 from hri.drive.supervisor.latch import Latch
-from hri.drive.supervisor.limiter import Cap, Limiter, Limits, within_hardware
+from hri.drive.supervisor.limiter import Cap, Limiter, within_hardware
 from hri.drive.supervisor.multiplexer import Command, Level, Multiplexer
 from hri.drive.supervisor.plausibility import Plausibility
 from hri.drive.supervisor.reflex import Reflex
+from hri.drive.supervisor.rules import Rules
 from hri.hal.motion import REST
 
 STALE = 0.1
 """Seconds after which a report tells nothing any more; three periods of a base that is slower."""
 LOST = 1.0
 """Seconds without a report after which only a release helps."""
+MOST_SILENCES, MEMORY = 3, 10.0
+"""So many times within so many seconds a base that falls silent may stop while it drives; then only
+a release helps."""
 GAP = 0.1
 """Seconds between two steps after which all that was known is old; the watchdog stops the base a
 little later. A longer one than LOST needs a release."""
@@ -52,41 +62,11 @@ NEAR = 1.5
 """Meters; a person who is nearer slows the base down."""
 PERSON_FRESH = 1.0
 """Seconds that a person's distance is believed; then somebody may be near."""
+MOST_NOISE = 0.3
+"""Part of the bytes from the base that may make no sense; one wrong byte in a thousand spoils every
+fifteenth report of a Create 2, one in a hundred every second."""
 WAKING = 1.5
 """Seconds that a base may take to obey again after its own guard has stopped it."""
-
-
-@dataclass(frozen=True, slots=True)
-class Rules:
-    """What is particular to one base."""
-
-    fastest: Twist
-    """What the hardware can do, m/s and rad/s."""
-    sensors: Sensors = field(default_factory=Sensors)
-    """What it promises to report."""
-    period: float = 0.015
-    """Seconds between its reports."""
-    limits: Limits = field(default_factory=Limits)
-    body: Body = field(default_factory=Body)
-    mounts: Mapping[str, Pose2D] = field(default_factory=dict)
-    """Where its range sensors are in the robot's frame, by the names in reports."""
-
-
-@dataclass(frozen=True, slots=True)
-class Decision:
-    """What the wheels are told."""
-
-    twist: Twist
-    level: Level
-    reason: Cause
-    """Why it rests, or why it is slower than was asked."""
-    stop: Cause | None = None
-    """Set in the one step in which it comes to rest, or the latch closes for a new reason."""
-    must_wake: bool = False
-    """Whether the base is to be greeted anew, since it does not obey."""
-    must_cut: bool = False
-    """Whether all that the base does has to be ended, whoever began it: somebody has just pressed a
-    button, or let it go, at which a base may set off by itself."""
 
 
 class Supervisor:
@@ -109,6 +89,7 @@ class Supervisor:
         # On the spot, the wheels run as fast as straight on, half the track from the middle.
         half_track = rules.fastest.linear / rules.fastest.angular
         self._plausibility = Plausibility(rules.sensors, half_track)
+        self._lag = Lag(half_track)
         self._floor = Floor()
         self._reflex = Reflex()
         self._hazards: Sequence[Hazard] = ()
@@ -116,6 +97,8 @@ class Supervisor:
         """Buttons."""
         self._holding: Sequence[Cause] = ()
         """Why it must stand for as long as these last."""
+        self._silences: deque[float] = deque(maxlen=MOST_SILENCES)
+        """When the base fell silent while it drove, and was stopped for it."""
         self._must_cut = False
         self._report: BaseReport | None = None
         self._judged = -math.inf
@@ -183,6 +166,11 @@ class Supervisor:
         """How far the nearest person is, meters; infinite when surely nobody is about."""
         self._person = (distance if distance >= 0 else 0.0), now
 
+    def hear_noise(self, share: float) -> None:
+        """How much of what the base says makes no sense, 0 to 1; too much latches the base."""
+        if share > MOST_NOISE and not self.latch.is_closed:
+            self.trip(GARBLED)
+
     # --- what it decides ---
 
     def step(
@@ -203,8 +191,10 @@ class Supervisor:
     def _step_to(self, now: float) -> float:
         before, self._time = self._time, now
         dt = 0.0 if before is None else now - before
+        self._lag.tell(now, self._sent)
         if 0 <= dt <= GAP:
             return dt
+        self._lag.forget()
         # Nobody watched; a base that still goes was stopped meanwhile, or is now.
         self._limiter.halt()
         self._multiplexer.clear()
@@ -242,6 +232,7 @@ class Supervisor:
         self._must_cut |= pressed != self._pressed
         self._pressed = pressed
         self._hold(dropped_wheel(report), self._dead_wheels(), *map(pressing, pressed))
+        self._trip_if_late(report)
 
     def _hold(self, *found: Cause | None) -> None:
         """Latch when one of these begins, and whenever the latch is open while it lasts."""
@@ -250,6 +241,13 @@ class Supervisor:
             if cause not in self._holding or not self.latch.is_closed:
                 self.trip(cause)
         self._holding = causes
+
+    def _trip_if_late(self, report: BaseReport) -> None:
+        lag = self._lag.hear(report.time, report.rolled)
+        if lag is not None:
+            self._lag.forget()
+            if not self.latch.is_closed:
+                self.trip(late(lag))
 
     def _trip_if_lost(self, now: float) -> None:
         if self._is_lost(now) and not self.latch.is_closed:
@@ -272,7 +270,7 @@ class Supervisor:
             return self._rest(Level.REFLEX, NO_WATCHDOG)
         if report is None or not 0 <= now - report.time <= max(STALE, 3 * self.rules.period):
             self._reflex.cancel()
-            return self._rest(Level.REFLEX, SILENT_BASE)
+            return self._silent(now)
         wanted = self._reflex.step(now, self._hazards, report.rolled, self._sent)
         if not report.obeys:
             return self._waking(now)
@@ -283,6 +281,15 @@ class Supervisor:
 
     def _rest(self, level: Level, cause: Cause) -> Decision:
         return Decision(self._limiter.halt(), level, cause)
+
+    def _silent(self, now: float) -> Decision:
+        if self._sent != REST:
+            self._silences.append(now)
+            if len(self._silences) == MOST_SILENCES and now - self._silences[0] <= MEMORY:
+                self._silences.clear()
+                self.trip(UNSTEADY)
+                return self._rest(Level.LATCH, UNSTEADY)
+        return self._rest(Level.REFLEX, SILENT_BASE)
 
     def _waking(self, now: float) -> Decision:
         """The base does not obey: its own guard saw what we saw, or somebody has switched it."""

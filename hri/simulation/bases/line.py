@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from hri.core.errors import NotAvailable
@@ -20,6 +21,8 @@ class Faults:
 
     delay: float = 0.0
     """Seconds that they are late, as behind an adapter that collects them."""
+    report_delay: float = 0.0
+    """Seconds that those from the base are late besides."""
     lost: float = 0.0
     """Part of the bytes that never come, 0 to 1."""
     damaged: float = 0.0
@@ -31,8 +34,8 @@ class Faults:
 class _Direction:
     """Bytes that go one way."""
 
-    def __init__(self, faults: Faults, seed: int) -> None:
-        self._faults = faults
+    def __init__(self, faults: Faults, seed: int, delay: Callable[[], float]) -> None:
+        self._faults, self._delay = faults, delay
         self._random = random.Random(seed)
         self._on_the_way: deque[tuple[float, bytes]] = deque()
         self._waiting = 0
@@ -41,7 +44,7 @@ class _Direction:
         spoiled = self._spoiled(data)
         if spoiled and self._waiting + len(spoiled) <= MOST_WAITING:
             self._waiting += len(spoiled)
-            self._on_the_way.append((now + self._faults.delay, spoiled))
+            self._on_the_way.append((now + self._delay(), spoiled))
 
     def arrived(self, now: float) -> list[tuple[float, bytes]]:
         """Bursts that have come, each with its time."""
@@ -69,8 +72,10 @@ class Line:
     def __init__(self, emulator: Emulator, faults: Faults | None = None, seed: int = 0) -> None:
         self.emulator = emulator
         self.faults = faults or Faults()
-        self._there = _Direction(self.faults, seed)
-        self._back = _Direction(self.faults, seed + 1)
+        self._there = _Direction(self.faults, seed, lambda: self.faults.delay)
+        self._back = _Direction(
+            self.faults, seed + 1, lambda: self.faults.delay + self.faults.report_delay
+        )
 
     def feed(self, data: bytes, now: float) -> bytes:
         """What comes back until `now`, when these bytes are sent then."""

@@ -14,6 +14,7 @@ from hri.drive.bases.protocol import Note
 from hri.drive.supervisor.cause import POWER_UP, Cause
 from hri.drive.supervisor.link import Ask, Dock, Look, Person, Release, Song, Trip
 from hri.drive.supervisor.multiplexer import Level
+from hri.hal.motion import REST
 from hri.simulation.bases.create2 import PASSIVE
 from hri.simulation.bases.line import Faults
 
@@ -237,6 +238,29 @@ def test_on_a_bad_line_it_drives_and_still_stops(faults) -> None:
     chain.turn(Trip(Cause("e-stop", "you said stop")))
     chain.run(0.8, GO)
     assert chain.speed == 0.0
+
+
+@pytest.mark.parametrize(
+    ("faults", "cause"),
+    [
+        (Faults(damaged=0.01), "garbled"),
+        (Faults(lost=0.01), "garbled"),
+        (Faults(report_delay=0.3), "late"),
+        (Faults(report_delay=0.8), "late"),
+        (Faults(delay=0.15), "late"),
+    ],
+)
+def test_on_a_worse_line_it_latches_says_why_and_does_not_drive_in_between(faults, cause) -> None:
+    chain = Chain(faults)
+    chain.run(1.5)
+    chain.release()
+    chain.run(2.0, GO)
+    assert cause in chain.causes
+    assert chain.base.body.base.travelled < 0.35
+    for _ in range(500):
+        chain.turn(*chain.asked(GO))
+        assert chain.controller.state(chain.now).velocity == REST
+    assert chain.controller.state(chain.now).reason.name == cause
 
 
 def test_with_nobody_near_it_may_go_faster() -> None:

@@ -11,7 +11,8 @@ from hri.drive.supervisor.cause import Cause
 from hri.drive.supervisor.governor import Body
 from hri.drive.supervisor.limiter import Limits
 from hri.drive.supervisor.multiplexer import SOURCES, Command, Level
-from hri.drive.supervisor.supervisor import Rules, Supervisor
+from hri.drive.supervisor.rules import Rules
+from hri.drive.supervisor.supervisor import Supervisor
 from hri.hal.motion import REST, Way
 
 from .track import PLACES, STEP, Track
@@ -449,6 +450,40 @@ def test_reports_that_cease_stop_it_and_when_they_stay_away_latch_it() -> None:
     track.is_silent = False
     assert track.run(0.5, GO).twist == REST
     assert track.supervisor.latch.is_closed
+
+
+def test_a_base_that_falls_silent_again_and_again_needs_a_release() -> None:
+    track = Track().released()
+    for _ in range(3):
+        track.is_silent = False
+        track.run(1.0, GO)
+        track.is_silent = True
+        track.run(0.2, GO)
+    track.is_silent = False
+    assert track.run(1.0, GO).twist == REST
+    assert track.decision.reason.name == "unsteady"
+    assert track.released().run(1.0, GO).twist == GO
+
+
+def test_a_base_that_falls_silent_now_and_then_goes_on() -> None:
+    track = Track().released()
+    for _ in range(5):
+        track.is_silent = False
+        assert track.run(6.0, GO).twist == GO
+        track.is_silent = True
+        track.run(0.2, GO)
+
+
+def test_too_much_that_makes_no_sense_latches_a_base_and_keeps_an_earlier_reason() -> None:
+    track = Track().released()
+    track.run(1.0, GO)
+    track.supervisor.hear_noise(0.2)
+    assert track.run(STEP, GO).twist != REST
+    track.supervisor.hear_noise(0.5)
+    assert track.run(1.0, GO).reason.name == "garbled"
+    track.supervisor.trip(Cause("e-stop", "you said stop"))
+    track.supervisor.hear_noise(0.5)
+    assert track.run(1.0, GO).reason.name == "e-stop"
 
 
 @pytest.mark.proves("B27")

@@ -8,8 +8,10 @@ from typing import Any
 
 from hri.core.signals import Twist
 from hri.drive.bases.protocol import BaseReport, Sensors
+from hri.drive.supervisor.decision import Decision
 from hri.drive.supervisor.multiplexer import Command, Level
-from hri.drive.supervisor.supervisor import Decision, Rules, Supervisor
+from hri.drive.supervisor.rules import Rules
+from hri.drive.supervisor.supervisor import Supervisor
 from hri.hal.motion import Way
 
 STEP = 0.01
