@@ -280,9 +280,8 @@ class DriveCommand(DeviceBehavior):
     A velocity that rests on the word of somebody outside, such as a peer over the network, counts
     for `PATIENCE` seconds after that word. While nothing comes in it leaves the drive alone, so
     that somebody else may use it. Several that write one drive need different ranks; while one of
-    a higher rank steers, the others wait. With the rank "teleop", a velocity of 0 counts as
-    nothing: it is that of a stick at rest. After the event `drive.halt` who asks for motion is
-    heard again only after having let go once.
+    a higher rank steers, the others wait, and raise `drive.refused` (`words`) once. With the rank
+    "teleop", a velocity of 0 counts as nothing: it is that of a stick at rest.
     """
 
     may_do = frozenset({Effect.MOVES})
@@ -305,7 +304,7 @@ class DriveCommand(DeviceBehavior):
         except HriError:
             self._give_back()
             raise
-        self._clock = context.clock
+        self._clock, self._events = context.clock, context.events
         self._is_driving = self._is_waiting = self._must_let_go = False
         self._subscription = context.events.subscribe("drive.halt", self._halt)
 
@@ -342,6 +341,7 @@ class DriveCommand(DeviceBehavior):
         except Outranked as error:
             if not self._is_waiting and rank is not Rank.NOBODY:
                 log.warning("%s", error)
+                self._events.raise_event("drive.refused", words=str(error))
                 self._is_waiting = True
             self._is_driving = False
         else:

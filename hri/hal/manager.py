@@ -115,7 +115,7 @@ class ResourceManager:
         if not isinstance(resource, interface):
             self.release(resource)
             raise HriError(
-                f'"{id}" is a {type(resource).__name__}, no {interface.__name__} - check the id'
+                f'"{id}" is a {type(resource).__name__}, not a {interface.__name__} - check the id'
             )
         return resource
 

@@ -79,7 +79,7 @@ def test_the_help_of_the_drive_test_warns(capsys):
     ("arguments", "said"),
     [
         (["motor"], 'no device "motor"'),
-        (["world"], "no DriveSystem - check the id"),
+        (["world"], "not a DriveSystem - check the id"),
         (["--config", "nowhere.xml"], 'no "nowhere.xml" in config'),
     ],
 )

@@ -12,7 +12,7 @@ from hri.behavior.network import Network, load_network
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError
 from hri.core.events import EventBus
-from hri.core.signals import Twist
+from hri.core.signals import Event, Twist
 from hri.drive.behaviors import COMMAND
 from hri.drive.supervisor.bus import BaseBus
 from hri.hal.drive import DriveSystem
@@ -118,11 +118,14 @@ def test_a_network_that_is_started_later_is_refused_and_the_first_drives_on(stag
 
 
 def test_the_higher_rank_drives_and_the_lower_goes_on_after_it(stage: Stage) -> None:
+    refused: list[Event] = []
+    stage.context.events.subscribe("drive.refused", refused.append)
     stage.start("low", driver("ahead", 20))
     stage.start("high", driver("hand", -20, "teleop"))
     speeds = {round(stage.run(0.05), 3) for _ in range(20)}
     assert max(speeds) <= 0.0
     assert stage.run(1.0) == pytest.approx(-0.2)
+    assert ['the behavior "hand" steers it' in e.properties["words"] for e in refused] == [True]
     stage.context.networks.stop("high")
     assert stage.run(1.5) == pytest.approx(0.2)
 

@@ -123,7 +123,7 @@ def test_unknown_ids_and_wrong_interfaces_are_clear():
     manager = ResourceManager([description], FakeClock())
     with pytest.raises(HriError, match='no device "scren" - did you mean "screen"'):
         manager.obtain("scren", Screen)
-    with pytest.raises(HriError, match="is a OffscreenScreen, no Microphone"):
+    with pytest.raises(HriError, match="is a OffscreenScreen, not a Microphone"):
         manager.obtain("screen", Microphone)
     assert isinstance(manager.find(Screen), OffscreenScreen)
     assert manager.find(Microphone) is None
@@ -244,7 +244,7 @@ def test_many_threads_obtain_and_release_at_will(plans):
 
 def test_a_wrong_interface_keeps_nothing_open():
     Thing, manager = counting()
-    with pytest.raises(HriError, match="no Screen"):
+    with pytest.raises(HriError, match="not a Screen"):
         manager.obtain("thing", Screen)
     assert Thing.opened == Thing.closed
 
