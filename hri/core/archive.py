@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import hashlib
-import lzma
 import os
 import shutil
 import stat
@@ -24,8 +23,8 @@ LARGEST_UNPACKED = 8_000_000_000
 LARGEST_GROWTH = 50
 """Times that unpacking may swell an archive: models of numbers hardly pack at all."""
 BROKEN = (
-    zipfile.BadZipFile, zlib.error, lzma.LZMAError, NotImplementedError, RuntimeError, EOFError,
-    ValueError, struct.error,
+    zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError,
+    ValueError, IndexError, struct.error,
 )  # fmt: skip
 """What a damaged archive may raise, besides OSError."""
 LONGEST_NAME = 255
@@ -120,6 +119,8 @@ def _check(archive: Path, members: list[zipfile.ZipInfo]) -> None:
             raise HriError(
                 f'{archive}: "{member.filename}" cannot be the name of a file - {remedy}'
             )
+        if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+            raise HriError(f'{archive}: "{path}" is packed in an unusual way - {remedy}')
         is_link = stat.S_ISLNK(member.external_attr >> 16)
         if path.is_absolute() or ".." in path.parts or "\\" in member.filename or is_link:
             raise HriError(f'{archive}: "{member.filename[:60]}" leads elsewhere - {remedy}')

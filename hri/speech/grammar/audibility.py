@@ -99,16 +99,18 @@ def _commands(grammar: Grammar, said: Mapping[str, Phrases]) -> Iterator[tuple[W
         if not EXPECTED_SHORT & grammar.rules[key].marks:
             found = said[key].said - told
             told |= found
-            yield from ((words, _place(grammar.rules[key], words)) for words in sorted(found))
+            rule = grammar.rules[key]
+            places = _whole(rule) if found else {}
+            for words in sorted(found):
+                yield words, places.get(" ".join(words)) or rule.place()
 
 
-def _place(rule: Rule, words: Words) -> Place:
-    """Where a command is written whole, else its rule."""
-    text = " ".join(words)
+def _whole(rule: Rule) -> dict[str, Place]:
+    """Where each command is that a rule writes whole, by its words."""
     choices = (
         choice for node in rule.nodes if isinstance(node, Alternative) for choice in node.choices
     )
+    places: dict[str, Place] = {}
     for node in (*choices, rule.expression):
-        if spell(node).lower() == text:
-            return rule.place(node.span)
-    return rule.place()
+        places.setdefault(spell(node).lower(), rule.place(node.span))
+    return places

@@ -28,6 +28,7 @@ from hri.speech.grammar.expressions import (
     Tagged,
     Token,
 )
+from hri.speech.grammar.extent import too_large
 from hri.speech.grammar.tags import TagEntry
 
 if TYPE_CHECKING:
@@ -177,6 +178,8 @@ class _Builder:
 
     def build(self) -> Automaton:
         rules = self._grammar.public_rules
+        if (key := too_large(self._grammar, MOST_ARCS)) is not None:
+            raise self._too_large(key)
         top = self._context((), {})
         for key in rules:
             self._jobs = [
@@ -193,13 +196,14 @@ class _Builder:
             while self._jobs:
                 self._work(self._jobs.pop())
                 if len(self._arcs.sources) + self._contexts > MOST_ARCS:
-                    raise AuthoringError(
-                        self._grammar.rules[key].place(),
-                        f"<{key}> written out takes more than {MOST_ARCS:,} steps",
-                        "use large rules in fewer places, best at the end of other rules",
-                    )
+                    raise self._too_large(key)
         written = {key: self._written[key, top.number, _Speaking.SPOKEN] for key in rules}
         return _trimmed(self._size, self._arcs, written)
+
+    def _too_large(self, key: str) -> AuthoringError:
+        what = f"<{key}> written out takes more than {MOST_ARCS:,} steps"
+        remedy = "use large rules in fewer places, best at the end of other rules"
+        return AuthoringError(self._grammar.rules[key].place(), what, remedy)
 
     def _context(self, after: Actions, inside: Mapping[str, int]) -> _Context:
         self._contexts += 1

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import accumulate, islice
 from typing import TYPE_CHECKING
 
-from hri.core.errors import AuthoringError
+from hri.core.errors import AuthoringError, Place
 from hri.speech.grammar import analysis
 from hri.speech.grammar.analysis import height
 from hri.speech.grammar.expressions import (
@@ -90,7 +90,8 @@ def random_sentence(
     """A sentence of one of the rules, all public ones without; drawn by the weights.
 
     Optional parts are said half of the time. May be empty when the grammar allows silence.
-    Raises AuthoringError when the sentences of the rule are too long to be drawn.
+    Raises AuthoringError when the sentences of the rule are too long to be drawn, and for a grammar
+    without public rules.
     """
     return next(random_sentences(grammar, chance, rules))
 
@@ -100,6 +101,9 @@ def random_sentences(
 ) -> Iterator[str]:
     """Sentences as `random_sentence` draws them, without end; faster than one by one."""
     keys, ways = tuple(rules or grammar.public_rules), grammar.ways
+    if not keys:
+        what = "no public rule, so there is no sentence"
+        raise AuthoringError(Place(grammar.path), what, 'write "public" before a rule')
     while True:
         yield " ".join(ways.draw(chance.choice(keys), chance))
 

@@ -322,3 +322,12 @@ def test_the_sounds_of_another_language_are_of_no_concern(tmp_path):
     for locale, severities in (("ko", []), ("en", ["error", "error"])):
         path.write_text(f"#JSGF V1.0 UTF-8 {locale};\ngrammar lamp;\npublic <a> = 불을 켜;\n")
         assert [one.severity for one in check(load_grammar(path), load_lexicon())] == severities
+
+
+def test_thousands_of_alternatives_are_checked_in_a_moment(write):
+    words = [f"{a}{b}{c}" for a in "bdfgklmnp" for b in "aeiou" for c in "bdfgklmnprst"]
+    choices = " | ".join(f"{one} {two}" for one in words[:60] for two in words[:100])
+    grammar, _ = read_grammar(write(f"public <a> = {choices};"))
+    begun = time.process_time()
+    check(grammar, load_lexicon())
+    assert time.process_time() - begun < 5.0

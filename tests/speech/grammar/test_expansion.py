@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hri.core.errors import AuthoringError
-from hri.speech.grammar import load_grammar
+from hri.speech.grammar import load_grammar, read_grammar
 from hri.speech.grammar.expansion import count_sentences, count_ways, random_sentence
 from hri.speech.grammar.matching import parse
 
@@ -126,3 +126,10 @@ def test_a_chosen_rule_is_drawn_from(companion):
     drawn = {random_sentence(companion, random.Random(seed), ["stop"]) for seed in range(50)}
 
     assert {parse(companion, text).rule for text in drawn} == {"stop"}
+
+
+def test_a_grammar_without_public_rules_has_no_sentence_to_draw(write):
+    grammar, _ = read_grammar(write("<a> = go | stop;"))
+    with pytest.raises(AuthoringError, match="no public rule"):
+        random_sentence(grammar, random.Random(1))
+    assert grammar.sample(5) == []

@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hri.core.errors import AuthoringError
 from hri.hal.word_graph import SILENT, WordGraph
 from hri.speech.grammar import Grammar, automaton, load_grammar, read_grammar
+from hri.speech.grammar.extent import too_large
 from hri.speech.grammar.matching import parse
 from tests.speech.grammar.oracle import WORDS, assume_written_out, grammars
 
@@ -184,3 +185,31 @@ def test_left_recursion_is_refused(write):
 
     with pytest.raises(AuthoringError, match="<a> leads back to itself before a word is said"):
         grammar.graph()
+
+
+@given(grammars())
+@settings(max_examples=60)
+def test_what_is_counted_beforehand_is_not_more_than_is_written(grammar):
+    assume_written_out(grammar)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(automaton, "too_large", lambda grammar, most: None)
+        arcs = build_arcs(grammar)
+    assert too_large(grammar, arcs) is None
+
+
+def build_arcs(grammar) -> int:
+    """How many arcs are written, those that lead nowhere included."""
+    builder = automaton._Builder(grammar)
+    builder.build()
+    return len(builder._arcs.sources) + builder._contexts
+
+
+@pytest.mark.parametrize("use", ["<a{}> <a{}>", "one <a{}> [two] <a{}> three", "<a{}>* <a{}>"])
+def test_a_small_grammar_that_explodes_is_refused_at_once(use, write):
+    """Thirty rules, each twice in the one before: a billion steps."""
+    rules = [f"<a{i}> = {use.format(i + 1, i + 1)};" for i in range(30)]
+    grammar = load_grammar(write("public " + "\n".join(rules) + "\n<a30> = one | two;"))
+    begun = time.process_time()
+    with pytest.raises(AuthoringError, match="<a0> written out takes more than 1,000,000 steps"):
+        grammar.graph()
+    assert time.process_time() - begun < 1.0
