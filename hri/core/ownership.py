@@ -11,6 +11,8 @@ import stat
 from contextlib import suppress
 from pathlib import Path
 
+from hri.core.errors import HriError
+
 _ROOT = 0
 """Who may write everything anyway."""
 
@@ -27,12 +29,19 @@ def is_of_user(path: Path) -> bool:
     return _is_owned(status) and not _is_open(status)
 
 
-def is_private_folder(path: Path) -> bool:
+def require_of_user(path: Path, what: str) -> None:
+    """Raise HriError for a file or folder that somebody else may have written."""
+    if not is_of_user(path):
+        reason = f"somebody else may have written this {what}, so it is not used"
+        raise HriError(f"{path}: {reason} - look at it, then chown or chmod go-w it")
+
+
+def is_all_of_user(path: Path) -> bool:
     """Whether `is_of_user` holds for a folder and for all that is in it."""
     return is_of_user(path) and all(map(is_of_user, path.rglob("*")))
 
 
-def private_folder(path: Path) -> Path | None:
+def own_cache(path: Path) -> Path | None:
     """A folder for what can be made again, for this user alone; None when there can be none.
 
     It is made if it is not there. One of the user's that others could write to is emptied first;
@@ -40,10 +49,10 @@ def private_folder(path: Path) -> Path | None:
     """
     with suppress(OSError):
         path.mkdir(mode=0o700, parents=True, exist_ok=True)
-        if not is_private_folder(path) and _is_owned(path.stat()):
+        if not is_all_of_user(path) and _is_owned(path.stat()):
             shutil.rmtree(path)
             path.mkdir(mode=0o700)
-        return path if is_private_folder(path) else None
+        return path if is_all_of_user(path) else None
     return None
 
 

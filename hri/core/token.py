@@ -16,6 +16,7 @@ from pathlib import Path
 from hri.core.errors import HriError
 from hri.core.ownership import is_of_user
 from hri.core.paths import state_folder
+from hri.core.privacy import folder_for
 from hri.core.reading import read_text
 from hri.core.writing import PRIVATE, write_text
 
@@ -54,10 +55,7 @@ def new_token() -> str:
     Raises HriError when the file cannot be written.
     """
     path, token = token_file(), secrets.token_urlsafe(_BYTES)
-    try:
-        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-    except OSError as error:
-        raise HriError(f"{path.parent}: {error.strerror} - set XDG_STATE_HOME") from error
+    folder_for(path)
     write_text(path, token + "\n", PRIVATE)
     return token
 

@@ -18,6 +18,7 @@ from typing import NoReturn, TypeVar
 
 from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
+from hri.core.ownership import require_of_user
 from hri.core.paths import exists
 from hri.core.privacy import close_to_others, folder_for, is_named, is_same_name
 from hri.core.reading import parse_json, read_text
@@ -124,6 +125,7 @@ def recall(path: Path) -> Memory | None:
         return None
     if not exists(path):
         raise HriError(f"{path} links to {os.readlink(path)}, which is not there - mend the link")
+    require_of_user(path, "memory of feelings")
     return parse(read_text(path, "memory of feelings"))
 
 

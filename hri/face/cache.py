@@ -18,6 +18,7 @@ import numpy as np
 
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.core.ownership import own_cache
 from hri.core.reading import read_bytes
 from hri.core.writing import make_folder, write_bytes
 from hri.face import exchange
@@ -41,18 +42,25 @@ def folder() -> Path:
     return paths.cache_folder() / "faces"
 
 
+def own_folder() -> Path | None:
+    """The same, made for this user alone; None where it cannot be."""
+    return own_cache(folder())
+
+
 def baked(neutral: Path, targets: Sequence[Path], head: HeadSettings | None) -> DisplayList:
     """The display list of these drawings, from disk when it was baked before.
 
     Raises AuthoringError with the place of what is wrong, HriError when a file is unreadable.
     """
-    file = folder() / f"{_key([neutral, *targets], head)}.face"
-    kept = _read(file)
+    below = own_folder()
+    file = None if below is None else below / f"{_key([neutral, *targets], head)}.face"
+    kept = None if file is None else _read(file)
     if kept is not None:
         return kept
     whole = load_drawing(neutral)
     display = bake(whole, {target.stem: load_drawing(target) for target in targets}, head)
-    _write(file, display)
+    if file is not None:
+        _write(file, display)
     return display
 
 

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.errors import AuthoringError, HriError, NotAvailable, Place
+from hri.core.ownership import require_of_user
 from hri.core.paths import exists
 from hri.core.privacy import folder_for
 from hri.core.reading import parse_json, read_bytes
@@ -109,6 +110,7 @@ class Acquaintances:
         known = cls(alike)
         if not exists(path):
             return known
+        require_of_user(path, "file of faces")
         text = read_bytes(path, "file of faces", LARGEST_FILE)
         try:
             for name, vectors in parse_json(text).items():

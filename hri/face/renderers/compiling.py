@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from pathlib import Path
 from typing import Any, ParamSpec, TypeVar, cast
 
 import numba
 
 from hri.core import paths
+from hri.core.ownership import is_all_of_user, own_cache
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -48,11 +50,25 @@ class _Compiled:
             return self._code(*arguments)
 
 
+def folder() -> Path | None:
+    """Where code is kept: our folder, unless the user chose another (NUMBA_CACHE_DIR).
+
+    None when somebody else may have written there: what is kept is run.
+    """
+    chosen: str = cast("Any", numba.config).CACHE_DIR
+    if not chosen:
+        return own_cache(paths.cache_folder() / "compiled")
+    named = Path(chosen)
+    return named if is_all_of_user(named) or not named.exists() else None
+
+
 def _kept(function: Callable[..., Any]) -> Any:
-    """The function with its code kept on disk, in our folder unless the user chose another."""
+    """The function with its code kept on disk, where there is a place for it."""
     config: Any = numba.config
-    chosen = config.CACHE_DIR
-    config.CACHE_DIR = chosen or str(paths.cache_folder() / "compiled")
+    chosen, below = config.CACHE_DIR, folder()
+    if below is None:
+        return numba.njit(**_OPTIONS)(function)
+    config.CACHE_DIR = str(below)
     try:
         return numba.njit(cache=True, **_OPTIONS)(function)
     except RuntimeError:  # no folder can be written

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.core.ownership import is_of_user
 from hri.core.privacy import close_to_others, folder_for, private_file
 from hri.speech.pronunciation.letter_to_sound import guesses
 from hri.speech.pronunciation.phones import PHONES, Phones
@@ -54,6 +55,10 @@ class Guesses:
 def _read(path: Path) -> dict[str, tuple[Phones, ...]]:
     """The words of a cache file; lines that make no sense are left out."""
     if not path.is_file():
+        return {}
+    if not is_of_user(path):  # who wrote it may say anything
+        with suppress(OSError):
+            path.unlink()
         return {}
     close_to_others(path)
     try:
