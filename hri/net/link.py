@@ -15,6 +15,7 @@ import socket
 import threading
 import time
 from abc import ABC, abstractmethod
+from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
@@ -30,6 +31,8 @@ Listener = Callable[[Message], object]
 
 AFTER_MISTAKE = 1.0
 """Seconds that the thread rests after an exception that nobody expected."""
+MOST_WARNINGS, WARNINGS_WITHIN = 200, 60.0
+"""So many dropped peers are told of within so many seconds; the others with `--debug=net`."""
 TO_STOP = 2.0
 """Seconds that `close` waits for the thread; only the search for a host's address takes longer."""
 
@@ -43,6 +46,8 @@ class Link(ABC):
         self._limits = limits or Limits()
         self._peers: tuple[Peer, ...] = ()
         self._listeners: dict[str, tuple[Listener, ...]] = {}
+        self._warned: deque[float] = deque(maxlen=MOST_WARNINGS)
+        """When the last warnings about peers were written."""
         self._changed = threading.Condition()
         self._closing = threading.Event()
         self._selector = selectors.DefaultSelector()
@@ -160,10 +165,19 @@ class Link(ABC):
 
     def _drop(self, peer: Peer, why: str) -> None:
         if why:
-            log.warning("%s: dropped %s: %s", self.address, peer.name, why)
+            level = logging.WARNING if self._may_warn() else logging.DEBUG
+            log.log(level, "%s: dropped %s: %s", self.address, peer.name, why)
         else:
             log.debug("%s: %s hung up", self.address, peer.name)
         self._remove(peer)
+
+    def _may_warn(self) -> bool:
+        """Whether the log has room: peers that come again and again must not fill it."""
+        now = time.perf_counter()
+        is_full = len(self._warned) == MOST_WARNINGS and now - self._warned[0] < WARNINGS_WITHIN
+        if not is_full:
+            self._warned.append(now)
+        return not is_full
 
     def _serve(self, peer: Peer, mask: int) -> None:
         """Read and write as far as the socket allows."""

@@ -11,6 +11,7 @@ import pytest
 from hri.core.errors import HriError
 from hri.net.client import Client, _own_echo
 from hri.net.control import introduction
+from hri.net.link import MOST_WARNINGS
 from hri.net.protocol import Item, Message, encode
 from hri.net.server import Server
 from hri.net.sharing import borrow, give_back
@@ -269,6 +270,17 @@ def test_of_silent_peers_the_one_that_showed_the_token_goes_last(links, monkeypa
         assert stranger.recv(1) == b""
     for peer in (known, stranger):
         peer.close()
+
+
+def test_peers_that_come_again_and_again_do_not_fill_the_log(links, caplog):
+    server, _ = links
+    here = server()
+    for _ in range(MOST_WARNINGS + 50):
+        with raw(here.port) as peer:
+            peer.sendall(b"no message\n")
+            with suppress(ConnectionResetError):
+                assert peer.recv(1) == b""
+    assert len(caplog.records) == MOST_WARNINGS
 
 
 def misbehave(port, kind, seed):

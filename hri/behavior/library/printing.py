@@ -1,6 +1,7 @@
 """What arrives, shown to people: the formats of 2003, `%g` for numbers.
 
-Infinity, which means "nothing in range", shows as 1.79769e+308, the largest number there is.
+What is longer than a screen is cut. Infinity, which means "nothing in range", shows as
+1.79769e+308, the largest number there is.
 """
 
 from __future__ import annotations
@@ -10,8 +11,13 @@ from typing import Any
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.ports import DATATYPES, DBL_MAX, Input, Param
-from hri.core.quoting import escaped
+from hri.core.quoting import escaped, quoted
 from hri.core.signals import Frame, Utterance
+
+MOST_NUMBERS = 100
+"""Numbers of an array that are shown; a value from outside must not fill the disk with output."""
+LONGEST_TEXT = 1000
+"""Characters of a text that are shown."""
 
 _NAMES = {kind: name for name, kind in DATATYPES.items() if kind is not object} | {int: "double"}
 
@@ -46,7 +52,8 @@ class PrintBehavior(Behavior):
 def labeled(value: object) -> str:
     """A value with its datatype: `double: 7.62887`, `string: cup`, or `DoubleArray.` and lines."""
     if isinstance(value, tuple):
-        return "\n".join(["DoubleArray.", *(f"{i}: {worded(x)}" for i, x in enumerate(value))])
+        shown = [f"{i}: {worded(x)}" for i, x in enumerate(value[:MOST_NUMBERS])]
+        return "\n".join(["DoubleArray.", *shown, *_more(value)])
     return f"{_NAMES.get(type(value), type(value).__name__)}: {worded(value)}"
 
 
@@ -59,7 +66,7 @@ def worded(value: object) -> str:
             # In this order, what is no number stays none.
             return f"{max(min(value, DBL_MAX), -DBL_MAX):g}"
         case tuple():
-            return f"({', '.join(map(worded, value))})"
+            return f"({', '.join([*map(worded, value[:MOST_NUMBERS]), *_more(value)])})"
         case Frame():
             height, width = value.image.shape[:2]
             return f"{width} x {height}, number {value.sequence}"
@@ -68,4 +75,10 @@ def worded(value: object) -> str:
             return f'"{escaped(value.text)}" is {meaning}, confidence {value.confidence:.2f}'
     if is_dataclass(value):
         return ", ".join(f"{f.name} {worded(getattr(value, f.name))}" for f in fields(value))
-    return escaped(str(value))
+    return quoted(str(value), LONGEST_TEXT)
+
+
+def _more(values: tuple[object, ...]) -> list[str]:
+    """That there are more than are shown."""
+    rest = len(values) - MOST_NUMBERS
+    return [f"and {rest} more"] if rest > 0 else []

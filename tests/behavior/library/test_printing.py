@@ -58,3 +58,18 @@ def test_it_keeps_quiet_on_request(capsys):
 def test_print_writes_the_value_after_a_text(capsys):
     tick(PrintBehavior(text="range: "), input=Links([0.1 + 0.2, None, (1.0, 2.0)]))
     assert capsys.readouterr().out == "range: 0.3\nrange: (1, 2)\n"
+
+
+@pytest.mark.parametrize("behavior", [InputCollector, PrintBehavior])
+@pytest.mark.parametrize("value", [(1.5,) * 30_000, "x" * 65_000], ids=["array", "text"])
+def test_a_value_that_is_longer_than_a_screen_is_cut(behavior, value, capsys):
+    """One line over the bridge, repeated at every tick, filled the disk."""
+    tick(behavior("show"), input=value)
+    printed = capsys.readouterr().out
+    assert len(printed) < 1200
+    assert "and 29900 more" in printed or "..." in printed
+
+
+def test_an_array_that_fits_is_shown_whole(capsys):
+    tick(InputCollector("show"), input=tuple(map(float, range(100))))
+    assert capsys.readouterr().out.endswith("98: 98\n99: 99\n")
