@@ -110,6 +110,7 @@ class Runner:
 
     def start(self) -> None:
         """Start all behaviors; when one cannot, those before it are stopped again."""
+        self.context.runners.append(self)
         try:
             for behavior in self.network.behaviors:
                 self._start(behavior)
@@ -117,7 +118,6 @@ class Runner:
         except BaseException:
             self.stop()
             raise
-        self.context.runners.append(self)
 
     def _start(self, behavior: Behavior) -> None:
         try:

@@ -35,6 +35,7 @@ class Client(Link):
         """`shows_token`: begin each connection with the token of this user, if there is one."""
         super().__init__(host, port, limits)
         self._shows_token = shows_token
+        self._shown = ""
         self._addresses: list[tuple[int, tuple[str, int]]] = []
         self._dialing: socket.socket | None = None
         self._pause = FIRST_PAUSE
@@ -84,21 +85,24 @@ class Client(Link):
         # Also when this connection is lost at once, the next one is not tried in a rush.
         self._next = time.perf_counter() + FIRST_PAUSE
         self._add(dialed, self.address)
-        if self._shows_token:
-            self._introduce()
+        self._shown = ""
+        self._introduce()
 
     def _introduce(self) -> None:
+        """Show the token, unless it was shown on this connection."""
         try:
-            token = load_token()
+            token = load_token() if self._shows_token else None
         except HriError as error:
             log.warning("%s: goes without the token: %s", self.address, error)
             return
-        if token is not None:
+        if token is not None and token != self._shown:
+            self._shown = token
             self.send(control.introduction(token))
 
     def _obey(self, message: Message, peer: Peer) -> bool:
         if (why := control.why_refused(message)) is not None:
             log.warning("%s: %s", self.address, escaped(why))
+            self._introduce()  # it may have been made only now
         return False
 
     def _give_up(self, dialed: socket.socket, code: int) -> float:

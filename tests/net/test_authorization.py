@@ -1,13 +1,16 @@
 """Over the bridge nothing moves, speaks or releases without the token; all else is as in 2003."""
 
+import os
 import re
 import socket
+import time
 
 import pytest
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.doors import Doors
 from hri.behavior.drivers import DriveCommand
+from hri.behavior.library.constant import Constant
 from hri.behavior.library.printing import InputCollector
 from hri.behavior.library.sharing import Share, Shared
 from hri.behavior.network import Network
@@ -39,6 +42,12 @@ class Bridge(MalleableBehavior):
     truth = Output[bool]("boolean", "any")
     text = Output[str]("string", "any")
     number = Input[float]("double", "any")
+
+
+class Sender(MalleableBehavior):
+    """Sends a velocity."""
+
+    velocity = Input[float]("double", "cm/s")
 
 
 class Custom(Behavior):
@@ -106,6 +115,14 @@ class Robot:
         for line in lines:
             peer.send(line)
         self.heard.wait_for(count + len(lines))
+
+    @staticmethod
+    def wait_until(holds):
+        """Wait for the thread of a port, which has no bell for this."""
+        end = time.perf_counter() + WITHIN
+        while not holds():
+            assert time.perf_counter() < end
+            os.sched_yield()
 
     @property
     def goal(self):
@@ -178,6 +195,30 @@ def test_a_wrong_token_costs_the_connection(robot, shown):
     assert "this is not the token" in peer.read()
     with pytest.raises(EOFError):
         peer.read()
+
+
+def test_a_client_that_came_before_the_token_was_made_shows_it_later(robot):
+    """The board is followed only when both networks run; until then nothing needs a token."""
+    here, there = robot(), robot()
+    here.run(here.bridge, Share("share", slot="wish"), links=[("bridge.velocity", "share.number")])
+    there.bridge = Sender("peer", tcp_host="127.0.0.1", tcp_port=here.bridge.port_in_use)
+    there.bridge.set_parameter("tag_name", "bridge")
+    speed = Constant("speed", parsed_value="20")
+    there.run(speed, there.bridge, links=[("speed.value", "peer.velocity")])
+    assert here.bridge._link.wait_for_peers(1, WITHIN)
+    takes = [Shared("shared", slot="wish"), DriveCommand("drive")]
+    here.run(*takes, links=[("shared.number", "drive.linear_velocity")], name="two")
+    here.tick()
+    assert token_file().exists()
+    there.tick()
+    (peer,) = here.bridge._link._peers
+    there.wait_until(lambda: peer.is_authorized)
+    assert peer.refused
+    count = len(here.heard.messages)
+    there.tick()
+    here.heard.wait_for(count + 1)
+    here.tick()
+    assert here.goal == pytest.approx(0.2)
 
 
 def test_a_token_that_was_replaced_is_a_wrong_one(robot):
