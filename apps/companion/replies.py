@@ -15,6 +15,8 @@ from hri.core.toml import Table, load_toml
 T = TypeVar("T")
 
 ACTIONS = ("move", "turn", "come", "follow", "stop", "release", "quiet", "eyes", "sleep", "wake")
+AFTER_YES = ("keep",)
+"""What may be done after a yes: begin to keep what is felt."""
 FILLED_IN = ("text", "name", "time", "battery", "why", "why_stopped", "feeling", "commands")
 """What may stand in braces, beside the tags of the grammar."""
 
@@ -38,6 +40,8 @@ class Question:
     ask: str
     yes: str
     no: str
+    action: str = ""
+    """What is done after a yes."""
 
 
 @dataclass(frozen=True)
@@ -151,7 +155,8 @@ def _reply(entry: Table, vocabulary: Vocabulary) -> Reply:
 
 
 def _question(entry: Table) -> Question:
-    question = Question(entry.string("ask"), entry.string("yes", ""), entry.string("no", ""))
+    ask, yes, no = entry.string("ask"), entry.string("yes", ""), entry.string("no", "")
+    question = Question(ask, yes, no, entry.string("action", "", among=AFTER_YES))
     entry.finish()
     return question
 

@@ -33,12 +33,13 @@ from hri.hal.screen import Screen
 from hri.robot import verbs
 from hri.speech.behaviors import Listener, Voice
 from hri.speech.grammar import Grammar, load_grammar
+from hri.speech.tasks import hears_people
 from hri.task.context import TaskContext
 from hri.task.lane import Lane
 from hri.task.task import Job
 from hri.vision.tasks import people_of
 
-from .replies import Replies, Reply, Vocabulary, load_replies
+from .replies import Question, Replies, Reply, Vocabulary, load_replies
 
 ALWAYS = ("stop", "wake")
 """Rules that count even while it sleeps."""
@@ -92,6 +93,7 @@ class Companion:
         self.face = Lane(context)
         self.gestures = Lane(context)
         self.is_asleep = False
+        self.has_asked_to_keep = False
         self.silent_until = -math.inf
         self.last_contact = -math.inf
         self._turns: dict[str, int] = {}
@@ -228,6 +230,14 @@ class Companion:
     def _eyes(self, tags: dict[str, Any]) -> None:
         self.switch_camera(tags.get("eyes") == "open")
 
+    # --- asking ---
+
+    def questions(self) -> list[Question]:
+        """What it may ask by now; whether it may keep what it feels, only once and only people."""
+        may_ask = self.emotion.may_ask_to_keep and hears_people(self.context)
+        may_ask = may_ask and not self.has_asked_to_keep
+        return [q for q in self.replies.questions if q.action != "keep" or may_ask]
+
     # --- what the face shows ---
 
     def _settle(self) -> None:
@@ -280,8 +290,8 @@ async def wonder(context: TaskContext) -> None:
     """Ask a question now and then, when somebody is there and it is calm."""
     companion = Companion.of(context)
     clock = context.clock
-    questions, count, last = companion.replies.questions, 0, -math.inf
-    while questions:
+    count, last = 0, -math.inf
+    while companion.replies.questions:
         await clock.sleep(0.5)
         now = clock.now()
         since = now - companion.last_contact
@@ -291,16 +301,22 @@ async def wonder(context: TaskContext) -> None:
             continue
         if companion.is_asleep or not companion.is_calm:
             continue
+        questions = companion.questions()
+        if not questions:
+            continue
         question = questions[count % len(questions)]
         companion.talk.start(_ask, companion, question)
-        count, last = count + 1, now
+        count, last = count + (question.action != "keep"), now
 
 
-async def _ask(context: TaskContext, companion: Companion, question: Any) -> None:
+async def _ask(context: TaskContext, companion: Companion, question: Question) -> None:
+    companion.has_asked_to_keep |= question.action == "keep"
     answer = await verbs.ask(context, question.ask)
     if answer is None:
         return
     companion.last_contact = context.clock.now()
+    if answer and question.action == "keep":
+        companion.emotion.begin_keeping()
     if words := (question.yes if answer else question.no):
         await verbs.say(context, words)
 

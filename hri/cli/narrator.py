@@ -21,6 +21,7 @@ LINES = {
     "speech.said": "said      {text}",
     "emotion.changed": "feels     {label}",
     "emotions.reloaded": "took      the emotion files that were saved",
+    "memory.begun": "keeps     what it feels, as it was allowed, in {file}",
     "memory.forgotten": "forgot    as it was told",
     "head.nodded": "saw       a nod",
     "head.shaken": "saw       a shake of the head",

@@ -86,7 +86,11 @@ def run(options: argparse.Namespace) -> int:
         seed=options.seed or 0,
         devices=replaced_devices(options),
         parameters={
-            "emotion": {"personality": options.personality, "memory": memory_of(options)},
+            "emotion": {
+                "personality": options.personality,
+                "memory": memory_of(options),
+                "memory_after_yes": "" if is_to_repeat(options) else str(memory_file()),
+            },
             "display": {"personality": options.personality},
             "face": {"face": options.face},
             "renderer": {"face": options.face, "captions": options.captions},

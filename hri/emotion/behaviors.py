@@ -21,6 +21,7 @@ from hri.emotion.keeper import Keeper
 from hri.emotion.label import CALM
 from hri.emotion.ledger import Cause
 from hri.emotion.model import load_emotions
+from hri.emotion.persistence import traces
 from hri.emotion.personality import load_personality
 from hri.emotion.reasons import labels_called, why_words
 from hri.emotion.relations import is_unnamed
@@ -51,6 +52,9 @@ class EmotionModel(Behavior):
 
     personality = Param("neutral", "name of a file in emotions/personalities, or a path")
     memory = Param("", "file that keeps mood, relations and drives between runs; empty: none")
+    memory_after_yes = Param(
+        "", "the same, but not before somebody allows it: `begin_keeping`; empty: nobody is asked"
+    )
     stimulus = Input[Stimulus](
         "stimulus", "felt at every tick in which it is sent", is_optional=True
     )
@@ -115,6 +119,22 @@ class EmotionModel(Behavior):
         if self._keeper is not None:
             self._keeper.close(self._affect)
             self._keeper = None
+
+    @property
+    def may_ask_to_keep(self) -> bool:
+        """Whether somebody may be asked to let it keep what it feels.
+
+        Not when it is kept already, nor when feelings of an earlier run would be overwritten.
+        """
+        named = self.memory_after_yes
+        return bool(named) and self._keeper is None and not traces(paths.expanded(named))
+
+    def begin_keeping(self) -> None:
+        """Keep from now on what is felt, since somebody has allowed it. Raises `memory.begun`."""
+        if self.may_ask_to_keep:
+            path = paths.expanded(self.memory_after_yes)
+            self._keeper = Keeper(path, self.personality, self._context)
+            self._context.events.raise_event("memory.begun", file=str(path))
 
     def feel(self, name: str, intensity: float = 1.0, person: str | None = None) -> None:
         """Something happened just now, perhaps by a person: a name, or the id of one who is seen.

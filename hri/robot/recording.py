@@ -25,14 +25,13 @@ from hri.core.writing import leftovers, make_folder
 from hri.emotion.behaviors import EmotionModel
 from hri.hal.drivers.wav_file import WavSpeaker
 from hri.hal.manager import ResourceManager
-from hri.hal.microphone import Microphone
 from hri.hal.resource import Description
 from hri.hal.screen import Screen
 from hri.hal.speaker import Speaker
 from hri.hal.tee import TeeScreen, TeeSpeaker
 from hri.robot.feeling_plot import SPAN_S, Moment, write_feeling_plot
 from hri.speech.behaviors import Voice
-from hri.speech.tasks import say
+from hri.speech.tasks import hears_people, say
 from hri.task.context import TaskContext
 
 FEELING_EVERY_S = 1.0
@@ -100,8 +99,7 @@ class Recording:
     async def announce(self, context: TaskContext) -> None:
         """Say that it records: in the terminal, and aloud where a real microphone hears people."""
         self._notice(f"recording to {self.folder}/, which only you can read")
-        is_heard = any(ear.is_hardware for ear in context.resources.opened(Microphone))
-        if is_heard and context.find_behavior(Voice) is not None:
+        if hears_people(context) and context.find_behavior(Voice) is not None:
             await say(context, ALOUD)
 
     def _record_screen(self, resources: ResourceManager) -> None:

@@ -48,6 +48,11 @@ async def say(context: TaskContext, text: str) -> None:
             voice.cancel(saying)
 
 
+def hears_people(context: TaskContext) -> bool:
+    """Whether a real microphone listens: not a simulated one, a file or a keyboard."""
+    return any(ear.is_hardware for ear in context.resources.opened(Microphone))
+
+
 async def wait_for_speech(
     context: TaskContext, rules: str = "", timeout: float = float("inf")
 ) -> Utterance | None:

@@ -10,6 +10,7 @@ from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, AuthoringErrors, HriError
 from hri.hal.drive import Odometry
 from hri.hal.drivers.memory import OffscreenScreen
+from hri.hal.microphone import Microphone
 from hri.hal.resource import Description
 from hri.robot import Robot
 from hri.robot.app import load_app
@@ -34,9 +35,19 @@ class KeyedScreen(OffscreenScreen):
 class Visit:
     """A person says lines at times, and perhaps presses keys; what was told is kept."""
 
-    def __init__(self, seconds, lines, keys=(), seed=3, config="simulated"):
+    def __init__(
+        self,
+        seconds,
+        lines,
+        keys=(),
+        seed=3,
+        config="simulated",
+        prepare=lambda robot: None,
+        **more,
+    ):
         clock = FakeClock()
-        self.robot = Robot(config=config, clock=clock, seed=seed, devices=[SMALL_SCREEN])
+        self.robot = Robot(config=config, clock=clock, seed=seed, devices=[SMALL_SCREEN], **more)
+        prepare(self.robot)
         world = self.robot.resources.obtain("world", SimulatedWorld)
         self._place_screen(keys)
         self.odometry = self.robot.resources.obtain("odometry", Odometry)
@@ -294,3 +305,48 @@ def test_a_job_that_fails_costs_that_job_only(own_app):
     events = live_for(robot, 8, *robot.app.load_tasks())
     assert [event.name for event in events if event.name == "task.failed"] == ["task.failed"]
     assert "My name is Robin." in [event.properties.get("text") for event in events]
+
+
+MAY_I = "May I remember how I feel about you when I am switched off?"
+
+
+def live_microphone(robot):
+    """Let the simulated microphone pass for a real one."""
+    robot.resources.obtain("microphone", Microphone).is_hardware = True
+
+
+def answering(answer):
+    """Whoever is asked whether it may remember gives this answer."""
+
+    def prepare(robot):
+        live_microphone(robot)
+        world = robot.resources.obtain("world", SimulatedWorld)
+
+        def reply(event):
+            if event.properties["text"] == MAY_I:
+                world.say(answer, event.time + 0.8)
+
+        robot.events.subscribe("question.asked", reply)
+
+    return prepare
+
+
+@pytest.mark.parametrize(("answer", "keeps"), [("yes", True), ("no", False)])
+def test_it_asks_whether_it_may_keep_what_it_feels_and_does_as_it_is_told(tmp_path, answer, keeps):
+    file = tmp_path / "feelings.json"
+    asked = {"emotion": {"memory_after_yes": str(file)}}
+    visit = Visit(19, {1.0: "hello robot"}, parameters=asked, prepare=answering(answer))
+    assert [e.properties["text"] for e in visit.named("question.asked")] == [MAY_I]
+    assert [e.properties["answer"] for e in visit.named("question.answered")] == [keeps]
+    assert len(visit.named("memory.begun")) == keeps
+    assert file.exists() == keeps
+
+
+@pytest.mark.parametrize(
+    ("prepare", "file"), [(lambda robot: None, "feelings.json"), (live_microphone, "")]
+)
+def test_it_does_not_ask_whom_nobody_hears_or_where_nothing_is_to_be_kept(tmp_path, prepare, file):
+    asked = {"emotion": {"memory_after_yes": file and str(tmp_path / file)}}
+    visit = Visit(14, {1.0: "hello robot"}, parameters=asked, prepare=prepare)
+    assert MAY_I not in [e.properties["text"] for e in visit.named("question.asked")]
+    assert list(tmp_path.iterdir()) == []

@@ -6,6 +6,7 @@ import pytest
 
 from hri.cli.main import main
 from hri.cli.run import add_arguments, memory_of
+from hri.emotion.behaviors import EmotionModel
 from hri.emotion.model import load_emotions
 from hri.emotion.persistence import Memory, keep, memory_file, recall
 
@@ -44,6 +45,16 @@ def remember_ann():
 def test_nothing_that_is_felt_outlasts_a_run_that_was_not_asked_to_keep_it(words):
     assert memory_of(options(*words)) == ""
     assert memory_of(options(*words, "--keep")) == str(memory_file())
+
+
+@pytest.mark.parametrize(
+    ("words", "may_ask"), [((), True), (("--fast",), False), (("--seed", "0"), False)]
+)
+def test_it_may_ask_whether_to_keep_unless_the_run_is_to_repeat(app, monkeypatch, words, may_ask):
+    files = set()
+    monkeypatch.setattr(EmotionModel, "check", lambda model: files.add(model.memory_after_yes))
+    assert run(app, *words) == 0
+    assert files == {str(memory_file()) if may_ask else ""}
 
 
 def run(app, *words):

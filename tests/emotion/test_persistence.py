@@ -76,7 +76,8 @@ class Run:
         self.context = Context(self.clock, EventBus(self.clock), ResourceManager([], self.clock))
         self.events: list[Event] = []
         self.context.events.subscribe("memory.*", self.events.append)
-        self.model = EmotionModel(memory=str(path), personality=personality)
+        memory = str(path) if path.name else ""
+        self.model = EmotionModel(memory=memory, personality=personality)
         self.model.start(self.context)
 
     def live(self, seconds: float, tick: float = 1.0) -> None:
@@ -222,6 +223,29 @@ def test_it_is_told_once_who_takes_part_by_name(tmp_path: Path) -> None:
     run.model.appraise(ActionEvent("blunder", -0.8))
     run.model.appraise(GoalEvent("exam", 0.5, 1.0, owner="Cid"))
     assert [properties["name"] for properties in told] == ["Ann", "Bob", "Cid"]
+
+
+def test_it_keeps_only_after_a_yes_and_never_over_what_was_kept(tmp_path: Path) -> None:
+    path = tmp_path / "feelings.json"
+    run = Run(Path(""))
+    run.model.memory_after_yes = str(path)
+    run.model.feel("praise", 1.0, "Ann")
+    run.live(5)
+    assert run.model.may_ask_to_keep
+    assert not path.exists()
+    run.model.begin_keeping()
+    assert not run.model.may_ask_to_keep
+    run.live(5)
+    run.model.stop()
+    assert "Ann" in path.read_text()
+    before = path.read_bytes()
+    other = Run(Path(""))
+    other.model.memory_after_yes = str(path)
+    assert not other.model.may_ask_to_keep
+    other.model.begin_keeping()
+    other.live(5)
+    other.model.stop()
+    assert path.read_bytes() == before
 
 
 def test_a_robot_that_runs_forgets_a_person_too(tmp_path: Path) -> None:
