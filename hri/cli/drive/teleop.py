@@ -22,7 +22,7 @@ PERIOD = 0.05
 class Teleop:
     """Turns keys into velocities until somebody quits.
 
-    The supervisor has the last word: it forgets a velocity after 0.3 s, so that the base also
+    The supervisor has the last word: it forgets a velocity after 0.2 s, so that the base also
     stops when this program stands still.
     """
 

@@ -130,7 +130,7 @@ class BaseBus(EmergencyStop):
         self._poll()
 
     def teleop(self, twist: Twist) -> None:
-        """Drive by hand: goes before networks and tasks; to be repeated within 0.3 s."""
+        """Drive by hand: goes before networks and tasks; to be repeated within 0.2 s."""
         self.ask(Level.TELEOP, twist)
 
     def hear_person(self, distance: float) -> None:

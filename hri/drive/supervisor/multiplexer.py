@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -25,12 +24,6 @@ class Level(StrEnum):
 
 SOURCES = (Level.TELEOP, Level.BEHAVIORS, Level.TASKS)
 """Those who command from outside, the most important first."""
-TIMEOUTS: Mapping[Level, float] = {
-    Level.TELEOP: 0.3,
-    Level.BEHAVIORS: PATIENCE,
-    Level.TASKS: PATIENCE,
-}
-"""Seconds that a command counts for; the first is the dead-man of teleoperation."""
 TOLERANCE = 1.001
 """A command may exceed what the base can do by so much, which is how numbers are rounded."""
 
@@ -100,4 +93,4 @@ class Multiplexer:
 
 def _counts(command: Command, now: float) -> bool:
     # A time that has not come yet belongs to another clock.
-    return -0.001 <= now - command.time <= TIMEOUTS[command.source]
+    return -0.001 <= now - command.time <= PATIENCE

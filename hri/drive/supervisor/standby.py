@@ -46,8 +46,8 @@ class Lifeline:
         """From the next heartbeat on the program has this port, and may end this process."""
         self.withdraw()
         self._word, self._port = LEND, port
-        # Systems without such handles do without: a watchdog that stands still then keeps the port.
-        with suppress(OSError):
+        # Without such handles, which old systems lack, a frozen watchdog keeps the port.
+        with suppress(AttributeError, OSError):
             self._watchdog = os.pidfd_open(watchdog)
 
     def withdraw(self) -> None:
@@ -123,7 +123,7 @@ class Standby:
         """The supervisor has ended, and did not take the port back before: it was killed."""
         self._write_stop()
         for watchdog in self._lent[1:]:
-            with suppress(OSError):  # it has ended by itself
+            with suppress(AttributeError, OSError):  # it has ended by itself
                 signal.pidfd_send_signal(watchdog, signal.SIGKILL)
         for port in self._lent[:1]:
             write_last_stops(port, self._stop)

@@ -5,7 +5,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hri.core.signals import Twist
-from hri.drive.supervisor.multiplexer import SOURCES, TIMEOUTS, Command, Level, Multiplexer
+from hri.drive.supervisor.multiplexer import SOURCES, Command, Level, Multiplexer
+from hri.hal.drive import PATIENCE
 
 FASTEST = Twist(0.5, 4.0)
 
@@ -20,20 +21,20 @@ def test_the_most_important_source_is_heard_and_the_next_when_it_falls_silent() 
     for source in reversed(SOURCES):
         assert multiplexer.offer(Command(source, Twist(0.1), 0.0)) is None
     assert multiplexer.waiting(0.1) == [Level.TELEOP, Level.BEHAVIORS, Level.TASKS]
-    multiplexer.offer(Command(Level.TASKS, Twist(0.1), 0.2))
-    assert chosen(multiplexer, 0.3) is Level.TELEOP
-    assert chosen(multiplexer, 0.35) is Level.TASKS
-    assert chosen(multiplexer, 0.45) is None
+    multiplexer.offer(Command(Level.TASKS, Twist(0.1), 0.1))
+    assert chosen(multiplexer, 0.19) is Level.TELEOP
+    assert chosen(multiplexer, 0.25) is Level.TASKS
+    assert chosen(multiplexer, 0.35) is None
 
 
 @pytest.mark.parametrize("source", SOURCES)
-def test_each_source_has_its_timeout(source) -> None:
+def test_no_source_counts_for_longer_than_the_patience(source) -> None:
     multiplexer = Multiplexer(FASTEST)
     multiplexer.offer(Command(source, Twist(0.1), 1.0))
-    assert chosen(multiplexer, 1.0 + TIMEOUTS[source] - 0.001) is source
+    assert chosen(multiplexer, 1.0 + PATIENCE - 0.001) is source
     assert multiplexer.silent(1.0) is None
-    assert chosen(multiplexer, 1.0 + TIMEOUTS[source] + 0.001) is None
-    assert multiplexer.silent(1.0 + TIMEOUTS[source] + 0.001) is source
+    assert chosen(multiplexer, 1.0 + PATIENCE + 0.001) is None
+    assert multiplexer.silent(1.0 + PATIENCE + 0.001) is source
 
 
 def test_a_source_can_take_back_what_it_said() -> None:
@@ -71,4 +72,4 @@ def test_what_is_chosen_is_finite_fresh_and_in_range(said) -> None:
         assert command.twist is not None
         assert abs(command.twist.linear) <= 0.501
         assert abs(command.twist.angular) <= 4.01
-        assert 0 <= 2.001 - command.time <= TIMEOUTS[command.source] + 0.001
+        assert 0 <= 2.001 - command.time <= PATIENCE + 0.001

@@ -137,7 +137,7 @@ def test_teleoperation_goes_first_and_its_dead_man_leaves_the_wheels_to_the_next
         track.step((Command(Level.TASKS, GO, now), Command(Level.TELEOP, Twist(0.1), now)))
     assert track.decision.level is Level.TELEOP
     assert track.decision.twist == Twist(0.1)
-    track.run(0.28, GO)
+    track.run(0.18, GO)
     assert track.decision.level is Level.TELEOP
     assert track.run(0.5, GO).twist == GO
 
