@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import logging
-import signal
 import sys
 from collections.abc import Sequence
 from functools import partial
@@ -16,8 +15,10 @@ from hri.behavior.behavior import Context
 from hri.behavior.network import load_network
 from hri.behavior.runner import Runner
 from hri.cli.doors import add_door_options, doors_of
+from hri.cli.ending import Ending
 from hri.cli.messages import LineFormatter, OptionParser
 from hri.cli.outcome import status_of
+from hri.cli.streams import unfailing_output
 from hri.core.clock import Clock, FakeClock, RealClock
 from hri.core.events import EventBus
 from hri.core.realtime import become_realtime
@@ -32,11 +33,13 @@ SHORTEST = 0.01
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a network. Exit status 0, 1 when a behavior failed, 2 when a file or option is wrong."""
     options = _parser().parse_args(sys.argv[1:] if arguments is None else arguments)
-    _set_up_logging(options.debug)
     if options.fast and options.duration is None and options.invocation_count is None:
         print("behave: --fast runs as fast as it can - say --duration S as well", file=sys.stderr)
         return 2
-    return status_of(lambda: _behave(options))
+    ending = Ending()
+    with unfailing_output(), ending.kept_for_later():
+        _set_up_logging(options.debug)
+        return status_of(lambda: _behave(options, ending))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -99,7 +102,7 @@ def _set_up_logging(debug: str | None) -> None:
         logging.getLogger(f"hri.{debug}" if debug else "hri").setLevel(logging.DEBUG)
 
 
-def _behave(options: argparse.Namespace) -> int:
+def _behave(options: argparse.Namespace, ending: Ending) -> int:
     print("Initializing...", end="", flush=True)
     clock: Clock = FakeClock() if options.fast else RealClock()
     resources = _resources(options, clock)
@@ -121,7 +124,7 @@ def _behave(options: argparse.Namespace) -> int:
         if options.realtime and (refusal := become_realtime()):
             log.warning(refusal)
         log.info(f"Running network with an interval of {network.interval:.2f} sec.")
-        trio.run(partial(_run, runner, clock, options))
+        trio.run(partial(_run, runner, clock, options, ending))
     finally:
         runner.stop()
         resources.close()
@@ -151,18 +154,12 @@ def _resources(options: argparse.Namespace, clock: Clock) -> ResourceManager:
     return ResourceManager.load(options.config, clock)
 
 
-async def _run(runner: Runner, clock: Clock, options: argparse.Namespace) -> None:
+async def _run(runner: Runner, clock: Clock, options: argparse.Namespace, ending: Ending) -> None:
     async with trio.open_nursery() as nursery:
         nursery.start_soon(clock.drive)
-        nursery.start_soon(_end_on_signal, nursery)
+        nursery.start_soon(ending.wait, nursery.cancel_scope.cancel)
         await runner.run(options.invocation_count, options.duration)
         nursery.cancel_scope.cancel()
-
-
-async def _end_on_signal(nursery: trio.Nursery) -> None:
-    with trio.open_signal_receiver(signal.SIGINT, signal.SIGTERM) as signals:
-        async for _ in signals:
-            nursery.cancel_scope.cancel()
 
 
 if __name__ == "__main__":

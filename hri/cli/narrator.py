@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections import Counter
 from pathlib import Path
 from typing import TextIO
 
+from hri.cli.streams import let_go
 from hri.core.quoting import message_line
 from hri.core.signals import Event
 from hri.face.behaviors import FaceRenderer
@@ -64,8 +64,7 @@ class Narrator:
             print(text, file=self.out, flush=True)
         except BrokenPipeError:
             self._is_unread = True
-            # What Python flushes at its end must not complain, either.
-            os.dup2(os.open(os.devnull, os.O_WRONLY), self.out.fileno())
+            let_go(self.out)  # what Python flushes at its end must not complain, either
             self.robot.finish()
 
     async def greet(self, context: TaskContext) -> None:

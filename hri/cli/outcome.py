@@ -12,8 +12,11 @@ import logging
 import os
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 
 from hri.cli.messages import LineFormatter
+from hri.cli.streams import let_go, open_missing
+from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.quoting import message_line
 
@@ -22,7 +25,9 @@ _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 def status_of(program: Callable[[], int]) -> int:
     """Run a program; its exit status. What is nobody's fault but ours keeps its traceback."""
+    open_missing()
     _show_all_characters()
+    paths.settle()
     try:
         status = program()
         sys.stdout.flush()  # Here, for what cannot be written at the exit is nobody's to catch.
@@ -31,19 +36,19 @@ def status_of(program: Callable[[], int]) -> int:
         alone = _alone(error)
         match alone:
             case HriError() as refused:
-                print(refused, file=sys.stderr)
+                _complain(str(refused))
                 return 2
             case KeyboardInterrupt():
                 return 130
             case BrokenPipeError():
-                _let_go()
+                let_go(sys.stdout)
                 return 0
             case OSError(filename=str() | os.PathLike() as path, strerror=reason):
-                print(message_line(f"{path}: {reason} - check the path"), file=sys.stderr)
+                _complain(message_line(f"{path}: {reason} - check the path"))
                 return 2
             case OSError(errno=number, strerror=reason) if number in _FULL:
-                _let_go()
-                print(f"cannot be written: {reason} - make room", file=sys.stderr)
+                let_go(sys.stdout)
+                _complain(f"cannot be written: {reason} - make room")
                 return 2
         # Without the groups, which would bury the line that is wrong.
         raise alone from None
@@ -64,9 +69,7 @@ def _alone(error: BaseException) -> BaseException:
     return error
 
 
-def _let_go() -> None:
-    """Forget what could not be written: our reader has gone, as in `hri grammar expand | head`,
-    or the disk is full."""
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, sys.stdout.fileno())
-    os.close(nowhere)
+def _complain(line: str) -> None:
+    """Print a line to standard error, where anybody can read it."""
+    with suppress(OSError):
+        print(line, file=sys.stderr)

@@ -5,14 +5,13 @@ from __future__ import annotations
 import argparse
 import logging
 import math
-import signal
 from pathlib import Path
 
-import trio
-
 from hri.cli.doors import add_door_options, doors_of
+from hri.cli.ending import Ending
 from hri.cli.messages import LineFormatter
 from hri.cli.narrator import Narrator
+from hri.cli.streams import unfailing_output
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
 from hri.core.realtime import become_realtime
@@ -73,7 +72,16 @@ def _seconds(text: str) -> float:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Check all files, then live until the end."""
+    """Check all files, then live until the end.
+
+    What is printed is not what a robot lives for: it goes on where that cannot be written.
+    """
+    ending = Ending()
+    with unfailing_output(), ending.kept_for_later():
+        return _run(options, ending)
+
+
+def _run(options: argparse.Namespace, ending: Ending) -> int:
     # Missed ticks are summed up at the end; only what fails is told at once.
     handler = logging.StreamHandler()
     handler.setFormatter(LineFormatter("%(levelname)s - %(message)s"))
@@ -102,7 +110,7 @@ def run(options: argparse.Namespace) -> int:
     tasks = robot.app.load_tasks()
     narrator = Narrator(robot)
     mention_kept(options, narrator)
-    session = Session(robot, options, narrator)
+    session = Session(robot, options, narrator, ending)
     try:
         is_unseen = {"microphone", "camera", "screen"} <= open_senses(robot)
         if robot.record is None and is_unseen and not options.headless and not options.fast:
@@ -184,8 +192,11 @@ def _on_world(id: str, type: str) -> Description:
 class Session:
     """One run of an app: who visits, what is told, when it ends."""
 
-    def __init__(self, robot: Robot, options: argparse.Namespace, narrator: Narrator) -> None:
+    def __init__(
+        self, robot: Robot, options: argparse.Namespace, narrator: Narrator, ending: Ending
+    ) -> None:
         self.robot = robot
+        self.ending = ending
         self.options = options
         self.narrator = narrator
         visit = robot.app.folder / "demo.toml"
@@ -264,7 +275,5 @@ class Session:
         self.robot.finish()
 
     async def watch_signals(self, context: TaskContext) -> None:
-        """End cleanly on Ctrl-C or when the system asks."""
-        with trio.open_signal_receiver(signal.SIGINT, signal.SIGTERM) as signals:
-            async for _ in signals:
-                self.robot.finish()
+        """End cleanly on Ctrl-C, or when the system or the terminal asks."""
+        await self.ending.wait(self.robot.finish)

@@ -113,24 +113,33 @@ def names(kind: str) -> list[str]:
     return sorted(found)
 
 
+USUAL = {
+    "XDG_CONFIG_HOME": ".config",
+    "XDG_CACHE_HOME": ".cache",
+    "XDG_DATA_HOME": ".local/share",
+    "XDG_STATE_HOME": ".local/state",
+}
+"""Folders of the XDG base directory specification, below the home folder where none is named."""
+
+
 def settings_folder() -> Path:
     """Where the user's choices are kept."""
-    return _base("XDG_CONFIG_HOME", ".config")
+    return _base("XDG_CONFIG_HOME")
 
 
 def cache_folder() -> Path:
     """Where what can be made again is kept."""
-    return _base("XDG_CACHE_HOME", ".cache")
+    return _base("XDG_CACHE_HOME")
 
 
 def data_folder() -> Path:
     """Where what the user fetched is kept."""
-    return _base("XDG_DATA_HOME", ".local/share")
+    return _base("XDG_DATA_HOME")
 
 
 def state_folder() -> Path:
     """Where what the robot remembers between runs is kept."""
-    return _base("XDG_STATE_HOME", ".local/state")
+    return _base("XDG_STATE_HOME")
 
 
 def own_folders() -> tuple[Path, ...]:
@@ -138,13 +147,22 @@ def own_folders() -> tuple[Path, ...]:
     return settings_folder(), cache_folder(), data_folder(), state_folder()
 
 
-def _base(variable: str, usual: str) -> Path:
+def _base(variable: str) -> Path:
     """Our folder of a kind; a relative one is ignored, as the XDG specification says.
 
     Raises HriError where there is no home folder either.
     """
     named = expanded(os.environ.get(variable, ""))
-    return (named if named.is_absolute() else home() / usual) / "hri"
+    return (named if named.is_absolute() else home() / USUAL[variable]) / "hri"
+
+
+def settle() -> None:
+    """Let libraries and child processes find home where we do: many take an empty one for here."""
+    with suppress(HriError):
+        os.environ["HOME"] = str(home())
+    for variable in USUAL:
+        if not expanded(os.environ.get(variable, "/")).is_absolute():
+            del os.environ[variable]
 
 
 def home() -> Path:

@@ -245,7 +245,8 @@ class _Child:
 
 def serve() -> None:
     """Live as the child: make the service, then answer until the program closes the pipe."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the program, which ends us
+    for number in (signal.SIGINT, signal.SIGHUP):  # for the program, which ends us
+        signal.signal(number, signal.SIG_IGN)
     if hasattr(os, "nice"):
         os.nice(COURTESY)
     # Libraries print to where the answers go; let them print beside.

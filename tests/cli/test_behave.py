@@ -138,7 +138,7 @@ class Stopped(Behavior):
 
 
 @pytest.mark.proves("B08")
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_stops_its_behaviors_and_ends_it_cleanly(number, network, tmp_path):
     folder = tmp_path / "behavior" / "Mine"
     folder.mkdir(parents=True)

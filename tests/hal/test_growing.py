@@ -65,6 +65,12 @@ def test_a_film_whose_program_was_killed_is_seen_up_to_a_second_before(movie, tm
     assert numbers(tmp_path / "face.mp4") == list(range(41))
 
 
+def test_a_film_of_nothing_shows_black(movie, tmp_path):
+    movie.close()
+    movie.close()
+    assert numbers(tmp_path / "face.mp4") == [0]
+
+
 def test_the_first_picture_is_there_at_once(movie, tmp_path):
     shoot(movie, 1)
     assert numbers(tmp_path / "face.mp4") == [0]

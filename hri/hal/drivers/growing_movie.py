@@ -13,6 +13,7 @@ from contextlib import suppress
 from pathlib import Path
 
 import cv2
+import numpy as np
 
 from hri.core.growing import GrowingFile, log
 from hri.core.signals import Image
@@ -60,8 +61,13 @@ class GrowingMovie:
         return cv2.VideoWriter(str(self._scratch), code, self._rate, self._size)
 
     def close(self) -> None:
-        """Make an ordinary MP4 of it; a second call does nothing."""
+        """Make an ordinary MP4 of it; a second call does nothing.
+
+        One without pictures shows a black one, since players refuse a film of none.
+        """
         self._flush()
+        if not self._contents.counts:
+            self.write(np.zeros((self._size[1], self._size[0], 3), np.uint8))
         end = self._file.size
         if self._contents.counts and not self._file.has_ended:
             table = mp4.whole_table(self._size, self._rate, self._coding, self._contents)

@@ -85,6 +85,7 @@ def _decode(decoder: Any, samples: bytes) -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    # Ctrl-C is for the parent, which ends this process by closing its input.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # Ctrl-C and a closed terminal are for the parent, which ends this process by closing its input.
+    for number in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_IGN)
     serve(sys.stdin.buffer, sys.stdout.buffer)

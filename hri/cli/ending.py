@@ -1,0 +1,51 @@
+"""How the system asks a program to end: Ctrl-C, `kill`, a terminal that is closed.
+
+A program that was started by `nohup` outlives its terminal.
+"""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+import trio
+
+ASKING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+"""What asks a program to end."""
+_AT_ONCE = (signal.SIGTERM, signal.SIGHUP)
+"""What would end a program at once that does not listen yet; Ctrl-C raises an error by itself."""
+
+
+class Ending:
+    """Remembers whether the program was asked to end while it was still starting."""
+
+    def __init__(self) -> None:
+        self.is_asked = False
+
+    @contextmanager
+    def kept_for_later(self) -> Iterator[None]:
+        """While the block runs, being asked to end is remembered in place of ending at once."""
+        before = {number: signal.signal(number, self._ask) for number in _heeded(_AT_ONCE)}
+        try:
+            yield
+        finally:
+            for number, handler in before.items():
+                signal.signal(number, handler)
+
+    def _ask(self, number: int, frame: FrameType | None) -> None:
+        self.is_asked = True
+
+    async def wait(self, end: Callable[[], object]) -> None:
+        """Call `end` each time the program is asked to end, also if it was before."""
+        with trio.open_signal_receiver(*_heeded(ASKING)) as signals:
+            if self.is_asked:
+                end()
+            async for _ in signals:
+                end()
+
+
+def _heeded(numbers: tuple[signal.Signals, ...]) -> list[signal.Signals]:
+    is_without_terminal = signal.getsignal(signal.SIGHUP) is signal.SIG_IGN  # by `nohup`
+    return [n for n in numbers if n != signal.SIGHUP or not is_without_terminal]
