@@ -21,6 +21,8 @@ from hri.core import paths
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
 from hri.core.signals import Frame, HeadGesture, Image
+from hri.core.whereabouts import note
+from hri.core.writing import PRIVATE
 from hri.hal.camera import Camera
 from hri.vision.gesture import GestureRecognizer
 from hri.vision.patterns import ANSWERS, FILE, Pattern, chosen, load_patterns
@@ -106,7 +108,8 @@ def _run_pictures(options: argparse.Namespace, patterns: Sequence[Pattern], tell
         from hri.face.renderers.movie import check_movie, write_movie
 
         check_movie(options.overlay, FILM_RATE)
-        write_movie(options.overlay, paced(pictures), FILM_RATE)
+        write_movie(options.overlay, paced(pictures), FILM_RATE, PRIVATE)
+        note("pictures", options.overlay)
 
 
 def _seen(

@@ -9,6 +9,8 @@ from pathlib import Path
 
 from hri.cli import diagnostic
 from hri.core.errors import HriError, NotAvailable
+from hri.core.whereabouts import note
+from hri.core.writing import PRIVATE
 from hri.hal.camera import Camera
 from hri.hal.drivers.picture_file import write_picture
 
@@ -78,7 +80,8 @@ def _take_picture(camera: Camera, number: int, options: argparse.Namespace) -> N
     frame = camera.take()
     path = options.out / f"{camera.id}_{number:03d}.jpg"
     print(f"Writing file {path}", flush=True)
-    write_picture(path, frame.image, options.quality)
+    write_picture(path, frame.image, options.quality, PRIVATE)
+    note("pictures", path)
 
 
 if __name__ == "__main__":

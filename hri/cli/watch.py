@@ -24,6 +24,8 @@ from hri.cli.watching import (
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import NotAvailable
 from hri.core.signals import Frame, HeadGesture, Image, People
+from hri.core.whereabouts import note
+from hri.core.writing import PRIVATE
 from hri.hal.camera import Camera
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
@@ -122,7 +124,8 @@ def write(path: Path, watcher: Watcher, frames: Iterator[Frame]) -> None:
 
     check_movie(path, FILM_RATE)
     pictures = ((frame.time, watcher.look(frame)) for frame in frames)
-    write_movie(path, paced(pictures), FILM_RATE)
+    write_movie(path, paced(pictures), FILM_RATE, PRIVATE)
+    note("pictures", path)
     print(f"wrote {path}")
 
 

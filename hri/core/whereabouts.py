@@ -1,7 +1,8 @@
 """Where lies what is kept about people outside of the robot's own folders.
 
-A recording, or a file of faces or feelings, lies where somebody wanted it. So that all of it can be
-found and forgotten, its place is noted in the state folder, a JSON object a line:
+A recording, a film of the camera, or a file of faces or feelings, lies where somebody wanted it. So
+that all of it can be found and forgotten, its place is noted in the state folder, a JSON object a
+line:
 `{"kind": "recording", "place": "/home/ann/out"}`.
 """
 
@@ -20,7 +21,7 @@ from hri.core.privacy import private_file, private_folder
 from hri.core.reading import parse_json, read_text
 from hri.core.writing import PRIVATE, write_text
 
-Kind = Literal["recording", "faces", "feelings"]
+Kind = Literal["recording", "faces", "feelings", "pictures"]
 
 MOST_BYTES = 50_000_000
 

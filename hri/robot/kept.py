@@ -1,7 +1,6 @@
 """All that is kept about people, in one list, and how it is forgotten: as a whole, or by name.
 
-Whatever else the program writes is about the robot, or is what somebody asked for by the name of a
-file: a picture, a film, a sound.
+Whatever else the program writes is about the robot and its own voice.
 """
 
 from __future__ import annotations
@@ -206,8 +205,26 @@ class Recordings(Kept):
             place.rmdir()
 
 
+class Pictures(Kept):
+    """Pictures and films of a camera that somebody asked for; who is on them is not known."""
+
+    about = "a picture or film of the camera"
+
+    def places(self) -> list[Path]:
+        return noted("pictures")
+
+    def concerns(self, place: Path, person: str) -> bool:
+        return False
+
+    def needs_yes(self, person: str | None) -> bool:
+        return True
+
+    def forget(self, place: Path, person: str) -> None:
+        self.delete(place)
+
+
 KEPT: tuple[Kept, ...] = (
-    Feelings(), Faces(), LookedUpWords(), OwnWords(), Devices(), Recordings(),
+    Feelings(), Faces(), LookedUpWords(), OwnWords(), Devices(), Recordings(), Pictures(),
 )  # fmt: skip
 """The one list. What the program begins to keep about people is added here."""
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import hri.face.renderers.kernel  # noqa: F401 - its code is not compiled into each test's folder
+from hri.cli import test_camera as camera_tool
 from hri.cli.main import main
 from hri.core import paths
 from hri.core.clock import FakeClock
@@ -18,12 +19,18 @@ from hri.core.whereabouts import note, noted, whereabouts_file
 from hri.emotion.model import load_emotions
 from hri.emotion.persistence import Memory, keep, memory_file, recall
 from hri.hal.choices import choices_file, save_choices
+from hri.hal.drivers.picture_file import write_picture
 from hri.robot import kept
 from hri.vision.recognition import Acquaintances
 
 ANNA = "Quillobrand"
 """No dictionary knows how she is said."""
 BEN = "Wexlafert"
+CAMERA = """\
+<Resources><Devices>
+  <Device id="camera0" type="Hri.VideoFileCamera"><Parameter name="file" value="{}"/></Device>
+</Devices></Resources>
+"""
 TASKS = f"""
 
 async def introduce(context):
@@ -173,6 +180,21 @@ def test_a_recording_that_goes_on_stays_until_its_robot_has_ended(home, capsys):
     log.close()
     assert forget("--yes") == 0
     assert not out.exists()
+
+
+def test_pictures_of_a_camera_are_their_owners_alone_and_go_after_a_yes(home, capsys):
+    write_picture(home / "room.png", np.zeros((48, 64, 3), np.uint8))
+    config = home / "camera.xml"
+    config.write_text(CAMERA.format(home / "room.png"))
+    words = ["--config", str(config), "--out", str(home / "seen"), "--frames", "2"]
+    assert camera_tool.main([*words, "--fast"]) == 0
+    pictures = sorted((home / "seen").glob("*.jpg"))
+    assert [stat.S_IMODE(file.stat().st_mode) for file in pictures] == [0o600, 0o600]
+    assert forget() == 0
+    told = capsys.readouterr().out
+    assert all(f"{file}: a picture or film of the camera - it stays" in told for file in pictures)
+    assert forget("--yes") == 0
+    assert list((home / "seen").iterdir()) == []
 
 
 def test_whoever_is_not_known_is_told_of_those_who_are(home, capsys):

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import stat
 from argparse import ArgumentParser
 from itertools import pairwise
 
@@ -110,6 +111,7 @@ def test_a_film_is_written_of_what_is_seen(tmp_path, capsys):
     write(path, Watcher(see, nod_once_a_second), frames_of(camera, 2.0))
     film = cv2.VideoCapture(str(path))
     assert film.get(cv2.CAP_PROP_FRAME_COUNT) == 61
+    assert stat.S_IMODE(path.stat().st_mode) == 0o600, "people are on it"
     assert f"wrote {path}" in capsys.readouterr().out
 
 

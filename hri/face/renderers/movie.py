@@ -28,18 +28,21 @@ WEBP_QUALITY = 85
 """Of 100."""
 
 
-def write_movie(path: Path, pictures: Iterable[Image], rate: float) -> None:
+def write_movie(
+    path: Path, pictures: Iterable[Image], rate: float, mode: int | None = None
+) -> None:
     """Write pictures of one size, `rate` a second, as the suffix says: .mp4, .webp or .gif.
 
     Pictures are taken one at a time, so they may be drawn on the way. An MP4 (MPEG-4 part 2) has no
-    sound, and leaves out the last line of an odd side. WebP and GIF repeat for ever.
+    sound, and leaves out the last line of an odd side. WebP and GIF repeat for ever. `mode` sets
+    the permissions of the file, such as PRIVATE for a film of people.
 
     Raises HriError for another suffix, a rate out of range, no picture at all, too many, or a file
     that cannot be written; one that was there before stays as it was.
     """
     check_movie(path, rate)
     suffix = path.suffix.lower()
-    with replacing(path, suffix=suffix) as new:
+    with replacing(path, mode, suffix) as new:
         WRITERS[suffix](new, _bounded(path, pictures), rate)
 
 

@@ -15,10 +15,13 @@ from hri.core.writing import write_bytes
 from hri.hal.picture import LARGEST_SIDE
 
 
-def write_picture(path: str | Path, image: Image, quality: float = 0.8) -> None:
+def write_picture(
+    path: str | Path, image: Image, quality: float = 0.8, mode: int | None = None
+) -> None:
     """Write a picture as its suffix says: .jpg, .jpeg or .png.
 
-    `quality` is 0 (small) to 1 (like the original) for a JPEG; a PNG is always exact. Raises
+    `quality` is 0 (small) to 1 (like the original) for a JPEG; a PNG is always exact. `mode` sets
+    the permissions of the file, such as PRIVATE for a picture of people. Raises
     HriError when it cannot be written, ValueError for a quality out of range.
     """
     path = Path(path)
@@ -29,7 +32,7 @@ def write_picture(path: str | Path, image: Image, quality: float = 0.8) -> None:
         raise HriError(f'{path}: no pictures of the kind "{suffix}" - write .jpg or .png')
     settings = [] if suffix == ".png" else [cv2.IMWRITE_JPEG_QUALITY, round(100 * quality)]
     _, code = cv2.imencode(suffix, cv2.cvtColor(image, cv2.COLOR_RGB2BGR), settings)
-    write_bytes(path, np.asarray(code).tobytes())
+    write_bytes(path, np.asarray(code).tobytes(), mode)
 
 
 def picture_size(path: Path) -> tuple[int, int] | None:
