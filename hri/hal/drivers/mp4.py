@@ -9,7 +9,7 @@ from __future__ import annotations
 import struct
 import sys
 from array import array
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, MutableSequence, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
 from pathlib import Path
@@ -153,13 +153,13 @@ def fragment(number: int, first: int, pictures: Pictures) -> bytes:
 class Contents:
     """Where all pictures of a file are; small, since a robot may film for days."""
 
-    sizes: array[int] = field(default_factory=lambda: array("I"))
+    sizes: MutableSequence[int] = field(default_factory=lambda: array("I"))
     """Bytes of each picture."""
-    keys: array[int] = field(default_factory=lambda: array("I"))
+    keys: MutableSequence[int] = field(default_factory=lambda: array("I"))
     """Numbers of those that stand alone, from 1."""
-    counts: array[int] = field(default_factory=lambda: array("I"))
+    counts: MutableSequence[int] = field(default_factory=lambda: array("I"))
     """Pictures of each fragment."""
-    places: array[int] = field(default_factory=lambda: array("Q"))
+    places: MutableSequence[int] = field(default_factory=lambda: array("Q"))
     """Of the first byte of each fragment in the file."""
 
     def add(self, place: int, pictures: Pictures) -> None:
@@ -181,19 +181,19 @@ def whole_table(size: tuple[int, int], rate: float, coding: bytes, contents: Con
         _entries("stts", 1, array("I", [len(sizes), TICKS])),
         _entries("stss", len(contents.keys), contents.keys),
         _entries("stsc", len(runs) // 3, runs),
-        _full("stsz", 0, 0, struct.pack(">II", 0, len(sizes)), _in_file_order(sizes)),
-        _entries("co64", len(contents.places), contents.places),
+        _full("stsz", 0, 0, struct.pack(">II", 0, len(sizes)), _in_file_order("I", sizes)),
+        _entries("co64", len(contents.places), contents.places, "Q"),
     ]
     return _table(size, rate, len(sizes), coding, tables)
 
 
-def _entries(name: str, count: int, values: array[int]) -> bytes:
-    return _full(name, 0, 0, struct.pack(">I", count), _in_file_order(values))
+def _entries(name: str, count: int, values: Sequence[int], code: str = "I") -> bytes:
+    return _full(name, 0, 0, struct.pack(">I", count), _in_file_order(code, values))
 
 
-def _in_file_order(values: array[int]) -> bytes:
-    """Numbers with their highest byte first."""
-    swapped = values[:]
+def _in_file_order(code: str, values: Sequence[int]) -> bytes:
+    """Numbers, of the size that the code of an array means, with their highest byte first."""
+    swapped = array(code, values)
     if sys.byteorder == "little":
         swapped.byteswap()
     return swapped.tobytes()
