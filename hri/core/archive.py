@@ -17,7 +17,7 @@ from pathlib import Path, PurePosixPath
 from hri.core.errors import HriError
 from hri.core.writing import new_folder
 
-MOST_FILES = 10_000
+MOST_FILES = 1_000
 LARGEST_UNPACKED = 8_000_000_000
 """Bytes; no model is larger."""
 LARGEST_GROWTH = 50

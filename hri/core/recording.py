@@ -12,13 +12,15 @@ from typing import Any
 from hri.core.errors import AuthoringError, Place
 from hri.core.events import EventBus
 from hri.core.growing import GrowingFile
-from hri.core.reading import parse_json, read_text
+from hri.core.reading import parse_json, read_lines
 from hri.core.signals import Event
 
 NOTHING: Mapping[str, Collection[str]] = MappingProxyType({})
 
-LARGEST_LOG = 100_000_000
-"""Bytes of a log of events: some ten hours of a busy robot."""
+LARGEST_LOG = 30_000_000
+"""Bytes of a log of events: some hours of a busy robot."""
+LONGEST_LINE = 1_000_000
+"""Characters of an event."""
 _REMEDY = "delete this line, or record anew"
 
 
@@ -57,8 +59,12 @@ def read_events(path: Path) -> list[dict[str, Any]]:
     A last line that has no end was cut off, and is left out. Raises HriError for a file that cannot
     be read, AuthoringError for a line that is not an event.
     """
-    whole, _, _ = read_text(path, "log of events", LARGEST_LOG).rpartition("\n")
-    return [_read(line, Place(path, i)) for i, line in enumerate(whole.split("\n"), 1) if line]
+    with read_lines(path, "log of events", LARGEST_LOG, LONGEST_LINE) as lines:
+        return [
+            _read(line, Place(path, number))
+            for number, line in enumerate(lines, 1)
+            if line.endswith("\n") and line.strip()
+        ]
 
 
 def _read(line: str, place: Place) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +25,8 @@ from hri.face.spring import Values
 from hri.face.vocabulary import ARKIT, MOTIONS, PAIRED, TURNS, sides_of
 
 FILE = "gestures.toml"
+Numbers = NDArray[np.floating[Any]]
+"""Of any precision: a long recording is kept in half the memory."""
 MOST_GESTURES = 200
 MOST_KEYS = 500
 LONGEST = 60.0
@@ -126,7 +129,7 @@ class Track:
     """Weights over time for one face: a gesture or a recording, ready to be played."""
 
     def __init__(
-        self, times: Values, values: Values, gaze: Values, owned: Values, fade: float = FADE
+        self, times: Values, values: Numbers, gaze: Numbers, owned: Values, fade: float = FADE
     ) -> None:
         """`times` [n] in seconds from 0; `values` [n, channels]; `gaze` [n, 2]; `owned` [channels],
         0 to 1, is how much of each channel it replaces, after `fade` seconds."""
@@ -177,12 +180,15 @@ def track_of(gesture: Gesture, model: FaceModel) -> Track:
     return Track(times, values, gaze, owned)
 
 
-def _monotone_slopes(times: Values, values: NDArray[np.float64]) -> NDArray[np.float64]:
+def _monotone_slopes(times: Values, values: Numbers) -> Numbers:
     """The slope at each keyframe: none at ends and turning points, else the harmonic mean."""
-    steps = np.diff(values, axis=0) / np.diff(times)[:, None]
-    before, after = steps[:-1], steps[1:]
-    turns = before * after <= 0
-    total = np.where(turns, 1.0, before + after)
     slopes = np.zeros_like(values)
-    slopes[1:-1] = np.where(turns, 0.0, 2 * before * after / total)
+    lengths = np.diff(times)
+    for column in range(values.shape[1]):
+        # One by one: an hour of a face would fill the memory several times over.
+        steps = np.diff(values[:, column]) / lengths
+        before, after = steps[:-1], steps[1:]
+        turns = before * after <= 0
+        total = np.where(turns, 1.0, before + after)
+        slopes[1:-1, column] = np.where(turns, 0.0, 2 * before * after / total)
     return slopes

@@ -12,6 +12,7 @@ import csv
 import logging
 import math
 import re
+from array import array
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -23,7 +24,6 @@ from hri.core.reading import read_lines
 from hri.face.baking import Vector
 from hri.face.gestures import Track
 from hri.face.model import FaceModel
-from hri.face.spring import Values
 
 log = logging.getLogger("hri.face")
 
@@ -121,7 +121,7 @@ def timecode(seconds: float) -> str:
 
 def _track(path: Path, lines: Iterator[list[str]], model: FaceModel) -> Track:
     times: list[float] = []
-    rows: list[Values] = []
+    weights = array("f")
     number, header = 1, tuple[str, ...]()
     places: list[tuple[int, int, float]] = []
     try:
@@ -145,7 +145,7 @@ def _track(path: Path, lines: Iterator[list[str]], model: FaceModel) -> Track:
             if len(times) > MOST_ROWS or time - times[0] > LONGEST:
                 what = f"longer than {LONGEST:g} s at {FRAMES} frames a second"
                 raise _wrong(path, number, what, "cut it into parts")
-            rows.append(_row(path, number, header, cells, places, len(model.channels)))
+            weights.extend(_row(path, number, header, cells, places, len(model.channels)))
     except csv.Error as error:
         raise _wrong(path, number, str(error), "save it as plain CSV") from error
     if len(times) < 2:
@@ -153,7 +153,9 @@ def _track(path: Path, lines: Iterator[list[str]], model: FaceModel) -> Track:
     moments = np.array(times) - times[0]
     size = len(model.channels)
     # What is recorded is the whole face: it owns every channel from begin to end.
-    return Track(moments, np.array(rows), np.zeros((len(rows), 2)), np.ones(size), fade=0.0)
+    rows = np.frombuffer(weights, np.float32).reshape(-1, size)
+    gaze = np.zeros((len(rows), 2), np.float32)
+    return Track(moments, rows, gaze, np.ones(size), fade=0.0)
 
 
 def _places(path: Path, header: Sequence[str], model: FaceModel) -> list[tuple[int, int, float]]:
@@ -187,8 +189,8 @@ def _row(
     cells: Sequence[str],
     places: Sequence[tuple[int, int, float]],
     size: int,
-) -> Values:
-    row = np.zeros(size)
+) -> list[float]:
+    row = [0.0] * size
     for column, channel, factor in places:
         try:
             value = float(cells[column] or 0.0)

@@ -18,6 +18,8 @@ from hri.hal.resource import POSE, Description
 
 SIZES = ("lx", "ly", "lz")
 """Parameters of a shape beside its pose: its size in centimetres."""
+MOST_DEVICES = 2000
+"""Devices, groups and shapes of one configuration."""
 LARGEST_CM = 1000.0
 
 
@@ -58,6 +60,8 @@ def load_configuration(path: Path) -> Configuration:
     if root.tag != "Resources":
         raise root.error(f"the root is <{root.tag}>", "write <Resources> around it all")
     root.check(("Dimensions", "Devices", "Groups"), ("trusted",))
+    if sum(len(section.children) for section in root) > MOST_DEVICES:
+        raise root.error(f"more than {MOST_DEVICES} devices", "split the configuration")
     shapes: list[Shape] = []
     devices: list[Description] = []
     for section in root:

@@ -11,6 +11,8 @@ from hri.core.signals import Image
 
 LARGEST_SIDE = 8192
 """Pixels; a larger picture is refused before it can fill the memory."""
+MOST_PIXELS = 7680 * 4320
+"""Of a picture in a file, which is in the memory three times while it is decoded."""
 TURNS = {"0": 0, "90": -1, "180": 2, "270": 1}
 """Quarter turns, counter-clockwise, for degrees clockwise."""
 

@@ -16,7 +16,7 @@ from hri.core.signals import HeadPose
 COLUMNS = ("t_s", "pitch_deg", "yaw_deg", "roll_deg")
 SLOWEST, FASTEST = 9.5, 105.0
 """Poses a second that the recognizer is made for, with some tolerance."""
-LARGEST_FILE = 200_000_000
+LARGEST_FILE = 40_000_000
 """Bytes; poses are read one by one."""
 LONGEST_LINE = 100_000
 """Characters; a longer line is no line of numbers."""

@@ -260,3 +260,12 @@ def test_the_decoder_keeps_quiet(tmp_path, capfd):
     with pytest.raises(HriError):
         load_sound(tmp_path / "bad.mp3")
     assert capfd.readouterr().err == ""
+
+
+def test_a_sound_that_would_fill_the_memory_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(sound_decoder, "MOST_SAMPLES", 1000)
+    file = tmp_path / "long.wav"
+    write_wav(file, np.zeros(2000, np.int16), 16000)
+    with pytest.raises(HriError, match="more than 1,000 samples - convert it to 16 kHz"):
+        load_sound(file)
+    assert len(load_sound(file, 8000)[0]) == 1000

@@ -6,6 +6,7 @@ import zlib
 import cv2
 import numpy as np
 import pytest
+from PIL import Image as PillowImage
 
 from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Frame
@@ -94,3 +95,11 @@ def test_a_picture_that_does_not_come_is_one_line(open_driver, clock):
     with pytest.raises(NotAvailable, match=r"BlankCamera: no picture within 0\.5 s - unplug it"):
         open_driver(BlankCamera).take(timeout=0.5)
     assert clock.now() == pytest.approx(0.5, abs=0.011)
+
+
+def test_a_picture_of_too_many_pixels_is_refused_before_it_is_decoded(tmp_path):
+    """In the memory three times it would take 600 MB."""
+    file = tmp_path / "a.png"
+    PillowImage.new("1", (8192, 8192)).save(file)
+    with pytest.raises(HriError, match="8192 x 8192 pixels are too many"):
+        picture_size(file)

@@ -38,6 +38,8 @@ from hri.speech.trials import Clip
 ESPEAK_VOICES = ("en-us", "en-gb", "en-us+f3", "en-gb+m3")
 FLITE = "flite:"
 """Stands before the names of flite's voices."""
+MOST_ROWS = 20_000
+"""Recordings of one manifest."""
 LEAD, TAIL = 0.4, 0.8
 """Seconds of silence around a sentence that is spoken."""
 
@@ -70,6 +72,9 @@ def read_manifest(path: Path, grammar: Grammar) -> list[Row]:
             most = 3 if columns[2:3] == ["tags"] else 2
         elif columns != [""] and not line.startswith("#"):
             rows.append(_row(columns[:most], Place(path, number), grammar))
+        if len(rows) > MOST_ROWS:
+            what = f"more than {MOST_ROWS:,} recordings"
+            raise AuthoringError(Place(path, number), what, "cut the manifest into parts")
     if not rows:
         raise AuthoringError(Place(path), "no recording in this manifest", "write one a line")
     return rows

@@ -12,7 +12,7 @@ from PIL import Image as PillowImage
 from hri.core.errors import HriError
 from hri.core.signals import Image
 from hri.core.writing import write_bytes
-from hri.hal.picture import LARGEST_SIDE
+from hri.hal.picture import LARGEST_SIDE, MOST_PIXELS
 
 
 def write_picture(
@@ -38,7 +38,7 @@ def write_picture(
 def picture_size(path: Path) -> tuple[int, int] | None:
     """Width and height as the file's first bytes tell; None for what is no picture.
 
-    Raises HriError for one that claims to be larger than 8192 pixels.
+    Raises HriError for one that claims to be larger than 8192 pixels a side, or than MOST_PIXELS.
     """
     try:
         with warnings.catch_warnings():
@@ -49,6 +49,9 @@ def picture_size(path: Path) -> tuple[int, int] | None:
         size = (LARGEST_SIDE + 1, LARGEST_SIDE + 1)
     except (OSError, ValueError, SyntaxError):  # Pillow raises all of these for broken files
         return None
+    if size[0] * size[1] > MOST_PIXELS and max(size) <= LARGEST_SIDE:
+        what = f"{size[0]} x {size[1]} pixels are too many"
+        raise HriError(f"{path}: {what} - keep it below {MOST_PIXELS:,}")
     if max(size) > LARGEST_SIDE:
         raise HriError(f"{path}: this picture is too large - keep it below {LARGEST_SIDE} pixels")
     return size

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +19,8 @@ LONGEST = 3600.0
 """Seconds; a longer file is refused, so that it cannot fill the memory."""
 LEAST_RATE, MOST_RATE = 1000, 400_000
 """Samples a second of what can be sound."""
+MOST_SAMPLES = 110_000_000
+"""Of a sound in memory: nearly two hours at 16 kHz, 38 minutes at 48 kHz."""
 BLOCK = 1 << 18
 """Frames decoded at a time."""
 
@@ -36,12 +38,31 @@ def decode(path: Path, wanted: int | None = None, channel: str = CHOICES[0]) -> 
             if not LEAST_RATE <= rate <= MOST_RATE:
                 raise HriError(f"{path}: {rate} Hz is out of range - convert it to 16 kHz")
             heard = _mono_blocks(path, file, channel)
-            blocks = list(resample_blocks(heard, rate, wanted or rate))
+            samples = joined(path, resample_blocks(heard, rate, wanted or rate))
     except (soundfile.SoundFileError, ValueError) as error:
         raise HriError(f"{path}: not a readable sound file - try a WAV or an MP3") from error
-    if not any(map(len, blocks)):
+    if not len(samples):
         raise HriError(f"{path}: this file holds no sound - record it again")
-    return np.concatenate(blocks), wanted or rate
+    return samples, wanted or rate
+
+
+def joined(path: Path, blocks: Iterable[Samples]) -> Samples:
+    """The blocks as one sound, which is never twice in the memory.
+
+    Raises HriError when there are more than MOST_SAMPLES.
+    """
+    sound = bytearray()
+    for block in blocks:
+        require_room(path, len(sound) // 2 + len(block))
+        sound += block.tobytes()
+    return np.frombuffer(sound, np.int16)
+
+
+def require_room(path: Path, samples: float) -> None:
+    """Raises HriError when a sound has more than MOST_SAMPLES."""
+    if samples > MOST_SAMPLES:
+        what = f"more than {MOST_SAMPLES:,} samples"
+        raise HriError(f"{path}: {what} - convert it to 16 kHz, or cut it into parts")
 
 
 def _load_soundfile() -> Any:

@@ -50,6 +50,7 @@ def _opened(path: Path) -> cv2.VideoCapture:
     capture.release()
     if not readable or picture is None or max(picture.shape[:2]) > LARGEST_SIDE:
         raise HriError(f"{path}: not a readable video or image - try an MP4, AVI, PNG or JPEG")
+    del picture  # it may be large, and is decoded once more
     return cv2.VideoCapture(str(path))
 
 

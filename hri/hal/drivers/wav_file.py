@@ -16,7 +16,7 @@ from hri.core.signals import Samples
 from hri.core.writing import write_bytes
 from hri.hal.drivers.channels import CHOICES, OneChannel, channel_of
 from hri.hal.drivers.resampling import resample, resample_blocks
-from hri.hal.drivers.sound_decoder import BLOCK, LEAST_RATE, MOST_RATE, decode
+from hri.hal.drivers.sound_decoder import BLOCK, LEAST_RATE, MOST_RATE, decode, joined, require_room
 from hri.hal.microphone import Microphone
 from hri.hal.speaker import Speaker
 
@@ -66,8 +66,10 @@ def read_wav(
                 raise HriError(
                     f"{path}: {rate} Hz or its length is out of range - convert it to 16 kHz"
                 )
+            require_room(path, file.getnframes() * (wanted or rate) / rate)
             # Block by block: the frames of a long file would fill the memory beside its samples.
-            blocks = list(resample_blocks(_mono_blocks(file, channel), rate, wanted or rate))
+            blocks = resample_blocks(_mono_blocks(file, channel), rate, wanted or rate)
+            samples = joined(path, blocks)
     except (wave.Error, EOFError, RuntimeError) as error:  # wave seeks wrongly in broken files
         why = str(error) or "it ends too early"
         raise HriError(
@@ -76,9 +78,9 @@ def read_wav(
     except OSError as error:
         reason = error.strerror or str(error)
         raise HriError(f"{path}: cannot read this WAV file: {reason} - check the path") from error
-    if not any(map(len, blocks)):
+    if not len(samples):
         raise HriError(f"{path}: this WAV file holds no sound - record it again")
-    return np.concatenate(blocks), wanted or rate
+    return samples, wanted or rate
 
 
 def write_wav(path: Path, samples: Samples, rate: int) -> None:
