@@ -39,7 +39,7 @@ class Door:
     def look(self) -> None:
         """Find out anew what the outputs reach, if other networks run; call it in each tick."""
         context = self._context
-        seen = [(id(runner), len(runner.watched)) for runner in context.runners], context.has_tasks
+        seen = [(runner, runner.watched) for runner in context.runners], context.has_tasks
         if seen == self._seen:
             return
         self._seen = seen

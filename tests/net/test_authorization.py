@@ -344,6 +344,19 @@ def test_what_code_watches_needs_it(robot):
     assert "bridge.text may do anything" in peer.read()
 
 
+def test_what_is_watched_in_place_of_something_else_needs_it_too(robot):
+    here = robot()
+    here.run(here.bridge)
+    watch = here.runners[0].watch("bridge", "truth", print)
+    here.tick()
+    watch.cancel()
+    here.runners[0].watch("bridge", "text", print)
+    here.tick()
+    peer = here.connect()
+    here.send(peer, "<bridge><truth>true</truth></bridge>", "<bridge><text>hello</text></bridge>")
+    assert "bridge.text may do anything" in peer.read()
+
+
 @pytest.mark.parametrize("trusted", ["bridge", "bridge.velocity", "b*", "*.velocity"])
 def test_who_starts_it_may_trust_everybody(robot, trusted):
     here = steered(robot(trusted=(trusted,)))
