@@ -19,7 +19,7 @@ from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.privacy import private_file, private_folder
 from hri.core.reading import parse_json, read_text
-from hri.core.writing import PRIVATE, write_text
+from hri.core.writing import PRIVATE, append_line, write_text
 
 Kind = Literal["recording", "faces", "feelings", "pictures"]
 
@@ -42,9 +42,7 @@ def note(kind: Kind, place: Path) -> None:
             return
         private_folder(file.parent)
         private_file(file)
-        line = json.dumps({"kind": kind, "place": os.fspath(place)}) + "\n"
-        with file.open("a", encoding="utf-8") as notes:
-            notes.write(line)  # in one piece, whoever else writes
+        append_line(file, json.dumps({"kind": kind, "place": os.fspath(place)}))
     except (HriError, OSError) as error:
         log.warning("%s: `hri forget` will not find it: %s", place, error)
 

@@ -72,6 +72,26 @@ def write_bytes(path: Path, data: bytes, mode: int | None = None) -> os.stat_res
             return os.fstat(handle)
 
 
+def append_line(path: Path, line: str, mode: int = PRIVATE) -> None:
+    """Add a line to the end of a file, whole or not at all; a new file has these permissions.
+
+    Half a line that was left at the end stands alone from then on. Raises NotWritten.
+    """
+    with _refusing(path):
+        handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_CLOEXEC, mode)
+        try:
+            size = os.fstat(handle).st_size
+            is_torn = size > 0 and os.pread(handle, 1, size - 1) != b"\n"
+            before = "\n" if is_torn else ""
+            try:
+                _write(handle, f"{before}{line}\n".encode())
+            except OSError:
+                os.ftruncate(handle, size)
+                raise
+        finally:
+            os.close(handle)
+
+
 @contextmanager
 def replacing(path: Path, mode: int | None = None, suffix: str = SUFFIX) -> Iterator[Path]:
     """A new, empty file beside `path` for a library to write, which replaces `path` at the end.

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from hri.core.errors import HriError
 from hri.core.writing import (
     PRIVATE,
+    append_line,
     leftovers,
     make_folder,
     new_folder,
@@ -205,3 +206,16 @@ def test_a_folder_is_there_whole_or_not_at_all(tmp_path):
         (new / "face.toml").write_text("whole")
     assert (folder / "face.toml").read_text() == "whole"
     assert os.listdir(tmp_path) == ["face"]
+
+
+def test_a_line_is_added_whole_or_not_at_all(tmp_path):
+    path = tmp_path / "notes"
+    append_line(path, "one")
+    with full_disk(after=6), pytest.raises(HriError, match="make room"):
+        append_line(path, "another")
+    assert path.read_text() == "one\n"
+    path.write_text("one\nhal")
+    append_line(path, "two")
+    assert path.read_text() == "one\nhal\ntwo\n"
+    append_line(tmp_path / "new", "private")
+    assert mode_of(tmp_path / "new") == 0o600

@@ -9,6 +9,7 @@ from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.ownership import is_of_user
 from hri.core.privacy import close_to_others, folder_for, private_file
+from hri.core.writing import PRIVATE, append_line, write_text
 from hri.speech.pronunciation.letter_to_sound import guesses
 from hri.speech.pronunciation.phones import PHONES, Phones
 
@@ -47,9 +48,9 @@ class Guesses:
                 return  # A pipe would wait for a reader for ever.
             folder_for(self._path)
             private_file(self._path)
-            is_full = self._path.exists() and self._path.stat().st_size > LARGEST_CACHE
-            with self._path.open("w" if is_full else "a", encoding="utf-8") as file:
-                file.write(line + "\n")
+            if self._path.stat().st_size > LARGEST_CACHE:
+                write_text(self._path, "", PRIVATE)
+            append_line(self._path, line)
 
 
 def _read(path: Path) -> dict[str, tuple[Phones, ...]]:
