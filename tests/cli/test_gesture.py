@@ -110,7 +110,7 @@ def test_a_bad_file_is_one_line_and_the_others_are_told(tmp_path, capsys, lines,
     output = capsys.readouterr()
     assert [json.loads(line)["file"] for line in output.out.splitlines()] == [str(good)]
     assert complaint in output.err
-    assert "no.csv: cannot be read" in output.err
+    assert "no.csv: cannot read this file of poses" in output.err
     assert "Traceback" not in output.err
 
 
