@@ -150,7 +150,7 @@ def _case(load: str, priority: str, seconds: float) -> dict[str, Any]:
 def busy_processes(count: int) -> Iterator[list[subprocess.Popen[bytes]]]:
     """Processes that do nothing but keep processors busy."""
     command = child.command("-c", "while True: pass")
-    running = [subprocess.Popen(command) for _ in range(count)]
+    running = [subprocess.Popen(command, env=child.environment()) for _ in range(count)]
     try:
         yield running
     finally:

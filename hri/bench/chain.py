@@ -64,7 +64,8 @@ def figures(tries: int, busy: int = 0) -> dict[str, Any]:
 @contextmanager
 def busy_processes(count: int) -> Iterator[None]:
     """Processes that take all the time they can get, while a `with` lasts."""
-    running = [subprocess.Popen(child.command("-c", BUSY)) for _ in range(count)]
+    command, environment = child.command("-c", BUSY), child.environment()
+    running = [subprocess.Popen(command, env=environment) for _ in range(count)]
     try:
         yield
     finally:

@@ -120,5 +120,7 @@ def test_every_child_of_python_is_started_that_way():
         text = path.read_text()
         if re.search(r"\bsys\.executable\b", text):
             assert path == Path(child.__file__), path
+        # Nor does an empty entry of PYTHONPATH bring the current folder back.
+        assert text.count("child.command(") <= text.count("child.environment("), path
         if re.search(r"ProcessPoolExecutor\(|get_context\(\"spawn\"\)", text):
             assert "safe_start" in text, path
