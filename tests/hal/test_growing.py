@@ -8,6 +8,7 @@ import cv2
 import numpy as np
 import pytest
 
+from hri.core.writing import leftovers
 from hri.hal.drivers.growing_movie import GrowingMovie
 from hri.hal.drivers.mp4 import boxes, is_whole
 from hri.hal.drivers.video_file import VideoFileScreen
@@ -215,8 +216,11 @@ os.kill(os.getpid(), 9)
 def test_all_of_a_recording_survives_kill_9(tmp_path):
     done = subprocess.run([sys.executable, "-c", DIES, tmp_path], timeout=120)
     assert done.returncode == -9
+    assert leftovers(tmp_path / "face.mp4")
     assert len(numbers(tmp_path / "face.mp4")) >= 45
     samples, rate = read_wav(tmp_path / "robot.wav")
     assert len(samples) / rate >= 5.4
     assert (samples == 1000).all()
     assert (tmp_path / "events.jsonl").read_text().count('"speech.said"') == 60
+    GrowingMovie(tmp_path / "face.mp4", SIZE, RATE).close()
+    assert not leftovers(tmp_path / "face.mp4")

@@ -17,7 +17,7 @@ import numpy as np
 
 from hri.core.growing import GrowingFile, log
 from hri.core.signals import Image
-from hri.core.writing import PRIVATE, name_beside
+from hri.core.writing import PRIVATE, NotWritten, delete_leftovers, name_beside
 from hri.hal.drivers import mp4
 
 FRAGMENT_S = 1.0
@@ -32,6 +32,8 @@ class GrowingMovie:
         """`size` is width and height. Raises HriError when the file cannot be written."""
         self._size, self._rate = size, rate
         self._file = GrowingFile(path)
+        with suppress(NotWritten):
+            delete_leftovers(path)  # of a program that was killed
         self._file.append(_BEGINNING + mp4.box("free", bytes(8)))
         self._scratch = name_beside(path, ".mp4")
         """Where OpenCV writes the pictures of the next fragment."""
