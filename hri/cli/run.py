@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 import logging
 import math
+from contextlib import suppress
+from itertools import chain, count
 from pathlib import Path
 
 from hri.cli.doors import add_door_options, doors_of
@@ -15,6 +17,7 @@ from hri.cli.streams import unfailing_output
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
 from hri.core.realtime import become_realtime
+from hri.core.writing import make_folder
 from hri.drive.behaviors import CommandGate
 from hri.emotion.persistence import memory_file
 from hri.emotion.personality import load_personality
@@ -133,8 +136,18 @@ def open_senses(robot: Robot) -> set[str]:
 
 
 def recordings_folder(robot: Robot) -> Path:
-    """A new folder below the current one, named by date and time."""
-    return Path("recordings") / f"{robot.clock.wall():%Y-%m-%d-%H-%M-%S}"
+    """A new folder below the current one, named by date and time, and numbered where need be.
+
+    Raises HriError or OSError when it cannot be made.
+    """
+    folder = Path("recordings") / f"{robot.clock.wall():%Y-%m-%d-%H-%M-%S}"
+    make_folder(folder.parent)
+    numbered = (folder.with_name(f"{folder.name}-{number}") for number in count(2))
+    for free in chain([folder], numbered):
+        with suppress(FileExistsError):  # another robot began in this second
+            free.mkdir(0o700)
+            break
+    return free
 
 
 def check_files(options: argparse.Namespace) -> None:
