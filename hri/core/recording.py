@@ -17,7 +17,7 @@ from hri.core.signals import Event
 
 NOTHING: Mapping[str, Collection[str]] = MappingProxyType({})
 
-LARGEST_LOG = 30_000_000
+LARGEST_LOG = 25_000_000
 """Bytes of a log of events: some hours of a busy robot."""
 LONGEST_LINE = 1_000_000
 """Characters of an event."""

@@ -234,7 +234,7 @@ def videos() -> list[bytes]:
 def archives() -> list[bytes]:
     """Archives of a model, packed and as it is."""
     made = []
-    for method in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_LZMA):
+    for method in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
         file = io.BytesIO()
         with zipfile.ZipFile(file, "w", method) as archive:
             archive.writestr("model/am/final.mdl", bytes(range(256)) * 4)

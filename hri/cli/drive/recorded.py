@@ -25,7 +25,7 @@ from hri.testing.trips import Journey
 
 EVENTS = "events.jsonl"
 """The file in a robot's recording."""
-MOST_BYTES = 30_000_000
+MOST_BYTES = 25_000_000
 MOST_ROOMS = 100_000
 FARTHEST = 1e4
 """Metres from the origin; nobody drives farther."""
