@@ -20,6 +20,7 @@ from hri.cli.watching import (
 from hri.core import paths
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
+from hri.core.quoting import message_line
 from hri.core.signals import Frame, HeadGesture, Image
 from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE
@@ -91,7 +92,7 @@ def _run_poses(
             print(error, file=sys.stderr)
             status = 2
         for remark in remarks:
-            print(remark, file=sys.stderr)
+            print(message_line(str(remark)), file=sys.stderr)
     return status
 
 

@@ -12,6 +12,7 @@ from hri.behavior.layout import lay_out
 from hri.behavior.network import Network, load_network
 from hri.behavior.writer import save_network, write_network
 from hri.core.errors import HriError
+from hri.core.quoting import escaped, message_line
 from hri.core.writing import write_text
 
 
@@ -35,7 +36,7 @@ def check(network: Network, options: argparse.Namespace) -> int:
     network.check()
     warnings = [*network.warnings, *network.loose_ends()]
     for warning in warnings:
-        print(f"warning: {warning}")
+        print(message_line(f"warning: {warning}"))
     counts = f"{len(network.behaviors)} behaviors, {len(network.links)} links"
     print(f"{network.path}: {counts}, {_counted(warnings)}")
     return 1 if warnings else 0
@@ -56,7 +57,7 @@ def show(network: Network, options: argparse.Namespace) -> int:
         for name, declared in behavior.parameters.items():
             value = getattr(behavior, name)
             if value != declared.default:
-                print(f"      {'':<{width}}    {name} = {declared.text(value)}")
+                print(f"      {'':<{width}}    {name} = {escaped(declared.text(value))}")
     print("links:")
     for link in network.links:
         print(f"      {link}  ({link.datatype})")

@@ -91,3 +91,18 @@ def test_a_wrong_command_line_is_quoted_plainly(
         status = int(str(ended.code))
     assert status == 2
     assert all(map(is_plain, capsys.readouterr().err.splitlines()))
+
+
+def test_what_a_network_holds_is_shown_plainly(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "a.xml"
+    text = '<Parameter name="text" value="\u202e\u200f"/>'
+    file.write_text(
+        f'<BehaviorNetwork><Behavior id="a" type="Hri.PrintBehavior">{text}</Behavior>'
+        "</BehaviorNetwork>"
+    )
+    assert main(["network", "show", str(file)]) == 0
+    shown = capsys.readouterr().out
+    assert "\\u202e" in shown
+    assert all(map(is_plain, shown.splitlines()))

@@ -12,6 +12,7 @@ import hri
 from hri.cli.emotion.list import personality_names
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.core.quoting import message_line
 from hri.emotion import personality, stimulus
 from hri.emotion.checking import (
     felt_by_name,
@@ -46,9 +47,9 @@ def run(options: argparse.Namespace) -> int:
     stimuli = stimulus.load_stimuli()
     unmet = list(unmet_expectations(stimuli))
     for failure in unmet:
-        print(failure)
+        print(message_line(str(failure)))
     for warning in _warnings(stimuli):
-        print(warning)
+        print(message_line(str(warning)))
     count = sum(len(spec.expects) for spec in stimuli.values())
     told = f"{len(unmet)} of {count} expectations not met" if unmet else "fine"
     print(f"{', '.join(loaders)}: {told}")

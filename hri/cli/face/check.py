@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from hri.core import paths
+from hri.core.quoting import message_line
 from hri.face import load_face
 from hri.face.gestures import load_gestures
 from hri.face.vocabulary import CORRECTIVE
@@ -23,7 +24,7 @@ def run(options: argparse.Namespace) -> int:
     load_gestures(model)
     found = findings(model, folder)
     for finding in found:
-        print(finding)
+        print(message_line(str(finding)))
     warnings = sum(finding.is_slip for finding in found)
     drawn = sum(CORRECTIVE not in target for target in model.targets)
     print(
