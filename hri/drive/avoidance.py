@@ -30,6 +30,7 @@ from hri.drive.histogram import (
     sector,
     valleys,
 )
+from hri.drive.leaning import Leaning
 from hri.drive.mechanics import Mechanics
 from hri.drive.progress import Progress
 from hri.drive.route import Route, find_route
@@ -57,6 +58,8 @@ BACKING, BACKING_S = 0.1, 1.5
 """How fast, m/s, and for how many seconds it backs off."""
 STARTLE_S = 0.2
 """Seconds for which it stands after a touch: the gate hears nobody who has not let go since."""
+LOOKING = 0.8
+"""Share of the turn rate with which it looks for whoever leans on it."""
 LEAST_BEHIND = 0.1
 """Metres that must be free behind it for that."""
 BLIND_S = 0.5
@@ -150,6 +153,7 @@ class Avoidance:
         self._chosen = 0.0
         self._startled_until = self._backing_until = -math.inf
         self._is_moving = self._is_blind = False
+        self._leaning = Leaning(mechanics.mounts)
 
     def see(
         self,
@@ -167,17 +171,26 @@ class Avoidance:
         reach = PERSON_RADIUS + self.manner.person_gap
         self._discs = [(x, y, reach) for x, y in self._company.see(now, pose, people)]
         self._closing.see(now, readings)
+        self._leaning.see(now, pose, readings)
         known = (readings.get(id) for id in self.mechanics.mounts)
         self._is_blind = not all(_is_sound(reading, now) for reading in known)
 
-    def touch(self, now: float, pose: Pose2D) -> None:
-        """The bumper was pressed: remember that something is ahead, stand, and back off."""
+    def touch(self, now: float, pose: Pose2D, is_pressed: bool) -> None:
+        """Take in whether something presses the bumper, which does not know on which side.
+
+        A robot that went somewhere has driven into a thing: it remembers that something is ahead,
+        stands, and backs off. To one that stood somebody has come, from wherever.
+        """
+        if not self._leaning.feel(is_pressed):
+            return
+        self._startled_until = now + STARTLE_S
+        if self._leaning.stood(pose):
+            return
         reach = self.mechanics.radius + self.manner.margin
         for aside in (-0.5, 0.0, 0.5):
             angle = pose.heading + aside
             x, y = pose.x + reach * math.cos(angle), pose.y + reach * math.sin(angle)
             self.memory.feel(x, y, now, angle)
-        self._startled_until = now + STARTLE_S
         self._backing_until = self._startled_until + BACKING_S
 
     def steer(self, now: float, pose: Pose2D, goal: Pose2D) -> Twist:
@@ -196,6 +209,8 @@ class Avoidance:
             twist = REST
         elif now < self._backing_until:
             twist = self._back_off(pose, ways)
+        elif self._leaning.is_pressed:
+            twist = self._let_go(pose, ways)
         else:
             twist = self._forth(now, pose, ways, goal, distance)
         self._is_moving = twist.linear > 0
@@ -320,6 +335,12 @@ class Avoidance:
 
     def _safe(self, free: float) -> float:
         return safe_speed(free, 0.0, self.manner.deceleration, self._is_moving)
+
+    def _let_go(self, pose: Pose2D, ways: Array) -> Twist:
+        """Turn from whoever leans on it, then back off."""
+        rate = LOOKING * self.manner.turn_rate * (self.side or 1)
+        turn = self._leaning.turn(pose.heading, ways, LEAST_BEHIND, rate)
+        return self._back_off(pose, ways) if turn is None else turn
 
     def _back_off(self, pose: Pose2D, ways: Array) -> Twist:
         """Slowly back where it came from, as far as nothing is known to be there."""

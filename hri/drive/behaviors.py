@@ -12,6 +12,7 @@ from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
 from hri.core.events import EventBus
 from hri.core.signals import RangeReading, Twist
 from hri.drive.gate import REST, Limits, VelocityGate, max_forward
+from hri.drive.watch import Watch, stopping_time
 from hri.hal.helm import Rank
 
 T = TypeVar("T")
@@ -23,6 +24,8 @@ MOTION = "drive.motion"
 
 _PRUDENCE = 0.7
 """Share of the deceleration that is counted on before an obstacle; the rest covers delays."""
+_SLACK = 0.03
+"""Metres a second by which it may be too fast for who comes and still slows down gently."""
 
 
 class CommandGate(Behavior):
@@ -31,6 +34,10 @@ class CommandGate(Behavior):
     What rests on the word of somebody outside, such as a peer over the network, counts for
     `PATIENCE` seconds after that word. A linked sensor that says nothing for `timeout_s` counts as
     an obstacle that touches, a linked switch as pressed.
+
+    All range sensors of the configuration, linked or not, are watched for somebody who comes. Then
+    it goes only so fast that it stands before they are here, and where that is too late for
+    slowing down gently it sends nothing, which brakes the base at once.
     """
 
     category = "drive"
@@ -54,7 +61,9 @@ class CommandGate(Behavior):
     range = Input[RangeReading]("range", "sensors that look ahead; any number")
     bump = Input[bool]("boolean", "switches that stop driving forward; any number")
     velocity = Output[Twist](
-        "twist", "for the base, at every tick, with the rank of whoever asks: a task or a behavior"
+        "twist",
+        "for the base, at every tick but those in which it brakes, with the rank of whoever asks:"
+        " a task or a behavior",
     )
 
     def start(self, context: Context) -> None:
@@ -70,6 +79,8 @@ class CommandGate(Behavior):
         self._was_bumped = False
         self._must_let_go = False
         self._subscription = context.events.subscribe("drive.halt", lambda event: self.halt())
+        self._watch = Watch(context.resources)
+        self._brakes_until = -math.inf
 
     def compute(self, now: float, dt: float) -> None:
         """Take the command, look ahead, limit, send, report: in this order."""
@@ -77,16 +88,17 @@ class CommandGate(Behavior):
             self._gate.halt("timeout")
         else:
             self._take_command(now)
-        free = self._max_forward(now)
-        speed = self.speed.value
-        velocity = self._gate.velocity(now, speed=1.0 if speed is None else speed, max_forward=free)
-        self.velocity.send(velocity)
-        self.velocity.rank = self._rank(now)
+        if self._must_brake(now, dt):
+            self._gate.brake(now)
+        else:
+            self.velocity.send(self._passed(now))
+            self.velocity.rank = self._rank(now)
         self._reporter.report(self._gate, now)
 
     def stop(self) -> None:
         self._subscription.cancel()
         self.halt()
+        self._watch.release()
 
     def halt(self) -> None:
         """Stop at once, end the motion of any task and forget all commands.
@@ -130,6 +142,24 @@ class CommandGate(Behavior):
         if self.twist.value is not None:
             return ""
         return self._asker if self._gate.is_asked(now) else Rank.NOBODY
+
+    def _must_brake(self, now: float, dt: float) -> bool:
+        """Whether somebody comes before whom it could not slow down gently."""
+        going = self._gate.current
+        self._watch.look(now, going, dt)
+        if abs(going.linear) > self._watch.speed(now) + _SLACK:
+            self._brakes_until = now + stopping_time(going) + dt
+        return now < self._brakes_until
+
+    def _passed(self, now: float) -> Twist:
+        """What is left of the command within all limits."""
+        speed = self.speed.value
+        return self._gate.velocity(
+            now,
+            speed=1.0 if speed is None else speed,
+            max_forward=self._max_forward(now),
+            fastest=min(self._watch.speed(now), self._watch.pace(now)),
+        )
 
     def _max_forward(self, now: float) -> float:
         """How fast it may go forward, in m/s; a touch ends a motion for good."""

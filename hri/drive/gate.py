@@ -48,7 +48,8 @@ class VelocityGate:
         self.target = REST
         """Where that is heading."""
         self.reason = "done"
-        """Why it last headed for rest: "done", "timeout", "obstacle", or what `halt` was told."""
+        """Why it last headed for rest: "done", "timeout", "obstacle", "somebody comes", or what
+        `halt` was told."""
         self._command = REST
         self._command_time = -math.inf
         self._time = -math.inf
@@ -79,16 +80,32 @@ class VelocityGate:
         self.current = self.target = REST
         self.reason = reason
 
-    def velocity(self, now: float, *, speed: float = 1.0, max_forward: float = math.inf) -> Twist:
+    def brake(self, now: float) -> None:
+        """Stand still at once, for somebody who comes; the command stays."""
+        self._step_to(now)
+        if self.target != REST:
+            self.reason = "somebody comes"
+        self.current = self.target = REST
+
+    def velocity(
+        self,
+        now: float,
+        *,
+        speed: float = 1.0,
+        max_forward: float = math.inf,
+        fastest: float = math.inf,
+    ) -> Twist:
         """What to send to the base.
 
         `speed` is a factor on the command; `max_forward` limits driving forward alone (m/s), so
-        that a base that stands before a wall can still turn away and back off.
+        that a base that stands before a wall can still turn away and back off; `fastest` limits
+        driving either way.
         """
         dt = self._step_to(now)
         is_stale = now - self._command_time > self.limits.timeout_s
         wanted = REST if is_stale else self._limited(self._command, speed)
-        target = _at_least(min(wanted.linear, max(0.0, max_forward)), wanted.angular)
+        ahead, back = max(0.0, min(max_forward, fastest)), max(0.0, fastest)
+        target = _at_least(max(-back, min(wanted.linear, ahead)), wanted.angular)
         if target == REST != self.target:
             self.reason = "timeout" if is_stale else "done" if wanted == REST else "obstacle"
         self.target = target

@@ -103,15 +103,11 @@ class ObstacleAvoidance(_Going):
         ids = self.sensor_ids.split() or range_sensors(context.resources)
         self._sensors = {id: self.obtain(id, RangeSensor) for id in ids}
         self._avoidance = Avoidance(mechanics_of(context.resources, ids), self._manner())
-        self._was_bumped = False
 
     def _look(self, now: float, pose: Pose2D) -> None:
         readings = {id: sensor.read(now) for id, sensor in self._sensors.items()}
         self._avoidance.see(now, pose, readings, self.people.value)
-        is_bumped = any(self.bump.values)
-        if is_bumped and not self._was_bumped:
-            self._avoidance.touch(now, pose)
-        self._was_bumped = is_bumped
+        self._avoidance.touch(now, pose, any(self.bump.values))
 
     def _steer(self, now: float, pose: Pose2D, goal: Pose2D) -> Twist:
         twist = self._avoidance.steer(now, pose, goal)

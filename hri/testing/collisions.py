@@ -16,6 +16,8 @@ from hri.simulation.person import RADIUS as PERSON
 
 CONTACT = 0.01
 """Meters between two bodies that touch."""
+PARTED = 3 * CONTACT
+"""Meters between two bodies that touch no more."""
 MOVING = 0.01
 """Meters a second; slower stands."""
 COVERED_S = 0.5
@@ -35,6 +37,8 @@ class Collision:
     time: float
     robot_speed: float
     """The greatest of the tick in which they touched, m/s, without its sign."""
+    robot_approach: float
+    """The part of its velocity that led toward the person, m/s; below 0 away from them."""
     person_speed: float
     """Meters a second."""
     bearing: float
@@ -61,7 +65,8 @@ class Collision:
             return f"a person walked into the standing robot, {self.side}"
         seen = "covered by a sensor" if self.covered_by else "covered by no sensor"
         who = "a person who walked" if self.person_speed > MOVING else "a person who stood"
-        return f"the moving robot and {who}, {seen}, {self.side}"
+        goes = "toward" if self.robot_approach > MOVING else "along or away from"
+        return f"the robot moved {goes} {who}, {seen}, {self.side}"
 
 
 class Witness:
@@ -81,14 +86,14 @@ class Witness:
             self._sights.setdefault(number, []).append((now, sensor))
 
     def watch(self, now: float, pose: Pose2D, speed: float, people: Sequence[Point]) -> None:
-        """Where the robot and everybody are now; `speed` is the robot's, m/s."""
+        """Where the robot and everybody are now; `speed` is the robot's, m/s, below 0 backward."""
         for number, place in enumerate(people):
             sights = self._sights.get(number, [])
             sights[:] = [sight for sight in sights if now - sight[0] <= COVERED_S + 1e-6]
             gap = math.dist((pose.x, pose.y), place) - self._radius - PERSON
-            if gap >= CONTACT:
+            if gap >= PARTED:
                 self._touching.discard(number)
-            elif number not in self._touching:
+            elif gap < CONTACT and number not in self._touching:
                 self._touching.add(number)
                 walked = self._speed(now, number, place)
                 self.collisions.append(_collision(now, pose, speed, place, walked, sights))
@@ -123,4 +128,6 @@ def _collision(
     ahead, left = seen_from(pose, *place)
     sensors = tuple(sorted({sensor for _, sensor in sights}))
     warning = now - min((time for time, _ in sights), default=now)
-    return Collision(now, abs(speed), walked, math.atan2(left, ahead), sensors, warning)
+    approach = speed * ahead / math.hypot(ahead, left)
+    bearing = math.atan2(left, ahead)
+    return Collision(now, abs(speed), approach, walked, bearing, sensors, warning)

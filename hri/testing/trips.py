@@ -163,7 +163,8 @@ class Journey:
 
     def _tick(self, now: float) -> None:
         before = self.world.base.pose
-        before_speed = abs(self.world.base.velocity.linear)
+        before_velocity = self.world.base.velocity.linear
+        before_speed = abs(before_velocity)
         if round(now / TICK) % 2 == 0:
             self._crowd.step(now)
         if self._lookout is not None and (people := self._lookout.look(now)) is not None:
@@ -174,7 +175,7 @@ class Journey:
         after = self.world.base.pose
         self.trip.way += math.hypot(after.x - before.x, after.y - before.y)
         after_speed = abs(self.world.base.velocity.linear)
-        self._judge(now, after, max(before_speed, after_speed))
+        self._judge(now, after, max(before_velocity, self.world.base.velocity.linear, key=abs))
         if after_speed >= before_speed:
             self._judge_approach(now, before, after)
         if math.hypot(after.x - self._spot.x, after.y - self._spot.y) > 0.2:
@@ -192,7 +193,7 @@ class Journey:
         trip, places = self.trip, [person.place(now) for person in self.world.people]
         gap = min(math.dist((pose.x, pose.y), place) for place in places) - ROBOT - PERSON
         trip.person_gap = min(trip.person_gap, gap)
-        if speed > MOVING:
+        if abs(speed) > MOVING:
             trip.person_gap_moving = min(trip.person_gap_moving, gap)
         self._witness.watch(now, pose, speed, places)
         clearance = self.room.room.clearance(pose.x, pose.y) - ROBOT

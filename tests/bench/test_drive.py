@@ -23,7 +23,7 @@ def test_rooms_that_were_not_reached_are_named_and_fail_the_row() -> None:
 
 def test_one_collision_with_somebody_fails_a_row() -> None:
     found = trips(10, 10)
-    found[3].collisions.append(Collision(3.0, 0.2, 1.0, 0.0, (), 0.0))
+    found[3].collisions.append(Collision(3.0, 0.2, 0.2, 1.0, 0.0, (), 0.0))
     reached, people = rooms.told("full", found, is_limited=True)
     assert (reached["count"], people["value"]) == (9, 1)
     assert not people["passed"]

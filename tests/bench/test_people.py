@@ -6,7 +6,7 @@ from hri.testing.trips import Trip
 
 
 def collision(speed: float, sensors: tuple[str, ...]) -> Collision:
-    return Collision(3.0, speed, 1.0, math.pi / 2, sensors, 0.3)
+    return Collision(3.0, speed, speed, 1.0, math.pi / 2, sensors, 0.3)
 
 
 def trips(*collisions: Collision, arrive: int = 10) -> list[Trip]:
@@ -28,7 +28,7 @@ def test_one_collision_with_somebody_covered_fails_the_row_and_is_told() -> None
     assert covered["each"][0]["room"] == 4
     assert others["causes"] == {
         "a person walked into the standing robot, left": 1,
-        "the moving robot and a person who walked, covered by no sensor, left": 1,
+        "the robot moved toward a person who walked, covered by no sensor, left": 1,
     }
     assert arrived["passed"]
     assert time["passed"]

@@ -178,7 +178,8 @@ def test_a_touch_makes_it_back_off_and_go_around() -> None:
     trial = Trial(Room())
     trial.go(Pose2D(3.0, 0.0), 2.0)
     before = trial.pose.x
-    trial.avoidance.touch(trial.now, trial.pose)
+    trial.avoidance.touch(trial.now, trial.pose, True)
+    trial.avoidance.touch(trial.now, trial.pose, False)
     assert trial.tick(Pose2D(3.0, 0.0)) == REST
     trial.go(Pose2D(3.0, 0.0), 0.3)
     assert trial.tick(Pose2D(3.0, 0.0)).linear < 0
@@ -186,6 +187,21 @@ def test_a_touch_makes_it_back_off_and_go_around() -> None:
     assert trial.pose.x < before
     assert trial.go(Pose2D(3.0, 0.0), 40.0)
     assert max(abs(pose.y) for pose in trial.path) > 0.25
+
+
+def test_one_who_leans_on_a_robot_that_stands_is_looked_for_and_backed_off_from() -> None:
+    trial = Trial(Room([Circle(0.0, 0.41, 0.21)]))
+    for _ in range(10):
+        trial.avoidance.see(trial.now, trial.pose, trial.readings())
+    for _ in range(200):
+        clearance = trial.room.clearance(trial.pose.x, trial.pose.y) - RADIUS
+        trial.avoidance.touch(trial.now, trial.pose, clearance < 0.01)
+        twist = trial.tick(Pose2D(3.0, 0.0))
+        if clearance >= 0.01:
+            break
+        assert twist.linear <= 0.0
+    assert clearance >= 0.01
+    assert trial.closest > -0.01
 
 
 @settings(max_examples=4, deadline=None)

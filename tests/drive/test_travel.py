@@ -15,11 +15,12 @@ from hri.behavior.ports import OutputPort
 from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.geometry import seen_from
-from hri.core.signals import HeadPose, People, Person, Pose2D
+from hri.core.signals import HeadPose, People, Person, Pose2D, Twist
 from hri.drive import travel
 from hri.drive.behaviors import CommandGate
 from hri.drive.goals import DeadReckoning, FollowTarget
 from hri.drive.going import ObstacleAvoidance
+from hri.simulation.person import RADIUS
 from hri.simulation.rooms import furnished
 from hri.simulation.world import SimulatedWorld
 from hri.task.context import TaskContext, TaskFailed
@@ -286,8 +287,27 @@ def test_who_is_seen_is_not_driven_up_to() -> None:
     assert trip.person_gap_approached > 0.4
 
 
+def test_the_gate_brakes_for_somebody_who_walks_up_whatever_it_is_asked(tmp_path: Path) -> None:
+    stage = Set(tmp_path, "[robot]\nstart = [1, 2]\n[person]\nat = [4.0, 2.0]")
+    asks = OutputPort[Twist]()
+    asks.value = Twist(0.3)
+    stage.gate.twist.sources.append(asks)
+    base, person = stage.world.base, stage.world.person
+    speeds = []
+
+    async def touch(context: TaskContext) -> None:
+        person.go(1.0, 2.0, stage.clock.now())
+        while stage.world.distance_to(person, stage.clock.now()) > 0.2 + RADIUS:
+            speeds.append(base.velocity.linear)
+            await stage.clock.sleep(0.05)
+
+    stage.run(touch)
+    assert max(speeds) > 0.25
+    assert base.velocity.linear == 0.0
+
+
 def test_after_somebody_has_run_into_it_it_goes_on() -> None:
-    trip = Journey(furnished(2), "full", heedful=False).run()
+    trip = Journey(furnished(16), "full", heedful=False).run()
     assert trip.people_hit + trip.people_met
     assert trip.is_there
 

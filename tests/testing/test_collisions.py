@@ -45,7 +45,9 @@ def test_a_sight_of_the_last_half_second_counts(seen_at: tuple[float], is_covere
     (collision,) = walked_into(0.2, math.pi / 2, seen_at)
     assert bool(collision.covered_by) == is_covered
     words = "covered by a sensor" if is_covered else "covered by no sensor"
-    assert collision.cause == f"the moving robot and a person who walked, {words}, left"
+    assert (
+        collision.cause == f"the robot moved along or away from a person who walked, {words}, left"
+    )
     assert collision.warning == pytest.approx(0.4 if is_covered else 0.0, abs=0.06)
 
 

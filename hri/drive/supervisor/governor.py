@@ -35,6 +35,11 @@ class Body:
     clearance: float = 0.1
     """Kept free ahead and behind."""
 
+    @property
+    def reach(self) -> float:
+        """Meters from the middle to what it sweeps at most in any direction, as of a round body."""
+        return max(self.front, self.back, self.half_width)
+
 
 @dataclass(frozen=True, slots=True)
 class Room:

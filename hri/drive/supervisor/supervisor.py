@@ -43,6 +43,7 @@ from hri.drive.supervisor.lag import Lag
 from hri.drive.supervisor.latch import Latch
 from hri.drive.supervisor.limiter import Cap, Limiter, within_hardware
 from hri.drive.supervisor.multiplexer import Command, Level, Multiplexer
+from hri.drive.supervisor.oncoming import Oncoming
 from hri.drive.supervisor.plausibility import Plausibility
 from hri.drive.supervisor.reflex import Reflex
 from hri.drive.supervisor.rules import Rules
@@ -90,6 +91,7 @@ class Supervisor:
         half_track = rules.fastest.linear / rules.fastest.angular
         self._plausibility = Plausibility(rules.sensors, half_track)
         self._lag = Lag(half_track)
+        self._oncoming = Oncoming(rules.mounts, rules.body.reach)
         self._floor = Floor()
         self._reflex = Reflex()
         self._hazards: Sequence[Hazard] = ()
@@ -228,6 +230,8 @@ class Supervisor:
         self._hazards = hazards_of(report, lights, self.faults)
         faulty = {f.sensor.place for f in self.faults if f.sensor.kind is Kind.RANGE}
         self.room = room(report.ranges, self.rules.mounts, self.rules.body, faulty)
+        sound = {name: d for name, d in report.ranges.items() if name not in faulty}
+        self._oncoming.see(report.time, report.rolled, sound)
         pressed = pressed_buttons(report)
         self._must_cut |= pressed != self._pressed
         self._pressed = pressed
@@ -343,12 +347,15 @@ class Supervisor:
     def _cap(self) -> Cap:
         """How fast it may go now, with what is in the way."""
         cap, limits, clearance = self.allowed, self.rules.limits, self.rules.body.clearance
-        moving = self._sent.linear
-        ahead = safe_speed(self.room.ahead, clearance, limits.deceleration, moving > 0)
-        behind = safe_speed(self.room.behind, clearance, limits.deceleration, moving < 0)
+        moving, deceleration = self._sent.linear, limits.deceleration
+        ahead = safe_speed(self.room.ahead, clearance, deceleration, moving > 0)
+        behind = safe_speed(self.room.behind, clearance, deceleration, moving < 0)
         for hazard in self._hazards:
             ahead, behind = (ahead, 0.0) if hazard.is_behind else (0.0, behind)
-        return replace(cap, forward=min(cap.forward, ahead), backward=min(cap.backward, behind))
+        now, watch = self._judged, self._oncoming
+        coming = min(watch.speed(now, deceleration), watch.pace(now))
+        forward, backward = (min(cap.forward, ahead, coming), min(cap.backward, behind, coming))
+        return replace(cap, forward=forward, backward=backward)
 
 
 def _is_blocked(twist: Twist, cap: Cap) -> bool:

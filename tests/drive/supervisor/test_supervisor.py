@@ -226,6 +226,18 @@ def test_it_stops_before_what_its_range_sensors_see() -> None:
     assert track.run(0.5, Twist(0.0, 0.5)).twist.angular == pytest.approx(0.5)
 
 
+def test_it_stands_when_somebody_walks_up_to_it() -> None:
+    mounts = {"left": Pose2D(0.13, 0.13, math.pi / 4)}
+    track = Track(sensors=Sensors(ranges=("left",)), mounts=mounts).released()
+    away, speeds = 1.6, []
+    while away > 0.02:
+        away -= 0.01 * 0.9
+        track.feel(ranges={"left": away if away < 0.8 else math.inf})
+        speeds.append(track.step((Command(Level.TASKS, GO, track.now),)).twist.linear)
+    assert max(speeds) > 0.2
+    assert speeds[-1] == 0.0
+
+
 # --- reflexes ---
 
 
