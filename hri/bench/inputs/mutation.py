@@ -60,7 +60,7 @@ def _several(
     tokens: Tokens, changes: Sequence[Change], seeds: Sequence[bytes], random: Random
 ) -> bytes:
     for _ in range(random.choice((1, 1, 1, 2, 2, 3, 4))):
-        tokens = random.choice(changes)(tokens or [b" "], seeds, random)
+        tokens = random.choice(changes)(tokens if any(tokens) else [b" "], seeds, random)
     return b"".join(tokens)
 
 
