@@ -36,6 +36,13 @@ class Door:
         self._told: dict[str, float] = {}
         """When the log was told of a port that was written to without the token."""
 
+    def prepare(self) -> None:
+        """Make the token, if one may be needed, before anybody can connect."""
+        self.look()
+        # A task may begin to watch a port after somebody has connected.
+        if self._context.has_tasks and any(self._closed_outputs()):
+            _make_token()
+
     def look(self) -> None:
         """Find out anew what the outputs reach, if other networks run; call it in each tick."""
         context = self._context
@@ -82,10 +89,14 @@ class Door:
         """Say that a token is needed, and make one if there is none."""
         for port, effects in self._guarded.items():
             log.info("%s.%s %s: who writes to it shows a token", self._tag, port, _words(effects))
-        try:
-            own_token()
-        except HriError as error:
-            log.warning("nobody can show a token: %s", error)
+        _make_token()
+
+
+def _make_token() -> None:
+    try:
+        own_token()
+    except HriError as error:
+        log.warning("nobody can show a token: %s", error)
 
 
 def _words(effects: Iterable[Effect]) -> str:

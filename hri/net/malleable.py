@@ -68,7 +68,7 @@ class MalleableBehavior(Behavior):
         # The other end may be a robot, to which this program shows the token.
         self.may_do = ANYTHING if self.tcp_host else NOTHING
         self._door = Door(self, self.tag_name, context)
-        self._door.look()
+        self._door.prepare()
         self._is_told_to_stop = False
         self._link = self._opened(context.doors.allows_remote)
         self._link.subscribe(self.tag_name, self._receive)

@@ -244,6 +244,17 @@ def test_where_a_port_needs_it_it_is_made_when_the_network_starts(robot):
     assert token_file().exists()
 
 
+def test_where_tasks_run_it_is_made_before_anybody_can_connect(robot):
+    """A task may begin to watch a port at any time; who connected before would have no token."""
+    here = robot()
+    here.lent.has_tasks = True
+    here.bridge.start(here.lent)
+    try:
+        assert token_file().exists()
+    finally:
+        here.bridge.stop()
+
+
 def test_without_a_port_that_needs_it_none_is_made(robot):
     here = robot()
     here.run(here.bridge, InputCollector("show"), links=[("bridge.velocity", "show.input")])
