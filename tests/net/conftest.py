@@ -1,4 +1,5 @@
 import threading
+from pathlib import Path
 
 import pytest
 
@@ -8,6 +9,12 @@ from hri.net.server import Server
 
 WITHIN = 10.0
 """Seconds after which a test that waits for a socket has failed."""
+
+
+@pytest.fixture(autouse=True)
+def own_token(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No test shows the token that another one has made."""
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
 
 
 class Taken:
