@@ -13,8 +13,7 @@ import os
 import subprocess
 import tempfile
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -24,6 +23,7 @@ from hri.behavior.network import Network
 from hri.behavior.ports import Input, Output
 from hri.behavior.runner import Runner
 from hri.bench.figures import machine, summary
+from hri.bench.workers import busy_processes
 from hri.core import child
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
@@ -144,19 +144,6 @@ def _case(load: str, priority: str, seconds: float) -> dict[str, Any]:
         raise HriError(f"{' '.join(command)} failed: {done.stderr[-500:].strip()} - run it by hand")
     figures: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
     return figures
-
-
-@contextmanager
-def busy_processes(count: int) -> Iterator[list[subprocess.Popen[bytes]]]:
-    """Processes that do nothing but keep processors busy."""
-    command = child.command("-c", "while True: pass")
-    running = [subprocess.Popen(command, env=child.environment()) for _ in range(count)]
-    try:
-        yield running
-    finally:
-        for process in running:
-            process.kill()
-            process.wait()
 
 
 def starts(count: int = STARTS) -> list[float]:

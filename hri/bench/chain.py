@@ -6,23 +6,20 @@ from __future__ import annotations
 
 import itertools
 import signal
-import subprocess
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
 import psutil
 
 from hri.bench.figures import summary
 from hri.bench.stops import SPEED, Bench, driving_program
-from hri.core import child
+from hri.bench.workers import busy_processes
 
 LINKS = ("program", "supervisor", "watchdog")
 DEEDS: Mapping[str, signal.Signals] = {"killed": signal.SIGKILL, "frozen": signal.SIGSTOP}
 Combination = Mapping[str, str]
 """What is done to which links, such as {"supervisor": "frozen", "watchdog": "killed"}."""
-BUSY = "while True: pass"
-"""What a busy process runs."""
 
 
 def combinations() -> list[Combination]:
@@ -59,19 +56,6 @@ def figures(tries: int, busy: int = 0) -> dict[str, Any]:
     together = list(itertools.chain.from_iterable(seconds.values()))
     told = {name: _told(values) for name, values in seconds.items()}
     return {"all": _told(together), "combinations": told, "tries": tries, "busy": busy}
-
-
-@contextmanager
-def busy_processes(count: int) -> Iterator[None]:
-    """Processes that take all the time they can get, while a `with` lasts."""
-    command, environment = child.command("-c", BUSY), child.environment()
-    running = [subprocess.Popen(command, env=environment) for _ in range(count)]
-    try:
-        yield
-    finally:
-        for process in running:
-            process.kill()
-            process.wait()
 
 
 def _chain(program: int) -> Sequence[psutil.Process]:

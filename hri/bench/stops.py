@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 import os
 import signal
-import subprocess
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -17,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from hri.core import child
+from hri.bench.workers import running
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.core.signals import Twist
@@ -125,8 +124,13 @@ def program_to_zero(tries: int) -> list[float]:
     bench, figures = Bench(), []
     with bench.port() as port:
         for number in range(tries):
-            figures.append(ended(bench, port.path, (signal.SIGKILL, signal.SIGSTOP)[number % 2]))
+            figures.append(ended(bench, port.path, by_turns(number)))
     return figures
+
+
+def by_turns(number: int) -> signal.Signals:
+    """How a process is ended in one of several tries: killed, or frozen."""
+    return (signal.SIGKILL, signal.SIGSTOP)[number % 2]
 
 
 def ended(bench: Bench, path: str, by: signal.Signals, speed: float = SPEED) -> float:
@@ -141,16 +145,10 @@ def ended(bench: Bench, path: str, by: signal.Signals, speed: float = SPEED) -> 
 def driving_program(bench: Bench, path: str, speed: float = SPEED) -> Iterator[int]:
     """The id of a program that drives the base at this speed while a `with` lasts."""
     code = f"from hri.bench.stops import drive_on; drive_on({path!r}, {speed!r})"
-    program = subprocess.Popen(
-        child.command("-c", code), stdin=subprocess.DEVNULL, env=child.environment()
-    )
-    try:
+    with running(code) as program:
         began = bench.clock.now()
         bench.wait("driving", lambda: bench.line.goes(speed, began))
         yield program.pid
-    finally:
-        program.kill()
-        program.wait()
 
 
 def hazard_to_zero(tries: int) -> list[float]:

@@ -1,12 +1,13 @@
-"""Processes that share the work of a bench."""
+"""Processes beside a bench: some share its work, some are measured, some keep the machine busy."""
 
 from __future__ import annotations
 
 import os
+import subprocess
 import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from multiprocessing import get_context
 
 from hri.core import child
@@ -31,3 +32,23 @@ def worker_pool(count: int) -> Iterator[ProcessPoolExecutor]:
     """So many processes to which work can be submitted; they end with the body."""
     with safe_start(), ProcessPoolExecutor(count, mp_context=get_context("spawn")) as pool:
         yield pool
+
+
+@contextmanager
+def running(code: str, stdout: int | None = None) -> Iterator[subprocess.Popen[str]]:
+    """A process that runs this Python code, without input; it is killed when the block ends."""
+    command, environment = child.command("-c", code), child.environment()
+    with subprocess.Popen(
+        command, stdin=subprocess.DEVNULL, stdout=stdout, text=True, env=environment
+    ) as process:
+        try:
+            yield process
+        finally:
+            process.kill()
+
+
+@contextmanager
+def busy_processes(count: int) -> Iterator[list[subprocess.Popen[str]]]:
+    """Processes that do nothing but keep processors busy while the block runs."""
+    with ExitStack() as stack:
+        yield [stack.enter_context(running("while True: pass")) for _ in range(count)]

@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
 
-from hri.bench.behavior import busy_processes, chain, cost
+from hri.bench.behavior import chain, cost
 from hri.bench.ticks import INTERVAL, Stopwatch, figures
+from hri.bench.workers import busy_processes
 
 
 def test_the_chain_really_passes_a_number_on():

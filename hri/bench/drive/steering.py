@@ -12,7 +12,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager
 
 import numpy as np
 import trio
@@ -23,9 +23,9 @@ from hri.behavior.drivers import DriveCommand, JoystickSticks
 from hri.behavior.network import Network
 from hri.behavior.ports import LINEAR_VELOCITY, Output
 from hri.behavior.runner import Runner
-from hri.bench.stops import PATIENCE, SPEED, Bench
+from hri.bench.stops import PATIENCE, SPEED, Bench, by_turns
 from hri.bench.table import Row, amount, at_most
-from hri.core import child
+from hri.bench.workers import running
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.core.events import EventBus
@@ -81,7 +81,7 @@ def peer_to_zero(tries: int) -> list[float]:
         bridge = int(program.stdout.readline())
         for number in range(tries):
             with _process(f"steer({bridge})") as peer:
-                figures.append(_ended(bench, peer, _signal(number)))
+                figures.append(_ended(bench, peer, by_turns(number)))
     return figures
 
 
@@ -91,7 +91,7 @@ def script_to_zero(tries: int) -> list[float]:
     with bench.port() as port:
         for number in range(tries):
             with _process(f"drive_on({port.path!r})") as script:
-                figures.append(_ended(bench, script, _signal(number)))
+                figures.append(_ended(bench, script, by_turns(number)))
     return figures
 
 
@@ -105,10 +105,6 @@ def joystick_to_zero(tries: int) -> list[float]:
     return figures
 
 
-def _signal(number: int) -> signal.Signals:
-    return (signal.SIGKILL, signal.SIGSTOP)[number % 2]
-
-
 def _ended(bench: Bench, process: subprocess.Popen[str], by: signal.Signals) -> float:
     bench.wait("driving", lambda: bench.line.goes(SPEED))
     time = bench.clock.now()
@@ -116,22 +112,9 @@ def _ended(bench: Bench, process: subprocess.Popen[str], by: signal.Signals) -> 
     return bench.stop_after(time)
 
 
-@contextmanager
-def _process(call: str) -> Iterator[subprocess.Popen[str]]:
-    """One of the programs below, which is killed at the end."""
-    code = f"from {__name__} import *; {call}"
-    process = subprocess.Popen(
-        child.command("-c", code),
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        text=True,
-        env=child.environment(),
-    )
-    try:
-        yield process
-    finally:
-        process.kill()
-        process.communicate()
+def _process(call: str) -> AbstractContextManager[subprocess.Popen[str]]:
+    """One of the programs below."""
+    return running(f"from {__name__} import *; {call}", subprocess.PIPE)
 
 
 # --- the programs ---
