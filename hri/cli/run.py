@@ -16,6 +16,7 @@ from hri.cli.narrator import Narrator
 from hri.cli.streams import unfailing_output
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
+from hri.core.privacy import PRIVATE_FOLDER
 from hri.core.realtime import become_realtime
 from hri.core.writing import make_folder
 from hri.drive.behaviors import CommandGate
@@ -145,7 +146,7 @@ def recordings_folder(robot: Robot) -> Path:
     numbered = (folder.with_name(f"{folder.name}-{number}") for number in count(2))
     for free in chain([folder], numbered):
         with suppress(FileExistsError):  # another robot began in this second
-            free.mkdir(0o700)
+            free.mkdir(PRIVATE_FOLDER)
             break
     return free
 

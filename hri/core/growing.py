@@ -13,7 +13,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from hri.core.errors import HriError
-from hri.core.writing import not_written, reason_of
+from hri.core.writing import not_written, reason_of, write_all
 
 log = logging.getLogger("hri.recording")
 
@@ -57,9 +57,7 @@ class GrowingFile:
         if self._handle is None:
             return False
         try:
-            rest = memoryview(record)
-            while rest:
-                rest = rest[os.write(self._handle, rest) :]
+            write_all(self._handle, record)
         except OSError as error:
             self._end(self._handle, error)
             return False

@@ -12,6 +12,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from hri.core.errors import HriError
+from hri.core.privacy import PRIVATE_FOLDER
 
 _ROOT = 0
 """Who may write everything anyway."""
@@ -48,10 +49,10 @@ def own_cache(path: Path) -> Path | None:
     somebody else's is not used.
     """
     with suppress(OSError):
-        path.mkdir(mode=0o700, parents=True, exist_ok=True)
+        path.mkdir(mode=PRIVATE_FOLDER, parents=True, exist_ok=True)
         if not is_all_of_user(path) and _is_owned(path.stat()):
             shutil.rmtree(path)
-            path.mkdir(mode=0o700)
+            path.mkdir(mode=PRIVATE_FOLDER)
         return path if is_all_of_user(path) else None
     return None
 

@@ -42,7 +42,7 @@ def note(kind: Kind, place: Path) -> None:
             return
         private_folder(file.parent)
         private_file(file)
-        append_line(file, json.dumps({"kind": kind, "place": os.fspath(place)}))
+        append_line(file, _line(kind, place))
     except (HriError, OSError) as error:
         log.warning("%s: `hri forget` will not find it: %s", place, error)
 
@@ -60,12 +60,15 @@ def tidy() -> None:
     """Take the places of what is gone out of the notes. Raises HriError."""
     file = whereabouts_file()
     before = _noted(file)
-    there = [(kind, place) for kind, place in before if os.path.lexists(place)]
-    if there:
-        lines = [json.dumps({"kind": kind, "place": os.fspath(place)}) for kind, place in there]
+    lines = [_line(kind, place) for kind, place in before if os.path.lexists(place)]
+    if lines:
         write_text(file, "\n".join([*lines, ""]), PRIVATE)
     elif before or file.exists():
         file.unlink(missing_ok=True)
+
+
+def _line(kind: str, place: Path) -> str:
+    return json.dumps({"kind": kind, "place": os.fspath(place)})
 
 
 def _noted(file: Path) -> dict[tuple[str, Path], None]:
@@ -73,7 +76,7 @@ def _noted(file: Path) -> dict[tuple[str, Path], None]:
     if not file.exists():
         return {}
     found: dict[tuple[str, Path], None] = {}
-    for line in read_text(file, "list of recordings", MOST_BYTES).splitlines():
+    for line in read_text(file, "list of places", MOST_BYTES).splitlines():
         with suppress(ValueError, TypeError, KeyError):
             entry = parse_json(line)
             found[entry["kind"], Path(entry["place"])] = None

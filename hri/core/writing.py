@@ -21,6 +21,8 @@ from hri.core.errors import HriError
 
 PRIVATE = 0o600
 """Permissions of a file that only its owner may read."""
+Mark = tuple[int, int]
+"""By which a file is known again: its number on the disk, and when it was written (nanoseconds)."""
 SUFFIX = ".new"
 """Of the file beside: no loader takes it for one of its own."""
 _LONGEST = 180
@@ -65,10 +67,10 @@ def write_bytes(path: Path, data: bytes, mode: int | None = None) -> os.stat_res
     with _refusing(path):
         if _is_stream(path):
             with path.open("wb", buffering=0) as stream:
-                _write(stream.fileno(), data)
+                write_all(stream.fileno(), data)
                 return os.fstat(stream.fileno())
         with _beside(path, mode, SUFFIX) as (handle, _):
-            _write(handle, data)
+            write_all(handle, data)
             return os.fstat(handle)
 
 
@@ -84,7 +86,7 @@ def append_line(path: Path, line: str, mode: int = PRIVATE) -> None:
             is_torn = size > 0 and os.pread(handle, 1, size - 1) != b"\n"
             before = "\n" if is_torn else ""
             try:
-                _write(handle, f"{before}{line}\n".encode())
+                write_all(handle, f"{before}{line}\n".encode())
             except OSError:
                 os.ftruncate(handle, size)
                 raise
@@ -138,6 +140,21 @@ def delete_leftovers(path: Path) -> None:
     with _refusing(path):
         for file in _all_beside(path.resolve()):
             _if_abandoned(file, Path.unlink)
+
+
+def mark_of(status: os.stat_result) -> Mark:
+    """The mark of the file that has this status."""
+    return status.st_ino, status.st_mtime_ns
+
+
+def delete(*files: Path) -> None:
+    """Delete files, as far as they are there. Raises HriError at the first that cannot be."""
+    for file in files:
+        try:
+            file.unlink(missing_ok=True)
+        except OSError as error:
+            reason = error.strerror or str(error)
+            raise HriError(f"{file}: cannot be deleted: {reason} - delete it") from error
 
 
 def make_folder(folder: Path, mode: int = 0o777) -> None:
@@ -227,7 +244,8 @@ def _beginning(target: Path) -> str:
     return f".{os.fsdecode(os.fsencode(target.name)[:_LONGEST])}.new-"
 
 
-def _write(handle: int, data: bytes) -> None:
+def write_all(handle: int, data: bytes) -> None:
+    """Write to an open file, however many calls that takes. Raises OSError."""
     rest = memoryview(data)
     while rest:
         rest = rest[os.write(handle, rest) :]

@@ -12,14 +12,13 @@ from hri.behavior.behavior import Context
 from hri.core.clock import Clock, Worker
 from hri.core.errors import HriError
 from hri.core.whereabouts import note
+from hri.core.writing import Mark, mark_of
 from hri.emotion.affect import Affect, Imprint
 from hri.emotion.dynamics import Dynamics
 from hri.emotion.persistence import (
     SIGN_OF_LIFE_S,
-    Mark,
     Memory,
     keep,
-    mark_of,
     memory_file,
     put_aside,
     recall,

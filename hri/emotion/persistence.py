@@ -22,7 +22,7 @@ from hri.core.ownership import require_of_user
 from hri.core.paths import exists
 from hri.core.privacy import close_to_others, folder_for, is_named, is_same_name
 from hri.core.reading import parse_json, read_text
-from hri.core.writing import PRIVATE, leftovers, write_text
+from hri.core.writing import PRIVATE, Mark, delete, leftovers, mark_of, write_text
 from hri.emotion.affect import Imprint, renamed, shifted
 from hri.emotion.imprint_file import LATEST, Fields, decoded, encoded
 from hri.emotion.ledger import Origin
@@ -35,8 +35,6 @@ SIGN_OF_LIFE_S = 60.0
 """A robot that runs writes its file at least as often."""
 LONGEST_AWAY_S = 365 * 86400.0
 """More than this is a clock that was wrong, and counts as this."""
-Mark = tuple[int, int]
-"""By which a file is known again: its number on the disk, and when it was written (nanoseconds)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,24 +164,20 @@ def forget(path: Path, person: str | None = None) -> bool:
     With a person, what the robot thinks of them goes, and what they caused has no name any more. A
     robot that runs forgets it too, within a second. Files beside it (`traces`) go as well when all
     is forgotten. Raises HriError for somebody it does not know, for a file that cannot be used, and
-    for one that cannot be written.
+    for one that cannot be written or deleted.
     """
-    try:
-        if person is None:
-            found = traces(path)
-            for file in found:
-                file.unlink(missing_ok=True)
-            return bool(found)
-        memory = recall(path)
-        if memory is None:
-            return False
-        imprint, count = without(memory.imprint, person), memory.forgettings + 1
-        if imprint == memory.imprint:
-            remedy = did_you_mean(person, people(memory.imprint))
-            raise HriError(f'nobody called "{person}" - {remedy}')
-        keep(path, replace(memory, imprint=imprint, forgettings=count))
-    except OSError as error:
-        raise HriError(f"{path}: {error.strerror} - check the folder") from error
+    if person is None:
+        found = traces(path)
+        delete(*found)
+        return bool(found)
+    memory = recall(path)
+    if memory is None:
+        return False
+    imprint, count = without(memory.imprint, person), memory.forgettings + 1
+    if imprint == memory.imprint:
+        remedy = did_you_mean(person, people(memory.imprint))
+        raise HriError(f'nobody called "{person}" - {remedy}')
+    keep(path, replace(memory, imprint=imprint, forgettings=count))
     return True
 
 
@@ -214,8 +208,3 @@ def without(imprint: Imprint, person: str) -> Imprint:
 def without_unnamed(imprint: Imprint) -> Imprint:
     """The same without those who had but an id, which is somebody else's by now."""
     return renamed(imprint, dict.fromkeys(filter(is_unnamed, people(imprint))))
-
-
-def mark_of(status: os.stat_result) -> Mark:
-    """By which the file of this status is known again."""
-    return status.st_ino, status.st_mtime_ns

@@ -19,7 +19,7 @@ from hri.core.growing import is_growing
 from hri.core.privacy import is_named, is_same_name
 from hri.core.reading import opened, parse_json
 from hri.core.whereabouts import noted, tidy
-from hri.core.writing import PRIVATE, leftovers, write_text
+from hri.core.writing import PRIVATE, delete, leftovers, write_text
 from hri.emotion import persistence
 from hri.hal import choices
 from hri.robot.recording import parts
@@ -56,7 +56,7 @@ class Kept(ABC):
 
     def delete(self, place: Path) -> None:
         """Erase all that is kept there. Raises HriError."""
-        _delete(place, *leftovers(place))
+        delete(place, *leftovers(place))
 
 
 class Feelings(Kept):
@@ -79,7 +79,7 @@ class Feelings(Kept):
         """Of the file itself the person, of what lies beside it, or cannot be used, the whole."""
         with suppress(HriError):
             persistence.forget(place, person)
-        _delete(*(file for file in persistence.traces(place) if _mentions(file, person)))
+        delete(*(file for file in persistence.traces(place) if _mentions(file, person)))
 
     def delete(self, place: Path) -> None:
         persistence.forget(place)
@@ -200,7 +200,7 @@ class Recordings(Kept):
         """Raises HriError as long as a robot writes it."""
         if any(is_growing(file) for file in parts(place)):
             raise HriError(f"{place}: it is still being recorded - end the robot first")
-        _delete(*parts(place))
+        delete(*parts(place))
         with suppress(OSError):  # what else lies there is not ours
             place.rmdir()
 
@@ -268,14 +268,6 @@ def people() -> set[str]:
 
 def _there(file: Path) -> list[Path]:
     return [file] if os.path.lexists(file) or leftovers(file) else []
-
-
-def _delete(*files: Path) -> None:
-    for file in files:
-        try:
-            file.unlink(missing_ok=True)
-        except OSError as error:
-            raise HriError(f"{file}: cannot be deleted: {error.strerror} - delete it") from error
 
 
 def _lines(file: Path) -> list[str]:

@@ -15,6 +15,7 @@ from hri.core import paths
 from hri.core.clock import Worker
 from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Frame, Image, Landmarks, People, Person
+from hri.core.writing import Mark, mark_of
 from hri.vision.recognition import Acquaintances, FaceEmbedder, FaceRecognizer
 
 log = logging.getLogger("hri.vision")
@@ -53,7 +54,7 @@ class FaceNames(Behavior):
         self._recognizer: FaceRecognizer | None = None
         self._events = context.events
         self._checked = context.clock.now()
-        self._mark: tuple[int, int] | None = None
+        self._mark: Mark | None = None
         """Of the file as it was read or written last; None when there was none."""
         if self.model:
             self._recognizer = FaceRecognizer(embedder(self.model), Acquaintances())
@@ -173,13 +174,12 @@ class FaceNames(Behavior):
         self._worker.submit(partial(_named, self._recognizer, id, *self._seen[id]))
 
 
-def _mark_of(path: Path) -> tuple[int, int] | None:
-    """By which a file is known again; None when there is none."""
+def _mark_of(path: Path) -> Mark | None:
+    """The mark of a file; None when there is none."""
     try:
-        status = path.stat()
+        return mark_of(path.stat())
     except OSError:
         return None
-    return status.st_ino, status.st_mtime_ns
 
 
 def _named(

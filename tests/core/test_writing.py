@@ -1,4 +1,5 @@
 import os
+import re
 import stat
 import subprocess
 import sys
@@ -13,6 +14,7 @@ from hri.core.errors import HriError
 from hri.core.writing import (
     PRIVATE,
     append_line,
+    delete,
     leftovers,
     make_folder,
     new_folder,
@@ -51,6 +53,14 @@ def test_on_a_disk_of_any_size_the_old_or_the_new_file_is_there_whole(
     else:
         assert path.read_bytes() == new
     assert os.listdir(path.parent) == [path.name]
+
+
+def test_what_cannot_be_deleted_is_named_and_what_is_gone_already_is_not(tmp_path):
+    (tmp_path / "file").touch()
+    delete(tmp_path / "gone", tmp_path / "file")
+    assert not os.listdir(tmp_path)
+    with pytest.raises(HriError, match=re.escape(f"{tmp_path}: cannot be deleted: ")):
+        delete(tmp_path)
 
 
 def test_a_full_disk_is_said_in_one_line(tmp_path):

@@ -18,6 +18,7 @@ from typing import Any
 from hri.cli.drive.plan import Moment, Point, Run
 from hri.core.errors import HriError
 from hri.core.reading import parse_json, read_text
+from hri.core.recording import LARGEST_LOG
 from hri.core.signals import Pose2D
 from hri.simulation.layout import load_layout
 from hri.simulation.rooms import furnished
@@ -25,7 +26,6 @@ from hri.testing.trips import Journey
 
 EVENTS = "events.jsonl"
 """The file in a robot's recording."""
-MOST_BYTES = 25_000_000
 MOST_ROOMS = 100_000
 FARTHEST = 1e4
 """Metres from the origin; nobody drives farther."""
@@ -64,7 +64,7 @@ def _driven(number: int, policy: str) -> Run:
 
 
 def _lines(path: Path) -> Iterator[Mapping[str, Any]]:
-    text = read_text(path, "run, or number of a room", MOST_BYTES)
+    text = read_text(path, "run, or number of a room", LARGEST_LOG)
     *rows, last = text.split("\n")
     for number, row in enumerate([*rows, last] if last else rows, 1):
         try:
