@@ -5,11 +5,12 @@ from __future__ import annotations
 import logging
 import math
 from dataclasses import replace
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
-from hri.behavior.behavior import Behavior, Context
+from hri.behavior.behavior import Context
+from hri.behavior.device import DeviceBehavior
 from hri.behavior.effects import NOTHING, Effect
 from hri.behavior.library.shaping import deadband
 from hri.behavior.ports import (
@@ -32,42 +33,11 @@ from hri.hal.drive import PATIENCE, DriveSystem, Odometry
 from hri.hal.helm import Outranked, Rank, Writer
 from hri.hal.joystick import Joystick
 from hri.hal.range_sensor import RangeSensor
-from hri.hal.resource import Resource
 from hri.hal.screen import Screen
-
-R = TypeVar("R", bound=Resource)
 
 log = logging.getLogger("hri.behavior")
 
 STEERING_RANKS = tuple(rank.value for rank in Rank if rank is not Rank.NOBODY)
-
-
-class DeviceBehavior(Behavior):
-    """Base of behaviors with a device: gives back what it took when it stops."""
-
-    category = "drivers"
-
-    def start(self, context: Context) -> None:
-        self._resources = context.resources
-        self._held: list[Resource] = []
-
-    def obtain(self, id: str, interface: type[R]) -> R:
-        """A device, until this behavior stops. Raises as `ResourceManager.obtain` does."""
-        try:
-            resource = self._resources.obtain(id, interface)
-        except HriError:
-            # Who cannot start is not stopped either.
-            self._give_back()
-            raise
-        self._held.append(resource)
-        return resource
-
-    def stop(self) -> None:
-        self._give_back()
-
-    def _give_back(self) -> None:
-        while self._held:
-            self._resources.release(self._held.pop())
 
 
 class CameraFrames(DeviceBehavior):

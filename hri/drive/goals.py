@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 
 from hri.behavior.behavior import Context
-from hri.behavior.drivers import DeviceBehavior
+from hri.behavior.device import DeviceBehavior
 from hri.behavior.ports import Input, Output, Param
 from hri.core.geometry import seen_from
 from hri.core.signals import People, Pose2D

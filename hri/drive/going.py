@@ -11,7 +11,7 @@ import math
 from abc import ABC, abstractmethod
 
 from hri.behavior.behavior import Context
-from hri.behavior.drivers import DeviceBehavior
+from hri.behavior.device import DeviceBehavior
 from hri.behavior.ports import ANGULAR_VELOCITY, LINEAR_VELOCITY, Input, Output, Param
 from hri.core.errors import HriError
 from hri.core.signals import People, Pose2D, Twist

@@ -7,7 +7,7 @@ of them are in view, and how far away, the world knows.
 from __future__ import annotations
 
 from hri.behavior.behavior import Context
-from hri.behavior.drivers import DeviceBehavior
+from hri.behavior.device import DeviceBehavior
 from hri.behavior.ports import Input, Output, Param
 from hri.core import paths
 from hri.core.errors import HriError

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hri.behavior.behavior import Context
-from hri.behavior.drivers import DeviceBehavior
+from hri.behavior.device import DeviceBehavior
 from hri.behavior.library.quadrants import Quadrant, clearance, quadrants
 from hri.behavior.ports import DBL_MAX, Output, Param
 from hri.hal.manager import ResourceManager
