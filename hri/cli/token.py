@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import os
+import sys
 
-from hri.core.token import new_token, own_token
+from hri.core.token import VARIABLE, new_token, own_token
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -15,4 +17,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Print the token, which is made if there is none."""
     print(new_token() if options.new else own_token())
+    if options.new and os.environ.get(VARIABLE):
+        print(f"{VARIABLE} is set and goes before it - unset {VARIABLE}", file=sys.stderr)
     return 0

@@ -18,7 +18,7 @@ from hri.core.ownership import is_of_user
 from hri.core.paths import state_folder
 from hri.core.privacy import folder_for
 from hri.core.reading import read_text
-from hri.core.writing import PRIVATE, write_text
+from hri.core.writing import PRIVATE, not_written, write_text
 
 VARIABLE = "HRI_TOKEN"
 """The environment variable that goes before the file."""
@@ -46,16 +46,26 @@ def load_token() -> str | None:
     remedy = "hri token --new makes another one"
     if not is_of_user(path) or stat.S_IMODE(path.stat().st_mode) & 0o077:
         raise HriError(f"{path}: others may read or change it, so it is not used - {remedy}")
-    return _checked(read_text(path, "token").strip(), str(path))
+    try:
+        text = read_text(path, "token")
+    except HriError as error:
+        raise HriError(f"{path}: no token can be read from it - {remedy}") from error
+    return _checked(text.strip(), str(path))
 
 
 def new_token() -> str:
     """Make another token and keep it in the file; the one before is worth nothing from now on.
 
-    Raises HriError when the file cannot be written.
+    A link in the place of the file is replaced, and what it leads to stays as it is. Raises
+    HriError when the file cannot be written.
     """
     path, token = token_file(), secrets.token_urlsafe(_BYTES)
     folder_for(path)
+    try:
+        if path.is_symlink():
+            path.unlink()
+    except OSError as error:
+        raise not_written(path, error) from error
     write_text(path, token + "\n", PRIVATE)
     return token
 

@@ -77,6 +77,7 @@ def test_a_damaged_one_is_told_in_a_line(content):
     with pytest.raises(HriError) as told:
         load_token()
     assert "\n" not in str(told.value)
+    assert "hri token --new" in str(told.value)
 
 
 def test_the_command_shows_it_and_makes_another(capsys):
@@ -86,3 +87,26 @@ def test_the_command_shows_it_and_makes_another(capsys):
         shown.append(capsys.readouterr().out)
     assert shown[0] == shown[1] != shown[2]
     assert shown[2] == shown[3] == f"{load_token()}\n"
+
+
+@pytest.mark.parametrize("is_there", [True, False])
+def test_a_link_in_its_place_is_replaced_and_what_it_leads_to_stays(tmp_path, is_there):
+    own_token()
+    other = tmp_path / "other"
+    if is_there:
+        other.write_text("somebody's text")
+    token_file().unlink()
+    token_file().symlink_to(other)
+    assert new_token() == load_token()
+    assert not token_file().is_symlink()
+    assert other.exists() == is_there
+    assert not is_there or other.read_text() == "somebody's text"
+    assert stat.S_IMODE(token_file().stat().st_mode) == 0o600
+
+
+def test_a_new_one_that_the_environment_hides_says_so(monkeypatch, capsys):
+    monkeypatch.setenv(VARIABLE, "chosen-by-somebody")
+    assert main(["token", "--new"]) == 0
+    assert "HRI_TOKEN is set and goes before it" in capsys.readouterr().err
+    assert main(["token"]) == 0
+    assert capsys.readouterr() == ("chosen-by-somebody\n", "")
