@@ -23,6 +23,7 @@ from hri.behavior.ports import (
     Param,
 )
 from hri.core.errors import HriError
+from hri.core.quoting import quoted
 from hri.core.signals import Event, Frame, Image, Pose2D, RangeReading, Twist
 from hri.hal.audio_level import AudioLevel
 from hri.hal.battery import Battery
@@ -303,6 +304,10 @@ class DriveCommand(DeviceBehavior):
     def _halt(self, event: Event) -> None:
         self._drive.stop(self._clock.now())
         self._must_let_go = True
+        if self._is_driving:
+            reason = quoted(str(event.properties.get("because", "I was told to")))
+            what = "%s stops: %s - who steers is heard again after a velocity of 0"
+            log.warning(what, self.drive_id, reason)
 
     def _steer(self, velocity: Twist, now: float, until: float) -> None:
         rank = Rank(self.velocity.rank or self.rank)

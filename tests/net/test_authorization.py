@@ -400,15 +400,18 @@ def test_a_client_takes_nothing_of_a_server_that_moves_the_robot(robot, links):
 # --- stop ---
 
 
-def test_anybody_on_this_machine_stops_it_and_who_drives_must_let_go(robot):
+def test_anybody_on_this_machine_stops_it_and_who_drives_must_let_go(robot, caplog):
     here = steered(robot())
     driver, other = here.connect(own_token()), here.connect()
     here.send(driver, VELOCITY)
     here.tick()
     assert here.goal == pytest.approx(0.2)
-    here.send(other, "<hri><stop/></hri>")
-    here.tick()
+    for _ in range(2):
+        here.send(other, "<hri><stop/></hri>")
+        here.tick()
     assert here.goal == 0
+    (told,) = (line for line in caplog.messages if "drive stops" in line)
+    assert "over the network - who steers is heard again after a velocity of 0" in told
     here.send(driver, VELOCITY)
     here.tick()
     assert here.goal == 0
