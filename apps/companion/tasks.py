@@ -233,7 +233,7 @@ class Companion:
     # --- asking ---
 
     def questions(self) -> list[Question]:
-        """What it may ask by now; whether it may keep what it feels, only once and only people."""
+        """What it may ask now: whether it may keep what it feels, only once, and only people."""
         may_ask = self.emotion.may_ask_to_keep and hears_people(self.context)
         may_ask = may_ask and not self.has_asked_to_keep
         return [q for q in self.replies.questions if q.action != "keep" or may_ask]

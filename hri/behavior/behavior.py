@@ -71,11 +71,11 @@ class Behavior:
     is_sensor: ClassVar[bool] = False
     """Sensors run first in each cycle."""
     is_relay: ClassVar[bool] = False
-    """Whether it passes on what somebody outside of the network says, with the time of that: what
-    rests on it stops a drive when that somebody falls silent."""
+    """Whether it passes on what somebody outside of the network says, with the time of that. A
+    drive that follows such values stops when that somebody falls silent."""
     may_do: frozenset[Effect]
-    """What values at its inputs may do besides what its outputs lead to. Without a word: nothing
-    for a class that only computes, anything for one with a `start` or an `__init__` of its own."""
+    """What values at its inputs may do besides what its outputs lead to. Where a class does not say
+    it: nothing if it only computes, anything if it has a `start` or an `__init__` of its own."""
     takes_any_ports: ClassVar[bool] = False
     """Whether a schema that names it as its driver may give it ports of its own."""
     inputs: ClassVar[dict[str, Input[Any]]] = {}

@@ -1,4 +1,4 @@
-"""What a program lets in from outside; said by whoever starts it, never by a network file."""
+"""What a program lets in from outside: whoever starts it decides that, never a network file."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from string import ascii_uppercase
 from hri.core.events import matches
 
 NAMES_OF_2003 = tuple(f"{letter}*" for letter in ascii_uppercase)
-"""Patterns of events that begin with a capital, such as `Examples.PhotoEvent.Shoot`: no event that
-the robot raises itself does."""
+"""Patterns of events that begin with a capital, such as `Examples.PhotoEvent.Shoot`; the robot
+itself raises none of these."""
 
 
 @dataclass(frozen=True)

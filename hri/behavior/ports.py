@@ -96,8 +96,8 @@ class OutputPort(Generic[T]):
     def __init__(self, value: T | None = None, datatype: str = ANY) -> None:
         self.value = value
         self.spoken: float | None = None
-        """When somebody outside of the network, on whose word the value rests, spoke last: a peer
-        over the network, a joystick. The oldest of them, in seconds; None when there is none."""
+        """When the source outside of the network that the value comes from spoke last: a peer over
+        the network, a joystick. The oldest time of several, in seconds; None without a source."""
         self.rank = ""
         """Of a command: the rank of whoever asks for it, as in `hri.hal.helm`; without one, it is
         that of the behavior which passes it on to the drive."""

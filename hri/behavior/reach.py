@@ -67,7 +67,7 @@ class Reach:
 
 
 def _may_do(behavior: Behavior) -> frozenset[Effect]:
-    """What a behavior says, or may do because it says nothing."""
+    """What a behavior declares, or anything where it declares nothing and does not only compute."""
     for owner in (behavior, *type(behavior).__mro__):
         if owner is Behavior:
             break

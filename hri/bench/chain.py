@@ -67,7 +67,7 @@ def _chain(program: int) -> Sequence[psutil.Process]:
 
 
 def _end(processes: Iterable[psutil.Process]) -> None:
-    """Nothing of them is left: what is frozen holds the port."""
+    """Kill all of them: a frozen one would keep the port."""
     for process in processes:
         with suppress(psutil.NoSuchProcess):
             process.kill()

@@ -21,12 +21,12 @@ from hri.testing.collisions import Collision
 from hri.testing.trips import Trip
 
 LONGER = 1.5
-"""Most that trips may take of the time before."""
+"""Times as long as before that trips may take at most."""
 
 
 @dataclass(frozen=True)
 class Before:
-    """What the 50 rooms came to before a robot heeded who comes to it."""
+    """Figures of the 50 rooms before the robot heeded people who come to it."""
 
     reached: float
     """Share of the trips that arrived."""

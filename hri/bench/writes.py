@@ -26,11 +26,11 @@ from hri.bench.writers import FOLDERS, WRITERS, Writer, content
 from hri.core.errors import HriError
 
 TRIES, QUICK = 500, 56
-"""Of each kind of interruption, over all writers."""
+"""Tries of each kind of interruption, over all writers."""
 LAST = 70
 """Stops at system calls of a writer that has its new content ready."""
 SEED = 2003
-"""Of the calls at which writers are killed, and of the room that is left."""
+"""Seed of the calls at which writers are killed, and of the room that is left."""
 Content = dict[str, bytes]
 
 
@@ -102,7 +102,7 @@ def measure(quick: bool = False) -> dict[str, Any]:
 def _tried(
     sites: Mapping[str, Site], tries: int, what: str, left: Callable[[Site, bool], str]
 ) -> dict[str, Any]:
-    """How often each thing was left, and by whom what must not be."""
+    """How often each thing was left, and which writers left what must not be left."""
     counts = Counter(old=0, new=0, half=0, litter=0)
     faults = []
     order = islice(cycle(sites.items()), tries)
@@ -128,6 +128,6 @@ def _out_of_room(chance: random.Random, site: Site, is_there: bool) -> str:
 
 
 def _within(room: int, write: Callable[[], object]) -> None:
-    """Write while no file may grow beyond some bytes; in a process that ends with it."""
+    """Write while files cannot grow beyond so many bytes; for a process that ends afterwards."""
     resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
     write()

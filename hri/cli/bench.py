@@ -39,18 +39,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         " a tenth (drive, face, people, vision, writes)"
     )
     parser.add_argument("--quick", action="store_true", default=None, help=about)
-    about = "only this part, such as chain or rooms; a wrong name lists them all (drive,"
-    about += " inputs: a reader)"
+    about = "run only this part, such as chain or rooms (drive), or this reader (inputs);"
+    about += " a wrong name lists them all"
     parser.add_argument("--only", metavar="PART", help=about)
     about = "recordings of people, a folder with a manifest.tsv (speech)"
     parser.add_argument("--recordings", type=Path, metavar="DIR", help=about)
     about = "another babble of the same people, a number (speech)"
     parser.add_argument("--draw", type=_draw, metavar="N", help=about)
-    about = "how many inputs are tried over all readers, 100000 if not said (inputs)"
+    about = "how many inputs to try over all readers, 100000 by default (inputs)"
     parser.add_argument("--tries", type=_tries, metavar="N", help=about)
-    about = "of the random inputs, a number (inputs)"
+    about = "seed of the random inputs, a number (inputs)"
     parser.add_argument("--seed", type=_draw, metavar="N", help=about)
-    about = "keep what failed there, and go on there when called again (inputs)"
+    about = "keep what failed in this folder; the same command continues there (inputs)"
     parser.add_argument("--keep", type=Path, metavar="DIR", help=about)
 
 

@@ -15,18 +15,18 @@ import trio
 ASKING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 """What asks a program to end."""
 _AT_ONCE = (signal.SIGTERM, signal.SIGHUP)
-"""What would end a program at once that does not listen yet; Ctrl-C raises an error by itself."""
+"""What would at once end a program that does not listen yet; Ctrl-C raises an error by itself."""
 
 
 class Ending:
-    """Remembers whether the program was asked to end while it was still starting."""
+    """Remembers a request to end that came while the program was still starting."""
 
     def __init__(self) -> None:
         self.is_asked = False
 
     @contextmanager
     def kept_for_later(self) -> Iterator[None]:
-        """While the block runs, being asked to end is remembered in place of ending at once."""
+        """While the block runs, a request to end is remembered and does not end the program."""
         before = {number: signal.signal(number, self._ask) for number in _heeded(_AT_ONCE)}
         try:
             yield

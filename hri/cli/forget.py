@@ -10,20 +10,20 @@ from hri.robot import kept
 from hri.robot.kept import Trace
 
 EPILOG = """\
-A robot that is running forgets it, too, within a second or so. What somebody made on purpose goes
-only after a yes: recordings, and without a name your lexicon and your choice of devices. Where
-nobody can be asked, it stays, and is named."""
+A robot that is running forgets it, too, within a second or so. What somebody made on purpose is
+deleted only after a yes: recordings, and without a name also pictures and films of the camera,
+your lexicon, and your choice of devices. Where nobody can be asked, it stays, and is listed."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = EPILOG
     about = "forget only this person: what is thought of them, what they did by name, their face"
     parser.add_argument("person", nargs="?", metavar="NAME", help=about)
-    parser.add_argument("--yes", action="store_true", help="delete recordings, too, without asking")
+    parser.add_argument("--yes", action="store_true", help="delete without asking")
 
 
 def run(options: argparse.Namespace) -> int:
-    """Erase what is found, place by place; what fails at one keeps none of the others."""
+    """Erase what is found, place by place; a failure at one place spares no other."""
     person = options.person
     found = kept.traces(person)
     if not found:

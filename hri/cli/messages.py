@@ -1,4 +1,4 @@
-"""What programs say of input: the log and wrong options, in lines that command no terminal."""
+"""What programs say about input: log and wrong options, in lines that command no terminal."""
 
 from __future__ import annotations
 

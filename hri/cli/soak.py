@@ -13,7 +13,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--hours", type=_hours, default=1.0, metavar="H", help="of simulated time (%(default)g)")
     add("--behaviors", type=_count, default=50, metavar="N", help="in the network (%(default)s)")
-    add("--companion", action="store_true", help="the companion with its visitor, not a network")
+    add("--companion", action="store_true", help="run the companion, not a network")
 
 
 def _hours(text: str) -> float:

@@ -24,7 +24,7 @@ def open_missing() -> None:
 
 
 def let_go(out: TextIO) -> None:
-    """Send to nowhere what is still to be written to a stream, and all that follows."""
+    """Discard what is still to be written to a stream, and all that follows."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, out.fileno())
     os.close(nowhere)
@@ -34,8 +34,8 @@ def let_go(out: TextIO) -> None:
 def unfailing_output() -> Iterator[None]:
     """While the block runs, output that cannot be written is left out; a line on stderr says so.
 
-    For programs whose work is not what they print. A reader that has gone (`... | head`) is told by
-    BrokenPipeError as ever.
+    For programs whose work is not what they print. A reader that has gone (`... | head`) still
+    raises BrokenPipeError.
     """
     open_missing()
     with redirect_stdout(cast(TextIO, _Unfailing(sys.stdout))):

@@ -1,4 +1,4 @@
-"""`hri token`: show what programs show to move the robot over a network."""
+"""`hri token`: prints what programs show to move the robot over a network."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hri.core.token import VARIABLE, new_token, own_token
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    about = "make another one; programs that run go on with those who have shown the old one"
+    about = "make another one; peers that have shown the old one stay connected"
     parser.add_argument("--new", action="store_true", help=about)
 
 

@@ -84,7 +84,7 @@ class EventBus:
 
 
 def is_own(name: str) -> bool:
-    """Whether an event of that name is one that the robot itself raises, or is told by."""
+    """Whether the robot itself raises events of that name, or obeys them."""
     return name.partition(".")[0] in OWN_SUBJECTS
 
 

@@ -166,7 +166,7 @@ def settle() -> None:
 
 
 def home() -> Path:
-    """The user's home folder: $HOME, or the one of the system's list of users where it is no path.
+    """The user's home folder: $HOME if it is an absolute path, else the one that the system lists.
 
     Raises HriError when there is none.
     """
@@ -180,7 +180,7 @@ def home() -> Path:
 def expanded(path: Path | str) -> Path:
     """A path as the user wrote it, with the home folder in place of "~".
 
-    Raises HriError for the home of a user whom there is not.
+    Raises HriError for the home folder of an unknown user.
     """
     path = Path(path)
     if path.parts[:1] == ("~",):

@@ -1,4 +1,4 @@
-"""What concerns people: files and folders that only their owner can read, and names in texts."""
+"""Privacy: files and folders that only their owner can read, and names of people in texts."""
 
 from __future__ import annotations
 

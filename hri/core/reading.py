@@ -34,7 +34,7 @@ def require_file(path: Path, what: str, largest: int | None = None) -> None:
 
 @contextmanager
 def opened(path: Path, what: str, largest: int | None = LARGEST_FILE) -> Iterator[BinaryIO]:
-    """A file to read bytes from; what its reader fails with at the disk is one line, too.
+    """A file to read bytes from; an error of the disk while it is read is one line, too.
 
     Raises HriError when it cannot be read, is not a regular file, or has more bytes than
     `largest`.
@@ -59,7 +59,7 @@ def _open_regular(path: Path, what: str) -> BinaryIO:
 
 @contextmanager
 def _told(path: Path, what: str) -> Iterator[None]:
-    """Make one line of what the disk fails with."""
+    """Make one line of an error of the disk."""
     try:
         yield
     except OSError as error:
@@ -118,7 +118,7 @@ def read_lines(path: Path, what: str, largest: int, longest: int) -> Iterator[It
 def _bounded(path: Path, what: str, lines: TextIO, longest: int) -> Iterator[str]:
     while line := lines.readline(longest):
         if len(line) == longest:
-            raise HriError(f"{path}: this {what} has a line without end - write shorter lines")
+            raise HriError(f"{path}: this {what} has a line that is too long - write shorter lines")
         yield line
 
 

@@ -1,4 +1,4 @@
-"""The token: who shows it may move the robot, let it speak and release it, over a network too.
+"""The token: whoever shows it over a network may move the robot, let it speak, and release it.
 
 There is one for all programs of a user: in the environment variable HRI_TOKEN, else in a file that
 only this user may read. `hri token` shows it, `hri token --new` replaces it.
@@ -21,7 +21,7 @@ from hri.core.reading import read_text
 from hri.core.writing import PRIVATE, not_written, write_text
 
 VARIABLE = "HRI_TOKEN"
-"""The environment variable that goes before the file."""
+"""The environment variable that takes precedence over the file."""
 _BYTES = 32
 _FORM = re.compile(r"[A-Za-z0-9_.~+/=-]{16,200}")
 """What a token may look like: long enough not to be guessed, and the same in every form of text."""
@@ -76,7 +76,7 @@ def own_token() -> str:
 
 
 def is_token(shown: str) -> bool:
-    """Whether a text is the token, told in a time that does not depend on how much of it is right.
+    """Whether a text is the token; how long that takes does not tell how much of it is right.
 
     Raises HriError as `load_token` does.
     """

@@ -216,7 +216,7 @@ class SteeredBase(DriveSystem, EmergencyStop):
         """Give a command while no motion runs, `by` somebody who steers until that time.
 
         Raises Outranked when somebody else steers, and then changes nothing. Whoever asked for the
-        motion that it ended is told last and outside of the lock, and may ask for the next at once.
+        motion that it ended hears of it last and outside of the lock, and may ask for the next.
         """
         ended = None
         try:

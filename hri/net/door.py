@@ -61,7 +61,7 @@ class Door:
         return sender.is_authorized or port not in self._guarded
 
     def admitted(self, items: Iterable[Item], sender: Sender) -> list[Item]:
-        """Those that may come in; of the others the sender and the log are told."""
+        """Those that may come in; the sender and the log get a line about the others."""
         kept = []
         for item in items:
             if self.admits(item.port, sender):

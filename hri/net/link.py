@@ -32,7 +32,7 @@ Listener = Callable[[Message], object]
 AFTER_MISTAKE = 1.0
 """Seconds that the thread rests after an exception that nobody expected."""
 MOST_WARNINGS, WARNINGS_WITHIN = 200, 60.0
-"""So many dropped peers are told of within so many seconds; the others with `--debug=net`."""
+"""At most so many dropped peers are logged in so many seconds; the others with `--debug=net`."""
 TO_STOP = 2.0
 """Seconds that `close` waits for the thread; only the search for a host's address takes longer."""
 

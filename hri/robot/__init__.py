@@ -142,7 +142,7 @@ class Robot:
                 nursery.start_soon(self.clock.drive)
                 self.clock.soon(partial(nursery.start_soon, self.networks.run))
                 if self.recording is not None:
-                    # Announced last: whoever reads of it can end it as any run is ended.
+                    # Announced last: whoever reads it can end this run like any other.
                     jobs = (self.recording.watch, *jobs, self.recording.announce)
                 for job in jobs:
                     self.clock.soon(partial(nursery.start_soon, self.tasks.run, job))

@@ -39,7 +39,7 @@ class Kept(ABC):
         """The files and folders that there are."""
 
     def people(self) -> set[str]:
-        """Everybody it knows by name; of texts nobody can tell."""
+        """Everybody it knows by name; nobody where it holds nothing but texts."""
         return set()
 
     @abstractmethod
@@ -290,7 +290,7 @@ def _mentions(file: Path, person: str) -> bool:
 
 
 def _texts(line: str) -> Iterator[str]:
-    """What a line says: the texts of its JSON, or the line itself where it is none."""
+    """What a line says: the texts of its JSON, or the line itself where it is not JSON."""
     try:
         yield from _texts_in(parse_json(line))
     except ValueError:

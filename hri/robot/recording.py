@@ -147,7 +147,7 @@ class Recording:
             log.error("the plot of feelings ends here: %s", error)
         finally:
             worker.close()
-            with contextlib.suppress(HriError):  # a full disk was told about when it filled up
+            with contextlib.suppress(HriError):  # a full disk was reported when it filled up
                 write_feeling_plot(moments, path)
 
     def stop(self) -> None:

@@ -163,7 +163,7 @@ def _quoted(text: str) -> str:
 
 
 def _plain(quoted: str) -> str:
-    """The text of a quoted one; bytes that are no text show as such."""
+    """The text of a quoted one; bytes that are not text are shown as bytes."""
     try:
         return unquote(quoted, errors="surrogatepass")
     except UnicodeDecodeError:

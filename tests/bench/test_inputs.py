@@ -36,7 +36,7 @@ def test_a_reader_is_tried_and_a_second_call_goes_on(tmp_path: Path) -> None:
     assert (
         json.loads((tmp_path / inputs.PROGRESS).read_text())["readers"]["expression"]["tries"] == 30
     )
-    with pytest.raises(HriError, match="is of seed 1"):
+    with pytest.raises(HriError, match="has inputs of seed 1"):
         inputs.measure(tries=30, seed=2, keep=tmp_path)
 
 

@@ -101,7 +101,7 @@ def test_columns_may_stand_in_any_order_beside_others(tmp_path, capsys):
         ([HEADER, "0,0,0,0", "0.1,up,0,0"], 'bad.csv:3:1: pitch_deg is "up" - write a number'),
         ([HEADER, "0,nan,0,0"], "no poses"),
         ([HEADER, '0,"1', '2",0,0'], r'bad.csv:3:1: pitch_deg is "1\n2" - write a number'),
-        ([HEADER, "x" * 200_000], "a line without end"),
+        ([HEADER, "x" * 200_000], "a line that is too long"),
     ],
 )
 def test_a_bad_file_is_one_line_and_the_others_are_told(tmp_path, capsys, lines, complaint):

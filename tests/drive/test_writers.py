@@ -148,7 +148,8 @@ def test_a_script_moves_the_base_while_the_gate_of_a_network_is_idle(stage: Stag
     stage.start("moving", GATED)
     stage.run(0.2)
     pending = stage.drive.move_delta(0.2, 0.2, 0.4)
-    stage.run(2.5)
+    assert stage.run(0.7) == pytest.approx(0.2)
+    stage.run(1.8)
     pending.result()
 
 

@@ -99,7 +99,7 @@ def test_a_recording_of_the_app_is_read(tmp_path: Path) -> None:
         (HEADER + "\n0:0:0:0,61,0,1e9\n", "2:1: MouthSmileLeft is 1e9"),
         (HEADER + "\n0:0:0:0,61,0,0\n2:0:0:0,61,0,0\n", "3:1: longer than 3600 s"),
         (",".join(["Timecode", *map(str, range(900))]) + "\n", "901 columns - keep to 400"),
-        (HEADER + "\n" + "9" * 200_000 + ",61,0,0\n", "a line without end"),
+        (HEADER + "\n" + "9" * 200_000 + ",61,0,0\n", "a line that is too long"),
         ("\x00\x01\xff", "not a text file"),
     ],
 )

@@ -470,7 +470,9 @@ def test_it_is_bound_when_the_command_line_allows_it():
     lent.doors = Doors(allows_remote=True)
     behavior.start(lent)
     try:
-        Connection(port=behavior.port_in_use, timeout=WITHIN).close()
+        # Nobody listens at this address of the machine who listens at 127.0.0.1 alone.
+        with Connection("127.0.0.2", behavior.port_in_use, timeout=WITHIN) as connection:
+            connection.send("<tag><x>1</x></tag>")
     finally:
         behavior.stop()
 

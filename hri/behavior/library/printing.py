@@ -79,6 +79,6 @@ def worded(value: object) -> str:
 
 
 def _more(values: tuple[object, ...]) -> list[str]:
-    """That there are more than are shown."""
+    """A note that there are more than are shown; empty when there are not."""
     rest = len(values) - MOST_NUMBERS
     return [f"and {rest} more"] if rest > 0 else []

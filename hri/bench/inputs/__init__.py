@@ -24,15 +24,15 @@ from hri.core.errors import HriError, did_you_mean
 from hri.core.writing import write_bytes, write_text
 
 MOST_SECONDS = 5.0
-"""Of processor time for one input."""
+"""Seconds of processor time for one input."""
 MOST_BYTES = 300_000_000
-"""By which the memory of the process may grow for one input."""
+"""Bytes by which the memory of the process may grow for one input."""
 PATIENCE = 120.0
 """Seconds without a word from the child; a busy machine takes some."""
 BATCH = 500
 """Tries after which what was found is saved."""
 MOST_KEPT = 20
-"""Failures of one reader that are told."""
+"""Failures of one reader that are listed."""
 PROGRESS = "progress.json"
 
 
@@ -188,7 +188,9 @@ def _resumed(keep: Path | None, seed: int) -> dict[str, Tally]:
         return {}
     known = json.loads(file.read_text())
     if known["seed"] != seed:
-        raise HriError(f"{keep} is of seed {known['seed']} - give that seed or another folder")
+        raise HriError(
+            f"{keep} has inputs of seed {known['seed']} - give that seed, or another folder"
+        )
     return {name: Tally(**fields) for name, fields in known["readers"].items()}
 
 

@@ -29,7 +29,7 @@ EVERY = 0.03
 MEMORY = 1.0
 """Seconds after which a comparison counts for a third."""
 LEAST_MOTION = 0.05
-"""Meters a second over MEMORY; less tells nothing."""
+"""Meters a second over MEMORY; less motion shows no delay."""
 FIT = 0.01
 """Part of the reported motion that the best delay may leave unexplained."""
 MISFIT = 0.02

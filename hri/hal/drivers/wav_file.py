@@ -25,7 +25,7 @@ LONGEST = 4 * 3600.0
 PUMP = 0.5
 """Seconds between two writes of what a speaker plays to a file."""
 MOST_BYTES = 2**32 - 40
-"""Of sound that the header of a file can tell of; readers find more behind it."""
+"""Bytes of sound that the header of a file can count; readers find more behind it."""
 TAIL = 1.0
 """Seconds of silence heard after a file, so that its last word is seen to end."""
 
