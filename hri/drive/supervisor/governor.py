@@ -11,6 +11,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 from hri.core.signals import Pose2D
+from hri.drive.supervisor.braking import stopping_speed
 
 SIDE_ROOM = 0.03
 """Meters left free beside the body."""
@@ -81,14 +82,8 @@ def room(
 def safe_speed(free: float, clearance: float, deceleration: float, is_moving: bool) -> float:
     """The speed, m/s, from which it stops `clearance` before what is `free` meters away.
 
-    Solves v t + v² / 2a = d for the reaction time t and a prudent share of the deceleration.
+    It counts on a prudent share of the deceleration.
     """
     left = free - clearance - (0.0 if is_moving else START_GAP)
-    if not left > 0:
-        return 0.0
-    if left == math.inf:
-        return math.inf
-    slowing = deceleration * PRUDENCE
-    delay = slowing * REACTION
-    speed = math.sqrt(delay * delay + 2 * slowing * left) - delay
+    speed = stopping_speed(left, REACTION, deceleration * PRUDENCE)
     return speed if speed >= LEAST else 0.0

@@ -13,11 +13,11 @@ from collections import deque
 from dataclasses import dataclass
 
 from hri.core.signals import Twist
+from hri.hal.drive import PATIENCE
 from hri.hal.motion import Way
 
-MOST_LAG = 0.2
-"""Seconds; from the told velocity to the report of the motion, with what the motors need. As long
-as a command counts."""
+MOST_LAG = PATIENCE
+"""Seconds from a told velocity to the report of the motion, with what the motors need."""
 LONGEST = 1.2
 """Seconds; the largest delay that is tried. Wheels that show nothing for that long do not turn."""
 STEP = 0.05

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 from hri.core.signals import Pose2D
+from hri.drive.supervisor.braking import stopping_speed
 from hri.hal.motion import Way
 
 WALKING = 1.0
@@ -172,7 +173,7 @@ class Oncoming:
         """
         gaps = (self._gap(mover, now) for mover in self._movers)
         gap = min(gaps, default=math.inf)
-        return stopping_speed(gap, WALKING, deceleration)
+        return stopping_speed(gap - KEEP, REACTION, deceleration, WALKING)
 
     def pace(self, now: float) -> float:
         """The speed that is enough near people, m/s; infinite where nobody was met lately."""
@@ -219,17 +220,3 @@ class Oncoming:
         """Meters that may be left between the body and somebody, wherever they went."""
         age = now - mover.time
         return math.hypot(mover.x, mover.y) - self._radius - WALKING * age
-
-
-def stopping_speed(gap: float, approach: float, deceleration: float) -> float:
-    """The speed, m/s, from which a robot stands before what comes has crossed the gap, meters.
-
-    Solves u (r + v / a) + v r + v² / 2a = gap - KEEP for v, with the approach u and reaction r.
-    """
-    left = gap - KEEP - approach * REACTION
-    if left == math.inf:
-        return math.inf
-    if not left > 0:
-        return 0.0
-    half = approach + deceleration * REACTION
-    return math.sqrt(half * half + 2 * deceleration * left) - half

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from hri.core.geometry import along_arc, placed
 from hri.core.signals import Pose2D
-from hri.drive.supervisor.oncoming import NEAR_PEOPLE, Oncoming, stopping_speed
+from hri.drive.supervisor.oncoming import NEAR_PEOPLE, Oncoming
 from hri.hal.motion import Way
 from hri.simulation.room import Box, Circle, Obstacle, Room, Segment
 
@@ -51,16 +51,6 @@ class Watched:
     @property
     def gap(self) -> float:
         return math.dist((self.pose.x, self.pose.y), self.person) - BODY - PERSON
-
-
-@given(st.floats(0.0, 2.0), st.floats(0.0, 1.5), st.floats(0.3, 3.0))
-def test_from_the_stopping_speed_it_stands_before_anybody_is_there(
-    gap: float, approach: float, deceleration: float
-) -> None:
-    speed = stopping_speed(gap, approach, deceleration)
-    time = 0.05 + speed / deceleration
-    way = speed * 0.05 + speed**2 / (2 * deceleration)
-    assert speed == 0.0 or approach * time + way <= gap + 1e-9
 
 
 @pytest.mark.parametrize("bearing", [0.0, math.pi / 4, -math.pi / 4])
