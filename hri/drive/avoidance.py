@@ -33,7 +33,7 @@ from hri.drive.histogram import (
 from hri.drive.leaning import Leaning
 from hri.drive.mechanics import Mechanics
 from hri.drive.progress import Progress
-from hri.drive.route import Route, find_route
+from hri.drive.route import Route, find_route, narrow_way
 from hri.drive.supervisor.governor import safe_speed
 
 PERSON_RADIUS = 0.25
@@ -220,6 +220,19 @@ class Avoidance:
     def side(self) -> int:
         """On which side it goes around an obstacle: 1 left, -1 right, 0 for none."""
         return self._side
+
+    @property
+    def needed(self) -> float:
+        """How wide a way must be, meters."""
+        return 2 * self._reach
+
+    def narrow_way(self, pose: Pose2D, goal: Pose2D) -> float:
+        """How wide the way is that a slimmer robot would take, meters; at least `needed` if none.
+
+        It may take half a second, so not on the robot loop.
+        """
+        start, end = (pose.x, pose.y), (goal.x, goal.y)
+        return narrow_way(start, end, self.memory.points, self._reach)
 
     @property
     def _reach(self) -> float:

@@ -38,6 +38,8 @@ DOUBT = 4.0
 NOTHING: Array = np.zeros((0, 2))
 RING = 0.12
 """Metres of that ring."""
+SAVED = 0.4
+"""Meters by which a way must be shorter to count as another one."""
 
 Point = tuple[float, float]
 Cell = tuple[int, int]
@@ -110,6 +112,27 @@ def find_route(
     is_free = not any(grid.costs[cell] >= THROUGH for cell in cells[1:-1])
     inner = [grid.middle(cell) for cell in cells[1:-1]]
     return Route((start, *inner, goal), is_free)
+
+
+def narrow_way(start: Point, goal: Point, obstacles: Array, reach: float) -> float:
+    """How wide the way is that a slimmer robot would take, meters, to within a cell.
+
+    `2 * reach` when it would take the same: the robot that keeps `reach` is not too wide. A way
+    that saves less than SAVED does not count: what nobody has seen may be free.
+    """
+    wide = find_route(start, goal, obstacles, reach)
+
+    def is_better(reach: float) -> bool:
+        slim = find_route(start, goal, obstacles, reach)
+        return slim.is_free and (not wide.is_free or slim.length < wide.length - SAVED)
+
+    least, most = 0.0, reach
+    if not is_better(least):
+        return 2 * reach
+    while most - least > CELL / 4:
+        middle = (least + most) / 2
+        least, most = (middle, most) if is_better(middle) else (least, middle)
+    return 2 * least
 
 
 class _Grid:

@@ -8,9 +8,11 @@ another motion starts. People come from the board's slot "people".
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 
+from hri.core.clock import Worker
 from hri.core.errors import HriError
 from hri.core.geometry import after_move, wrapped
 from hri.core.signals import People, Pose2D, Twist
@@ -34,6 +36,10 @@ PATIENCE_S = 40.0
 """Seconds in which it must get nearer to a goal; else it gives up."""
 NEARER = 0.1
 """Metres that count as nearer."""
+LEAST_WAY = 0.3
+"""Meters; a way that is narrower than this is not one that somebody left for a robot."""
+THINKING_S = 0.1
+"""Seconds between two looks whether it knows yet why it did not get somewhere."""
 SEARCH_RATE = 0.6
 """Radians a second while it looks around: slow enough to see faces on the way."""
 
@@ -44,6 +50,11 @@ async def go_to(context: TaskContext, goal: Pose2D, *, faces: bool = False) -> b
     With `faces` it turns to the heading of the goal in the end. Raises ValueError for a goal that
     is not finite.
     """
+    return not await _why_not_gone_to(context, goal, faces)
+
+
+async def _why_not_gone_to(context: TaskContext, goal: Pose2D, faces: bool) -> str:
+    """Go to a place; a sentence that says why it did not get there, empty when it did."""
     if not all(map(math.isfinite, (goal.x, goal.y, goal.heading))):
         raise ValueError(f"cannot go to {goal} - give finite numbers")
     with _traveler(context) as traveler:
@@ -58,7 +69,7 @@ async def go_to(context: TaskContext, goal: Pose2D, *, faces: bool = False) -> b
 
         with motion_of(context) as motion:
             await motion.lead(steer)
-        return is_there
+        return "" if is_there else await traveler.why_not(context, goal)
 
 
 async def follow(
@@ -169,8 +180,8 @@ async def go_to_task(
     place = in_si(UNIT_DISTANCE, x), in_si(UNIT_DISTANCE, y)
     faces = heading is not None
     goal = Pose2D(*place, in_si(UNIT_ANGLE, heading or 0.0))
-    if not await checked(go_to(context, goal, faces=faces)):
-        context.fail(f"did not get to ({place[0]:.2f}, {place[1]:.2f}) m - clear the way")
+    if why := await checked(_why_not_gone_to(context, goal, faces)):
+        context.fail(why)
 
 
 @task("Hri.GoBy")
@@ -183,8 +194,8 @@ async def go_by(context: TaskContext, x: float, y: float) -> None:
     with _traveler(context) as traveler:
         start = traveler.pose(context.clock.now())
     goal = after_move(start, in_si(UNIT_DISTANCE, x), in_si(UNIT_DISTANCE, y))
-    if not await checked(go_to(context, goal, faces=True)):
-        context.fail(f"did not get to ({goal.x:.2f}, {goal.y:.2f}) m - clear the way")
+    if why := await checked(_why_not_gone_to(context, goal, faces=True)):
+        context.fail(why)
 
 
 @task("Hri.FollowPerson")
@@ -258,11 +269,33 @@ class _Traveler:
             twist = turn_to(pose, goal.heading, self._manner.turn_rate)
         return twist, is_at and twist == REST
 
+    async def why_not(self, context: TaskContext, goal: Pose2D) -> str:
+        """What kept it from getting to a goal, and what to do."""
+        what = f"did not get to ({goal.x:.2f}, {goal.y:.2f}) m"
+        pose, needed = self.pose(context.clock.now()), self._avoidance.needed
+        width = await _worked_out(context, partial(self._avoidance.narrow_way, pose, goal))
+        if not LEAST_WAY <= width < needed:
+            return f"{what} - clear the way"
+        wide = f"a way there is about {width:.2f} m wide, and I need {needed:.2f} m"
+        return f"{what}: {wide} - widen it, or clear another way"
+
     @property
     def people(self) -> People | None:
         """The newest of what the camera says."""
         people: People | None = self._slot.value
         return people
+
+
+async def _worked_out(context: TaskContext, job: Callable[[], float]) -> float:
+    """What a job comes to that would hold the robot loop up."""
+    worker: Worker[float] = context.clock.worker(THINKING_S)
+    worker.submit(job)
+    try:
+        while not (found := worker.poll()):
+            await context.clock.sleep(THINKING_S)
+    finally:
+        worker.close()
+    return found[0]
 
 
 @contextmanager

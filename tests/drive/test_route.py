@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hri.core.signals import Pose2D
-from hri.drive.route import find_route
+from hri.drive.route import find_route, narrow_way
 
 REACH = 0.3
 EMPTY = np.zeros((0, 2))
@@ -109,3 +109,27 @@ def test_there_is_always_a_way_from_here_to_there(
     assert (route.points[0], route.points[-1]) == (start, goal)
     steps = [math.dist(a, b) for a, b in zip(route.points[1:-1], route.points[2:-1], strict=False)]
     assert max(steps, default=0.0) < 0.15
+
+
+def box(left: float, right: float, side: float) -> np.ndarray:
+    """Points all around."""
+    long = [[x, y] for x in np.arange(left, right, 0.05) for y in (-side, side)]
+    return np.vstack((long, wall(left, -side, side), wall(right, -side, side)))
+
+
+@pytest.mark.parametrize(("width", "aside"), [(0.35, 0.0), (0.45, 0.27), (0.55, -0.33)])
+def test_the_widest_way_is_as_wide_as_the_door(width: float, aside: float) -> None:
+    """The middles of cells may lie half a cell beside that of the door."""
+    door = wall(1.5, -1.5, aside - width / 2), wall(1.5, aside + width / 2, 1.5)
+    obstacles = np.vstack((box(-0.6, 3.6, 1.5), *door))
+    found = narrow_way((0.0, 0.0), (3.0, 0.0), obstacles, REACH)
+    assert width - 0.15 <= found <= width + 0.1
+
+
+def test_a_way_that_is_wide_enough_is_as_wide_as_the_robot_needs() -> None:
+    assert narrow_way((0.0, 0.0), (3.0, 0.0), EMPTY, REACH) == 2 * REACH
+
+
+def test_there_is_no_way_through_a_wall() -> None:
+    obstacles = np.vstack((box(-0.6, 3.6, 1.5), wall(1.5, -1.5, 1.5)))
+    assert narrow_way((0.0, 0.0), (3.0, 0.0), obstacles, REACH) < 0.15

@@ -1,6 +1,7 @@
 """The verbs and behaviors of getting about, in the simulated world and through the real gate."""
 
 import math
+import re
 from collections.abc import Awaitable, Callable
 from functools import partial
 from pathlib import Path
@@ -122,6 +123,41 @@ def test_a_goal_inside_a_thing_is_given_up_in_time_with_a_sentence(tmp_path: Pat
         stage.run(travel.go_to_task, 160.0, 0.0)
     assert stage.clock.now() < 4.0 / 0.3 + travel.PATIENCE_S
     assert "bumper.pressed" not in stage.names()
+    assert not stage.world.base.is_touching
+
+
+DOOR = """
+[robot]
+start = [1, 2]
+[person]
+at = [4.8, 3.0]
+[[wall]]
+from = [6, 0.6]
+to = [6, 3.4]
+[[wall]]
+from = [0, 0.6]
+to = [6, 0.6]
+[[wall]]
+from = [0, 3.4]
+to = [6, 3.4]
+[[wall]]
+from = [0, 0.6]
+to = [0, 3.4]
+[[wall]]
+from = [2.5, 0.6]
+to = [2.5, 1.775]
+[[wall]]
+from = [2.5, 2.225]
+to = [2.5, 3.4]
+"""
+
+
+def test_who_cannot_pass_a_door_says_how_wide_it_is_and_must_be(tmp_path: Path) -> None:
+    stage = Set(tmp_path, DOOR)
+    with pytest.raises(TaskFailed, match=r"0\.61 m - widen it, or") as why:
+        stage.run(travel.go_to_task, 300.0, 0.0)
+    width = float(re.search(r"about ([\d.]+) m", str(why.value))[1])
+    assert width == pytest.approx(0.45, abs=0.1)
     assert not stage.world.base.is_touching
 
 
