@@ -10,12 +10,12 @@ from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, AuthoringErrors, HriError
 from hri.hal.drive import Odometry
 from hri.hal.drivers.memory import OffscreenScreen
-from hri.hal.microphone import Microphone
 from hri.hal.resource import Description
 from hri.robot import Robot
 from hri.robot.app import load_app
 from hri.simulation.world import SimulatedWorld
 from hri.testing import live_for
+from tests.devices import live_microphone
 
 SMALL_SCREEN = Description("screen", "Hri.OffscreenScreen", {"width": "160", "height": "120"})
 
@@ -308,11 +308,6 @@ def test_a_job_that_fails_costs_that_job_only(own_app):
 
 
 MAY_I = "May I remember how I feel about you when I am switched off?"
-
-
-def live_microphone(robot):
-    """Let the simulated microphone pass for a real one."""
-    robot.resources.obtain("microphone", Microphone).is_hardware = True
 
 
 def answering(answer):

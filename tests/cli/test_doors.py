@@ -61,12 +61,13 @@ def driven(folder, token, *options):
             found for found in map(re.compile(r"listening on \S+:(\d+)").search, lines) if found
         )
         poses = filter(None, map(re.compile(r"^x (\S+), y").match, lines))
-        with Connection(port=int(port[1]), timeout=PATIENCE, token=token) as peer:
-            for _ in range(30):
-                peer.send("<steering><velocity>20</velocity></steering>")
-                way = float(next(poses)[1])
-        process.terminate()
-        process.communicate(timeout=PATIENCE)
+        try:
+            with Connection(port=int(port[1]), timeout=PATIENCE, token=token) as peer:
+                for _ in range(30):
+                    peer.send("<steering><velocity>20</velocity></steering>")
+                    way = float(next(poses)[1])
+        finally:
+            process.kill()  # else a test that failed would wait for it without end
         return way
 
 

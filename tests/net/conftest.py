@@ -3,18 +3,22 @@ from pathlib import Path
 
 import pytest
 
+from hri.core.token import VARIABLE
 from hri.net.client import Client
+from hri.net.malleable import BIND
 from hri.net.peer import Limits
 from hri.net.server import Server
 
-WITHIN = 10.0
+WITHIN = 60.0
 """Seconds after which a test that waits for a socket has failed."""
 
 
 @pytest.fixture(autouse=True)
 def own_token(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """No test shows the token that another one has made."""
+    """No test shows the token that another one, or the user, has made, or binds as they say."""
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    for name in (VARIABLE, BIND):
+        monkeypatch.delenv(name, raising=False)
 
 
 class Taken:

@@ -62,13 +62,6 @@ class Custom(Behavior):
         self.got = self.number.values
 
 
-@pytest.fixture(autouse=True)
-def state(tmp_path, monkeypatch):
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
-    monkeypatch.delenv(VARIABLE, raising=False)
-    monkeypatch.delenv(BIND, raising=False)
-
-
 class Robot:
     """Networks on a fake clock, a simulated base, and whoever connects with the bridge."""
 

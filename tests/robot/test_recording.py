@@ -11,8 +11,8 @@ from hri.core.errors import HriError
 from hri.core.growing import GrowingFile
 from hri.core.recording import read_events
 from hri.hal.drivers.wav_file import read_wav
-from hri.hal.microphone import Microphone
 from hri.robot.recording import ALOUD, FILES
+from tests.devices import live_microphone
 from tests.disk import full_disk
 
 APP = """networks = ["face.xml", "feeling.xml"]
@@ -124,12 +124,6 @@ def test_a_recording_is_told_in_one_line_and_marked_on_the_face(record, tmp_path
     rows, _ = is_red[: height // 10, : width // 10].nonzero()
     assert len(rows) > 20
     assert abs(rows.mean() / height - 0.045) < 0.01
-
-
-def live_microphone(robot):
-    """Let what stands for the microphone pass for a real one."""
-    ear = robot.resources.obtain("microphone", Microphone)
-    ear.is_hardware = True
 
 
 @pytest.mark.parametrize(("prepare", "said"), [(live_microphone, [ALOUD]), (lambda robot: 0, [])])
