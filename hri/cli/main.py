@@ -37,8 +37,12 @@ COMMANDS = {
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command. Returns its exit status."""
+    """Run one command. Returns its exit status; errors of ours become one line."""
     words = list(sys.argv[1:] if arguments is None else arguments)
+    return status_of(lambda: _answer(words))
+
+
+def _answer(words: list[str]) -> int:
     if not words or words[0] in ("-h", "--help", "help"):
         print(_overview())
         return 0
@@ -51,12 +55,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         remedy = did_you_mean(words[0], COMMANDS)
         print(message_line(f'hri: unknown command "{words[0]}" - {remedy}'), file=sys.stderr)
         return 2
-    return run_command(words[0], words[1:])
-
-
-def run_command(name: str, words: Sequence[str]) -> int:
-    """Run a command of the table with its arguments; errors of ours become one line."""
-    return status_of(lambda: _run(name, words))
+    return _run(words[0], words[1:])
 
 
 def _run(name: str, words: Sequence[str]) -> int:

@@ -1,9 +1,11 @@
 """Programs that are asked to end at any moment, and programs whose output cannot be written."""
 
 import os
+import select
 import signal
 import subprocess
 import sys
+import termios
 from contextlib import suppress
 
 import cv2
@@ -18,6 +20,8 @@ from hri.core.clock import FakeClock
 from hri.core.recording import read_events
 from hri.hal.drivers.wav_file import read_wav
 
+WITHIN = 60.0
+"""Seconds in which a program shows something, on a busy computer."""
 APP = 'networks = ["face.xml"]\n'
 FACE = """<BehaviorNetwork name="face" invocation_interval="1/30">
   <Behavior id="voice" type="Hri.Voice"/>
@@ -118,6 +122,25 @@ def test_being_asked_to_end_before_anybody_listens_is_remembered(number):
         signal.raise_signal(number)
         trio.run(live)
     assert signal.getsignal(number) == before
+
+
+def test_driving_by_hand_puts_the_terminal_back_when_it_is_asked_to_end():
+    ours, theirs = os.openpty()
+    before = termios.tcgetattr(theirs)
+    command = [sys.executable, "-m", "hri.cli.main", "drive", "--simulated"]
+    shown = b""
+    with subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs) as driving:
+        while b"x: quit" not in shown and select.select([ours], [], [], WITHIN)[0]:
+            shown += os.read(ours, 4096)
+        assert termios.tcgetattr(theirs) != before
+        driving.send_signal(signal.SIGTERM)
+        while driving.poll() is None:  # what nobody reads would hold the program up
+            if select.select([ours], [], [], 0.1)[0]:
+                shown += os.read(ours, 4096)
+    assert driving.returncode == 0
+    assert termios.tcgetattr(theirs) == before
+    os.close(theirs)
+    os.close(ours)
 
 
 def test_a_program_of_nohup_outlives_its_terminal():

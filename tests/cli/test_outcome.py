@@ -49,6 +49,7 @@ def test_a_file_that_cannot_be_written_is_one_line(words, network, tmp_path, cap
 @pytest.mark.parametrize(
     ("words", "told"),
     [
+        (["--help"], "cannot be written: No space left on device - make room\n"),
         (["voices"], "cannot be written: No space left on device - make room\n"),
         (["say", "hello", "--wav", "/dev/full"], "/dev/full: cannot be written: No space left"),
     ],

@@ -13,6 +13,7 @@ from hri.cli.drive.teleop import Teleop
 from hri.cli.drive.terminal import TerminalView, own_terminal
 from hri.cli.drive.view import View
 from hri.cli.drive.window import WindowView
+from hri.cli.ending import Ending
 from hri.cli.probe import KINDS, ask_ports
 from hri.core import paths
 from hri.core.clock import Clock, RealClock
@@ -51,14 +52,16 @@ def run(options: argparse.Namespace) -> int:
     if options.port == replay.NAME:
         return replay.run(options)
     keyboard, screen = own_terminal()
+    ending = Ending()
     print("Looking for the base...", flush=True)
-    with opened(options, RealClock()) as resources:
+    with ending.kept_for_later(), opened(options, RealClock()) as resources:
         bus = base_of(resources, options)
         odometry = resources.obtain(ODOMETRY, Odometry)
         title = f"{bus.protocol.title} at {bus.description.text('port')}"
         windows = [_window(resources, bus, title)] if options.window else []
         with TerminalView(keyboard, screen, title) as view:
-            Teleop(bus, odometry, [view, *windows]).run(resources.clock)
+            teleop = Teleop(bus, odometry, [view, *windows])
+            teleop.run(resources.clock, lambda: ending.is_asked)
     return 0
 
 

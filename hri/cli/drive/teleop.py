@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 
 from hri.cli.drive.keys import QUIT, RELEASE, STOP, Steering
@@ -37,14 +37,16 @@ class Teleop:
         self._steering = Steering()
         self._is_asking = False
 
-    def run(self, clock: Clock) -> None:
-        """Drive until a key quits."""
-        is_over = False
-        while not is_over:
+    def run(self, clock: Clock, is_asked_to_end: Callable[[], bool] = lambda: False) -> None:
+        """Drive until a key quits, or somebody else asks for the end."""
+        while True:
             now = clock.now()
-            is_over = self._take([key for view in self._views for key in view.read_keys()], now)
+            keys = [key for view in self._views for key in view.read_keys()]
+            is_over = self._take(keys, now) or is_asked_to_end()
             twist = REST if is_over else self._wanted(now)
             self._ask(twist)
+            if is_over:  # perhaps because the terminal has gone, which shows nothing any more
+                return
             state, pose = self._bus.state, self._odometry.pose(now)
             moment = Moment(state, pose, twist, self._steering.share, now)
             for view in self._views:

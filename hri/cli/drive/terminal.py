@@ -7,6 +7,7 @@ import select
 import sys
 import termios
 import tty
+from contextlib import suppress
 from types import TracebackType
 from typing import Self
 
@@ -50,8 +51,9 @@ class TerminalView(View):
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        termios.tcsetattr(self._input, termios.TCSADRAIN, self._before)
-        self._write(FORMER_SCREEN)
+        with suppress(OSError, termios.error):  # of a terminal that has gone
+            termios.tcsetattr(self._input, termios.TCSADRAIN, self._before)
+            self._write(FORMER_SCREEN)
 
     def read_keys(self) -> list[str]:
         """What was pressed since the last call; a terminal that has gone counts as Escape."""
