@@ -106,3 +106,27 @@ def test_what_a_network_holds_is_shown_plainly(
     shown = capsys.readouterr().out
     assert "\\u202e" in shown
     assert all(map(is_plain, shown.splitlines()))
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["grammar", "parse", "companion", "go \x1b[31m ahead"],
+        ["grammar", "pronounce", "a\x1b[31mx"],
+        ["grammar", "test", "--grammar", "companion", "sentences"],
+        ["emotion", "simulate", "--events", "events"],
+    ],
+)
+def test_what_somebody_wrote_is_printed_plainly(
+    words: list[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("sentences").write_text("+ go \x1b[31m => go\n")
+    Path("events").write_text("10 praise 1 An\x1b[31mna\n")
+    main(words)
+    shown = capsys.readouterr()
+    assert "\\x1b" in shown.out
+    assert all(map(is_plain, (shown.out + shown.err).splitlines()))

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from hri.core import paths
+from hri.core.quoting import escaped
 from hri.core.toml import load_toml
 from hri.emotion import personality
 from hri.emotion.display import load_display
@@ -21,7 +22,7 @@ def run(options: argparse.Namespace) -> int:
     print("personalities")
     for name in personality_names():
         table = load_toml(personality.personality_path(name), "personality")
-        print(f"  {name:18} {table.string('description', '')}")
+        print(f"  {name:18} {escaped(table.string('description', ''))}")
     print("stimuli")
     for spec in load_stimuli().values():
         print(f"  {spec.name:18} {_effects(spec)}")

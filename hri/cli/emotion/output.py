@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from hri.core.quoting import escaped
 from hri.core.signals import EmotionState
 from hri.emotion.affect import Affect
 from hri.emotion.dynamics import Dynamics
@@ -20,7 +21,7 @@ def text_line(time: float, dynamics: Dynamics, affect: Affect) -> str:
     causes = dynamics.why(affect)[:MOST_TOLD]
     reasons = ", ".join(f"{_named(cause)} {cause.share:.0%}" for cause in causes)
     felt = f"{state.label:15} {state.intensity:.2f}  {mood_words(state)}"
-    return f"{time:8.2f} s  {felt}  {reasons}".rstrip()
+    return escaped(f"{time:8.2f} s  {felt}  {reasons}".rstrip())
 
 
 def _named(cause: Cause) -> str:

@@ -13,6 +13,7 @@ from pathlib import Path
 from hri.cli.emotion.output import json_line, mood_words
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
+from hri.core.quoting import escaped
 from hri.emotion.affect import Affect
 from hri.emotion.dynamics import Dynamics
 from hri.emotion.files import EmotionFiles
@@ -114,7 +115,7 @@ def _told(model: EmotionModelSpec, dynamics: Dynamics, affect: Affect) -> str:
     words = {name: spec.words for name, spec in model.stimuli.items()}
     why = why_words(model.words(state.label), dynamics.why(affect), words, state.drives)
     drives = " ".join(f"{name} {level:.2f}" for name, level in state.drives.items())
-    return f"{state.label} {state.intensity:.2f}  {mood_words(state)}  {drives}  {why}"
+    return escaped(f"{state.label} {state.intensity:.2f}  {mood_words(state)}  {drives}  {why}")
 
 
 def _seconds(text: str) -> float:

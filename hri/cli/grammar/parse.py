@@ -12,6 +12,7 @@ from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.arguments import legible
 from hri.cli.progress import waiting
 from hri.core import paths
+from hri.core.quoting import escaped, message_line
 from hri.speech.grammar import load_grammar
 from hri.speech.grammar.matching import (
     MOST_PARSES,
@@ -159,7 +160,7 @@ def _accepted(found: tuple[Parse, ...], near: Tolerant | None) -> str:
         tags = f" {{{spell_tags(reading.tags)}}}" if reading.tags else ""
         lines.append(reading.rule + tags)
         lines += _drawn(reading)
-    return "\n".join(lines)
+    return "\n".join(map(escaped, lines))
 
 
 def _forgiven(near: Tolerant) -> str:
@@ -187,9 +188,9 @@ def _drawn(reading: Parse) -> Iterator[str]:
 def _refused(text: str, refused: Refusal, near: Tolerant | None) -> str:
     after = f'after "{refused.understood}"' if refused.understood else "at the beginning"
     what = f'"{refused.word}" does not fit' if refused.word else "more words are expected"
-    line = f'"{text}" is not in the grammar: {what} {after} - {refused.remedy}'
+    line = message_line(f'"{text}" is not in the grammar: {what} {after} - {refused.remedy}')
     if near is not None:
-        line += f"\n  with --tolerant: {_forgiven(near)}"
+        line += f"\n  with --tolerant: {escaped(_forgiven(near))}"
     if not refused.expected:
         return f"{line}\n  the sentence ends there"
     shown = ", ".join(refused.expected[:MOST_SHOWN])

@@ -7,6 +7,7 @@ import json
 
 from hri.cli.grammar.arguments import legible
 from hri.core.errors import HriError
+from hri.core.quoting import escaped
 from hri.speech.pronunciation.lexicon import (
     Lexicon,
     add_to_lexicon,
@@ -68,7 +69,7 @@ def _add(words: list[str], spelt: list[str]) -> None:
 def _told(word: str, lexicon: Lexicon) -> str:
     origin = {"user": f"your lexicon, {user_lexicon()}", "dictionary": "CMU dictionary"}
     variants = lexicon.pronunciations(word)
-    lines = [f"{word}  {' '.join(phones)}  /{in_ipa(phones)}/" for phones in variants]
+    lines = [f"{escaped(word)}  {' '.join(phones)}  /{in_ipa(phones)}/" for phones in variants]
     lines[0] += f"  ({origin.get(lexicon.origin(word), 'guessed')})"
     return "\n".join(lines)
 

@@ -12,6 +12,7 @@ from hri.cli.grammar.engine import add_engine_arguments, started_engine
 from hri.cli.progress import progress
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.core.quoting import message_line
 from hri.core.statistics import told
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.expectations import Failure, failures, meaning_of, read_expectations
@@ -64,7 +65,7 @@ def _try_sentences(path: Path, options: argparse.Namespace) -> int:
         print(json.dumps(_as_json(path, count, failed), indent=2))
     else:
         for failure in failed:
-            print(failure)
+            print(message_line(str(failure)))
         print(f"{path}: {count - len(failed)} of {count} sentences as expected")
     return 1 if failed else 0
 
