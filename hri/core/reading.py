@@ -99,14 +99,17 @@ def read_text(path: Path, what: str, largest: int = LARGEST_FILE) -> str:
 
 
 @contextmanager
-def read_lines(path: Path, what: str, largest: int, longest: int) -> Iterator[Iterator[str]]:
+def read_lines(
+    path: Path, what: str, largest: int, longest: int, errors: str = "strict"
+) -> Iterator[Iterator[str]]:
     """The lines of a text in UTF-8 one by one, with their ends, for files that need not fit memory.
 
-    Raises HriError when it cannot be read, is not text, or has more bytes than `largest` or a line
-    of more than `longest` characters.
+    `errors` is what becomes of bytes that are not UTF-8, as in `open`. Raises HriError when it
+    cannot be read, is not text, or has more bytes than `largest` or a line of more than `longest`
+    characters.
     """
     with opened(path, what, largest) as file:
-        lines = io.TextIOWrapper(file, encoding="utf-8-sig", newline="")
+        lines = io.TextIOWrapper(file, encoding="utf-8-sig", errors=errors, newline="")
         try:
             yield _bounded(path, what, lines, longest)
         except UnicodeDecodeError as error:

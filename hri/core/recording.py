@@ -59,7 +59,10 @@ def read_events(path: Path) -> list[dict[str, Any]]:
     A last line that has no end was cut off, and is left out. Raises HriError for a file that cannot
     be read, AuthoringError for a line that is not an event.
     """
-    with read_lines(path, "log of events", LARGEST_LOG, LONGEST_LINE) as lines:
+    # A last line may have been cut off in the middle of a letter.
+    with read_lines(
+        path, "log of events", LARGEST_LOG, LONGEST_LINE, errors="surrogateescape"
+    ) as lines:
         return [
             _read(line, Place(path, number))
             for number, line in enumerate(lines, 1)
@@ -68,6 +71,8 @@ def read_events(path: Path) -> list[dict[str, Any]]:
 
 
 def _read(line: str, place: Place) -> dict[str, Any]:
+    if not _is_text(line):
+        raise AuthoringError(place, "not UTF-8 text", _REMEDY)
     try:
         found = parse_json(line)
     except ValueError as error:

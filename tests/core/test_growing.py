@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hri.core.clock import FakeClock
-from hri.core.errors import HriError
+from hri.core.errors import AuthoringError, HriError
 from hri.core.events import EventBus
 from hri.core.growing import GrowingFile
 from hri.core.recording import EventLog, read_events
@@ -67,6 +67,16 @@ def test_the_log_of_a_full_disk_is_readable_to_its_last_whole_line(tmp_path):
     assert [event["text"] for event in events] == [f"sentence {n}" for n in range(len(events))]
     assert 3 < len(events) < 20
     assert path.read_bytes().endswith(b"}\n")
+
+
+def test_a_log_that_was_cut_off_within_a_letter_is_read_to_its_last_whole_line(tmp_path):
+    path = tmp_path / "events.jsonl"
+    whole = '{"t": 0.1, "event": "a", "x": "\u00e9"}\n'.encode()
+    path.write_bytes(whole + whole[: whole.index(b"\xc3") + 1])
+    assert len(read_events(path)) == 1
+    path.write_bytes(whole + b"\xff\n" + whole)
+    with pytest.raises(AuthoringError, match=":2:1: not UTF-8 text - delete this"):
+        read_events(path)
 
 
 @given(cut=st.integers(0, 600))
