@@ -40,11 +40,18 @@ def test_the_changes_that_come_with_the_house_fit_the_network():
     assert FILE.stat().st_size < 2_000_000
 
 
-@pytest.mark.parametrize("content", [b"", b"no archive", None])
-def test_a_file_that_is_none_is_refused(tmp_path, content):
+@pytest.mark.parametrize(
+    ("content", "why"),
+    [
+        (b"", "no adaptation"),
+        (b"no archive", "no adaptation"),
+        (None, "cannot read this adaptation: No such file or directory - check the path"),
+    ],
+)
+def test_a_file_that_is_none_is_refused(tmp_path, content, why):
     if content is not None:
         (tmp_path / "changes.npz").write_bytes(content)
-    with pytest.raises(HriError, match="adaptation"):
+    with pytest.raises(HriError, match=why):
         adapted({}, tmp_path / "changes.npz")
 
 
