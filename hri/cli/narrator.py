@@ -17,7 +17,7 @@ from hri.task.context import TaskContext
 
 LINES = {
     "speech.heard": "heard     {text}",
-    "speech.rejected": "ignored   {text} ({reason})",
+    "speech.rejected": "ignored   {text} ({why})",
     "speech.said": "said      {text}",
     "emotion.changed": "feels     {label}",
     "emotions.reloaded": "took      the emotion files that were saved",
@@ -88,7 +88,7 @@ class Narrator:
         template = LINES.get(event.name)
         if template is None:
             return
-        text = template.format_map(_Known(event.properties))
+        text = template.format_map(_Known(event.properties, why=_why(event)))
         x, y = self._pose
         where = f"x {x:5.2f} m  y {y:5.2f} m"
         line = f"{event.time:7.1f} s  {text:<58}  {self._label:<12} {where}"
@@ -118,6 +118,12 @@ class Narrator:
             folder: Path = self.robot.recording.folder
             files = "events.jsonl, face.mp4, robot.wav, timeline.png, feelings.svg"
             self.tell(f"recorded in {folder}/: {files}")
+
+
+def _why(event: Event) -> str:
+    """The reason an event gives, with its detail where it has one."""
+    reasons = (event.properties.get(name) for name in ("reason", "detail"))
+    return ": ".join(str(reason) for reason in reasons if reason)
 
 
 class _Known(dict[str, object]):

@@ -69,7 +69,8 @@ class Rejection:
     """A voice was there, but nothing was taken for a command."""
 
     reason: str
-    """One of: "no speech", "not in grammar", "low confidence", "robot speaking"."""
+    """One of: "no speech", "not in grammar", "unlike the sound", "not now", "low confidence",
+    "robot speaking"."""
     text: str = ""
     """The grammar's words that come closest."""
     confidence: float = 0.0

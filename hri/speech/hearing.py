@@ -69,8 +69,33 @@ def understand(
     turn: Turn | None,
     stopwatch: Stopwatch = stopped,
 ) -> Heard:
-    """Decode a finished piece of speech and judge it."""
+    """Decode a finished piece of speech and judge it.
+
+    What no rule that counts now explains is held against the others, too: the reason of the
+    rejection is then "not now" where one of those fits.
+    """
     begun = stopwatch()
-    hypothesis = engine.decode(segment, None if turn is None else turn.rules(grammar))
-    heard = judge(grammar, segment, hypothesis, strictness, turn)
+    heard = anticipate(engine, grammar, segment, strictness, turn)
+    if isinstance(heard, Rejection) and turn is not None and not turn.is_speaking:
+        heard = _untimely(engine, grammar, segment, strictness, turn) or heard
     return replace(heard, latency=stopwatch() - begun)
+
+
+def anticipate(
+    engine: Recognizer, grammar: Grammar, segment: Segment, strictness: float, turn: Turn | None
+) -> Heard:
+    """What a piece of speech is by the rules that count; it may still go on."""
+    hypothesis = engine.decode(segment, None if turn is None else turn.rules(grammar))
+    return judge(grammar, segment, hypothesis, strictness, turn)
+
+
+def _untimely(
+    engine: Recognizer, grammar: Grammar, segment: Segment, strictness: float, turn: Turn
+) -> Rejection | None:
+    """The sentence that was said of a rule that does not count now; None when none was."""
+    if turn.rules(grammar) == frozenset(grammar.public_rules):
+        return None
+    heard = judge(grammar, segment, engine.decode(segment), strictness, turn)
+    if isinstance(heard, Rejection) and heard.reason == "not now":
+        return heard if heard.confidence >= strictness else None
+    return None

@@ -24,7 +24,7 @@ EXPECTED = 0.7
 often short. Of right short sentences (8 phones at most) 93 % in place of 91 % are accepted then,
 88 % in place of 82 % at 12 dB; of foreign ones 0.6 % as before, and 6 % in place of 3 %."""
 FAR_BELOW = 0.2
-"""Share of the strictness under which no sentence of the grammar was meant at all."""
+"""Share of the strictness under which the nearest sentence of the grammar was not meant at all."""
 
 MOST_EXPECTED = 6
 """Words that are named of those which might have followed."""
@@ -59,7 +59,7 @@ def judge(
     reason, detail = _reason(hypothesis, found, rules, turn, least)
     if not reason and confidence < least:
         reason, detail = "low confidence", _as_likely(doubts[0].text)
-    if reason == "not in grammar" and found is None:
+    if reason == "not in grammar":
         detail = _departure(grammar, hypothesis.text)
     if turn.is_speaking and reason:
         reason = "robot speaking"
@@ -122,13 +122,14 @@ def _reason(
     needed: float,
 ) -> tuple[str, str]:
     """Why the words do not count, whatever else they may have been, and more of it."""
-    is_unlike = hypothesis.confidence < FAR_BELOW * needed
     if not hypothesis.text:
         return "no speech", ""
-    if found is None or is_unlike:
+    if found is None:
         return "not in grammar", ""
+    if hypothesis.confidence < FAR_BELOW * needed:
+        return "unlike the sound", "the nearest sentence, but it does not fit"
     if found.rule not in rules:
-        return "not in grammar", f"<{found.rule}> counts {_when(turn)}"
+        return "not now", f"<{found.rule}> counts only {_when(turn)}"
     if hypothesis.confidence < needed:
         return "low confidence", f"{hypothesis.confidence:.2f} is below {needed:.2f}"
     return "", ""

@@ -19,7 +19,7 @@ from hri.hal.recognizer import Recognizer, Segment
 from hri.speech.echo import EchoCanceller, OwnVoice
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar_stack import GrammarStack, Layer
-from hri.speech.hearing import SILENT_AFTER, STEP, Heard, understand
+from hri.speech.hearing import SILENT_AFTER, STEP, Heard, anticipate, understand
 from hri.speech.judgement import OVER_SPEECH, STRICTNESS
 from hri.speech.turn import FOLLOW_UP, Turn, Wakefulness
 
@@ -294,7 +294,7 @@ class Listener(Behavior):
         self, segment: Segment, piece: _Piece, turn: Turn, grammar: Grammar, begun: float
     ) -> Tell:
         """Decode a piece in the pause that may end it: a sure "stop" does not wait for the rest."""
-        heard = understand(self._recognizer, grammar, segment, self.strictness, turn)
+        heard = anticipate(self._recognizer, grammar, segment, self.strictness, turn)
         is_sure = (
             isinstance(heard, Utterance)
             and heard.rule in grammar.marked("interrupts")

@@ -15,6 +15,7 @@ from hri.core.signals import Rejection, Utterance
 from hri.hal.drivers.resampling import resample
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.speech.grammar.matching import parse
 from hri.speech.hearing import hear
 from hri.speech.recognizers.automatic import AutomaticRecognizer
 from hri.speech.synthesizers.espeak import EspeakVoice
@@ -67,6 +68,22 @@ def objects(capsys):
 def write_wav(path, sound, rate=RATE):
     soundfile.write(path, sound, rate, subtype="PCM_16")
     return path
+
+
+def test_an_answer_that_nobody_asked_for_is_told_by_its_own_words(engine, companion, speak):
+    (heard,) = hear(speak("no"), RATE, engine, companion, turn=Turn())
+
+    assert isinstance(heard, Rejection)
+    assert (heard.reason, heard.text) == ("not now", "no")
+    assert heard.detail == "<no> counts only while a question is open"
+
+
+def test_speech_that_no_sentence_fits_names_the_nearest_one(engine, companion, speak):
+    (heard,) = hear(speak("the weather was lovely in december"), RATE, engine, companion)
+
+    assert isinstance(heard, Rejection)
+    assert heard.reason == "unlike the sound"
+    assert parse(companion, heard.text) is not None
 
 
 def test_each_piece_of_a_recording_is_told_with_its_time(engine, companion, speak):
@@ -180,7 +197,7 @@ def test_listen_takes_typed_lines_in_turn(monkeypatch, capsys):
     assert capsys.readouterr().out.splitlines() == [
         "move: go back one meter {distance=-1.0}  (1.00)",
         'not in grammar "fly away" (1.00) - no sentence begins with "fly"',
-        'not in grammar "yes" (1.00) - <yes> counts while a question is open',
+        'not now "yes" (1.00) - <yes> counts only while a question is open',
     ]
 
 

@@ -36,7 +36,14 @@ def test_what_is_clear_counts_and_every_rejection_has_its_reason(grammar):
     assert reason(grammar, "") == "no speech"
     assert reason(grammar, "hello fish") == "not in grammar"
     assert reason(grammar, "hello", 0.49) == "low confidence"
-    assert reason(grammar, "hello", 0.05) == "not in grammar"
+
+
+def test_a_sentence_of_the_grammar_that_does_not_fit_the_sound_is_called_the_nearest(grammar):
+    result = judge(grammar, PIECE, Hypothesis("go back", 0.05))
+
+    assert (result.reason, result.text) == ("unlike the sound", "go back")
+    assert result.detail == "the nearest sentence, but it does not fit"
+    assert reason(grammar, "hello fish", 0.05) == "not in grammar"
 
 
 def test_what_moves_the_robot_must_be_heard_more_clearly(grammar):
@@ -72,8 +79,8 @@ def test_an_answer_counts_while_a_question_is_open(grammar):
     assert reason(grammar, "yes", 0.4, Turn(is_question_open=True)) == "yes"
     result = judge(grammar, PIECE, Hypothesis("yes", 0.9), 0.5, Turn())
     assert (result.reason, result.detail) == (
-        "not in grammar",
-        "<yes> counts while a question is open",
+        "not now",
+        "<yes> counts only while a question is open",
     )
 
 
@@ -92,7 +99,7 @@ def test_without_the_wake_word_little_counts(write):
     assert Turn(is_awake=True).rules(grammar) == {"hey", "greet"}
     assert Turn(is_awake=False, is_question_open=True).rules(grammar) == {"hey", "greet"}
     result = judge(grammar, PIECE, Hypothesis("hello", 0.9), 0.5, asleep)
-    assert result.detail == "<greet> counts after the wake word"
+    assert result.detail == "<greet> counts only after the wake word"
 
 
 def test_no_wake_word_is_needed_for_a_while(grammar):

@@ -184,7 +184,8 @@ def test_the_engine_is_told_which_rules_count():
     listener.question.sources.append(question)
     stage.run(2.0)
 
-    unasked, asked = stage.ears.decoded_with
+    unasked, everything, asked = stage.ears.decoded_with
+    assert everything == frozenset(), "what no rule explains is held against all of them"
     assert asked - unasked == {"yes", "no"}
     assert stage.names() == ["speech.rejected", "speech.heard"]
 
