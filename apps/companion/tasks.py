@@ -33,6 +33,7 @@ from hri.hal.screen import Screen
 from hri.robot import verbs
 from hri.speech.behaviors import Listener, Voice
 from hri.speech.grammar import Grammar, load_grammar
+from hri.speech.grammar.tags import written
 from hri.speech.tasks import hears_people
 from hri.task.context import TaskContext
 from hri.task.lane import Lane
@@ -151,7 +152,7 @@ class Companion:
             "why_stopped": self.guard.explain() or self.replies.unasked["no_stop"],
             "commands": self._commands(),
         }
-        values = {key: f"{v:g}" if isinstance(v, float) else v for key, v in tags.items()}
+        values = {key: written(value) for key, value in tags.items()}
         return template.format(**values, **facts)
 
     def _battery(self) -> float:

@@ -195,7 +195,7 @@ def test_listen_takes_typed_lines_in_turn(monkeypatch, capsys):
     assert run("companion", "--typed") == 1
 
     assert capsys.readouterr().out.splitlines() == [
-        "move: go back one meter {distance=-1.0}  (1.00)",
+        "move: go back one meter {distance=-1}  (1.00)",
         'not in grammar "fly away" (1.00) - no sentence begins with "fly"',
         'not now "yes" (1.00) - <yes> counts only while a question is open',
     ]

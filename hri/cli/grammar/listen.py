@@ -30,6 +30,7 @@ from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer, Segment
 from hri.hal.resource import Description
 from hri.speech.grammar import Grammar, load_grammar
+from hri.speech.grammar.tags import spell_tags
 from hri.speech.hearing import Heard, hear, understand
 from hri.speech.judgement import STRICTNESS
 from hri.speech.recognizers.typed import TypedRecognizer
@@ -209,7 +210,7 @@ class _StatusLine:
 def _show(file: str, heard: Heard) -> None:
     place = f"{file} {heard.start:.2f}-{heard.end:.2f} s: " if file else ""
     if isinstance(heard, Utterance):
-        tags = " ".join(f"{name}={value}" for name, value in heard.tags.items())
+        tags = spell_tags(heard.tags)
         meaning = f"{heard.rule}: {heard.text}" + (f" {{{tags}}}" if tags else "")
         print(f"{place}{meaning}  ({heard.confidence:.2f})", flush=True)
         return

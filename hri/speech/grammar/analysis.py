@@ -74,7 +74,7 @@ def height(node: Expression, heights: Mapping[str, float]) -> float:
 def heights(grammar: Grammar) -> dict[str, float]:
     """The height of every rule, itself included when it is recursive."""
     recursive = grammar.recursive_rules
-    return _settle(
+    return settled(
         grammar,
         math.inf,
         lambda rule, known: height(rule.expression, known) + (rule.key in recursive),
@@ -100,10 +100,10 @@ def is_silent(node: Expression, silent: Mapping[str, bool]) -> bool:
 
 def silent_rules(grammar: Grammar) -> dict[str, bool]:
     """Whether each rule can be passed without a word."""
-    return _settle(grammar, False, lambda rule, known: is_silent(rule.expression, known))
+    return settled(grammar, False, lambda rule, known: is_silent(rule.expression, known))
 
 
-def _settle(
+def settled(
     grammar: Grammar, start: V, measure: Callable[[Rule, Mapping[str, V]], V]
 ) -> dict[str, V]:
     """Measure all rules, those they use before them, and those in circles until nothing changes."""

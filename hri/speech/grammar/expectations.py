@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -26,7 +26,7 @@ from hri.core.errors import AuthoringError, Place
 from hri.core.reading import read_text
 from hri.speech.grammar.matching import Parse, parse, refusal
 from hri.speech.grammar.rules import Grammar
-from hri.speech.grammar.tags import Value, read_entries, spell_tags
+from hri.speech.grammar.tags import TagEntry, Value, evaluate, read_entries, spell_tags
 
 _LINE = re.compile(r"(?P<sign>[+-])(?P<sentence>.*?)(?P<arrow>=>(?P<meaning>.*))?")
 _MEANING = re.compile(r"(?:(?P<rule>[\w.-]+)\s*:(?:\s+|$))?(?P<tags>.*)", re.DOTALL)
@@ -198,8 +198,19 @@ def read_meaning(text: str, place: Place) -> Meaning:
         entries = read_entries(written)
     except ValueError as error:
         raise AuthoringError(place, str(error), "write tags as name=value") from error
-    tags = {entry.name: entry.value for entry in entries if not entry.takes}
-    if len(tags) < len(entries) or any(entry.operation != "=" for entry in entries):
-        what = "only values can be expected, each once, no sums and no $references"
-        raise AuthoringError(place, what, "write tags as name=value")
-    return Meaning(rule, {name: value for name, value in tags.items() if isinstance(value, Value)})
+    if not _are_values(entries):
+        what = "only values can be expected, each tag once, no sums and no $references"
+        raise AuthoringError(place, what, "write tags as name=value, and lists as name+=text")
+    return Meaning(rule, evaluate([entries]))
+
+
+def _are_values(entries: Sequence[TagEntry]) -> bool:
+    """Whether entries say each tag once, or text by text where it is a list."""
+    known: dict[str, str] = {}
+    for entry in entries:
+        is_part = entry.operation == "+=" and isinstance(entry.value, str)
+        is_new = entry.name not in known or (is_part and known[entry.name] == "+=")
+        if entry.takes or not is_new or not (is_part or entry.operation == "="):
+            return False
+        known[entry.name] = entry.operation
+    return True

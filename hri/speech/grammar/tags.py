@@ -8,7 +8,8 @@ Between `{` and `}` stand entries, with spaces or semicolons between them:
     {polite}              short for {polite=true}; behind a text without quotes a ";" stands
                           before it, for it might be the second word of the text
     {number+=20}          adds to what is there; to 0 when nothing is
-    {number*=100}         multiplies what is there; does nothing when nothing is
+    {toppings+=ham}       collects texts in a list, also a second text or a number behind one
+    {number*=100}         multiplies what is there; does nothing when no number is
     {distance=$number}    takes the value of another tag, which is used up by it; nothing
                           happens when that tag was not set; also with += and *=
     {time="$hour:$minute"}  puts the values of other tags into a text and uses them up; nothing
@@ -26,12 +27,15 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-Value = str | float | bool
+Value = str | float | bool | tuple[str, ...]
+"""A tuple is a list of texts that `+=` collected."""
 
 LONGEST_TAG = 1000
 """Characters between the braces."""
 LONGEST_VALUE = 1000
 """Characters of a text that is put together; what is longer is not set."""
+MOST_COLLECTED = 200
+"""Texts of a list; it takes no more than these. A sentence has no more words."""
 
 _ENTRY = re.compile(
     r"""[\s;]*
@@ -142,7 +146,7 @@ def _refuse_rest_of_text(before: re.Match[str], value: object, match: re.Match[s
 def _entry(match: re.Match[str]) -> TagEntry:
     name, operation = match["name"], match["operation"] or "="
     value = _value(match)
-    if operation != "=" and not isinstance(value, float | Reference):
+    if operation == "*=" and not isinstance(value, float | Reference):
         raise TagError(f"{name}{operation} needs a number", match.start("name"))
     return TagEntry(name, operation, value)
 
@@ -181,8 +185,13 @@ def are_same(one: Mapping[str, Value], other: Mapping[str, Value]) -> bool:
 
 
 def written(value: Value) -> str:
-    """A value as text: whole numbers without a point, yes and no as true and false."""
+    """A value as text: whole numbers without a point, yes and no as true and false.
+
+    Commas stand between the texts of a list.
+    """
     match value:
+        case tuple():
+            return ", ".join(value)
         case bool():
             return "true" if value else "false"
         case float():
@@ -197,8 +206,12 @@ def spell_entries(entries: Iterable[TagEntry]) -> str:
 
 
 def spell_tags(tags: Mapping[str, Value]) -> str:
-    """What a sentence means, as the entries that say so."""
-    return spell_entries(TagEntry(name, "=", value) for name, value in tags.items())
+    """What a sentence means, as the entries that say so; a list is collected text by text."""
+    return spell_entries(
+        TagEntry(name, "+=" if isinstance(value, tuple) else "=", part)
+        for name, value in tags.items()
+        for part in (value if isinstance(value, tuple) else (value,))
+    )
 
 
 def _spell(entry: TagEntry) -> str:
@@ -241,12 +254,30 @@ def _current(entry: TagEntry, tags: Mapping[str, Value]) -> Value | None:
 
 
 def _apply(tags: dict[str, Value], entry: TagEntry, value: Value) -> None:
-    if entry.operation == "=":
-        tags[entry.name] = value
-        return
-    before = tags.get(entry.name, 0.0 if entry.operation == "+=" else None)
-    if isinstance(before, float) and isinstance(value, float):
-        result = before + value if entry.operation == "+=" else before * value
-        if math.isfinite(result):
-            # Ten times 0.3 is to read 3, not 3.0000000000000004; and there is no -0.
-            tags[entry.name] = round(result, 9) + 0.0
+    before = tags.get(entry.name)
+    match entry.operation:
+        case "=":
+            tags[entry.name] = value
+        case "+=":
+            tags[entry.name] = _sum(before, value)
+        case "*=" if isinstance(before, float) and isinstance(value, float):
+            tags[entry.name] = _rounded(before * value, before)
+
+
+def _sum(before: Value | None, value: Value) -> Value:
+    """Numbers are added; all else is collected."""
+    if isinstance(value, float) and isinstance(before, float | None):
+        return _rounded((before or 0.0) + value, before or 0.0)
+    return (*_texts(before), *_texts(value))[:MOST_COLLECTED]
+
+
+def _texts(value: Value | None) -> tuple[str, ...]:
+    if value is None or isinstance(value, tuple):
+        return value or ()
+    return (written(value),)
+
+
+def _rounded(result: float, before: float) -> float:
+    """A result without the noise of its last digits; the number before when it is too large."""
+    # Ten times 0.3 is to read 3, not 3.0000000000000004; and there is no -0.
+    return round(result, 9) + 0.0 if math.isfinite(result) else before

@@ -100,7 +100,7 @@ def test_the_microphone_is_heard_until_ctrl_c_with_level_words_and_results(
     assert any(line.startswith("[####") and "*" in line for line in shown)
     assert any("go forward" in line for line in shown)
     assert shown[-1] == ""
-    assert capsys.readouterr().out.startswith("move: go forward ten meters {distance=10.0}")
+    assert capsys.readouterr().out.startswith("move: go forward ten meters {distance=10}")
 
 
 def test_recordings_of_several_sentences_give_an_object_a_line(

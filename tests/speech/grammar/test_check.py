@@ -78,7 +78,9 @@ def test_warnings_have_their_place(write, rules, place, what, remedy):
         "public <a> = from <small> to <small> {y=$number};",
         "public <a> = go (<small> | to <small>);",
         "public <a> = go <small> feet [and {feet=$number} <small> {inches=$number} inches];",
-        "public <a> = say <digits> (and <color> {c=$color})*;",
+        "public <a> = say <digits> (and <color> {c+=$color})*;",
+        "public <a> = <list>;\n<list> = <color> {c+=$color} | <color> {c+=$color} and <list>;",
+        "public <a> = turn left {angle=90} [<small> degrees {angle=$number}];",
     ],
 )
 def test_only_values_that_are_lost_are_told(write, rules):
@@ -89,6 +91,33 @@ def test_only_values_that_are_lost_are_told(write, rules):
     assert len(lost) == ("to <small> {y" in rules and "{x" not in rules)
 
 
+@pytest.mark.parametrize(
+    ("rules", "place", "remedy"),
+    [
+        (
+            "public <a> = <list>;\n<list> = <color> | <color> and <list>;",
+            "5:32",
+            "<list> {first=$color}, or collect them, {all+=$color}",
+        ),
+        ("public <a> = say it (and <color> {c=$color})*;", "4:26", "collect them, {c+=$color}"),
+        (
+            "public <a> = coffee {drink=coffee} and tea {drink=tea};",
+            "4:40",
+            "give each a name of its own, or collect them, {drink+=tea}",
+        ),
+        ("public <a> = <color> or <paint>;\n<paint> = any (red {color=r} | blue);", "4:25", "name"),
+        ("public <a> = [red {color=r}] or blue {color=b};", "4:33", "{color+=b}"),
+        ("public <a> = (red {x=1} | blue {x=2}) {x=3};", "4:15", "collect them"),
+    ],
+)
+def test_a_value_that_another_part_replaces_is_told(write, rules, place, remedy):
+    findings = check(load_grammar(write("import <color.color>;\n" + rules)))
+    (finding,) = [finding for finding in findings if "replaces the first" in finding.what]
+
+    assert f"{finding.place.line}:{finding.place.column}" == place
+    assert remedy in finding.remedy
+
+
 def test_a_part_that_may_be_said_again_and_again_keeps_its_last_value(write):
     rules = "import <color.color>;\npublic <a> = paint it <color> (and <color>)*;"
     (finding,) = check(load_grammar(write(rules)))
@@ -97,7 +126,7 @@ def test_a_part_that_may_be_said_again_and_again_keeps_its_last_value(write):
 
 
 def test_a_very_long_row_of_rules_is_looked_through_at_once(write):
-    row = "<small> x {a=$number} " * 5_000
+    row = "<small> x {a+=$number} " * 5_000
     grammar, _ = read_grammar(write(f"import <numbers.small>;\npublic <a> = {row};"))
     start = time.process_time()
     assert list(overwritten(grammar, grammar.rules.values())) == []

@@ -1,8 +1,16 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from hri.speech.grammar.tags import LONGEST_VALUE, evaluate, read_entries
+from hri.speech.grammar.tags import (
+    LONGEST_VALUE,
+    MOST_COLLECTED,
+    evaluate,
+    read_entries,
+    spell_tags,
+)
 
 
 @pytest.mark.parametrize(
@@ -22,7 +30,13 @@ from hri.speech.grammar.tags import LONGEST_VALUE, evaluate, read_entries
         ("d=$n", {}),
         ("n=3 d=$n", {"d": 3.0}),
         ("n=3 a=$n b=$n", {"a": 3.0, "b": 3.0}),
-        ("n=5 x=red x+=1", {"n": 5.0, "x": "red"}),
+        ("n=5 x=red x+=1", {"n": 5.0, "x": ("red", "1")}),
+        ("t+=ham t+=olives", {"t": ("ham", "olives")}),
+        ("a=ham t+=$a a=olives t+=$a t+=$a", {"t": ("ham", "olives")}),
+        ("n+=5 n+=ham; loud loud+=quiet", {"n": ("5", "ham"), "loud": ("true", "quiet")}),
+        ("t+=ham u+=olives u+=$t", {"u": ("olives", "ham")}),
+        ('t+=ham t+=olives s="with $t"', {"s": "with ham, olives"}),
+        ("t+=ham t*=2", {"t": ("ham",)}),
         ('h="07" m=5 t="$h:$m"', {"t": "07:5"}),
         ('h="07" t="$h:$m"', {"h": "07"}),
         ('t="" d=1 t="$t$d" d=2 t="$t$d"', {"t": "12"}),
@@ -50,7 +64,7 @@ def test_entries_mean_plain_data(text, tags):
         "a==3",
         'a="b c',
         "1x=3",
-        "a+=red",
+        "a*=red",
         "a=1e999",
         "a=$",
         "a=$1",
@@ -68,6 +82,27 @@ def test_a_text_that_doubles_for_ever_stops_growing():
     tags = evaluate([read_entries("t=xx"), *[(double,)] * 200])
 
     assert len(tags["t"]) <= LONGEST_VALUE
+
+
+def test_a_list_that_doubles_for_ever_stops_growing():
+    (double,) = read_entries("t+=$t")
+    tags = evaluate([read_entries("t+=ham"), *[(double,)] * 200])
+
+    assert len(tags["t"]) == MOST_COLLECTED
+
+
+texts = st.text(st.characters(codec="ascii", exclude_categories=["Cc"], exclude_characters='"'))
+values = st.one_of(
+    texts,
+    st.booleans(),
+    st.floats(-1e9, 1e9).map(lambda number: round(number, 3) + 0.0),
+    st.lists(texts, min_size=1, max_size=4).map(tuple),
+)
+
+
+@given(st.dictionaries(st.sampled_from(["a", "b.c", "size"]), values, min_size=1))
+def test_what_a_sentence_means_can_be_written_down_and_read_again(tags):
+    assert evaluate([read_entries(spell_tags(tags))]) == tags
 
 
 def test_no_tag_ends_in_minus_zero():
