@@ -15,13 +15,13 @@ BENCHES = (
     "speech", "vision", "writes",
 )  # fmt: skip
 """Each is a module of `hri.bench` with `measure() -> dict`."""
-OPTIONS = ("seconds", "quick", "only", "recordings", "draw", "tries", "seed", "keep")
+OPTIONS = ("seconds", "quick", "only", "recordings", "draw", "tries", "seed", "keep", "jobs")
 TAKES = {
     "behavior": ("seconds",),
     "companion": ("seconds",),
     "drive": ("quick", "only"),
     "face": ("quick",),
-    "inputs": ("tries", "seed", "keep", "only"),
+    "inputs": ("tries", "seed", "keep", "only", "jobs"),
     "people": ("quick",),
     "speech": ("quick", "recordings", "draw"),
     "vision": ("quick",),
@@ -52,11 +52,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", type=_draw, metavar="N", help=about)
     about = "keep what failed in this folder; the same command continues there (inputs)"
     parser.add_argument("--keep", type=Path, metavar="DIR", help=about)
+    about = "how many child processes run at once, one for each processor by default (inputs)"
+    parser.add_argument("--jobs", type=_jobs, metavar="N", help=about)
 
 
 def _tries(text: str) -> int:
     if not text.isdecimal() or not 1 <= len(text) <= 9 or int(text) == 0:
         raise argparse.ArgumentTypeError(f"{text} - write how many, such as 100000")
+    return int(text)
+
+
+def _jobs(text: str) -> int:
+    if not text.isdecimal() or not 1 <= int(text[:4]) <= 64:
+        raise argparse.ArgumentTypeError(f"{text} - write a number from 1 to 64")
     return int(text)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import math
 import operator
+import warnings
 from collections.abc import Callable
 
 NAMES = {"pi": math.pi, "e": math.e}
@@ -26,8 +27,7 @@ def evaluate(text: str) -> float:
     if len(text) > _LONGEST:
         raise ValueError(f"an expression of {len(text)} characters is too long")
     try:
-        tree = ast.parse(text.strip(), mode="eval")
-        value = _value(tree.body)
+        value = _value(parsed(text))
     except (SyntaxError, RecursionError, MemoryError) as error:
         raise ValueError(f'"{text}" is no number') from error
     except ZeroDivisionError as error:
@@ -37,6 +37,16 @@ def evaluate(text: str) -> float:
     if not math.isfinite(value):
         raise ValueError(f'"{text}" is not finite')
     return value
+
+
+def parsed(text: str) -> ast.expr:
+    """The tree of one expression of Python, without the warnings that are for programmers.
+
+    Raises SyntaxError, ValueError, RecursionError or MemoryError for a text that is none.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of `1or 2`, which is refused by who looks at the tree
+        return ast.parse(text.strip(), mode="eval").body
 
 
 def _value(node: ast.expr) -> float:

@@ -20,6 +20,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from hri.core.errors import did_you_mean
+from hri.core.expression import parsed
 
 Value = float | str
 Part = Callable[[Mapping[str, Any]], Value]
@@ -94,7 +95,7 @@ def parse_formula(text: str) -> Formula:
     if len(text) > LONGEST:
         raise ValueError(f"a formula of {len(text)} characters - keep it within {LONGEST}")
     try:
-        tree = ast.parse(text.strip(), mode="eval").body
+        tree = parsed(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         raise ValueError(f'"{text}" is no formula - write such as clip(value, 0, 1)') from error
     fields: set[str] = set()

@@ -1,4 +1,6 @@
+import io
 import json
+import zipfile
 from pathlib import Path
 from random import Random
 
@@ -7,8 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hri.bench import inputs
+from hri.bench.inputs import good
 from hri.bench.inputs.mutation import LARGEST, mutated
-from hri.bench.inputs.readers import READERS
+from hri.bench.inputs.readers import READERS, bad_input
 from hri.core.errors import HriError
 
 SEEDS = [b'[a]\nb = 1.5 # "c"\n', b"<a><b c='d'/></a>"]
@@ -24,6 +27,37 @@ def test_an_input_is_the_same_for_the_same_numbers_and_bounded(is_text: bool, nu
 def test_inputs_that_differ_are_made() -> None:
     made = {mutated(SEEDS, True, Random(f"1/a/{number}")) for number in range(100)}
     assert len(made) > 90
+
+
+def test_the_good_inputs_are_the_same_in_every_run() -> None:
+    assert good.sounds() == good.sounds()  # an Ogg stream has a number of its own
+    drawings = good.shipped(["faces/*/targets/*.svg"])
+    assert drawings == sorted(drawings, key=lambda data: (len(data), data))
+    with zipfile.ZipFile(io.BytesIO(good.archives()[1])) as archive:
+        assert {member.date_time for member in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}
+
+
+def test_a_run_in_several_processes_finds_what_one_finds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    few = {name: READERS[name] for name in ("expression", "formula", "event query")}
+    monkeypatch.setattr(inputs, "READERS", few)
+    alone, beside = (inputs.measure(tries=61, jobs=jobs)["readers"] for jobs in (1, 3))
+    for reader in (*alone.values(), *beside.values()):
+        for measured in ("slowest_s", "slowest", "largest_mb", "largest"):
+            del reader[measured]
+    assert alone == beside
+    assert sorted(reader["tries"] for reader in beside.values()) == [20, 20, 21]
+
+
+def test_the_input_that_failed_is_the_one_that_is_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(inputs, "MOST_SECONDS", -1.0)  # each one is too slow
+    inputs.measure(tries=30, only="expression", keep=tmp_path)
+    for number in (0, 17, 29):
+        kept = (tmp_path / f"expression-{number}.txt").read_bytes()
+        assert kept == bad_input("expression", 1, number)
 
 
 def test_a_reader_is_tried_and_a_second_call_goes_on(tmp_path: Path) -> None:

@@ -1,5 +1,6 @@
 import contextlib
 import math
+import warnings
 
 import pytest
 from hypothesis import given
@@ -60,3 +61,11 @@ def test_nothing_that_looks_like_arithmetic_does_more(text):
 @given(st.floats(allow_nan=False, allow_infinity=False))
 def test_every_number_reads_back(number):
     assert evaluate(repr(number)) == number
+
+
+def test_a_refused_expression_warns_of_nothing():
+    with warnings.catch_warnings(record=True) as warned:
+        warnings.simplefilter("always")
+        with pytest.raises(ValueError, match="no number"):
+            evaluate("1or 2")
+    assert warned == []

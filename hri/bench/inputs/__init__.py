@@ -8,17 +8,20 @@ The inputs depend on the seed and their number alone: the same command tries the
 from __future__ import annotations
 
 import json
+import os
 import selectors
 import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import IO, Any
+from threading import Event, Lock
+from typing import Any
 
 from hri.bench.figures import machine
-from hri.bench.inputs.readers import READERS
+from hri.bench.inputs.readers import READERS, bad_input
 from hri.core.child import command, environment
 from hri.core.errors import HriError, did_you_mean
 from hri.core.writing import write_bytes, write_text
@@ -29,11 +32,13 @@ MOST_BYTES = 300_000_000
 """Bytes by which the memory of the process may grow for one input."""
 PATIENCE = 120.0
 """Seconds without a word from the child; a busy machine takes some."""
-BATCH = 500
-"""Tries after which what was found is saved."""
+BATCH = 2000
+"""Tries of one child, after which what was found is saved."""
 MOST_KEPT = 20
 """Failures of one reader that are listed."""
 PROGRESS = "progress.json"
+_IN_MEMORY = Path("/dev/shm")
+"""Where a file that is written again and again does not wait for a disk."""
 
 
 @dataclass
@@ -76,26 +81,64 @@ class Tally:
 
 
 def measure(
-    tries: int = 100_000, seed: int = 1, keep: Path | None = None, only: str | None = None
+    tries: int = 100_000,
+    seed: int = 1,
+    keep: Path | None = None,
+    only: str | None = None,
+    jobs: int | None = None,
 ) -> dict[str, Any]:
     """Try `tries` inputs over all readers, or over one; what happened by reader.
 
-    In the folder `keep` are the inputs that failed, and how far it got: the same command goes on
-    there. Raises HriError for an unknown reader or a folder of another seed.
+    `jobs` child processes run at once, by default one for each processor. In the folder `keep` are
+    the inputs that failed, and how far it got: the same command goes on there. Raises HriError for
+    an unknown reader or a folder of another seed.
     """
     if only is not None and only not in READERS:
         raise HriError(f'no reader "{only}" - {did_you_mean(only, READERS)}')
     names = list(READERS) if only is None else [only]
-    tallies = _resumed(keep, seed)
-    for position, name in enumerate(names):
-        tally = tallies.setdefault(name, Tally())
-        share = tries // len(names) + (position < tries % len(names))
-        while tally.tries < share:
-            last = min(tally.tries + BATCH, share)
-            _try(name, seed, tally, last, keep)
-            _save(keep, seed, tallies)
-            _show(f"{name}: {tally.tries} of {share}, {tally.failed} failed")
-    return _report({name: tallies[name] for name in names}, seed)
+    run = _Run(seed, keep)
+    with ThreadPoolExecutor(jobs or os.cpu_count()) as pool:
+        shares = [tries // len(names) + (at < tries % len(names)) for at in range(len(names))]
+        done = [pool.submit(run.go_on, *share) for share in zip(names, shares, strict=True)]
+        try:
+            for reader in done:
+                reader.result()
+        except BaseException:
+            run.has_ended.set()
+            pool.shutdown(cancel_futures=True)
+            raise
+    return _report({name: run.tallies[name] for name in names}, seed)
+
+
+class _Run:
+    """What became of the inputs so far; its readers are tried side by side."""
+
+    def __init__(self, seed: int, keep: Path | None) -> None:
+        self.seed = seed
+        self.keep = keep
+        self.tallies = _resumed(keep, seed)
+        self.has_ended = Event()
+        self._lock = Lock()
+
+    def go_on(self, name: str, share: int) -> None:
+        """Try the inputs of a reader up to its share."""
+        with self._lock:
+            tally = self.tallies.setdefault(name, Tally())
+        while tally.tries < share and not self.has_ended.is_set():
+            self._try(name, tally, min(tally.tries + BATCH, share))
+            with self._lock:
+                _save(self.keep, self.seed, self.tallies)
+                _show(f"{name}: {tally.tries} of {share}, {tally.failed} failed")
+
+    def _try(self, name: str, tally: Tally, last: int) -> None:
+        """Go on until `last`; a child that crashes or hangs is replaced behind the input it had."""
+        while tally.tries < last and not self.has_ended.is_set():
+            with tempfile.TemporaryDirectory(dir=_folder()) as folder:
+                for report in _child(name, self.seed, tally.tries, last, Path(folder)):
+                    if tally.count(report):
+                        _keep(self.keep, name, self.seed, int(report["number"]))
+                    if self.has_ended.is_set():
+                        return
 
 
 def _report(tallies: Mapping[str, Tally], seed: int) -> dict[str, Any]:
@@ -116,13 +159,9 @@ def _report(tallies: Mapping[str, Tally], seed: int) -> dict[str, Any]:
     }
 
 
-def _try(name: str, seed: int, tally: Tally, last: int, keep: Path | None) -> None:
-    """Go on until `last`; a child that crashes or hangs is replaced behind the input it had."""
-    while tally.tries < last:
-        with tempfile.TemporaryDirectory() as folder:
-            for report in _child(name, seed, tally.tries, last, Path(folder)):
-                if tally.count(report):
-                    _keep(keep, name, int(report["number"]), Path(folder))
+def _folder() -> Path | None:
+    """Where the folders of the children are made."""
+    return _IN_MEMORY if os.access(_IN_MEMORY, os.W_OK) else None
 
 
 def _child(name: str, seed: int, first: int, last: int, folder: Path) -> Iterator[dict[str, Any]]:
@@ -132,13 +171,11 @@ def _child(name: str, seed: int, first: int, last: int, folder: Path) -> Iterato
     number = first
     with (
         tempfile.TemporaryFile() as told,
-        subprocess.Popen(
-            program, stdout=subprocess.PIPE, stderr=told, text=True, env=environment()
-        ) as child,
+        subprocess.Popen(program, stdout=subprocess.PIPE, stderr=told, env=environment()) as child,
     ):
         assert child.stdout is not None
         try:
-            for line in _lines(child.stdout):
+            for line in _lines(child.stdout.fileno()):
                 report = json.loads(line)
                 number = report["number"] + 1
                 yield report
@@ -155,27 +192,25 @@ def _child(name: str, seed: int, first: int, last: int, folder: Path) -> Iterato
         yield {"number": number, "seconds": 0.0, "bytes": 0, "what": "ended", "why": why}
 
 
-def _lines(stream: IO[str]) -> Iterator[str]:
-    """The lines of a stream. Raises TimeoutError when none comes."""
+def _lines(pipe: int) -> Iterator[bytes]:
+    """The lines that come through a pipe. Raises TimeoutError when none comes."""
+    rest = b""
     with selectors.DefaultSelector() as selector:
-        selector.register(stream, selectors.EVENT_READ)
+        selector.register(pipe, selectors.EVENT_READ)
         while True:
             if not selector.select(PATIENCE):
                 raise TimeoutError
-            line = stream.readline()
-            if not line:
+            if not (some := os.read(pipe, 1 << 16)):
                 return
-            yield line
+            *lines, rest = (rest + some).split(b"\n")
+            yield from lines
 
 
-def _keep(keep: Path | None, name: str, number: int, folder: Path) -> None:
-    """Copy the input that failed to the folder of the user."""
-    if keep is None:
-        return
-    source = folder / READERS[name].file
-    if source.is_file():
-        target = keep / f"{name.replace(' ', '-').replace(',', '')}-{number}{source.suffix}"
-        write_bytes(target, source.read_bytes())
+def _keep(keep: Path | None, name: str, seed: int, number: int) -> None:
+    """Write the input that failed into the folder of the user."""
+    if keep is not None:
+        plain, suffix = name.replace(" ", "-").replace(",", ""), Path(READERS[name].file).suffix
+        write_bytes(keep / f"{plain}-{number}{suffix}", bad_input(name, seed, number))
 
 
 def _resumed(keep: Path | None, seed: int) -> dict[str, Tally]:

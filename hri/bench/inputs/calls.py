@@ -147,13 +147,17 @@ def grammar_hearing(path: Path) -> object:
     return parse(grammar, "go forward two meters and stop")
 
 
-def manifest(path: Path) -> object:
-    """A list of recordings."""
+@cache
+def _grammar_of_companion() -> Any:
     from hri.core import paths
     from hri.speech.grammar import load_grammar
 
-    grammar = load_grammar(paths.house() / "grammars/companion.jsgf")
-    return named("hri.cli.grammar.clips:read_manifest")(path, grammar)
+    return load_grammar(paths.house() / "grammars/companion.jsgf")
+
+
+def manifest(path: Path) -> object:
+    """A list of recordings."""
+    return named("hri.cli.grammar.clips:read_manifest")(path, _grammar_of_companion())
 
 
 def names(path: Path) -> object:
@@ -185,12 +189,18 @@ def poses(path: Path) -> object:
     return sum(1 for _ in read_poses(path, remarks)), list(remarks)
 
 
+@cache
+def _tensors_of_recognizer() -> Any:
+    from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
+
+    return read_tensors(find_weights())
+
+
 def adaptation(path: Path) -> object:
     """A change of the recognizer's network."""
     from hri.speech.recognizers.ctc.adaptation import adapted
-    from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
 
-    return adapted(read_tensors(find_weights()), path)
+    return adapted(_tensors_of_recognizer(), path)
 
 
 def run_of_robot(path: Path) -> object:

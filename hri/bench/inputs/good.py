@@ -24,7 +24,7 @@ RATE = 16_000
 def shipped(patterns: Iterable[str]) -> list[bytes]:
     """What the files of the house hold whose paths fit the patterns, the smallest first."""
     found = {file for pattern in patterns for file in paths.house().glob(pattern)}
-    contents = sorted({file.read_bytes() for file in found}, key=len)
+    contents = sorted({file.read_bytes() for file in found}, key=lambda data: (len(data), data))
     assert contents, f"the house has no {patterns}"
     return contents
 
@@ -206,7 +206,30 @@ def sounds() -> list[bytes]:
         file = io.BytesIO()
         soundfile.write(file, _samples(), RATE, format=kind)
         made.append(file.getvalue())
-    return made
+    return [_of_stream_0(made[0]), *made[1:]]
+
+
+def _of_stream_0(ogg: bytes) -> bytes:
+    """An Ogg file with 0 for the number of its stream, which is drawn at random (RFC 3533)."""
+    pages = b""
+    while ogg:
+        table = 27 + ogg[26]
+        size = table + sum(ogg[27:table])
+        page = bytearray(ogg[:size])
+        page[14:18] = page[22:26] = bytes(4)
+        page[22:26] = struct.pack("<I", _checksum(page))
+        pages, ogg = pages + page, ogg[size:]
+    return pages
+
+
+def _checksum(page: bytearray) -> int:
+    """CRC-32 of an Ogg page: polynomial 0x04C11DB7, the highest bit first, from 0."""
+    value = 0
+    for byte in page:
+        value ^= byte << 24
+        for _ in range(8):
+            value = (value << 1) ^ (0x1_04C1_1DB7 if value & 0x8000_0000 else 0)
+    return value
 
 
 def pictures() -> list[bytes]:
@@ -233,13 +256,17 @@ def videos() -> list[bytes]:
 
 def archives() -> list[bytes]:
     """Archives of a model, packed and as it is."""
+    members = {
+        "model/am/final.mdl": bytes(range(256)) * 4,
+        "model/conf/model.conf": b"--rate=16000\n",
+        "model/empty/": b"",
+    }
     made = []
     for method in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
         file = io.BytesIO()
         with zipfile.ZipFile(file, "w", method) as archive:
-            archive.writestr("model/am/final.mdl", bytes(range(256)) * 4)
-            archive.writestr("model/conf/model.conf", "--rate=16000\n")
-            archive.writestr("model/empty/", "")
+            for name, content in members.items():
+                archive.writestr(zipfile.ZipInfo(name), content, method)  # of 1980, not of today
         made.append(file.getvalue())
     return made
 

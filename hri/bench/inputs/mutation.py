@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from functools import cache
 from random import Random
 
 LARGEST = 300_000
@@ -44,8 +45,18 @@ def mutated(seeds: Sequence[bytes], is_text: bool, random: Random) -> bytes:
     seed = random.choice(seeds)
     most = max(LARGEST, len(seed))
     if not is_text or random.random() < 0.1:
-        return _several(list_of_bytes(seed), _BINARY, seeds, random)[:most]
-    return _several(_TOKEN.findall(seed), _TEXT, seeds, random)[:most]
+        return _several(_pieces_of_seed(seed), _BINARY, seeds, random)[:most]
+    return _several(_tokens_of_seed(seed), _TEXT, seeds, random)[:most]
+
+
+@cache
+def _tokens_of_seed(seed: bytes) -> Tokens:
+    return _TOKEN.findall(seed)
+
+
+@cache
+def _pieces_of_seed(seed: bytes) -> Tokens:
+    return list_of_bytes(seed)
 
 
 def list_of_bytes(data: bytes) -> Tokens:
@@ -54,6 +65,7 @@ def list_of_bytes(data: bytes) -> Tokens:
 
 
 Change = Callable[[Tokens, Sequence[bytes], Random], Tokens]
+"""Tokens made of others, which stay as they are: those of a seed are used again."""
 
 
 def _several(
@@ -117,10 +129,11 @@ def _numbered(tokens: Tokens, seeds: Sequence[bytes], random: Random) -> Tokens:
     begin, end = _span(tokens, random)
     size = sum(map(len, tokens[begin:end])) + 4
     copies = min(random.choice((3, 30, MOST_COPIES)), LARGEST // size + 1)
+    span = [(token, _WORD.match(token) is not None) for token in tokens[begin:end]]
     copied = [
-        token + str(number).encode() if _WORD.match(token) else token
-        for number in range(copies)
-        for token in tokens[begin:end]
+        token + digits if is_word else token
+        for digits in (b"%d" % number for number in range(copies))
+        for token, is_word in span
     ]
     return tokens[:begin] + copied + tokens[end:]
 

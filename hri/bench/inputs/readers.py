@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
+from random import Random
 
 from hri.bench.inputs import calls, good
+from hri.bench.inputs.mutation import mutated
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,3 +146,14 @@ READERS: dict[str, Reader] = {
     ),
 }
 """By what is read."""
+
+
+@cache
+def seeds(name: str) -> list[bytes]:
+    """The good inputs of a reader."""
+    return READERS[name].seeds()
+
+
+def bad_input(name: str, seed: int, number: int) -> bytes:
+    """The input of a reader with a number: the same for the same seed, in every run."""
+    return mutated(seeds(name), READERS[name].is_text, Random(f"{seed}/{name}/{number}"))

@@ -17,11 +17,10 @@ import signal
 import sys
 import time
 import unicodedata
+import warnings
 from pathlib import Path
-from random import Random
 
-from hri.bench.inputs.mutation import mutated
-from hri.bench.inputs.readers import READERS, Reader
+from hri.bench.inputs.readers import READERS, Reader, bad_input, seeds
 from hri.core.errors import AuthoringErrors, HriError
 
 HEADROOM = 1_500_000_000
@@ -34,22 +33,22 @@ _PLAIN = ("Cc", "Cf", "Cs", "Zl", "Zp")
 def main(words: list[str]) -> None:
     """Run the tries FIRST to LAST of a reader."""
     name, seed, first, last, folder = words
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent ends this process
     reader = READERS[name]
     place = Path(folder)
     os.environ["HRI_PATH"] = folder
     for variable in ("XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME"):
         os.environ[variable] = str(place / "home")
-    seeds = reader.seeds()
     path = place / reader.file
     path.parent.mkdir(parents=True, exist_ok=True)
-    for good in seeds:  # loads what is loaded once, and shows that the seeds are good
+    for good in seeds(name):  # loads what is loaded once, and shows that the seeds are good
         path.write_bytes(good)
         reader.read(path)
     os.chdir(place)
     _, hard = resource.getrlimit(resource.RLIMIT_AS)
     resource.setrlimit(resource.RLIMIT_AS, (_pages(0) + HEADROOM, hard))
     for number in range(int(first), int(last)):
-        path.write_bytes(mutated(seeds, reader.is_text, Random(f"{seed}/{name}/{number}")))
+        path.write_bytes(bad_input(name, int(seed), number))
         print(json.dumps(_tried(reader, path, number)), flush=True)
 
 
@@ -65,6 +64,15 @@ def _tried(reader: Reader, path: Path, number: int) -> dict[str, object]:
 
 
 def _outcome(reader: Reader, path: Path) -> tuple[str, str]:
+    """What became of an input, and why; a warning is for programmers, nobody else should see it."""
+    with warnings.catch_warnings(record=True) as warned:
+        what, why = _ending(reader, path)
+    if warned and what in ("taken", "refused"):
+        return "warning", ascii(str(warned[0].message))[:200]
+    return what, why
+
+
+def _ending(reader: Reader, path: Path) -> tuple[str, str]:
     try:
         reader.read(path)
     except AuthoringErrors as refusal:
