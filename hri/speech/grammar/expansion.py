@@ -59,13 +59,15 @@ def sentences(grammar: Grammar, rules: Iterable[str], limit: int) -> Iterator[st
     """
     ways = [grammar.ways.all(key) for key in rules]
     seen: set[Words] = {()}
-    while ways and limit > 0:
+    while ways:
         for way in tuple(ways):
+            if limit <= 0:
+                return
             tried = islice(way, MOST_STALE)
             words = next((words for words in tried if words not in seen), None)
             if words is None:
                 ways.remove(way)
-            elif limit > 0:
+            else:
                 seen.add(words)
                 limit -= 1
                 yield " ".join(words)

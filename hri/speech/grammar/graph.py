@@ -10,7 +10,6 @@ from __future__ import annotations
 import itertools
 import math
 from collections import Counter
-from collections.abc import Iterable
 
 import numpy as np
 
@@ -100,7 +99,9 @@ class _Reduction:
         instead = list(range(len(self._leaving)))
         same: dict[frozenset[Arc], int] = {}
         for node in reversed(order):
-            arcs = _united((word, instead[to], weight) for word, to, weight in self._leaving[node])
+            arcs = _united(
+                [(word, instead[to], weight) for word, to, weight in self._leaving[node]]
+            )
             self._leaving[node] = arcs
             if node not in self._kept:
                 key = frozenset((word, to, round(weight, 5)) for word, to, weight in arcs)
@@ -111,7 +112,7 @@ class _Reduction:
         """Let every arc lead to the node that stands instead of its target."""
         for node in order:
             self._leaving[node] = _united(
-                (word, instead[to], weight) for word, to, weight in self._leaving[node]
+                [(word, instead[to], weight) for word, to, weight in self._leaving[node]]
             )
 
     def _entered(self) -> Counter[int]:
@@ -165,8 +166,10 @@ def _scaled(arcs: list[Arc], share: float) -> list[Arc]:
     return [(word, target, weight + share) for word, target, weight in arcs]
 
 
-def _united(arcs: Iterable[Arc]) -> list[Arc]:
+def _united(arcs: list[Arc]) -> list[Arc]:
     """The arcs of a node, those with the same word and target made one."""
+    if len(arcs) < 2:
+        return arcs
     merged: dict[tuple[str | None, int], float] = {}
     for word, target, weight in arcs:
         before = merged.get((word, target))

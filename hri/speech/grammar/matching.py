@@ -44,6 +44,8 @@ MOST_COMPARED = 500
 """Words that may follow; of more, only those much like the wrong one are compared with it."""
 LEAST_ALIKE = 0.75
 """Share of letters in common with a word that may be meant: "forwrd" is one, "it's" is not "it"."""
+FEW_WORDS = 8
+"""Words that leave a node, up to which they are copied to the state that the node belongs to."""
 MOST_NODES = 400_000
 """Nodes in all states that are kept, about 50 MB; beyond it they are worked out anew."""
 
@@ -170,7 +172,7 @@ class Step(NamedTuple):
 class State:
     """All nodes of the automaton that the same words lead to."""
 
-    __slots__ = ("_matcher", "_steps", "_tables", "is_final", "silent_into", "size")
+    __slots__ = ("_index", "_matcher", "_steps", "_tables", "is_final", "silent_into", "size")
 
     def __init__(self, matcher: Matcher, nodes: tuple[int, ...]) -> None:
         self._matcher = matcher
@@ -178,13 +180,19 @@ class State:
         self.silent_into: dict[int, list[tuple[int, int]]] = {}
         """The nodes before each one, and the arcs that lead there without a word."""
         self._tables: list[tuple[int, Mapping[str, list[int]]]] = []
+        """The nodes that many words leave, and the arcs by word; looked into one by one."""
+        self._index: dict[str, list[tuple[int, int]]] = {}
+        """The nodes that few words leave, and the arcs, by word: thousands of commands begin so."""
         seen, pending = set(nodes), list(nodes)
         targets = matcher.automaton.targets
         while pending:
             node = pending.pop()
             silent, table = matcher.leaving(node)
-            if table:
+            if len(table) > FEW_WORDS:
                 self._tables.append((node, table))
+            else:
+                for word, arcs in table.items():
+                    self._index.setdefault(word, []).extend((node, arc) for arc in arcs)
             for arc in silent:
                 target = targets[arc]
                 self.silent_into.setdefault(target, []).append((node, arc))
@@ -199,9 +207,8 @@ class State:
         """Where a word leads; None when it does not fit."""
         step = self._steps.get(word)
         if step is None:
-            moves = tuple(
-                (node, arc) for node, table in self._tables for arc in table.get(word, ())
-            )
+            spread = ((node, arc) for node, table in self._tables for arc in table.get(word, ()))
+            moves = (*self._index.get(word, ()), *spread)
             if moves:
                 targets = self._matcher.automaton.targets
                 nodes = tuple(sorted({targets[arc] for _, arc in moves}))
@@ -210,7 +217,7 @@ class State:
 
     def expected(self) -> tuple[str, ...]:
         """The words that fit here, in order of the alphabet."""
-        return tuple(sorted({word for _, table in self._tables for word in table}))
+        return tuple(sorted({*self._index, *(word for _, table in self._tables for word in table)}))
 
 
 _Ways = dict[int, list[int]]

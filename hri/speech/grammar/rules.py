@@ -58,7 +58,7 @@ class Rule:
         """All that its expression holds, in the order of writing."""
         return tuple(node for node in self.nodes if isinstance(node, RuleReference))
 
-    @property
+    @cached_property
     def marks(self) -> frozenset[str]:
         """Those of `hri.speech.grammar.doc_comments.MARKS` that its comment sets."""
         return frozenset(tag.name for tag in self.doc_tags if tag.name in MARKS)
@@ -107,7 +107,12 @@ class Grammar:
 
     def marked(self, mark: str) -> frozenset[str]:
         """The public rules with a mark, which is one of `doc_comments.MARKS`."""
-        return frozenset(key for key in self.public_rules if mark in self.rules[key].marks)
+        return self._marked[mark]
+
+    @cached_property
+    def _marked(self) -> dict[str, frozenset[str]]:
+        of_rules = [(key, self.rules[key].marks) for key in self.public_rules]
+        return {mark: frozenset(key for key, marks in of_rules if mark in marks) for mark in MARKS}
 
     def words(self) -> frozenset[str]:
         """All words that can be said, lower case."""

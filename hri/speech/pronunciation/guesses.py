@@ -31,6 +31,8 @@ class Guesses:
     def __init__(self, path: Path | None = None) -> None:
         self._path = path or paths.cache_folder() / f"guessed-words-{EDITION}.txt"
         self._known: dict[str, tuple[Phones, ...]] | None = None
+        self._is_private = False
+        """Whether the file is there, and nobody else can read it."""
 
     def __getitem__(self, word: str) -> tuple[Phones, ...]:
         """Raises HriError when the word cannot be spoken as English."""
@@ -46,8 +48,10 @@ class Guesses:
         with suppress(OSError, HriError):
             if self._path.exists() and not self._path.is_file():
                 return  # A pipe would wait for a reader for ever.
-            folder_for(self._path)
-            private_file(self._path)
+            if not self._is_private:
+                folder_for(self._path)
+                private_file(self._path)
+                self._is_private = True
             if self._path.stat().st_size > LARGEST_CACHE:
                 write_text(self._path, "", PRIVATE)
             append_line(self._path, line)

@@ -133,3 +133,13 @@ def test_a_grammar_without_public_rules_has_no_sentence_to_draw(write):
     with pytest.raises(AuthoringError, match="no public rule"):
         random_sentence(grammar, random.Random(1))
     assert grammar.sample(5) == []
+
+
+def test_a_few_sentences_of_thousands_of_commands_come_at_once(write):
+    rules = (f"public <r{number}> = word{number} now;" for number in range(4000))
+    grammar = load_grammar(write("\n".join(rules)))
+    assert len(list(grammar.sentences(1))) == 1  # heights are worked out once
+
+    start = time.process_time()
+    assert all(len(list(grammar.sentences(1))) == 1 for _ in range(100))
+    assert time.process_time() - start < 1.5

@@ -353,3 +353,13 @@ def test_the_flat_form_has_one_public_rule_and_no_tags(companion):
     assert flat.count("public") == 1
     assert not set('{}"') & set(flat)
     assert "import" not in flat
+
+
+def test_a_sentence_takes_as_long_however_many_commands_there_are(write):
+    rules = (f"public <r{number}> = word{number} now;" for number in range(4000))
+    grammar = load_grammar(write("\n".join(rules)))
+    assert parse(grammar, "word7 now").rule == "r7"
+
+    start = time.process_time()
+    assert all(parse(grammar, f"word{number} now") for number in range(4000))
+    assert time.process_time() - start < 1.0
