@@ -27,8 +27,8 @@ COMMANDS = {
 }
 
 OBJECTS_BETWEEN_COLLECTIONS = 20_000
-"""A grammar is many objects that all stay; with Python's 700, a third of the time of reading a large
-one goes by in looking for garbage among them."""
+"""A grammar is many objects that all stay. With Python's 700, a third of the time of reading a
+large one goes by in looking for garbage among them."""
 FILE_HELP = "grammar file, or the name of one in grammars/"
 
 
