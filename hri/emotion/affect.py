@@ -6,13 +6,13 @@ and computes the rest when it is asked.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from math import exp
 from typing import NamedTuple
 
-from hri.emotion.emotions import OPPOSITES_OF
+from hri.emotion.emotions import OPPOSITES_OF, OPPOSITES_OF_THE_SAME
 from hri.emotion.label import Course
-from hri.emotion.ledger import PROSPECTS, Axes, Ledger, Origin, Row, merged, summed
+from hri.emotion.ledger import Axes, Ledger, Origin, Row, merged, summed
 
 Fresh = Mapping[Origin, Mapping[str, float]]
 """Charges by cause and emotion."""
@@ -53,8 +53,8 @@ class Need(NamedTuple):
 class Outlook(NamedTuple):
     """What follows from an imprint, worked out once for all the times at which it is read."""
 
-    left: Mapping[str, float]
-    """The share that is left of older charges, for each emotion of which some was driven out."""
+    older: Ledger
+    """The imprint's ledger without what the fresh charges drove out."""
     charges: Mapping[str, float]
     """The sum of all causes by emotion."""
     mood: Axes
@@ -97,45 +97,65 @@ class Affect(NamedTuple):
         return self.time - self.imprint.time
 
 
-def without_prospects(ledger: Ledger, cause: str) -> Ledger:
-    """A ledger in which nobody hopes or fears any more for what has been decided."""
+def without(ledger: Ledger, cause: str, emotions: Collection[str]) -> Ledger:
+    """A ledger in which these emotions are not felt any more for a cause."""
     return {
-        origin: _without_prospects(row) if origin.name == cause else row
+        origin: _without(row, emotions) if origin.name == cause else row
         for origin, row in ledger.items()
     }
 
 
-def _without_prospects(row: Row) -> Row:
-    charges = {name: charge for name, charge in row.charges.items() if name not in PROSPECTS}
+def _without(row: Row, emotions: Collection[str]) -> Row:
+    charges = {name: charge for name, charge in row.charges.items() if name not in emotions}
     return Row(charges, row.mood, row.time)
 
 
-def shares_left(fresh: Fresh) -> dict[str, float]:
-    """The share that fresh charges leave of each of their opposites."""
-    against: dict[str, float] = {}
-    for charges in fresh.values():
+def driven_out(ledger: Ledger, fresh: Fresh) -> Ledger:
+    """What fresh charges leave of a ledger: each drives out its opposites.
+
+    A hope for a goal drives out the fear for that goal, not for another one; what is about no goal
+    meets what is about none.
+    """
+    everywhere: dict[str, float] = {}
+    about: dict[str, dict[str, float]] = {}
+    for origin, charges in fresh.items():
+        there = about.setdefault(origin.goal, {})
         for name, charge in charges.items():
             for opposite in OPPOSITES_OF[name]:
-                against[opposite] = against.get(opposite, 0.0) + charge
-    return {name: exp(-charge) for name, charge in against.items()}
+                everywhere[opposite] = everywhere.get(opposite, 0.0) + charge
+            for opposite in OPPOSITES_OF_THE_SAME[name]:
+                there[opposite] = there.get(opposite, 0.0) + charge
+    if not everywhere and not any(about.values()):
+        return ledger
+    return {
+        origin: _less(row, summed(everywhere, about.get(origin.goal, {})))
+        for origin, row in ledger.items()
+    }
 
 
-def sums(imprint: Imprint, left: Mapping[str, float]) -> tuple[dict[str, float], Axes]:
+def _less(row: Row, against: Mapping[str, float]) -> Row:
+    if against.keys().isdisjoint(row.charges):
+        return row
+    charges = {
+        name: charge * exp(-against[name]) if name in against else charge
+        for name, charge in row.charges.items()
+    }
+    return Row(charges, row.mood, row.time)
+
+
+def sums(imprint: Imprint, older: Ledger) -> tuple[dict[str, float], Axes]:
     """All charges by emotion, and all pulls on the mood, just after an imprint.
 
-    Of the older charges these shares are left.
+    `older` is what is left of its ledger.
     """
     total: dict[str, float] = {}
     pleasure = arousal = dominance = 0.0
-    for charges, (p, a, d), _ in imprint.ledger.values():
+    for charges, (p, a, d), _ in older.values():
         pleasure += p
         arousal += a
         dominance += d
         for name, charge in charges.items():
             total[name] = total.get(name, 0.0) + charge
-    for name, share in left.items():
-        if name in total:
-            total[name] *= share
     for charges in imprint.fresh.values():
         for name, charge in charges.items():
             total[name] = total.get(name, 0.0) + charge

@@ -14,6 +14,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from hri.emotion.ledger import FORTUNES, MISFORTUNES, PROSPECTS
+
 SELF = "self"
 """The robot as the agent of an event."""
 UNKNOWN = 0.5
@@ -132,8 +134,9 @@ class Appraisal:
     """Added to each emotion, >= 0, before the personality's gains."""
     person: str | None = None
     """Who has to do with it."""
-    settles: bool = False
-    """Whether nothing is left of the goal to hope for or to fear."""
+    ends: frozenset[str] = frozenset()
+    """Emotions for the same goal that have no reason any more: once it is decided, hope and fear;
+    with a good end pity, too, with a bad one joy for its owner."""
     praise: float = 0.0
     """How the person did, -1 to 1: a relation follows."""
 
@@ -163,7 +166,7 @@ def _goal(event: GoalEvent, liking: float) -> Appraisal:
         cause=f"goal.{event.goal}",
         charges=_felt(charges),
         person=event.owner if doer is None else doer,
-        settles=event.likelihood_after in (0.0, 1.0),
+        ends=_ended(event),
         praise=0.0 if doer is None else event.praise,
     )
 
@@ -181,6 +184,14 @@ def _prospects(event: GoalEvent) -> dict[str, float]:
         else:
             charges["fears_confirmed" if happened else "disappointment"] = charge
     return charges
+
+
+def _ended(event: GoalEvent) -> frozenset[str]:
+    """What is not felt for the goal any more."""
+    if 0.0 < event.likelihood_after < 1.0:
+        return frozenset()
+    ends_well = event.utility > 0 if event.likelihood_after == 1.0 else event.utility < 0
+    return PROSPECTS | (MISFORTUNES if ends_well else FORTUNES)
 
 
 def _fortunes(event: GoalEvent, liking: float) -> dict[str, float]:

@@ -17,7 +17,7 @@ from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import EmotionState, Expression, Gaze, Prosody
 from hri.core.toml import Table, load_toml
 from hri.emotion.emotions import EMOTIONS, INDEX, NAMES, emotions_in
-from hri.emotion.label import CALM, LEAD, MOODS, STANDS_OUT
+from hri.emotion.label import CALM, LEAD, MOODS, STANDS_OUT, known_as
 
 Felt = tuple[float, float, float]
 """Pleasure, arousal, dominance, each -1 to 1."""
@@ -218,13 +218,11 @@ def load_display(path: Path | None = None) -> Display:
 def _looks(table: Table) -> dict[str, Look]:
     """A look for every label; one that the file leaves out shows as the mood alone."""
     for name in table.data:
-        if name not in LABELS:
+        if known_as(name) not in LABELS:
             raise table.error(name, f'no label "{name}"', did_you_mean(name, LABELS))
+    written = {known_as(name): _look(table.table(name)) for name in table.data}
     return {
-        label: _look(table.table(label))
-        if label in table
-        else Look("neutral", 1.0, label.replace("_", " "))
-        for label in LABELS
+        label: written.get(label, Look("neutral", 1.0, label.replace("_", " "))) for label in LABELS
     }
 
 

@@ -26,16 +26,16 @@ from hri.emotion.affect import (
     Need,
     Outlook,
     Trace,
+    driven_out,
     renamed,
-    shares_left,
     sums,
-    without_prospects,
+    without,
 )
 from hri.emotion.appraisal import GoalEvent, OccEvent, appraise, check_name
 from hri.emotion.drives import cause_of
 from hri.emotion.emotions import EMOTIONS, NAMES
 from hri.emotion.fading import Fading
-from hri.emotion.label import CALM, MOODS, NOTHING, course, label_at, mood_name
+from hri.emotion.label import CALM, MOODS, NOTHING, course, known_as, label_at, mood_name
 from hri.emotion.ledger import (
     REST,
     STILL,
@@ -184,8 +184,8 @@ class Dynamics:
         meaning = appraise(event, _relation(imprint, owner))
         charges = {name: charge * self._gains[name] for name, charge in meaning.charges.items()}
         ledger = imprint.ledger
-        if meaning.settles:
-            ledger = without_prospects(ledger, meaning.cause)
+        if meaning.ends:
+            ledger = without(ledger, meaning.cause, meaning.ends)
         return self._affect(
             Imprint(
                 imprint.time,
@@ -262,11 +262,11 @@ class Dynamics:
     def why(self, affect: Affect, about: str = "") -> tuple[Cause, ...]:
         """The causes of what the label names, with shares that sum to 1, the largest first.
 
-        `about` asks about another emotion, or the mood, instead. A share is negative when its cause
-        pulls the other way. Empty when there is nothing to explain: the robot is calm, or does not
-        feel that. Raises HriError for a name that is neither an emotion nor a mood.
+        `about` asks about another emotion, or the mood, instead. What pulls the other way is no
+        cause; `ledger` has it. Empty when there is nothing to explain: the robot is calm, or does
+        not feel that. Raises HriError for a name that is neither an emotion nor a mood.
         """
-        label, ledger = about or self.read(affect).label, self.ledger(affect)
+        label, ledger = known_as(about) or self.read(affect).label, self.ledger(affect)
         if label in NAMES:
             parts = {origin: row.charges.get(label, 0.0) for origin, row in ledger.items()}
         elif label not in MOODS:
@@ -276,11 +276,11 @@ class Dynamics:
             parts = {}
         else:
             parts = _toward_sum(ledger)
-        whole = sum(parts.values())
+        whole = sum(part for part in parts.values() if part > 0)
         causes = [
             Cause(origin.name, part / whole, affect.time - ledger[origin].time, origin.person)
             for origin, part in parts.items()
-            if part
+            if part > 0
         ]
         return tuple(sorted(causes, key=lambda cause: (-cause.share, cause.name)))
 
@@ -310,10 +310,10 @@ class Dynamics:
 
     def _affect(self, imprint: Imprint) -> Affect:
         """The state just after an imprint."""
-        left = shares_left(imprint.fresh)
-        charges, mood = sums(imprint, left)
+        older = driven_out(imprint.ledger, imprint.fresh)
+        charges, mood = sums(imprint, older)
         ahead = course(imprint.label, charges, self._fading.rates)
-        return Affect(imprint.time, imprint, Outlook(left, charges, mood, ahead))
+        return Affect(imprint.time, imprint, Outlook(older, charges, mood, ahead))
 
 
 def _with_charges(fresh: Fresh, origin: Origin, charges: Mapping[str, float]) -> Fresh:

@@ -79,13 +79,6 @@ OPPOSITES = (
     ("joy", "sadness"),
     ("joy", "anger"),
     ("joy", "fear"),
-    ("hope", "fear"),
-    ("hope", "disappointment"),
-    ("relief", "fear"),
-    ("satisfaction", "disappointment"),
-    ("satisfaction", "fears_confirmed"),
-    ("happy_for", "resentment"),
-    ("gloating", "pity"),
     ("pride", "shame"),
     ("admiration", "reproach"),
     ("gratification", "remorse"),
@@ -97,14 +90,28 @@ OPPOSITES = (
 """Pairs of which a new one drives out the old one; always a positive and a negative emotion, so
 that what pleases more can never leave the robot less pleased."""
 
+OPPOSITES_ABOUT_ONE_THING = (
+    ("hope", "fear"),
+    ("hope", "disappointment"),
+    ("relief", "fear"),
+    ("satisfaction", "disappointment"),
+    ("satisfaction", "fears_confirmed"),
+    ("happy_for", "resentment"),
+    ("happy_for", "pity"),
+    ("gloating", "resentment"),
+    ("gloating", "pity"),
+)
+"""The same, for one goal only: who hopes for one thing may well fear another."""
 
-def _opposites_of(name: str) -> tuple[str, ...]:
-    pairs = (pair for pair in OPPOSITES if name in pair)
-    return tuple(other for pair in pairs for other in pair if other != name)
+
+def _opposites_of(name: str, pairs: tuple[tuple[str, str], ...]) -> tuple[str, ...]:
+    return tuple(other for pair in pairs if name in pair for other in pair if other != name)
 
 
-OPPOSITES_OF = {name: _opposites_of(name) for name in NAMES}
-"""The opposites of each emotion."""
+OPPOSITES_OF = {name: _opposites_of(name, OPPOSITES) for name in NAMES}
+"""The opposites of each emotion, whatever it is about."""
+OPPOSITES_OF_THE_SAME = {name: _opposites_of(name, OPPOSITES_ABOUT_ONE_THING) for name in NAMES}
+"""The opposites of each emotion when both are about the same."""
 
 
 def emotions_in(table: Table) -> list[str]:

@@ -20,7 +20,7 @@ from hri.core.errors import Place
 from hri.core.signals import EmotionState
 from hri.core.toml import Table
 from hri.emotion.emotions import NAMES, emotions_in
-from hri.emotion.label import MOODS
+from hri.emotion.label import FORMER, MOODS, known_as
 
 AXES = {"pleasure": "valence", "arousal": "arousal", "dominance": "dominance"}
 """The axes of the mood, and what a state calls them."""
@@ -51,7 +51,7 @@ class Expectation:
 
     def failures(self, state: EmotionState) -> Iterator[str]:
         """What is otherwise in a state, a sentence each."""
-        if self.dominant not in ("", state.label):
+        if known_as(self.dominant) not in ("", state.label):
             yield f"{self.dominant} was to be dominant, but {state.label} is"
         for name, least in self.at_least.items():
             if state.emotions.get(name, 0.0) < least - _NEARLY:
@@ -81,7 +81,7 @@ def _expectation(table: Table) -> Expectation:
         times=_times(table),
         every_s=table.number("every_s", 1.0, minimum=0, maximum=_LONGEST_S),
         after_s=table.number("after_s", 0.0, minimum=0, maximum=_LONGEST_S),
-        dominant=table.string("dominant", "", among=(*NAMES, *MOODS)),
+        dominant=table.string("dominant", "", among=(*NAMES, *MOODS, *FORMER)),
         at_least=_intensities(table.table("at_least", optional=True)),
         at_most=_intensities(table.table("at_most", optional=True)),
         mood={axis: _span(table, axis) for axis in AXES},

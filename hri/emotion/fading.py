@@ -126,11 +126,10 @@ class Fading:
         """The same cause by cause: what is left of its charges, and its pull on the mood."""
         kept = exp(-self._return_rate * seconds)
         steps = self._steps(self._emotions, outlook.charges, kept, seconds)
-        older = _scaled(steps, outlook.left) if outlook.left else steps
         rows = {}
-        for origin, (charges, (p, a, d), time) in imprint.ledger.items():
+        for origin, (charges, (p, a, d), time) in outlook.older.items():
             mood = p * kept, a * kept, d * kept
-            rows[origin] = _evolved(charges, older, mood, time)
+            rows[origin] = _evolved(charges, steps, mood, time)
         for origin, charges in imprint.fresh.items():
             row = _evolved(charges, steps, STILL, imprint.time)
             rows[origin] = merged(rows[origin], row) if origin in rows else row
@@ -165,16 +164,6 @@ class Fading:
                 pull = left * expm1(gap * seconds)
             steps[name] = left, pull * pleasure, pull * arousal, pull * dominance
         return steps
-
-
-def _scaled(steps: Mapping[str, _Step], left: Mapping[str, float]) -> Mapping[str, _Step]:
-    """The steps of charges of which these shares are left."""
-    scaled = dict(steps)
-    for name, share in left.items():
-        if name in scaled:
-            kept, pleasure, arousal, dominance = scaled[name]
-            scaled[name] = share * kept, share * pleasure, share * arousal, share * dominance
-    return scaled
 
 
 def _evolved(

@@ -25,22 +25,33 @@ NOTHING = ""
 CALM = "calm"
 CALM_RADIUS = 0.12
 """A mood within this distance of the origin has no direction worth a name."""
-EDGE = 0.03
-"""An axis counts as negative only below minus this; zero is not negative, as in ALMA."""
+EDGE = 5e-5
+"""An axis counts as negative only below minus this, which is written as zero; zero is not negative,
+as in ALMA."""
 
 OCTANTS = {
     (True, True, True): "exuberant",
     (False, False, False): "bored",
-    (True, True, False): "dependent",
+    (True, True, False): "trusting",
     (False, False, True): "disdainful",
     (True, False, True): "relaxed",
     (False, True, False): "anxious",
-    (True, False, False): "docile",
+    (True, False, False): "peaceful",
     (False, True, True): "hostile",
 }
-"""Mood names by the signs of pleasure, arousal, dominance (Gebhard 2005, table 1)."""
+"""Mood names by the signs of pleasure, arousal, dominance: those of Gebhard 2005, table 1, where
+they are names that people have for their own mood."""
+
+FORMER = {"dependent": "trusting", "docile": "peaceful"}
+"""Gebhard's other names, which older files use."""
 
 MOODS = (CALM, *OCTANTS.values())
+
+
+def known_as(label: str) -> str:
+    """The name that a label has today."""
+    return FORMER.get(label, label)
+
 
 Course = tuple[tuple[float, str], ...]
 """Who has the label from when on: seconds, rising from 0, and an emotion; the last is NOTHING or

@@ -21,9 +21,14 @@ FAINT = 1e-3
 OLD_S = 60.0
 PROSPECTS = frozenset({"hope", "fear"})
 """What is felt for a goal until it is decided."""
+FORTUNES = frozenset({"happy_for", "resentment"})
+"""What is felt as long as the goal of somebody else goes well."""
+MISFORTUNES = frozenset({"pity", "gloating"})
+"""What is felt as long as it goes badly."""
+_OF_A_GOAL = PROSPECTS | FORTUNES | MISFORTUNES
 MOST_OPEN = 50
-"""Goals that are kept apart besides, as long as they are hoped for or feared: or it could not be
-found again when they are decided."""
+"""Goals that are kept apart besides, as long as something is felt for them that may end with them:
+it could not be found again."""
 
 Axes = tuple[float, float, float]
 """Pleasure, arousal, dominance."""
@@ -36,6 +41,11 @@ class Origin(NamedTuple):
     name: str
     """A stimulus, "goal.NAME", "action.NAME", "object.NAME", "drive.NAME" or OTHER."""
     person: str | None = None
+
+    @property
+    def goal(self) -> str:
+        """The goal that it is about, as "goal.NAME"; empty for none."""
+        return self.name if self.name[:5] == "goal." else ""
 
 
 REST = Origin(OTHER)
@@ -65,7 +75,7 @@ class Cause:
     name: str
     """A stimulus, "goal.NAME", "action.NAME", "object.NAME", "drive.NAME", TEMPERAMENT, OTHER."""
     share: float
-    """Of the whole; shares sum to 1. Negative when it pulls the other way."""
+    """Of the whole, above 0; all shares sum to 1."""
     age_s: float
     """Seconds since it last happened; 0 for what always acts: drives and the temperament."""
     person: str | None = None
@@ -84,7 +94,7 @@ def merged(one: Row, other: Row) -> Row:
 def pruned(ledger: Ledger, now: float) -> Ledger:
     """A ledger of few rows; faint rows, and of too many those that count least, go to REST.
 
-    MOST are kept apart, and besides up to MOST_OPEN goals that are still hoped for or feared.
+    MOST are kept apart, and besides up to MOST_OPEN goals that something is still felt for.
     """
     before = now - OLD_S
     leaving = [
@@ -109,7 +119,7 @@ def _lightest(ledger: Ledger, leaving: Collection[Origin]) -> list[Origin]:
     others: dict[Origin, float] = {}
     for origin, row in ledger.items():
         if origin != REST and origin not in leaving:
-            is_open = origin.name[:5] == "goal." and not PROSPECTS.isdisjoint(row.charges)
+            is_open = origin.goal and not _OF_A_GOAL.isdisjoint(row.charges)
             (goals if is_open else others)[origin] = row.weight
     return [*_excess(goals, MOST_OPEN), *_excess(others, MOST)]
 

@@ -87,6 +87,35 @@ def test_hope_ends_when_it_is_decided() -> None:
         assert left.get("hope", 0.0) > 0.0
 
 
+def test_hope_for_one_goal_leaves_the_fear_for_another() -> None:
+    afraid = NEUTRAL.appraise(NEUTRAL.rest(), goal(-1.0, 0.2, 0.9), 0.0)
+    before = NEUTRAL.charges(NEUTRAL.advance(afraid, 1.0))["fear"]
+
+    hopeful = NEUTRAL.appraise(afraid, GoalEvent("another", 1.0, 0.9), 1.0)
+    assert NEUTRAL.charges(hopeful)["fear"] == pytest.approx(before)
+    assert NEUTRAL.charges(hopeful)["hope"] > 0.0
+
+    safer = NEUTRAL.appraise(afraid, goal(-1.0, 0.9, 0.2), 1.0)
+    assert NEUTRAL.charges(safer)["fear"] < 0.7 * before
+
+
+@pytest.mark.parametrize(("utility", "saved"), [(0.8, 1.0), (-0.8, 0.0)])
+def test_pity_ends_when_the_goal_is_saved(utility: float, saved: float) -> None:
+    anna = {"owner": "Anna", "liking": 0.9}
+    endangered = goal(utility, 0.5, 0.9 if utility < 0 else 0.1, **anna)
+    sorry = NEUTRAL.appraise(NEUTRAL.rest(), endangered, 0.0)
+    other = NEUTRAL.appraise(sorry, GoalEvent("another", 0.8, 0.0, **anna), 0.5)
+    assert NEUTRAL.read(sorry).label == "pity"
+
+    glad = NEUTRAL.appraise(sorry, goal(utility, 0.5, saved, **anna), 1.0)
+    assert "pity" not in NEUTRAL.charges(glad)
+    assert NEUTRAL.charges(glad)["happy_for"] > 0.0
+    assert "pity" in NEUTRAL.charges(NEUTRAL.appraise(other, goal(utility, 0.5, saved, **anna), 1))
+
+    lost = NEUTRAL.appraise(glad, goal(utility, 0.5, 1.0 - saved, **anna), 2.0)
+    assert "happy_for" not in NEUTRAL.charges(lost)
+
+
 def test_a_likelihood_that_does_not_change_is_nothing_new() -> None:
     assert appraise(goal(1.0, 0.7, 0.7)).charges == {}
     assert appraise(goal(1.0, 1.0, 1.0)).charges == {}

@@ -1,4 +1,5 @@
 import json
+import re
 from itertools import combinations
 from pathlib import Path
 
@@ -116,6 +117,20 @@ def test_simulate_prints_a_state_for_each_event_and_time(
     assert set(states[0]["drives"]) == {"company", "play", "rest", "energy"}
     assert main(words) == 0
     assert "praise 79%, person_seen 21%" in capsys.readouterr().out
+
+
+def test_printed_shares_add_up_to_a_hundred(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    names = ("praise", "person_seen", "scold", "bump", "ignored", "battery_low", "praise")
+    lines = [f"{3 * n} {name} 0.{n + 3}" for n, name in enumerate(names)]
+    (tmp_path / "visit.txt").write_text("\n".join(lines))
+    words = ["--events", str(tmp_path / "visit.txt"), "--at", "60,200,400,900"]
+    assert main(["emotion", "simulate", "--personality", "pessimist", *words]) == 0
+
+    told = [re.findall(r"(-?\d+)%", line) for line in capsys.readouterr().out.splitlines()]
+    assert len(told[-1]) > 2
+    assert {sum(map(int, percents)) for percents in told} == {100}
 
 
 def test_a_person_who_is_liked_pleases_more(

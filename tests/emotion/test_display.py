@@ -222,3 +222,11 @@ def test_what_is_shown_stays_within_limits(
     expression = DISPLAY.expression(shown)
     assert expression.label in EXPRESSIONS
     assert 0 <= expression.intensity <= 1
+
+
+def test_moods_may_go_by_their_former_names(tmp_path: Path) -> None:
+    text = display_path().read_text().replace("trusting =", "dependent =")
+    path = tmp_path / "display.toml"
+    path.write_text(text)
+
+    assert load_display(path).looks == DISPLAY.looks

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hri.core.errors import HriError
 from hri.emotion.affect import Affect, shifted
 from hri.emotion.dynamics import MOST_AT_ONCE, MOST_HABITS, Dynamics
-from hri.emotion.emotions import EMOTIONS, NAMES, OPPOSITES
+from hri.emotion.emotions import EMOTIONS, NAMES, OPPOSITES, OPPOSITES_ABOUT_ONE_THING
 from hri.emotion.label import MOODS
 from hri.emotion.ledger import MOST, OTHER, TEMPERAMENT, Origin
 from hri.emotion.personality import Personality, load_personality
@@ -163,6 +163,7 @@ def test_the_causes_sum_to_the_state(model: Dynamics, stream: Stream, until: flo
     shares = [cause.share for cause in causes]
     assert shares == sorted(shares, reverse=True)
     assert sum(shares) == pytest.approx(1.0 if state.label != "calm" else 0.0, abs=1e-12)
+    assert all(0 < cause.share <= 1 for cause in causes)
     assert all(0 <= cause.age_s <= affect.time for cause in causes)
 
 
@@ -305,8 +306,9 @@ def test_a_scolding_drives_out_the_joy_of_a_praise() -> None:
 def test_opposites_are_always_of_opposite_sign() -> None:
     """The condition under which more pleasure never leaves less of it."""
     positive = {emotion.name: emotion.is_positive for emotion in EMOTIONS}
-    assert all(positive[one] != positive[other] for one, other in OPPOSITES)
-    assert len({frozenset(pair) for pair in OPPOSITES}) == len(OPPOSITES)
+    pairs = (*OPPOSITES, *OPPOSITES_ABOUT_ONE_THING)
+    assert all(positive[one] != positive[other] for one, other in pairs)
+    assert len({frozenset(pair) for pair in pairs}) == len(pairs)
 
 
 def test_a_late_event_counts_as_now() -> None:

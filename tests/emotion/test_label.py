@@ -6,7 +6,18 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from hri.emotion.emotions import EMOTIONS, NAMES
-from hri.emotion.label import CALM, FALL, LEAD, MOODS, NOTHING, RISE, course, label_at, mood_name
+from hri.emotion.label import (
+    CALM,
+    FALL,
+    LEAD,
+    MOODS,
+    NOTHING,
+    OCTANTS,
+    RISE,
+    course,
+    label_at,
+    mood_name,
+)
 
 TAU = {emotion.name: emotion.tau_s for emotion in EMOTIONS}
 RATES = {name: 1 / tau for name, tau in TAU.items()}
@@ -112,8 +123,21 @@ def _watched(current: str, levels: dict[str, float]) -> str:
 
 def test_near_the_origin_the_mood_is_calm() -> None:
     assert mood_name((0.0, 0.0, 0.0)) == CALM
-    assert mood_name((0.3, -0.01, -0.02)) == "exuberant"
+    assert mood_name((0.3, -0.00001, -0.00002)) == "exuberant"
     assert len(set(MOODS)) == 9
+
+
+@given(st.tuples(*[st.floats(-1.0, 1.0)] * 3))
+def test_the_name_of_a_mood_never_contradicts_the_sign_of_an_axis(mood) -> None:
+    name = mood_name(mood)
+    written = [round(axis, 4) for axis in mood]
+
+    for signs, known in OCTANTS.items():
+        if name == known:
+            assert all(
+                axis == 0.0 or (axis > 0.0) == sign
+                for axis, sign in zip(written, signs, strict=True)
+            )
 
 
 @pytest.mark.parametrize("mood", [(-1.0, 1.0, -1.0), (1.0, -1.0, 1.0)])

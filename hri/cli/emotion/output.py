@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import math
+from collections.abc import Sequence
 from typing import Any
 
 from hri.core.quoting import escaped
@@ -18,10 +20,20 @@ MOST_TOLD = 4
 def text_line(time: float, dynamics: Dynamics, affect: Affect) -> str:
     """A state for people."""
     state = dynamics.read(affect)
-    causes = dynamics.why(affect)[:MOST_TOLD]
-    reasons = ", ".join(f"{_named(cause)} {cause.share:.0%}" for cause in causes)
+    reasons = ", ".join(f"{name} {percent}%" for name, percent in _percents(dynamics.why(affect)))
     felt = f"{state.label:15} {state.intensity:.2f}  {mood_words(state)}"
     return escaped(f"{time:8.2f} s  {felt}  {reasons}".rstrip())
+
+
+def _percents(causes: Sequence[Cause]) -> list[tuple[str, int]]:
+    """The largest causes and the others as one, with whole percents that add up to 100."""
+    told = [(_named(cause), 100 * cause.share) for cause in causes[:MOST_TOLD]]
+    if rest := sum(100 * cause.share for cause in causes[MOST_TOLD:]):
+        told.append(("others", rest))
+    # Whoever is cut most by rounding down gets one of the percents that this leaves.
+    cut = sorted(told, key=lambda one: math.floor(one[1]) - one[1])
+    raised = {name for name, _ in cut[: round(sum(share % 1 for _, share in told))]}
+    return [(name, math.floor(share) + (name in raised)) for name, share in told]
 
 
 def _named(cause: Cause) -> str:
