@@ -265,6 +265,12 @@ class SimulatedRangeSensor(InWorld, RangeSensor):
         return float(self._errors[round(now * 1000) % len(self._errors)])
 
 
+class DrawnFrame(Frame):
+    """A picture of the simulated world: what is in it, the world knows."""
+
+    __slots__ = ()
+
+
 class SimulatedCamera(InWorld, Camera):
     """Looks at the first person's face, from a neck that follows the place where they stand.
 
@@ -314,7 +320,7 @@ class SimulatedCamera(InWorld, Camera):
         there = (person for person in self.world.people if person.is_present(time))
         shown = [looks for person in there if (looks := self._appearance(person, time))]
         size, lens = self._optics.size, self._lens
-        return lambda: Frame(lens.take(render_people(shown, size), sequence), time, sequence)
+        return lambda: DrawnFrame(lens.take(render_people(shown, size), sequence), time, sequence)
 
     def _appearance(self, person: Person, time: float) -> Appearance | None:
         """How somebody looks in the picture; None for who is beside or behind the camera."""

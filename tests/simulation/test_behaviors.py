@@ -7,11 +7,12 @@ from hri.core.errors import HriError
 from hri.core.signals import Frame
 from hri.hal.resource import Description
 from hri.simulation.behaviors import ObjRecRecognizer
+from hri.simulation.drivers import DrawnFrame
 from hri.simulation.world import SimulatedWorld
 from hri.testing import context
 from tests.behavior.library.ticking import tick
 
-FRAME = Frame(np.zeros((1, 1, 3), np.uint8), 0.0, 0)
+FRAME = DrawnFrame(np.zeros((1, 1, 3), np.uint8), 0.0, 0)
 
 
 @pytest.fixture
@@ -57,6 +58,24 @@ def test_without_a_picture_or_an_object_it_says_nothing(recognizer, lent) -> Non
     assert tick(recognizer) == {}
 
 
+def test_in_the_picture_of_another_camera_it_recognizes_nothing_and_says_so_once(
+    recognizer, lent, caplog
+) -> None:
+    lent.resources.obtain("world", SimulatedWorld).place("cup", 0.5, 0.0)
+    reasons = []
+    lent.events.subscribe("vision.failed", lambda e: reasons.append(e.properties["reason"]))
+    black = Frame(np.zeros((48, 64, 3), np.uint8), 0.0, 0)
+
+    assert [tick(recognizer, image=black) for _ in range(3)] == [{}, {}, {}]
+
+    assert reasons == caplog.messages
+    assert reasons == [
+        "see cannot recognize objects in pictures of a real camera yet"
+        " - link its image to a Hri.SimulatedCamera"
+    ]
+    assert tick(recognizer, image=FRAME)["model_name"] == "cup"
+
+
 def test_it_needs_a_simulated_world(models) -> None:
-    with pytest.raises(HriError, match="see needs a simulated world - add a bus"):
+    with pytest.raises(HriError, match=r"see cannot recognize .* real camera yet - add a bus"):
         ObjRecRecognizer("see", modelset=models).start(context())
