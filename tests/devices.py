@@ -1,7 +1,16 @@
-"""Simulated devices that pass for real ones, for tests of what a robot does with real people."""
+"""Simulated devices: some pass for real ones, and some make a robot that is typed to."""
 
 from hri import Robot
 from hri.hal.microphone import Microphone
+from hri.hal.resource import Description
+
+TYPED = (
+    Description("screen", "Hri.OffscreenScreen", {"width": "16", "height": "16"}),
+    Description("recognizer", "Hri.Typed"),
+    Description("camera", "Hri.BlankCamera"),
+    Description("microphone", "Hri.MemoryMicrophone"),
+)
+"""Of a robot that hears what is typed, sees nothing, and costs little time."""
 
 
 def live_microphone(robot: Robot) -> None:

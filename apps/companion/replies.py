@@ -1,24 +1,36 @@
-"""Reads `replies.toml` and checks it against the grammar, the stimuli and the face."""
+"""Reads `replies.toml` and checks it against the grammar, the stimuli, the face and the tasks."""
 
 from __future__ import annotations
 
+import re
 import string
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
+from inspect import Parameter
 from pathlib import Path
 from typing import TypeVar
 
-from hri.core.errors import AuthoringError, AuthoringErrors, did_you_mean
+from hri.core.errors import AuthoringError, AuthoringErrors, HriError, did_you_mean
+from hri.core.events import OWN_SUBJECTS
 from hri.core.toml import Table, load_toml
+from hri.robot.app import App
+from hri.speech.grammar import Grammar
+from hri.speech.grammar.giving import sure_tags
+from hri.task.task import TaskType
 
 T = TypeVar("T")
 
+FILE = "replies.toml"
 ACTIONS = ("move", "turn", "come", "follow", "stop", "release", "quiet", "eyes", "sleep", "wake")
+"""What the companion itself can do; other actions are tasks."""
 AFTER_YES = ("keep",)
 """What may be done after a yes: begin to keep what is felt."""
 FILLED_IN = ("text", "name", "time", "battery", "why", "why_stopped", "feeling", "commands")
 """What may stand in braces, beside the tags of the grammar."""
+HEARD = "text"
+"""What a task or an event may take beside the tags: the words that were heard."""
+_EVENT = re.compile(r"[A-Za-z]\w*(\.\w+)+")
 
 
 @dataclass(frozen=True)
@@ -31,6 +43,11 @@ class Reply:
     show: str = ""
     gesture: str = ""
     action: str = ""
+    """One of ACTIONS."""
+    task: TaskType | None = None
+    """What `action` names that is none of ACTIONS."""
+    event: str = ""
+    """What is raised, with the tags as its properties."""
 
 
 @dataclass(frozen=True)
@@ -48,49 +65,89 @@ class Question:
 class Replies:
     """All that the companion can say."""
 
-    name: str
-    replies: Mapping[str, Reply]
+    name: str = ""
+    replies: Mapping[str, Reply] = field(default_factory=dict)
     """By public rule of the grammar."""
-    unasked: Mapping[str, str]
-    questions: tuple[Question, ...]
+    unasked: Mapping[str, str] = field(default_factory=dict)
+    questions: tuple[Question, ...] = ()
 
 
 @dataclass(frozen=True)
 class Vocabulary:
     """What the other authored files know: names that replies may use."""
 
-    rules: Collection[str]
-    tags: Collection[str]
+    grammar: Grammar
     stimuli: Collection[str]
     expressions: Collection[str]
     gestures: Collection[str]
+    app: App
+    """Knows the tasks."""
 
 
 UNASKED = ("blocked", "bump", "battery_low", "nobody", "waiting", "no_stop")
 
 
-def load_replies(path: Path, vocabulary: Vocabulary) -> Replies:
-    """Raises AuthoringError with the place of a mistake; AuthoringErrors when there are several."""
-    table = load_toml(path, "file of replies")
+def load_replies(files: Sequence[Path], vocabulary: Vocabulary) -> Replies:
+    """What these files say together, each adding to those before it and replacing parts of them.
+
+    Raises AuthoringError with the place of a mistake; AuthoringErrors when there are several.
+    """
     mistakes = Mistakes()
-    name = mistakes.keep(lambda: table.string("name")) or ""
+    own = vocabulary.app.folder / FILE
+    tables = [load_toml(path, "file of replies") for path in files]
+    found = Replies()
+    for table in tables:
+        found = _joined(found, _read(table, vocabulary, mistakes, is_own=table.path == own))
+    # Where the app has no replies of its own, it is there that some are missing.
+    last = tables[-1] if tables and tables[-1].path == own else Table({}, own, (), {})
+    _refuse_gaps(found, last, vocabulary, mistakes)
+    mistakes.tell()
+    return found
+
+
+def _read(table: Table, vocabulary: Vocabulary, mistakes: Mistakes, is_own: bool) -> Replies:
+    """One file; only the app's own must fit the grammar: those it extends may know other rules."""
+    name = mistakes.keep(lambda: table.string("name", "")) or ""
     entries = dict(mistakes.keep(lambda: list(table.tables("reply"))) or ())
-    missing = [rule for rule in vocabulary.rules if rule not in entries]
+    rules = vocabulary.grammar.public_rules
+    missing = [rule for rule in rules if rule not in entries]
     replies = {}
     for rule, entry in entries.items():
-        if rule in vocabulary.rules:
-            replies[rule] = mistakes.keep(partial(_reply, entry, vocabulary)) or Reply()
-        else:
+        if rule in rules:
+            replies[rule] = mistakes.keep(partial(_reply, rule, entry, vocabulary)) or Reply()
+        elif is_own:
             remedy = did_you_mean(rule, missing, "delete this table, or mend the grammar")
             mistakes.add(entry.error(None, f'the grammar has no rule "{rule}"', remedy))
-    if missing:
-        mistakes.add(_unanswered(table, missing))
-    unasked = mistakes.keep(lambda: _unasked(table.table("unasked"))) or {}
+    unasked = mistakes.keep(lambda: _unasked(table.table("unasked", optional=True))) or {}
     asked = mistakes.keep(lambda: table.array("question")) or ()
     questions = [mistakes.keep(partial(_question, entry)) for entry in asked]
     mistakes.keep(table.finish)
-    mistakes.tell()
     return Replies(name, replies, unasked, tuple(filter(None, questions)))
+
+
+def _joined(below: Replies, above: Replies) -> Replies:
+    return Replies(
+        above.name or below.name,
+        {**below.replies, **above.replies},
+        {**below.unasked, **above.unasked},
+        (*below.questions, *above.questions),
+    )
+
+
+def _refuse_gaps(found: Replies, table: Table, vocabulary: Vocabulary, mistakes: Mistakes) -> None:
+    """Note what no file says."""
+    if not found.name:
+        mistakes.add(table.error(None, '"name" is missing in this file', "add name = ..."))
+    given = table.data.get("reply")
+    written = given if isinstance(given, dict) else {}
+    rules = vocabulary.grammar.public_rules
+    if missing := [rule for rule in rules if rule not in {*found.replies, *written}]:
+        mistakes.add(_unanswered(table, missing))
+    for key in UNASKED:
+        if key not in found.unasked and key not in table.data.get("unasked", {}):
+            mistakes.add(
+                table.error("unasked", f'"{key}" is missing in [unasked]', f"add {key} = ...")
+            )
 
 
 class Mistakes:
@@ -126,16 +183,16 @@ def _unanswered(table: Table, missing: Sequence[str]) -> AuthoringError:
 
 
 def _unasked(spoken: Table) -> dict[str, str]:
-    unasked = {key: spoken.string(key) for key in UNASKED}
+    unasked = {key: spoken.string(key) for key in UNASKED if key in spoken}
     spoken.finish()
     return unasked
 
 
-def _reply(entry: Table, vocabulary: Vocabulary) -> Reply:
+def _reply(rule: str, entry: Table, vocabulary: Vocabulary) -> Reply:
     say = entry.data.get("say")
     texts = entry.strings("say") if isinstance(say, list) else [entry.string("say", "")]
     for text in texts:
-        _check_braces(entry, text, vocabulary.tags)
+        _check_braces(entry, text, vocabulary.grammar.tag_names())
     show = entry.string("show", "")
     if show and not show.startswith("{") and show not in vocabulary.expressions:
         remedy = did_you_mean(show, sorted(vocabulary.expressions))
@@ -149,9 +206,55 @@ def _reply(entry: Table, vocabulary: Vocabulary) -> Reply:
         remedy = did_you_mean(feel, sorted(vocabulary.stimuli))
         raise entry.error("feel", f'no stimulus "{feel}"', remedy)
     intensity = entry.number("intensity", 1.0, minimum=0, maximum=1)
-    action = entry.string("action", "", among=ACTIONS)
+    action, task = _action(rule, entry, vocabulary)
+    event = _event(entry)
     entry.finish()
-    return Reply(tuple(text for text in texts if text), feel, intensity, show, gesture, action)
+    said = tuple(text for text in texts if text)
+    return Reply(said, feel, intensity, show, gesture, action, task, event)
+
+
+def _action(rule: str, entry: Table, vocabulary: Vocabulary) -> tuple[str, TaskType | None]:
+    """What `action` names: one of ACTIONS, or a task. An own task comes before an action."""
+    action = entry.string("action", "")
+    own = [name for name in vocabulary.app.task_names() if name not in vocabulary.app.tasks]
+    if action in ("", *ACTIONS) and action not in own:
+        return action, None
+    if action not in own and "." not in action:
+        raise entry.error("action", f'action is "{action}"', did_you_mean(action, [*ACTIONS, *own]))
+    try:
+        task = vocabulary.app.task_type(action)
+    except HriError as error:
+        what, _, remedy = str(error).partition(" - ")
+        raise entry.error("action", what, remedy) from error
+    _refuse_unfit(rule, task, entry, vocabulary.grammar)
+    return "", task
+
+
+def _refuse_unfit(rule: str, task: TaskType, entry: Table, grammar: Grammar) -> None:
+    """Refuse a task that does not take what the rule gives, or needs what it may not give."""
+    tags, sure = grammar.tag_names(rule), sure_tags(grammar.rules, rule) | {HEARD}
+    taken = list(task.parameters)
+    for tag in sorted(tags - set(taken)):
+        what = f'<{rule}> gives "{tag}", which the task {task.id} does not take'
+        remedy = did_you_mean(tag, taken, f"give it a parameter {tag}")
+        raise entry.error("action", what, remedy)
+    for name in taken:
+        if task.parameters[name].default is Parameter.empty and name not in sure:
+            when = "not always give" if name in tags else "not give"
+            what = f'the task {task.id} needs "{name}", which <{rule}> does {when}'
+            remedy = f"give {name} a default value, or write {{{name}=...}} in the grammar"
+            raise entry.error("action", what, remedy)
+
+
+def _event(entry: Table) -> str:
+    event = entry.string("event", "")
+    if event and not _EVENT.fullmatch(event):
+        remedy = 'write a subject and what happened, such as "timer.set"'
+        raise entry.error("event", f'"{event}" does not name an event', remedy)
+    if event.partition(".")[0] in OWN_SUBJECTS:
+        remedy = "choose another first word"
+        raise entry.error("event", f'"{event}" is kept for what the robot itself senses', remedy)
+    return event
 
 
 def _question(entry: Table) -> Question:

@@ -45,8 +45,18 @@ KINDS = {
     ),
     "task": Kind("a task that is a script as well", ("python thing.py",)),
     "app": Kind(
-        "an app whose face greets and counts",
-        ("hri run .", "hri run . --headless --fast --duration 10"),
+        "an app that hears, answers, nods and counts",
+        (
+            "hri run .                    # say: hello, count to five, goodbye",
+            "hri run . --config typed     # type it instead; Ctrl-D ends it",
+        ),
+    ),
+    "companion_app": Kind(
+        "the companion, with a joke and a timer of your own",
+        (
+            "hri run .                    # say: tell me a joke, set a timer for ten seconds",
+            "hri run . --config typed     # type it instead; Ctrl-D ends it",
+        ),
     ),
     "face": Kind(
         "a copy of the robot's face to redraw",
@@ -54,11 +64,21 @@ KINDS = {
     ),
 }
 
+FROM = {("app", "companion"): "companion_app"}
+"""The kinds that are made of something with --from."""
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("kind", choices=KINDS, help="what to begin")
+    named = [kind for kind in KINDS if kind not in FROM.values()]
+    parser.add_argument("kind", choices=named, help="what to begin")
     parser.add_argument(
         "name", metavar="NAME", help="letters, digits and _: wave_hand, or WaveHand"
+    )
+    parser.add_argument(
+        "--from",
+        dest="base",
+        choices=[base for _, base in FROM],
+        help="of an app: one that has all of the companion, and adds to it",
     )
     parser.add_argument(
         "--to", type=Path, default=Path(), metavar="DIR", help="where its folder goes (here)"
@@ -66,7 +86,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    kind, name = options.kind, _module_name(options.name)
+    kind, name = _kind_of(options), _module_name(options.name)
     if not NAME.fullmatch(name):
         raise HriError(f'"{options.name}" is no name - write letters, digits and _: wave_hand')
     if not options.to.is_dir():
@@ -84,15 +104,25 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
+def _kind_of(options: argparse.Namespace) -> str:
+    """The kind, made of something or not. Raises HriError for what is not made of anything."""
+    if options.base is None:
+        return str(options.kind)
+    if (options.kind, options.base) not in FROM:
+        raise HriError(f"a {options.kind} is not made --from anything - leave --from out")
+    return FROM[options.kind, options.base]
+
+
 def _refuse_taken(name: str, kind: str) -> None:
     """Refuse what would hide a module, or a word that the new code uses. Raises HriError."""
     if keyword.iskeyword(name) or importlib.util.find_spec(name) is not None:
         what = f'"{name}" is a word or an installed module of Python'
         raise HriError(f'{what} - choose another name, such as "my_{name}"')
     taken = {name, _class_name(name)}
-    for path in _files(kind):
-        if taken & set(re.findall(r"\w+", path.read_text("utf-8"))):
-            raise HriError(f'"{name}" is a word of the new {kind} itself - choose another name')
+    code = [path.read_text("utf-8") for path in _files(kind) if path.suffix in (".py", ".xml")]
+    # Only where it will stand among the other words of the code can it be mistaken for one.
+    if any(taken & set(re.findall(r"\w+", text)) for text in code if "thing" in text.lower()):
+        raise HriError(f'"{name}" is a word of the new {kind} itself - choose another name')
 
 
 def _write(kind: str, name: str, folder: Path) -> None:

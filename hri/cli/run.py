@@ -280,8 +280,9 @@ class Session:
 
     @staticmethod
     def _is_calm(context: TaskContext) -> bool:
-        voice, gate = context.behavior(Voice), context.behavior(CommandGate)
-        return is_quiet(context.behaviors) and voice.is_idle and not gate.is_moving
+        voice, gate = context.find_behavior(Voice), context.find_behavior(CommandGate)
+        is_at_rest = (voice is None or voice.is_idle) and (gate is None or not gate.is_moving)
+        return is_at_rest and is_quiet(context.behaviors)
 
     async def watch_window(self, context: TaskContext) -> None:
         """End when the window is closed."""

@@ -17,7 +17,7 @@ Listener = Callable[[Event], object]
 OWN_SUBJECTS = frozenset((
     "battery", "behavior", "bumper", "camera", "cliff", "drive", "emotion", "emotions", "face",
     "gesture", "grammar", "head", "memory", "microphone", "odometry", "person", "question",
-    "recording", "speech", "stimulus", "target", "task", "vision", "visitor", "window",
+    "recording", "replies", "speech", "stimulus", "target", "task", "vision", "visitor", "window",
 ))
 # fmt: on
 """What the robot's own events are about: the first word of their names."""

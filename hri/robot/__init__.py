@@ -166,8 +166,9 @@ class Robot:
             raise first_of(ours) from group
 
     def _obey_stop(self, event: Event) -> None:
-        """Whatever tasks run, or none: "stop" stops the base."""
+        """Whatever tasks run, or none: "stop" stops the base, and ends what would drive on."""
         if event.properties.get("rule") == "stop":
+            self.tasks.take_away("drive")
             for behavior in self.context.behaviors.values():
                 if isinstance(behavior, CommandGate):
                     behavior.halt()

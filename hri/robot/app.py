@@ -1,19 +1,39 @@
-"""An app is a folder: `app.toml` names its networks and its tasks, the rest is its own files."""
+"""An app is a folder: `app.toml` names its networks and its tasks, the rest is its own files.
+
+`extends = "companion"` makes an app of another one: it has the networks, tasks and files of that
+app, and its own beside them. An own network replaces one of the same file name, an own task one of
+the same name.
+
+    app.toml       what it consists of
+    tasks.py       its tasks
+    grammar.jsgf   what its listeners hear, in place of what their network says
+    replies.toml   what it replies, where it extends the companion
+    demo.toml      who visits with `--demo`
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
+import inspect
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property, partial
 from pathlib import Path
 from types import ModuleType
+from typing import Self
 
 from hri.behavior.network import Network, load_network
 from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
 from hri.core.python_file import load_module
-from hri.core.toml import load_toml
+from hri.core.toml import Table, load_toml
+from hri.robot.starting import start_on
+from hri.speech.behaviors import Listener
 from hri.task.context import TaskContext
-from hri.task.task import Job, find_task
+from hri.task.task import Job, TaskType, find_task
+
+GRAMMAR = "grammar.jsgf"
+SLOT = "app"
+"""Slot of the board with the app that runs."""
 
 
 @dataclass(frozen=True)
@@ -30,56 +50,178 @@ class App:
     """Ports of the bridge that anybody may write to (`hri.behavior.doors`)."""
     events: tuple[str, ...] = ()
     """Names of events that may come from outside, beside those of 2003."""
+    on: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    """Names of tasks that an event starts, by its name, in which `*` stands for any characters."""
+    base: Self | None = None
+    """The app that it extends; what that one has is in the fields above, too."""
+
+    @classmethod
+    def of(cls, context: TaskContext) -> Self:
+        """The app that runs. Raises HriError where none does."""
+        app = context.board.slot(SLOT).value
+        if not isinstance(app, cls):
+            raise HriError("no app runs - start one with Robot(app=...)")
+        return app
+
+    def line(self) -> Iterator[App]:
+        """The app, the one that it extends, and so on."""
+        app: App | None = self
+        while app is not None:
+            yield app
+            app = app.base
+
+    def files(self, name: str) -> list[Path]:
+        """The files of that name of all apps in its line, its own last."""
+        found = [app.folder / name for app in self.line() if paths.is_file(app.folder / name)]
+        return found[::-1]
 
     def load_networks(self) -> list[Network]:
         """The networks, checked and in dependency order."""
-        return [load_network(path) for path in self.networks]
+        networks = [load_network(path) for path in self.networks]
+        if grammars := self.files(GRAMMAR):
+            for behavior in (one for network in networks for one in network.behaviors):
+                if isinstance(behavior, Listener):
+                    behavior.set_parameter("grammar", str(grammars[-1]))
+        return networks
 
     def load_tasks(self) -> list[Job]:
-        """The coroutine functions. Raises HriError for a name that `tasks.py` does not have."""
-        return [self._task(name) for name in self.tasks]
+        """What runs from the start: the tasks, and what starts others `[on]` events.
 
-    def _task(self, name: str) -> Job:
+        Raises HriError for a name that no `tasks.py` has, or a task that needs arguments.
+        """
+        starters = [
+            partial(start_on, pattern, self._on_event(pattern, names))
+            for pattern, names in self.on.items()
+        ]
+        return [*(self._without_arguments(name) for name in self.tasks), *starters]
+
+    def task(self, name: str) -> Job:
+        """A task by name: of its `tasks.py`, of those of the apps it extends, or "Hri.Speak".
+
+        Raises HriError for one that is not there.
+        """
         if "." in name:
-            declared = find_task(name)
+            return find_task(name)
+        for app in self.line():
+            if app.module is not None and hasattr(app.module, name):
+                own: Job = getattr(app.module, name)
+                return own
+        where = self.folder / "tasks.py"
+        raise HriError(f'{where}: no task "{name}" - {did_you_mean(name, self.task_names())}')
+
+    def task_type(self, name: str) -> TaskType:
+        """The task as one that takes its arguments by name. Raises HriError as `task` does."""
+        job = self.task(name)
+        return job if isinstance(job, TaskType) else TaskType(name, job)
+
+    def task_names(self) -> list[str]:
+        """The coroutine functions of its `tasks.py` and of those it extends, sorted."""
+        modules = [app.module for app in self.line() if app.module is not None]
+        return sorted({name for module in modules for name in _tasks_of(module)})
+
+    def _without_arguments(self, name: str) -> Job:
+        job = self.task(name)
+        if isinstance(job, TaskType):
             try:
-                declared.bound()
+                job.bound()
             except HriError as error:
                 what = str(error).partition(" - ")[0]
                 remedy = "call it from a task of tasks.py"
                 raise HriError(f"{self.folder / 'app.toml'}: {what} - {remedy}") from error
-            return declared
-        if not hasattr(self.module, name):
-            known = [known for known in vars(self.module) if not known.startswith("_")]
-            where = self.folder / "tasks.py"
-            raise HriError(f'{where}: no task "{name}" - {did_you_mean(name, known)}')
-        own: Job = getattr(self.module, name)
-        return own
+        return job
+
+    def _on_event(self, pattern: str, names: tuple[str, ...]) -> tuple[TaskType, ...]:
+        """What an event starts. Raises HriError for a task that it may lack something for."""
+        jobs = tuple(self.task_type(name) for name in names)
+        for job in jobs:
+            for name, parameter in job.parameters.items():
+                if parameter.default is inspect.Parameter.empty and name != "event":
+                    what = f'[on] "{pattern}": {job.id} needs {name}, which an event may lack'
+                    remedy = f"give {name} a default value"
+                    raise HriError(f"{self.folder / 'app.toml'}: {what} - {remedy}")
+        return jobs
 
     def check(self, context: TaskContext) -> None:
-        """Let the app read its own files, with `check(context)` of its tasks if it has one."""
-        if self.tasks and hasattr(self.module, "check"):
-            self.module.check(context)
+        """Let the apps read their own files, with `check(context)` of the tasks that have one."""
+        context.board.slot(SLOT).set(self, context.clock.now())
+        if self.tasks or self.on:
+            for app in self.line():
+                if app.module is not None and hasattr(app.module, "check"):
+                    app.module.check(context)
 
     @cached_property
-    def module(self) -> ModuleType:
-        """`tasks.py`, in a package of its own so that it can import its neighbors."""
-        package = f"hri_app_{self.folder.name}"
-        load_module(package, self.folder / "__init__.py", [str(self.folder)])
-        return load_module(f"{package}.tasks", self.folder / "tasks.py", None)
+    def module(self) -> ModuleType | None:
+        """`tasks.py`, in a package of its own so that it can import its neighbors.
+
+        None where an app that extends another has none.
+        """
+        if self.base is not None and not paths.is_file(self.folder / "tasks.py"):
+            return None
+        package = f"hri_app_{self.folder.resolve().name}"
+        beside = self.folder / "__init__.py"
+        if self.base is None or paths.is_file(beside):
+            load_module(package, beside, [str(self.folder)])
+            return load_module(f"{package}.tasks", self.folder / "tasks.py", None)
+        return load_module(f"{package}_tasks", self.folder / "tasks.py", None)
+
+
+def _tasks_of(module: ModuleType) -> Iterator[str]:
+    """Names of what can be meant by a task: not what the module only imports."""
+    for name, value in vars(module).items():
+        is_own = getattr(value, "__module__", "") == module.__name__ and not name.startswith("_")
+        if is_own and (inspect.iscoroutinefunction(value) or isinstance(value, TaskType)):
+            yield name
 
 
 def load_app(name: str) -> App:
-    """Read an app by name or path. Raises HriError or AuthoringError."""
-    folder = paths.find("apps", name)
+    """Read an app by name or path, and those it extends. Raises HriError or AuthoringError."""
+    return _load(paths.find("apps", name), ())
+
+
+def _load(folder: Path, above: tuple[str, ...]) -> App:
     table = load_toml(folder / "app.toml", "app")
+    extends = table.string("extends", "")
+    base = _base(table, folder, extends, (*above, folder.resolve().name)) if extends else None
+    own = table.strings("networks", *([[]] if base else []))
+    networks = _merged(base.networks if base else (), [_beside(folder, one) for one in own])
+    tasks = _added(base.tasks if base else (), table.strings("tasks", []))
+    trusted = _added(base.trusted if base else (), table.strings("trusted", []))
+    events = _added(base.events if base else (), table.strings("events", []))
     about = table.string("about", "")
-    networks = tuple(_beside(folder, name) for name in table.strings("networks"))
-    tasks = tuple(table.strings("tasks", []))
-    trusted = tuple(table.strings("trusted", []))
-    events = tuple(table.strings("events", []))
+    on = {**(base.on if base else {}), **_reactions(table)}
     table.finish()
-    return App(folder, about, networks, tasks, trusted, events)
+    return App(folder, about, networks, tasks, trusted, events, on, base)
+
+
+def _base(table: Table, folder: Path, extends: str, above: tuple[str, ...]) -> App:
+    try:
+        found = paths.find("apps", extends)
+    except HriError as error:
+        what, _, remedy = str(error).partition(" - ")
+        raise table.error("extends", what, remedy) from error
+    if found.resolve().name in above:
+        what = f'"{extends}" has the name of an app that extends it'
+        raise table.error("extends", what, f"give {folder.resolve()} another name")
+    return _load(found, above)
+
+
+def _reactions(table: Table) -> dict[str, tuple[str, ...]]:
+    """`[on]`: a task, or a list of tasks, by the name of an event."""
+    on = table.table("on", optional=True)
+    found = {}
+    for event in on.data:
+        is_list = isinstance(on.data[event], list)
+        found[event] = tuple(on.strings(event) if is_list else [on.string(event)])
+    return found
+
+
+def _merged(base: tuple[Path, ...], own: list[Path]) -> tuple[Path, ...]:
+    names = {path.name for path in own}
+    return (*(path for path in base if path.name not in names), *own)
+
+
+def _added(base: tuple[str, ...], own: list[str]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys((*base, *own)))
 
 
 def _beside(folder: Path, name: str) -> Path:

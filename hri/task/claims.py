@@ -94,13 +94,24 @@ class Arena:
             hold.scope.cancel()
 
 
+class Leave:
+    """What a task that was installed, with all the tasks it runs, has claimed and may not claim."""
+
+    def __init__(self) -> None:
+        self.claimed: set[str] = set()
+        self.refused: set[str] = set()
+
+
 _held: ContextVar[dict[str, Hold]] = ContextVar("held")
 """What the running task, or one above it, holds by name."""
+_leave: ContextVar[Leave] = ContextVar("leave")
+"""Of the installed task that runs."""
 
 
-def forget_claims() -> None:
-    """Let a task that is installed by a holder claim like any other."""
+def forget_claims(leave: Leave) -> None:
+    """Let a task that is installed by a holder claim like any other, with a leave of its own."""
     _held.set({})
+    _leave.set(leave)
 
 
 class Claims:
@@ -120,6 +131,10 @@ class Claims:
         self, name: str, priority: int = 0, owner: str = "a task"
     ) -> AsyncIterator[None]:
         """Hold it while the body runs; waits until it is free. Raises Interrupted."""
+        leave = _leave.get(Leave())
+        leave.claimed.add(name)
+        if name in leave.refused:
+            raise Interrupted(f"{owner} was told to leave the {name} - start it again")
         above = _held.get({})
         outer = above.get(name)
         arena = self._arenas.setdefault(name, Arena()) if outer is None else outer.inner

@@ -87,6 +87,16 @@ class TaskManager:
         """Wait until no installed task runs any more."""
         return self.await_or_block(self._wait)
 
+    def take_away(self, name: str) -> None:
+        """Cancel the installed tasks that have claimed this; the others may not claim it any more.
+
+        After "stop" a task must not begin to drive that was about to.
+        """
+        for task in tuple(self._installed):
+            task.leave.refused.add(name)
+            if name in task.leave.claimed:
+                task.cancel()
+
     def shutdown(self) -> None:
         """Cancel all tasks; a second call does nothing."""
         for task in tuple(self.running):
@@ -121,7 +131,7 @@ class TaskManager:
             self.running.remove(task)
 
     async def _run_installed(self, task: Task) -> None:
-        forget_claims()
+        forget_claims(task.leave)
         try:
             await task.run(self.context)
         finally:

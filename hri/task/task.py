@@ -15,7 +15,7 @@ from __future__ import annotations
 import inspect
 import logging
 from collections import Counter
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import replace
 from enum import Enum
 from functools import cached_property, partial, update_wrapper
@@ -28,6 +28,7 @@ from hri.core.errors import HriError, first_of
 from hri.core.events import Subscription, matches
 from hri.core.signals import Event
 from hri.hal.pending import Interrupted
+from hri.task.claims import Leave
 from hri.task.context import TaskContext
 from hri.task.queue import EventQueue
 
@@ -62,6 +63,7 @@ class Task:
         self.error: Exception | None = None
         """Why it has failed; Interrupted when another task took what it had claimed."""
         self.termination_requested = False
+        self.leave = Leave()
         self._manager = manager
         self._job = job
         self._arguments = arguments
@@ -238,10 +240,22 @@ class TaskType:
                 raise HriError(f"{self.id}: {name} is no array - give numbers") from error
         if wanted is float and is_number and not isinstance(value, bool):
             return float(value)
+        if wanted is int and isinstance(value, float) and value.is_integer():
+            return int(value)  # numbers of grammars and files are floats
         if not isinstance(value, wanted) or (isinstance(value, bool) and wanted is not bool):
             what = f"{name} is {value!r:.60}"
             raise HriError(f"{self.id}: {what} - give {_KINDS[wanted]}")
         return value
+
+    @property
+    def parameters(self) -> Mapping[str, inspect.Parameter]:
+        """What it takes after the context, by name."""
+        return self._signature.parameters
+
+    def with_those_it_takes(self, values: Mapping[str, Any]) -> Job:
+        """The task with those of these values that it has a parameter for; others are left out."""
+        taken = {name: value for name, value in values.items() if name in self.parameters}
+        return partial(self, **taken)
 
     @cached_property
     def _signature(self) -> inspect.Signature:

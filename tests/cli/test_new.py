@@ -1,5 +1,6 @@
 """`hri new` writes what works at once."""
 
+import io
 import os
 import subprocess
 import sys
@@ -8,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from hri.cli.main import main
-from hri.cli.new import KINDS, TEMPLATES
+from hri.cli.new import FROM, KINDS, TEMPLATES
 
 pytestmark = pytest.mark.proves("P15")
 
@@ -19,10 +20,16 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
+def words_for(kind, name):
+    """What is typed to begin one."""
+    made_from = {made: [begun, name, "--from", base] for (begun, base), made in FROM.items()}
+    return ["new", *made_from.get(kind, [kind, name])]
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_tests_of_what_is_new_pass_at_once(kind, folder, capsys):
     (folder / "mine").mkdir()
-    assert main(["new", kind, f"wave_{kind}", "--to", "mine"]) == 0
+    assert main([*words_for(kind, f"wave_{kind}"), "--to", "mine"]) == 0
     assert f"cd mine/wave_{kind}\n  python -m pytest " in capsys.readouterr().out
     environment = {name: value for name, value in os.environ.items() if name != "HRI_PATH"}
     done = subprocess.run(
@@ -39,7 +46,7 @@ def test_the_tests_of_what_is_new_pass_at_once(kind, folder, capsys):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_nothing_is_left_of_the_name_of_the_template(kind, folder):
-    main(["new", kind, "parrot"])
+    main(words_for(kind, "parrot"))
     for path in (folder / "parrot").rglob("*"):
         assert "thing" not in path.name.lower()
         if path.is_file() and "faces" not in path.parts:
@@ -57,11 +64,29 @@ def test_a_new_network_is_run_by_behave(folder, monkeypatch, capsys):
     assert "Input show  double: 15\n" in capsys.readouterr().out
 
 
-def test_a_new_app_is_run_by_hri_run(folder, monkeypatch, capsys):
-    main(["new", "app", "parrot"])
+@pytest.mark.parametrize(
+    ("base", "line", "words"),
+    [
+        ([], "count to two", "said      2"),
+        (["--from", "companion"], "tell me a joke", "said      What is brown and sticky? A stick."),
+    ],
+)
+def test_a_new_app_hears_answers_and_does_something(base, line, words, folder, monkeypatch, capsys):
+    main(["new", "app", "parrot", *base])
     monkeypatch.chdir(folder / "parrot")
-    assert main(["run", ".", "--config", "simulated", "--fast", "--duration", "3"]) == 0
-    assert "Hello, I am parrot." in capsys.readouterr().out
+    monkeypatch.setattr("sys.stdin", io.StringIO(f"{line}\n"))
+    assert main(["run", ".", "--config", "typed", "--fast", "--headless", "--camera", "none"]) == 0
+    assert words in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", ["joke", "timer"])
+def test_an_app_of_the_companion_may_be_called_like_what_it_does(name, folder):
+    assert main(["new", "app", name, "--from", "companion"]) == 0
+
+
+def test_only_an_app_is_made_from_something(folder, capsys):
+    assert main(["new", "task", "parrot", "--from", "companion"]) == 2
+    assert "a task is not made --from anything" in capsys.readouterr().err
 
 
 def test_a_new_driver_is_listed_by_hri_devices(folder, monkeypatch, capsys):

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -209,7 +210,7 @@ def run_of_robot(path: Path) -> object:
 
 
 @cache
-def _replies_of_companion() -> tuple[Any, object]:
+def _replies_of_companion() -> tuple[Any, Any]:
     """The companion's module of replies, and the names that they may use."""
     from hri.core import paths
     from hri.emotion.stimulus import load_stimuli
@@ -218,22 +219,20 @@ def _replies_of_companion() -> tuple[Any, object]:
     from hri.robot.app import load_app
     from hri.speech.grammar import load_grammar
 
-    load_app("companion").load_tasks()
+    app = load_app("companion")
+    app.load_tasks()
     module = importlib.import_module("hri_app_companion.replies")
     grammar, face = load_grammar(paths.find("grammars", "companion")), load_face("robot")
     return module, module.Vocabulary(
-        grammar.public_rules,
-        grammar.tag_names(),
-        load_stimuli(),
-        face.expressions,
-        load_gestures(face),
+        grammar, load_stimuli(), face.expressions, load_gestures(face), app
     )
 
 
 def replies(path: Path) -> object:
     """The companion's replies."""
     module, vocabulary = _replies_of_companion()
-    return module.load_replies(path, vocabulary)
+    own = replace(vocabulary, app=replace(vocabulary.app, folder=path.parent))
+    return module.load_replies([path], own)
 
 
 @cache

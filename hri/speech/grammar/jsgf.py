@@ -4,9 +4,10 @@ A hand-written tokenizer and recursive-descent parser. Every node knows where it
 mistake says what was expected, and after a mistake reading goes on at the next rule, so that an
 author sees all of them at once.
 
-Two things go beyond the standard: marks in doc comments (`hri.speech.grammar.doc_comments`), and
-lists of names from a text file: `import "friends.txt" as <friend>;`. What stands in tags, which
-the standard leaves open, is told in `hri.speech.grammar.tags`.
+Three things go beyond the standard: marks in doc comments (`hri.speech.grammar.doc_comments`),
+lists of names from a text file: `import "friends.txt" as <friend>;`, and `@extends` in the doc
+comment before `grammar`. What stands in tags, which the standard leaves open, is told in
+`hri.speech.grammar.tags`.
 """
 
 from __future__ import annotations
@@ -37,6 +38,8 @@ from hri.speech.grammar.lexemes import MOST_LEXEMES, TOO_MUCH, Lexeme, Lines, sp
 from hri.speech.grammar.tags import TagError, read_entries
 from hri.speech.grammar.words import normalize
 
+EXTENDS = "extends"
+"""The doc tag before `grammar` that names a grammar whose commands are understood as well."""
 DEEPEST = 50
 """Brackets within brackets; deeper is a mistake or an attack."""
 DEEPEST_TREE = 120
@@ -98,6 +101,14 @@ class NameListImport:
     span: Span
 
 
+@dataclass(frozen=True, slots=True)
+class Extension:
+    """`/** @extends companion */ grammar mine;`: its commands are understood as well."""
+
+    grammar: str
+    span: Span
+
+
 @dataclass(slots=True)
 class Document:
     """One grammar file as it was written, with all its mistakes."""
@@ -106,6 +117,7 @@ class Document:
     name: str = ""
     encoding: str = ""
     locale: str = ""
+    extends: list[Extension] = field(default_factory=list)
     imports: list[Import] = field(default_factory=list)
     name_lists: list[NameListImport] = field(default_factory=list)
     rules: list[RuleDefinition] = field(default_factory=list)
@@ -122,7 +134,10 @@ def read_jsgf(text: str, path: Path) -> Document:
 def write_jsgf(document: Document) -> str:
     """The text of a document, without its comments; `read_jsgf` makes the same rules of it."""
     header = " ".join(filter(None, ("#JSGF V1.0", document.encoding, document.locale)))
-    lines = [f"{header};", f"grammar {document.name};"]
+    lines = [f"{header};"]
+    if document.extends:
+        lines.append(f"/** {' '.join(f'@{EXTENDS} {e.grammar}' for e in document.extends)} */")
+    lines += [f"grammar {document.name};"]
     lines += [f"import <{use.grammar}.{use.rule}>;" for use in document.imports]
     lines += [f'import "{use.file}" as <{use.name}>;' for use in document.name_lists]
     for rule in document.rules:
@@ -255,6 +270,7 @@ class _Reader:
 
     def _name(self) -> None:
         remedy = 'write "grammar name;" after the header'
+        doc = self._docs.get(self._next.start, NO_DOC)
         if not self._take("grammar"):
             self._unexpected('"grammar"', self._spelling("grammar", remedy))
             if not self._begins_statement():
@@ -265,7 +281,18 @@ class _Reader:
             raise self._unexpected("the grammar's name", remedy)
         self._position += 1
         self.document.name = lexeme.text
+        self.document.extends = list(self._extensions(doc))
         self._expect_end("the grammar's name")
+
+    def _extensions(self, doc: DocComment) -> Iterator[Extension]:
+        for tag in doc.tags:
+            if tag.name == EXTENDS and _GRAMMAR_NAME.fullmatch(tag.text):
+                yield Extension(tag.text, tag.span)
+            elif tag.name == EXTENDS:
+                what = "@extends needs the name of one grammar"
+                place = Place(self.document.path, tag.span.line, tag.span.column)
+                remedy = f"write /** @{EXTENDS} companion */ before grammar"
+                self.document.errors.append(AuthoringError(place, what, remedy))
 
     def _spelling(self, keyword: str, otherwise: str) -> str:
         """The remedy for a misspelt keyword."""

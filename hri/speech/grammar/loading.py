@@ -4,6 +4,10 @@ A grammar `com.acme.colors` is looked for as `colors.jsgf` and as `com/acme/colo
 the file that imports it, then in the folders above it as far as its own package goes, then in
 `grammars/` of the folders of HRI_PATH and of the house.
 
+A grammar with `/** @extends companion */` before its `grammar` understands the commands of that one
+as well. A rule of its own hides one of the same name there, and may still call it as
+`<companion.greet>`.
+
 A rule is called by its name alone, by `<colors.red>`, or by `<com.acme.colors.red>`; the last
 needs no import (JSGF 1.0, 3.3). A grammar's own rules hide imported ones of the same name.
 """
@@ -12,7 +16,7 @@ from __future__ import annotations
 
 import codecs
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -85,13 +89,15 @@ def read_source(path: Path) -> str:
         raise AuthoringError(Place(path), f"this is no {encoding} text", remedy) from error
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _File:
     """One grammar file and what the names in it mean."""
 
     document: Document
     prefix: str
     """Stands before the names of its rules in their keys; empty for the main file."""
+    is_heard: bool = False
+    """Whether its public rules are commands: the main file's are, and those of what it extends."""
     own: dict[str, str] = field(default_factory=dict)
     """Keys of the rules it defines, by name."""
     imported: dict[str, list[str]] = field(default_factory=dict)
@@ -113,7 +119,7 @@ class _File:
     def public_names(self) -> dict[str, str]:
         """Keys of the rules that others may use, by name."""
         names = [rule.name for rule in self.document.rules if rule.is_public]
-        return {name: self.prefix + name for name in (*names, *self.document.broken)}
+        return {name: self.own[name] for name in (*names, *self.document.broken)}
 
 
 class _Loader:
@@ -125,9 +131,12 @@ class _Loader:
         self._broken: set[str] = set()
         self._files: dict[Path, _File] = {}
         self._pending: list[_File] = []
+        self._taken: set[str] = set()
+        """Names that stand for a rule without a prefix."""
 
     def load(self, path: Path) -> tuple[Grammar, list[AuthoringError]]:
-        main = self._read(path, prefix="")
+        main = self._read(path, prefix="", is_heard=True)
+        self._extend(main, (main,))
         while self._pending:
             file = self._pending.pop(0)
             for use in file.document.imports:
@@ -146,14 +155,18 @@ class _Loader:
         )
         return grammar, self._errors
 
-    def _read(self, path: Path, prefix: str) -> _File:
+    def _read(self, path: Path, prefix: str, is_heard: bool = False) -> _File:
         document = read_jsgf(read_source(path), path)
         self._errors += document.errors
-        file = self._files[path.resolve()] = _File(document, prefix)
+        file = self._files[path.resolve()] = _File(document, prefix, is_heard)
         self._pending.append(file)
+        commands = {rule.name for rule in document.rules if rule.is_public and is_heard}
         names = [rule.name for rule in document.rules] + [use.name for use in document.name_lists]
-        file.own.update((name, prefix + name) for name in (*names, *document.broken))
-        self._broken.update(prefix + name for name in document.broken)
+        for name in (*names, *document.broken):
+            is_command = name in commands and name not in self._taken
+            file.own[name] = name if is_command else prefix + name
+        self._taken |= {name for name, key in file.own.items() if name == key}
+        self._broken.update(file.own[name] for name in document.broken)
         return file
 
     def _report(self, file: _File, span: Span, what: str, remedy: str) -> None:
@@ -161,31 +174,54 @@ class _Loader:
 
     # Other grammars
 
+    def _extend(self, file: _File, below: tuple[_File, ...]) -> None:
+        """Make the commands of what a file extends commands of this grammar, and known to it."""
+        for use in file.document.extends:
+            other = self._open(file, use.grammar, is_heard=True)
+            if other is None:
+                self._miss(file, use.grammar, use.span)
+                continue
+            if other in below:
+                what = f'"{use.grammar}" extends itself'
+                self._report(file, use.span, what, "extend a grammar of another name")
+                continue
+            self._extend(other, (*below, other))
+            self._bring(file, use.grammar, other.public_names())
+
     def _import(self, file: _File, use: Import) -> None:
         """Make the rules of an import visible in a file."""
         other = self._open(file, use.grammar)
         if other is None:
-            near = did_you_mean(use.grammar, _grammars_near(file), "")
-            where = f"put {use.grammar.rpartition('.')[2]}.jsgf into the same folder"
-            remedy = near if near.startswith("did you mean") else where
-            self._report(file, use.span, f'no grammar "{use.grammar}"', remedy)
-            file.lost.append(use.grammar)
+            self._miss(file, use.grammar, use.span)
             return
         public = other.public_names()
         if use.rule != "*" and use.rule not in public:
             self._report(file, use.span, *_not_public(other, use.grammar, use.rule))
             public[use.rule] = other.prefix + use.rule
             self._broken.add(public[use.rule])
-        names = public if use.rule == "*" else [use.rule]
-        file.brought.append((use, {public[name] for name in names}))
-        for name in names:
-            short = use.grammar.rpartition(".")[2]
-            for called in {name, f"{short}.{name}", f"{use.grammar}.{name}"}:
-                keys = file.imported.setdefault(called, [])
-                if public[name] not in keys:
-                    keys.append(public[name])
+        if use.rule != "*":
+            public = {use.rule: public[use.rule]}
+        file.brought.append((use, set(public.values())))
+        self._bring(file, use.grammar, public)
 
-    def _open(self, file: _File, grammar: str) -> _File | None:
+    def _miss(self, file: _File, grammar: str, span: Span) -> None:
+        near = did_you_mean(grammar, _grammars_near(file), "")
+        where = f"put {grammar.rpartition('.')[2]}.jsgf into the same folder"
+        remedy = near if near.startswith("did you mean") else where
+        self._report(file, span, f'no grammar "{grammar}"', remedy)
+        file.lost.append(grammar)
+
+    @staticmethod
+    def _bring(file: _File, grammar: str, public: Mapping[str, str]) -> None:
+        """Let a file call rules of another grammar, by their names and with that grammar's."""
+        short = grammar.rpartition(".")[2]
+        for name, key in public.items():
+            for called in {name, f"{short}.{name}", f"{grammar}.{name}"}:
+                keys = file.imported.setdefault(called, [])
+                if key not in keys:
+                    keys.append(key)
+
+    def _open(self, file: _File, grammar: str, is_heard: bool = False) -> _File | None:
         """The file of a grammar, read when it is a new one; None when there is none."""
         path = _find_grammar(file.document, grammar)
         if path is None:
@@ -199,7 +235,7 @@ class _Loader:
         prefix = f"{grammar}."
         while any(other.prefix == prefix for other in self._files.values()):
             prefix = f"{prefix[:-1]}'."
-        return self._read(path, prefix)
+        return self._read(path, prefix, is_heard)
 
     # Rules
 
@@ -210,10 +246,11 @@ class _Loader:
             self._add(file, use.span, self._list_rule(file, use))
         resolve = partial(self._resolve, file)
         for definition in document.rules:
+            key = file.own[definition.name]
             rule = Rule(
-                key=file.own[definition.name],
+                key=key,
                 expression=rename(definition.expression, resolve),
-                is_public=definition.is_public and not file.prefix,
+                is_public=definition.is_public and file.is_heard and key == definition.name,
                 span=definition.span,
                 path=document.path,
                 doc=definition.doc.text,

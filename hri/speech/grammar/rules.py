@@ -122,15 +122,15 @@ class Grammar:
         """Whether any word can be said."""
         return any(isinstance(node, Token) for node in self._nodes())
 
-    def tag_names(self) -> frozenset[str]:
-        """Names of all tags that an understood sentence may have."""
-        tagged = [node for node in self._nodes() if isinstance(node, Tagged)]
+    def tag_names(self, rule: str = "") -> frozenset[str]:
+        """Names of all tags that an understood sentence, perhaps only of one rule, may have."""
+        tagged = [node for node in self._nodes(rule) if isinstance(node, Tagged)]
         entries = [entry for node in tagged for entry in node.entries]
         used_up = {name for entry in entries for name in entry.takes if name != entry.name}
         return frozenset({entry.name for entry in entries} - used_up)
 
-    def _nodes(self) -> Iterator[Expression]:
-        for key in analysis.reachable(self.rules, self.public_rules):
+    def _nodes(self, rule: str = "") -> Iterator[Expression]:
+        for key in analysis.reachable(self.rules, [rule] if rule else self.public_rules):
             yield from self.rules[key].nodes
 
     def flat_jsgf(self) -> str:

@@ -1,0 +1,264 @@
+"""Apps that extend the companion: own commands, replies and tasks, and what starts these."""
+
+import pytest
+
+from hri.core.clock import FakeClock
+from hri.core.errors import AuthoringError, AuthoringErrors, HriError
+from hri.robot import Robot, load_app
+from hri.speech.recognizers.typed import TypedRecognizer
+from hri.testing import live_for
+from tests.devices import TYPED
+
+JOKE = {
+    "app.toml": 'extends = "companion"\n',
+    "grammar.jsgf": "#JSGF V1.0; /** @extends companion */ grammar joke;\n"
+    "public <joke> = tell me a joke;\n",
+    "replies.toml": '[reply.joke]\nsay = "What is brown and sticky? A stick."\n',
+}
+TIMER = {
+    **JOKE,
+    "grammar.jsgf": "#JSGF V1.0; /** @extends companion */ grammar timer;\n"
+    "import <numbers.small>;\n"
+    "public <timer> = set a timer for <small> (second | seconds) {seconds=$number};\n",
+    "replies.toml": '[reply.timer]\nsay = "Okay."\naction = "timer"\n',
+    "tasks.py": "async def timer(context, seconds: float) -> str:\n"
+    "    await context.clock.sleep(seconds)\n"
+    '    return f"{seconds:g} seconds are over."\n',
+}
+
+
+@pytest.fixture
+def put(tmp_path):
+    def put(files, name="mine"):
+        folder = tmp_path / name
+        folder.mkdir(exist_ok=True)
+        for file, text in files.items():
+            (folder / file).write_text(text)
+        return folder
+
+    return put
+
+
+def robot_of(folder):
+    return Robot(str(folder), "simulated", clock=FakeClock(), devices=TYPED)
+
+
+def live(robot, seconds, lines=(), then=()):
+    """What happens while these lines are typed at times, and these things done at times."""
+    keyboard = robot.resources.obtain("recognizer", TypedRecognizer)
+    for time, line in dict(lines).items():
+        robot.clock.call_at(time, lambda line=line, time=time: keyboard.type_line(line, time))
+    for time, deed in dict(then).items():
+        robot.clock.call_at(time, deed)
+    return live_for(robot, seconds, *robot.app.load_tasks())
+
+
+def named(events, name):
+    return [event for event in events if event.name == name]
+
+
+def said(events):
+    return [event.properties["text"] for event in named(events, "speech.said")]
+
+
+def test_a_joke_is_five_lines_in_a_folder_of_ones_own(put):
+    assert sum(text.count("\n") for text in JOKE.values()) == 5
+    robot = robot_of(put(JOKE))
+    events = live(robot, 8, {1.0: "tell me a joke", 5.0: "what is your name"})
+    assert said(events) == ["What is brown and sticky? A stick.", "My name is Robin."]
+
+
+def test_an_action_is_a_task_of_the_app_with_the_tags_as_arguments(put):
+    events = live(robot_of(put(TIMER)), 7, {1.0: "set a timer for four seconds"})
+    assert said(events) == ["Okay.", "4 seconds are over."]
+    assert named(events, "speech.said")[1].time == pytest.approx(5.1, abs=0.3)
+
+
+def test_an_action_is_a_task_of_an_entry_point(put):
+    replies = '[reply.joke]\naction = "Hri.SpeakNow"\n'
+    with pytest.raises(AuthoringError, match=r'replies.toml:2:1: unknown task "Hri.SpeakNow" - '):
+        robot_of(put({**JOKE, "replies.toml": replies}))
+    robot = robot_of(put({**JOKE, "replies.toml": replies.replace("SpeakNow", "Speak")}))
+    assert said(live(robot, 4, {1.0: "tell me a joke"})) == ["tell me a joke"]
+
+
+def test_a_reply_raises_an_event_that_starts_a_task(put):
+    files = {
+        "replies.toml": '[reply.timer]\nevent = "timer.wanted"\n',
+        "app.toml": 'extends = "companion"\n[on]\n"timer.wanted" = "timer"\n',
+        "tasks.py": TIMER["tasks.py"].replace("seconds: float", "seconds: float = 60.0"),
+    }
+    events = live(robot_of(put({**TIMER, **files})), 8, {1.0: "set a timer for four seconds"})
+    assert named(events, "timer.wanted")[0].properties["seconds"] == 4.0
+    assert named(events, "task.failed") == []
+
+
+def test_an_event_starts_a_task_once_until_it_is_over(put):
+    tasks = (
+        "async def count(context, event, number=0):\n"
+        "    await context.clock.sleep(1.0)\n"
+        '    context.events.raise_event("count.done", of=event.name, number=number)\n'
+    )
+    files = {"app.toml": 'extends = "companion"\n[on]\n"door.*" = ["count"]\n', "tasks.py": tasks}
+    robot = robot_of(put({**JOKE, **files}))
+    ring = robot.events.raise_event
+    then = {time: lambda time=time: ring("door.rung", number=time) for time in (1.0, 1.5, 3.0)}
+    done = named(live(robot, 5, (), then), "count.done")
+    assert [event.properties for event in done] == [
+        {"of": "door.rung", "number": 1.0},
+        {"of": "door.rung", "number": 3.0},
+    ]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('action = "timer"', 'action = "timmer"', 'action is "timmer" - did you mean "timer"?'),
+        ("seconds: float", "minutes: float", 'gives "seconds", which the task timer does not take'),
+        (
+            "seconds: float",
+            "seconds: float, loud: bool",
+            'the task timer needs "loud", which <timer> does not give - give loud a default value',
+        ),
+        (
+            "for <small> (second | seconds) {seconds=$number}",
+            "[for <small> seconds {seconds=$number}]",
+            'the task timer needs "seconds", which <timer> does not always give',
+        ),
+        ('action = "timer"', 'event = "timer"', '"timer" does not name an event'),
+        ('action = "timer"', 'event = "drive.halt"', "is kept for what the robot itself senses"),
+    ],
+)
+def test_what_does_not_fit_is_refused_before_anything_starts(put, old, new, message):
+    files = {name: text.replace(old, new) for name, text in TIMER.items()}
+    with pytest.raises(AuthoringError) as error:
+        robot_of(put(files))
+    assert message in str(error.value)
+    assert "replies.toml:3:1" in str(error.value)
+
+
+def test_a_task_that_an_event_may_lack_something_for_is_refused(put):
+    app = 'extends = "companion"\n[on]\n"door.rung" = "timer"\n'
+    with pytest.raises(HriError, match="timer needs seconds, which an event may lack - give"):
+        load_app(str(put({**TIMER, "app.toml": app}))).load_tasks()
+
+
+def test_an_unknown_task_names_only_what_can_be_meant(put):
+    app = 'extends = "companion"\n[on]\n"door.rung" = "sing"\n'
+    folder = put({**TIMER, "app.toml": app})
+    with pytest.raises(HriError) as error:
+        load_app(str(folder)).load_tasks()
+    known = "converse, notice, take_saved_replies, timer, watch_keys, wonder"
+    assert str(error.value) == f'{folder}/tasks.py: no task "sing" - known are: {known}'
+
+
+def test_own_words_replace_those_of_the_companion(put):
+    more = 'name = "Ada"\n[reply.name]\nsay = "{name}!"\n[unasked]\nbump = "Oh!"\n'
+    robot = robot_of(put({**JOKE, "replies.toml": more + JOKE["replies.toml"]}))
+    bump = {5.0: lambda: robot.events.raise_event("bumper.pressed")}
+    events = live(robot, 7, {1.0: "what is your name"}, bump)
+    assert said(events) == ["Ada!", "Oh!"]
+
+
+def test_an_own_rule_hides_one_of_the_companion_and_may_use_it(put):
+    grammar = JOKE["grammar.jsgf"] + "public <greet> = howdy | <companion.greet>;\n"
+    robot = robot_of(put({**JOKE, "grammar.jsgf": grammar}))
+    events = live(robot, 8, {1.0: "howdy", 5.0: "hello robot"})
+    assert [event.properties["rule"] for event in named(events, "speech.heard")] == ["greet"] * 2
+
+
+def test_a_grammar_that_does_not_extend_the_companion_is_all_that_is_heard(put):
+    grammar = "#JSGF V1.0; grammar joke;\npublic <joke> = tell me a joke;\n"
+    robot = robot_of(put({**JOKE, "grammar.jsgf": grammar}))
+    events = live(robot, 5, {1.0: "what is your name", 3.0: "tell me a joke"})
+    assert said(events) == ["What is brown and sticky? A stick."]
+
+
+def test_a_command_without_a_reply_is_told_where_the_reply_belongs(put):
+    folder = put({name: text for name, text in JOKE.items() if name != "replies.toml"})
+    with pytest.raises(AuthoringError) as error:
+        robot_of(folder)
+    assert f"{folder}/replies.toml:1:1: no reply to the rule <joke> of the grammar" in str(
+        error.value
+    )
+
+
+def test_an_app_that_extends_itself_is_refused(put, monkeypatch, tmp_path):
+    monkeypatch.setenv("HRI_PATH", str(tmp_path))
+    (tmp_path / "apps").mkdir()
+    put({"app.toml": 'extends = "two"\n'}, "apps/one")
+    put({"app.toml": 'extends = "one"\n'}, "apps/two")
+    with pytest.raises(AuthoringError, match=r'app.toml:1:1: "one" has the name of an app that'):
+        load_app("one")
+
+
+def test_saved_files_are_taken_while_it_runs(put):
+    folder = put(JOKE)
+    robot = robot_of(folder)
+    grammar = JOKE["grammar.jsgf"] + "public <riddle> = ask me a riddle;\n"
+    replies = JOKE["replies.toml"] + '[reply.riddle]\nsay = "Who am I?"\n'
+    then = {
+        3.0: lambda: put({"replies.toml": replies}),
+        6.0: lambda: put({"grammar.jsgf": grammar}),
+        12.0: lambda: put({"replies.toml": replies.replace("[reply.riddle]", "[reply.ridle]")}),
+    }
+    lines = {1.0: "ask me a riddle", 9.0: "ask me a riddle", 15.0: "tell me a joke"}
+    events = live(robot, 19, lines, then)
+    assert said(events) == ["Who am I?", "What is brown and sticky? A stick."]
+    refused = named(events, "replies.refused")
+    assert [round(event.time) for event in refused] == [3, 12]
+    assert 'no rule "ridle" - did you mean "riddle"?' in refused[1].properties["error"]
+    assert len(named(events, "replies.changed")) == 1
+
+
+DANCE = {
+    **JOKE,
+    "replies.toml": '[reply.joke]\naction = "dance"\n',
+    "tasks.py": "from hri.robot import verbs\n\n\n"
+    "async def dance(context):\n"
+    "    await context.clock.sleep(2.0)\n"
+    "    for _ in range(9):\n"
+    "        await verbs.move(context, 0.2)\n",
+}
+
+
+@pytest.mark.parametrize("stop_at", [2.0, 5.0])
+def test_stop_ends_an_own_task_that_drives_or_was_about_to(put, stop_at):
+    robot = robot_of(put(DANCE))
+    places = {}
+
+    def look(event):
+        places[event.time] = event.properties["x_cm"]
+
+    robot.events.subscribe("odometry", look)
+    live(robot, 14, {1.0: "tell me a joke", stop_at: "stop"})
+    at_stop = [x for time, x in places.items() if time > stop_at + 1.5]
+    assert at_stop
+    assert max(at_stop) - min(at_stop) < 1.0
+    assert (max(places.values()) > 10) is (stop_at == 5.0)
+
+
+def test_stop_leaves_a_task_that_does_not_drive(put):
+    lines = {1.0: "set a timer for six seconds", 3.0: "stop"}
+    assert said(live(robot_of(put(TIMER)), 10, lines))[-1] == "6 seconds are over."
+
+
+@pytest.mark.parametrize(
+    ("extends", "message"),
+    [
+        ("companoin", r'2:5: no grammar "companoin" - did you mean "companion"\?'),
+        ("a b", r"2:5: @extends needs the name of one grammar"),
+        ("grammar", r'2:5: "grammar" extends itself'),
+    ],
+)
+def test_what_a_grammar_cannot_extend_has_a_place(put, extends, message):
+    grammar = f"#JSGF V1.0;\n/** @extends {extends} */\ngrammar joke;\npublic <joke> = a joke;\n"
+    with pytest.raises(AuthoringError, match=message):
+        robot_of(put({**JOKE, "grammar.jsgf": grammar}))
+
+
+def test_all_mistakes_of_own_replies_are_told_at_once(put):
+    replies = '[reply.joke]\nshow = "hapy"\n[reply.jest]\n'
+    with pytest.raises(AuthoringErrors) as error:
+        robot_of(put({**JOKE, "replies.toml": replies}))
+    assert [e.place.line for e in error.value.errors] == [2, 3]

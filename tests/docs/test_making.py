@@ -1,0 +1,63 @@
+"""The page for makers: what it shows works when it is copied."""
+
+import re
+
+import pytest
+
+from hri.cli.main import main
+from hri.core import paths
+from hri.core.clock import FakeClock
+from hri.core.errors import AuthoringError
+from hri.robot import Robot
+from hri.speech.recognizers.typed import TypedRecognizer
+from hri.testing import live_for
+from tests.devices import TYPED
+
+PAGE = (paths.house() / "docs" / "making.md").read_text()
+FILES = re.findall(r"^`(\w+)/([\w.]+)`\n\n```\w*\n(.*?)^```", PAGE, re.DOTALL | re.MULTILINE)
+
+
+@pytest.fixture
+def copied(tmp_path, monkeypatch):
+    """The folders of the page."""
+    for folder, file, text in FILES:
+        (tmp_path / folder).mkdir(exist_ok=True)
+        (tmp_path / folder / file).write_text(text)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def said_by(folder, lines, seconds):
+    robot = Robot(str(folder), "simulated", clock=FakeClock(), devices=TYPED)
+    keyboard = robot.resources.obtain("recognizer", TypedRecognizer)
+    for time, line in lines.items():
+        robot.clock.call_at(time, lambda line=line, time=time: keyboard.type_line(line, time))
+    events = live_for(robot, seconds, *robot.app.load_tasks())
+    names = {event.name for event in events}
+    return [e.properties["text"] for e in events if e.name == "speech.said"], names
+
+
+def test_the_joke_of_the_page_is_told(copied):
+    assert sum(text.count("\n") for folder, _, text in FILES if folder == "joke") == 5
+    said, _ = said_by(copied / "joke", {1.0: "tell me a joke"}, 4)
+    assert said == ["What is brown and sticky? A stick."]
+
+
+def test_the_timer_of_the_page_rings(copied):
+    said, names = said_by(copied / "kitchen", {1.0: "set a timer for three seconds"}, 7)
+    assert said == ["Okay, I will tell you.", "3 seconds are over."]
+    assert {"timer.ended", "gesture.ended"} <= names
+
+
+def test_what_a_sentence_means_is_as_shown(copied, capsys):
+    main(["grammar", "parse", "kitchen/grammar.jsgf", "set a timer for two minutes"])
+    shown = re.findall(r"^```text\n(.*?)^```", PAGE, re.DOTALL | re.MULTILINE)[0]
+    assert capsys.readouterr().out.startswith(shown)
+
+
+def test_the_message_of_the_page_is_what_is_said(copied):
+    tasks = copied / "kitchen" / "tasks.py"
+    tasks.write_text(tasks.read_text().replace("seconds", "second"))
+    with pytest.raises(AuthoringError) as error:
+        Robot("./kitchen", "simulated", clock=FakeClock())
+    assert str(error.value).splitlines()[0] in PAGE
