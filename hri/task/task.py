@@ -19,7 +19,7 @@ from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import replace
 from enum import Enum
 from functools import cached_property, partial, update_wrapper
-from typing import TYPE_CHECKING, Any, get_origin
+from typing import TYPE_CHECKING, Any, get_args, get_origin
 
 import trio
 
@@ -234,6 +234,8 @@ class TaskType:
     def _fitted(self, name: str, value: Any) -> Any:
         wanted, is_number = self._types[name], isinstance(value, (int, float))
         if isinstance(value, (list, tuple)) and wanted is tuple:
+            if get_args(self.parameters[name].annotation)[:1] == (str,):
+                return tuple(value)  # a list of texts, as the tags of a grammar collect
             try:
                 return tuple(float(element) for element in value)
             except (TypeError, ValueError) as error:

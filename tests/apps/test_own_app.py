@@ -74,6 +74,19 @@ def test_an_action_is_a_task_of_the_app_with_the_tags_as_arguments(put):
     assert named(events, "speech.said")[1].time == pytest.approx(5.1, abs=0.3)
 
 
+def test_a_list_of_words_is_an_argument(put):
+    files = {
+        "grammar.jsgf": "#JSGF V1.0; /** @extends companion */ grammar pizza;\n"
+        "public <pizza> = a pizza (with <topping> {toppings+=$topping})+;\n"
+        "<topping> = ham {topping=ham} | corn {topping=corn};\n",
+        "replies.toml": '[reply.pizza]\naction = "bake"\n',
+        "tasks.py": "async def bake(context, toppings: tuple[str, ...]) -> str:\n"
+        '    return " and ".join(toppings)\n',
+    }
+    events = live(robot_of(put({**JOKE, **files})), 4, {1.0: "a pizza with ham with corn"})
+    assert said(events) == ["ham and corn"]
+
+
 def test_an_action_is_a_task_of_an_entry_point(put):
     replies = '[reply.joke]\naction = "Hri.SpeakNow"\n'
     with pytest.raises(AuthoringError, match=r'replies.toml:2:1: unknown task "Hri.SpeakNow" - '):
