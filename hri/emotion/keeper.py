@@ -22,6 +22,7 @@ from hri.emotion.persistence import (
     memory_file,
     put_aside,
     recall,
+    spare_real_time,
     without_unnamed,
 )
 
@@ -38,7 +39,8 @@ class Keeper:
     a sign of life, and at its end.
 
     A file that cannot be used is told by the event `memory.refused` and put aside; one that cannot
-    be written by `memory.failed`, once; and `memory.forgotten` that it was made to forget.
+    be written by `memory.failed`, once; and `memory.forgotten` that it was made to forget. On a
+    fake clock it does not write over what was felt in real time.
     """
 
     def __init__(self, path: Path, personality: str, context: Context) -> None:
@@ -120,6 +122,8 @@ class Keeper:
         return dynamics.resume(memory.awakened(now, self._wall()), now)
 
     def _write(self, memory: Memory) -> None:
+        if self._clock.is_fake:
+            spare_real_time(self._path)
         self._mark = keep(self._path, memory)
 
     def _is_touched(self) -> bool:
@@ -134,7 +138,14 @@ class Keeper:
 
     def _memory(self, affect: Affect) -> Memory:
         now, wall = self._clock.now(), self._wall()
-        return Memory(affect.imprint, now, wall, self._personality, self._forgettings)
+        return Memory(
+            affect.imprint,
+            now,
+            wall,
+            self._personality,
+            self._forgettings,
+            is_of_fake_time=self._clock.is_fake,
+        )
 
     def _wall(self) -> float:
         return self._clock.wall().timestamp()

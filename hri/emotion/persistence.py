@@ -52,6 +52,8 @@ class Memory:
     """How often a person was forgotten since the file began."""
     has_ended: bool = False
     """Whether it was written at the end of a run."""
+    is_of_fake_time: bool = False
+    """Whether a fake clock gave the times, which are of 2003 then."""
 
     def is_running(self, wall: float) -> bool:
         """Whether the robot runs at `wall` seconds since 1970.
@@ -83,6 +85,7 @@ def dump(memory: Memory) -> str:
         "personality": memory.personality,
         "forgettings": memory.forgettings,
         "has_ended": memory.has_ended,
+        "is_of_fake_time": memory.is_of_fake_time,
         "affect": encoded(memory.imprint),
     }
     return json.dumps(data, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
@@ -104,6 +107,7 @@ def parse(text: str) -> Memory:
         personality=fields.text("personality"),
         forgettings=int(fields.number("forgettings", LATEST, 0.0)),
         has_ended=fields.truth("has_ended", default=False),
+        is_of_fake_time=fields.truth("is_of_fake_time", default=False),
     )
     if memory.imprint.time > memory.time:
         raise HriError("it tells of a time after it was written")
@@ -131,6 +135,17 @@ def keep(path: Path, memory: Memory) -> Mark:
     """Write the file, in the place of the one before. Raises HriError."""
     folder_for(path)
     return mark_of(write_text(path, dump(memory), PRIVATE))
+
+
+def spare_real_time(path: Path) -> None:
+    """Refuse to let a run of fake time write over what was felt in real time.
+
+    Raises HriError, also for a file that cannot be read.
+    """
+    memory = recall(path)
+    if memory is not None and not memory.is_of_fake_time:
+        what = f"{path}: the feelings there are of real time, and this run of fake time"
+        raise HriError(f"{what} leaves them as they are - run without --fast to add to them")
 
 
 def put_aside(path: Path) -> Path:

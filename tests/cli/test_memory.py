@@ -35,10 +35,10 @@ def options(*words):
     return parser.parse_args(["companion", *words])
 
 
-def remember_ann():
+def remember_ann(wall=1e9):
     dynamics = load_emotions("neutral").dynamics()
     affect = dynamics.feel(dynamics.rest(0.0), "praise", 1.0, 0.0, "Ann")
-    keep(memory_file(), Memory(affect.imprint, 0.0, 1e9))
+    keep(memory_file(), Memory(affect.imprint, 0.0, wall))
 
 
 @pytest.mark.parametrize("words", [[], ["--headless", "--duration", "5"], ["--demo", "--fast"]])
@@ -89,3 +89,26 @@ def test_what_earlier_runs_kept_is_taken_up_when_it_is_asked_for(app):
     remember_ann()
     assert run(app, "--fast", "--keep") == 0
     assert "Ann" in recall(memory_file()).imprint.relations
+
+
+def test_a_run_of_fake_time_goes_on_from_feelings_of_real_time_and_leaves_them_alone(app, caplog):
+    remember_ann()
+    before = memory_file().read_bytes()
+    assert run(app, "--fast", "--keep") == 0
+    assert memory_file().read_bytes() == before
+    (said,) = [line for line in caplog.messages if str(memory_file()) in line]
+    assert "leaves them as they are - run without --fast" in said
+
+
+def test_runs_of_fake_time_go_on_from_each_other(app):
+    assert run(app, "--fast", "--keep") == 0
+    first = memory_file().read_bytes()
+    assert recall(memory_file()).is_of_fake_time
+    assert run(app, "--fast", "--keep") == 0
+    assert memory_file().read_bytes() != first
+
+
+def test_a_run_of_real_time_goes_on_from_feelings_of_fake_time(app):
+    assert run(app, "--fast", "--keep") == 0
+    assert run(app, "--keep") == 0
+    assert not recall(memory_file()).is_of_fake_time
