@@ -16,7 +16,7 @@ import socket
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from types import TracebackType
 
 from hri.core.errors import HriError
@@ -26,6 +26,10 @@ from hri.net.loopback import is_loopback
 from hri.net.protocol import LONGEST
 
 _CHUNK = 65_536
+
+
+class Disconnected(HriError, ConnectionError):
+    """The connection is gone, or was closed here."""
 
 
 class Connection:
@@ -55,11 +59,12 @@ class Connection:
             # `from None`: who runs a client by hand needs this line, not how sockets say it.
             raise HriError(f"no connection with {host}:{port}: {reason} - {remedy}") from None
         self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._other = f"{host}:{port}"
         self._rest = b""
         self._lines: list[str] = []
         self._reader: threading.Thread | None = None
         if token:
-            self._socket.sendall(control.introduction(token))
+            self._send(control.introduction(token))
 
     def __enter__(self) -> Connection:
         return self
@@ -81,20 +86,24 @@ class Connection:
             return
 
     def send(self, line: str) -> None:
-        """Send a line; its end is added. Raises OSError when the connection is gone."""
-        self._socket.settimeout(self.timeout)
-        self._socket.sendall(line.encode() + b"\n")
+        """Send a line; its end is added.
+
+        Raises Disconnected when the connection is gone or was closed, TimeoutError when the other
+        end does not take the line in time.
+        """
+        self._send(line.encode() + b"\n")
 
     def read(self, timeout: float | None = None) -> str:
         """The next line, without its end.
 
         Raises TimeoutError when none comes within `timeout` seconds, EOFError when the other end
-        has hung up, HriError for a line of more than 64 KiB.
+        has hung up, Disconnected after `close`, HriError for a line of more than 64 KiB.
         """
         end = time.perf_counter() + (self.timeout if timeout is None else timeout)
         while not self._lines:
-            self._socket.settimeout(max(1e-3, end - time.perf_counter()))
-            self._receive()
+            with self._explained():
+                self._socket.settimeout(max(1e-3, end - time.perf_counter()))
+                self._receive()
         return self._lines.pop(0)
 
     def on_read(self, callback: Callable[[str], object]) -> None:
@@ -112,6 +121,23 @@ class Connection:
         self._socket.close()
         if self._reader is not None and self._reader is not threading.current_thread():
             self._reader.join(self.timeout)
+
+    def _send(self, data: bytes) -> None:
+        with self._explained():
+            self._socket.settimeout(self.timeout)
+            self._socket.sendall(data)
+
+    @contextmanager
+    def _explained(self) -> Iterator[None]:
+        """Say of what the system reports that the connection is gone."""
+        try:
+            yield
+        except TimeoutError:
+            raise
+        except OSError as error:
+            is_closed = self._socket.fileno() < 0
+            why = "it was closed" if is_closed else error.strerror or str(error)
+            raise Disconnected(f"no connection with {self._other}: {why} - connect again") from None
 
     def _receive(self) -> None:
         data = self._socket.recv(_CHUNK)

@@ -1,10 +1,11 @@
 import socket
+import struct
 import threading
 
 import pytest
 
 from hri.core.errors import HriError
-from hri.net.connection import Connection
+from hri.net.connection import Connection, Disconnected
 from tests.net.conftest import WITHIN
 
 
@@ -76,3 +77,21 @@ def test_nobody_there_is_told():
         port = listening.getsockname()[1]
     with pytest.raises(HriError, match="start the server, or check host and port"):
         Connection("127.0.0.1", port)
+
+
+def test_what_is_sent_or_read_after_the_end_is_one_error_in_one_line(pair):
+    connection, _ = pair
+    connection.close()
+    for use in (lambda: connection.send("late"), connection.read, lambda: next(iter(connection))):
+        with pytest.raises(Disconnected, match=r"127\.0\.0\.1:\d+: it was closed - connect again"):
+            use()
+    assert issubclass(Disconnected, HriError)
+    assert issubclass(Disconnected, OSError), "as it was documented before"
+
+
+def test_a_peer_that_is_gone_is_the_same_error(pair):
+    connection, other = pair
+    other.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+    other.close()
+    with pytest.raises(Disconnected, match=r"reset by peer - connect again"):
+        connection.read()
