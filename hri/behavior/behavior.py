@@ -148,6 +148,11 @@ class Behavior:
         """Id of the drive that it steers, and its rank, which only it may have; None for most."""
         return None
 
+    @property
+    def bridge_ports(self) -> tuple[tuple[str, str], ...]:
+        """The outputs that others write to over the network, as tag and name; most have none."""
+        return ()
+
     def check(self) -> None:
         """Read the authored files it needs, before anything is opened. Raises HriError."""
 

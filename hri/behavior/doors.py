@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from string import ascii_uppercase
+from typing import TYPE_CHECKING
 
+from hri.core.errors import did_you_mean
 from hri.core.events import matches
+
+if TYPE_CHECKING:
+    from hri.behavior.behavior import Behavior
 
 NAMES_OF_2003 = tuple(f"{letter}*" for letter in ascii_uppercase)
 """Patterns of events that begin with a capital, such as `Examples.PhotoEvent.Shoot`; the robot
@@ -32,6 +37,16 @@ class Doors:
     def trusts(self, tag: str, port: str) -> bool:
         """Whether anybody may write to a port."""
         return any(matches(one, tag) or matches(one, f"{tag}.{port}") for one in self.trusted)
+
+    def unknown(self, behaviors: Iterable[Behavior]) -> Iterator[str]:
+        """A line for each trusted name that none of their ports on the bridge has."""
+        ports = [port for behavior in behaviors for port in behavior.bridge_ports]
+        names = {name for tag, port in ports for name in (tag, f"{tag}.{port}")}
+        for trusted in self.trusted:
+            if not any(matches(trusted, name) for name in names):
+                remedy = did_you_mean(trusted, names)
+                what = f'trusted "{trusted}": these networks have no such port on the bridge'
+                yield f"{what} - {remedy}"
 
     def takes(self, event: str) -> bool:
         """Whether an event of that name may come from outside."""

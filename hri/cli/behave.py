@@ -114,7 +114,10 @@ def _behave(options: argparse.Namespace, ending: Ending) -> int:
     network.check()
     if options.invocation_interval is not None:
         network.interval = options.invocation_interval
-    lent = Context(clock, EventBus(clock), resources, doors=doors_of(options))
+    doors = doors_of(options)
+    for line in doors.unknown(network.behaviors):
+        log.warning(line)
+    lent = Context(clock, EventBus(clock), resources, doors=doors)
     runner = Runner(network, lent)
     try:
         if options.load_all_resources:

@@ -45,6 +45,10 @@ class MalleableBehavior(Behavior):
         True, "leave the quotes that strings of other behaviors come in, as in 2003"
     )
 
+    @property
+    def bridge_ports(self) -> tuple[tuple[str, str], ...]:
+        return tuple((self.tag_name, name) for name in self.outputs)
+
     def check(self) -> None:
         """Raises HriError for a datatype or a name that cannot travel."""
         if checked_name(self.tag_name) == control.TAG:

@@ -70,10 +70,11 @@ class Robot:
         """Read and check all files; nothing is opened yet.
 
         `devices` replace those of the configuration with the same id. `parameters` overrides
-        parameters of behaviors by their id. `notice` gets a line for each stand-in, and one
-        when a recording begins. `record` is a folder for a recording; words that were rejected are
-        written there only with `record_rejected`. `doors` says what may come in over the network,
-        beside what the app and the configuration say. Raises HriError or AuthoringError.
+        parameters of behaviors by their id. `notice` gets a line for each stand-in, for each
+        trusted name that fits no port, and one when a recording begins. `record` is a folder for a
+        recording; words that were rejected are written there only with `record_rejected`. `doors`
+        says what may come in over the network, beside what the app and the configuration say.
+        Raises HriError or AuthoringError.
         """
         self.app = load_app(app)
         self.clock = clock or RealClock()
@@ -101,9 +102,12 @@ class Robot:
         self.events = EventBus(self.clock)
         self.board = Board()
         own = (doors or Doors()).with_more(self.app.trusted, self.app.events)
+        behaviors = _behaviors_of(self._authored)
+        for line in own.unknown(behaviors.values()):
+            notice(line)
         context = Context(self.clock, self.events, self.resources, self.board, seed, own)
         self.networks = context.networks
-        self.tasks = TaskManager(context, _behaviors_of(self._authored))
+        self.tasks = TaskManager(context, behaviors)
         self.context = self.tasks.context
         self.app.check(self.context)
         self.record = None if record is None else Path(record)

@@ -80,6 +80,31 @@ def test_who_shows_it_or_is_trusted_does(folder, options):
     assert driven(folder, "" if options else new_token(), *options) > 0.01
 
 
+@pytest.mark.parametrize(
+    ("trusted", "meant"),
+    [("steerin", "steering"), ("steering.velocty", "steering.velocity"), ("arm.*", None)],
+)
+def test_a_trusted_name_that_fits_no_port_is_told_with_what_was_meant(
+    trusted, meant, folder, capsys
+):
+    words = [str(folder / "steered.xml"), "--config", "simulated", "--fast", "--duration=0.2"]
+    assert behave.main([*words, "--trusted", trusted, "--trusted=steering", "--trusted=*"]) == 0
+    (line,) = (o for o in capsys.readouterr().out.splitlines() if "trusted" in o)
+    assert f'trusted "{trusted}": these networks have no such port on the bridge' in line
+    assert f'did you mean "{meant}"?' in line or meant is None
+
+
+def test_a_robot_tells_of_it_too(folder):
+    app = folder / "apps" / "mine"
+    app.mkdir(parents=True)
+    (app / "app.toml").write_text('networks = ["steered.xml"]\ntrusted = ["steerin"]\n')
+    (app / "steered.xml").write_text(NETWORK.format(more=""))
+    told = []
+    doors = Doors(trusted=("stearing",))
+    Robot(str(app), "simulated", clock=FakeClock(), doors=doors, notice=told.append).close()
+    assert [line.split(":")[0] for line in told] == ['trusted "stearing"', 'trusted "steerin"']
+
+
 @pytest.mark.parametrize("by", ["file", "environment"])
 def test_a_network_alone_opens_nothing_to_other_machines(by, folder, monkeypatch, capsys):
     if by == "file":
