@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.effects import ANYTHING, Effect
@@ -52,9 +52,11 @@ class Door:
         self._seen = seen
         reach = Reach(context.runners, context.has_tasks)
         effects = {name: reach.of(self._behavior, name) for name in self._closed_outputs()}
-        was_open, self._guarded = not self._guarded, {name: e for name, e in effects.items() if e}
-        if self._guarded and was_open:
-            self._announce()
+        guarded = {name: e for name, e in effects.items() if e}
+        if guarded and not self._guarded:
+            # Before the first refusal: whoever is refused looks for the token at once.
+            self._announce(guarded)
+        self._guarded = guarded
 
     def admits(self, port: str, sender: Sender) -> bool:
         """Whether a value of that sender may come in; called by any thread."""
@@ -85,9 +87,9 @@ class Door:
     def _closed_outputs(self) -> Iterable[str]:
         return (o for o in self._behavior.outputs if not self._trusted.trusts(self._tag, o))
 
-    def _announce(self) -> None:
+    def _announce(self, guarded: Mapping[str, frozenset[Effect]]) -> None:
         """Say that a token is needed, and make one if there is none."""
-        for port, effects in self._guarded.items():
+        for port, effects in guarded.items():
             log.info("%s.%s %s: who writes to it shows a token", self._tag, port, _words(effects))
         _make_token()
 
