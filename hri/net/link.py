@@ -22,7 +22,7 @@ from functools import partial
 
 from hri.net import control
 from hri.net.peer import Limits, Peer, PeerError
-from hri.net.protocol import Message, ProtocolError, decode
+from hri.net.protocol import Message, ProtocolError, Surplus, decode
 
 log = logging.getLogger("hri.net")
 
@@ -187,9 +187,18 @@ class Link(ABC):
             if mask & selectors.EVENT_READ:
                 for line in peer.receive(time.perf_counter()):
                     if line.strip():
-                        self._deliver(line, peer)
+                        self._take(line, peer)
         except (PeerError, ProtocolError) as error:
             self._drop(peer, str(error))
+
+    def _take(self, line: bytes, peer: Peer) -> None:
+        """Deliver a line; of one that goes on after its message, the peer is told."""
+        try:
+            self._deliver(line, peer)
+        except Surplus as error:
+            peer.tell(control.refusal(str(error)))
+            level = logging.WARNING if self._may_warn() else logging.DEBUG
+            log.log(level, "%s: skipped a line of %s: %s", self.address, peer.name, error)
 
     def _deliver(self, line: bytes, peer: Peer) -> None:
         message = decode(line, peer)

@@ -25,12 +25,17 @@ LONGEST = 65_536
 """Bytes of a line, its end included."""
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_.-]*")
+_JUNK = expat.errors.codes[expat.errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT]
 _COUNT = re.compile("[1-9][0-9]{0,5}")
 _UNWRITABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 class ProtocolError(HriError):
     """A line, or a value in it, is not what the bridge speaks."""
+
+
+class Surplus(ProtocolError):
+    """A line goes on after the end of its message."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,6 +165,9 @@ class _Reader:
         try:
             parser.Parse(line, True)
         except expat.ExpatError as error:
+            if error.code == _JUNK:
+                what = f"column {error.offset + 1}: more after </{self.tag[:60]}>"
+                raise Surplus(f"{what} - write each message in a line of its own") from error
             what = expat.ErrorString(error.code)
             remedy = "write <tag><port>value</port></tag>"
             raise ProtocolError(f"column {error.offset + 1}: {what} - {remedy}") from error
