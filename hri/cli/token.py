@@ -10,7 +10,7 @@ from hri.core.token import VARIABLE, new_token, own_token
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    about = "make another one; peers that have shown the old one stay connected"
+    about = "make another one; whoever has shown the old one must show the new one"
     parser.add_argument("--new", action="store_true", help=about)
 
 

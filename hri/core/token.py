@@ -11,6 +11,7 @@ import os
 import re
 import secrets
 import stat
+from contextlib import suppress
 from pathlib import Path
 
 from hri.core.errors import HriError
@@ -18,7 +19,7 @@ from hri.core.ownership import is_of_user
 from hri.core.paths import state_folder
 from hri.core.privacy import folder_for
 from hri.core.reading import read_text
-from hri.core.writing import PRIVATE, not_written, write_text
+from hri.core.writing import PRIVATE, mark_of, not_written, write_text
 
 VARIABLE = "HRI_TOKEN"
 """The environment variable that takes precedence over the file."""
@@ -35,7 +36,8 @@ def token_file() -> Path:
 def load_token() -> str | None:
     """The token of this user; None when none has been made.
 
-    Raises HriError for one that others may read or change, that is too short, or is unreadable.
+    Raises HriError for one that others may read or change, that is too short, is unreadable, or
+    is not a file.
     """
     named = os.environ.get(VARIABLE, "")
     if named:
@@ -43,6 +45,7 @@ def load_token() -> str | None:
     path = token_file()
     if not path.exists():
         return None
+    _require_replaceable(path)
     remedy = "hri token --new makes another one"
     if not is_of_user(path) or stat.S_IMODE(path.stat().st_mode) & 0o077:
         raise HriError(f"{path}: others may read or change it, so it is not used - {remedy}")
@@ -57,9 +60,10 @@ def new_token() -> str:
     """Make another token and keep it in the file; the one before is worth nothing from now on.
 
     A link in the place of the file is replaced, and what it leads to stays as it is. Raises
-    HriError when the file cannot be written.
+    HriError when the file cannot be written, or something else lies in its place.
     """
     path, token = token_file(), secrets.token_urlsafe(_BYTES)
+    _require_replaceable(path)
     folder_for(path)
     try:
         if path.is_symlink():
@@ -75,6 +79,27 @@ def own_token() -> str:
     return load_token() or new_token()
 
 
+class Grant:
+    """What whoever shows a token may do, as long as that is the token."""
+
+    def __init__(self, shown: str) -> None:
+        """Raises HriError as `load_token` does."""
+        self._shown = shown
+        self._file = None if os.environ.get(VARIABLE) else token_file()
+        self._look = _look(self._file)
+        self._holds = is_token(shown)
+
+    @property
+    def holds(self) -> bool:
+        """Whether it is the token now; takes 2 us, so ask before each thing that needs it."""
+        look = _look(self._file)
+        if look != self._look:
+            self._look, self._holds = look, False
+            with suppress(HriError):  # one that cannot be used is nobody's
+                self._holds = is_token(self._shown)
+        return self._holds
+
+
 def is_token(shown: str) -> bool:
     """Whether a text is the token; how long that takes does not tell how much of it is right.
 
@@ -82,6 +107,23 @@ def is_token(shown: str) -> bool:
     """
     token = load_token()
     return token is not None and hmac.compare_digest(shown.encode(), token.encode())
+
+
+def _look(path: Path | None) -> tuple[int, ...]:
+    """What changes when the token in a file does, or who may read it."""
+    if path is None:
+        return ()
+    try:
+        status = os.stat(path)
+    except OSError:
+        return ()
+    return *mark_of(status), status.st_ctime_ns
+
+
+def _require_replaceable(path: Path) -> None:
+    """Raise HriError for a folder, a pipe, or anything else that a new token cannot replace."""
+    if path.exists() and not path.is_file() and not path.is_symlink():
+        raise HriError(f"{path}: the token belongs here, but this is not a file - move it away")
 
 
 def _checked(token: str, where: str) -> str:

@@ -20,6 +20,7 @@ from functools import lru_cache
 from xml.parsers import expat
 
 from hri.core.errors import HriError
+from hri.core.token import Grant
 
 LONGEST = 65_536
 """Bytes of a line, its end included."""
@@ -56,12 +57,17 @@ class Sender:
     """When its last message came, in seconds on the clock of whoever keeps its values."""
     is_gone = False
     """Whether the connection has ended."""
-    is_authorized = False
-    """Whether it has shown the token."""
+    grant: Grant | None = None
+    """What it got for the token that it has shown; None before."""
     refused: frozenset[str] = frozenset()
     """The ports that took no value of it, as it was told."""
     name = "somebody"
     """Who it is, for people."""
+
+    @property
+    def is_authorized(self) -> bool:
+        """Whether it has shown the token that counts now."""
+        return self.grant is not None and self.grant.holds
 
     def tell(self, line: bytes) -> None:
         """Send a line to it alone, as far as there is a connection."""

@@ -2,6 +2,7 @@
 
 import os
 import stat
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -9,7 +10,7 @@ from hypothesis import strategies as st
 
 from hri.cli.main import main
 from hri.core.errors import HriError
-from hri.core.token import VARIABLE, is_token, load_token, new_token, own_token, token_file
+from hri.core.token import VARIABLE, Grant, is_token, load_token, new_token, own_token, token_file
 
 
 @pytest.fixture(autouse=True)
@@ -41,6 +42,32 @@ def test_a_new_one_makes_the_old_one_worthless():
     new = new_token()
     assert not is_token(old)
     assert is_token(new)
+
+
+def test_what_a_token_gave_ends_with_it_and_with_its_file():
+    grant, wrong = Grant(own_token()), Grant("another one, that is wrong")
+    assert (grant.holds, wrong.holds) == (True, False)
+    token_file().chmod(0o644)
+    assert not grant.holds
+    token_file().chmod(0o600)
+    assert grant.holds
+    new_token()
+    assert not grant.holds
+    newer = Grant(own_token())
+    token_file().unlink()
+    assert not newer.holds
+
+
+@pytest.mark.parametrize("make", [Path.mkdir, os.mkfifo])
+def test_what_is_not_a_file_is_to_be_moved_away_which_then_helps(make, tmp_path):
+    """`hri token --new` could not replace it."""
+    token_file().parent.mkdir(parents=True)
+    make(token_file())
+    for use in (load_token, new_token, own_token):
+        with pytest.raises(HriError, match=r"token: .*is not a file - move it away"):
+            use()
+    token_file().rename(tmp_path / "away")
+    assert own_token() == load_token()
 
 
 @given(st.text())
