@@ -23,15 +23,17 @@ class Limits:
     line: int = LONGEST
     """Bytes of a line; a longer one costs the connection."""
     peers: int = 32
-    """Connections at a time; those above are turned away."""
+    """Connections at a time that stay."""
     backlog: int = 1_048_576
     """Bytes that wait for a peer that reads slowly; more cost the connection."""
     rate: float = 50_000
     """Lines a second, with one second's worth at once; a faster peer is read less often."""
     patience: float = 10.0
     """Seconds that a line may take from its first byte to its end."""
-    silence: float = 10.0
+    silence: float = 3.0
     """Seconds without a message after which a peer gives way to a new one, when all are there."""
+    introduction: float = 0.25
+    """Seconds in which a peer for whom there is no place may show the token, which gives it one."""
 
 
 class PeerError(HriError):
@@ -56,6 +58,7 @@ class Peer(Sender):
         """When the line began that has not ended yet."""
         self.is_local = is_from_loopback(connection)
         """Whether it is on this machine."""
+        self.came = now
         self.heard = now
         """When its last message came, or it did."""
         self._limits = limits

@@ -11,7 +11,7 @@ import socket
 import time
 
 from hri.core.errors import HriError
-from hri.core.token import is_token
+from hri.core.token import Grant
 from hri.net import control
 from hri.net.link import Link
 from hri.net.peer import Limits, Peer, PeerError
@@ -19,6 +19,8 @@ from hri.net.protocol import Message
 
 log = logging.getLogger("hri.net")
 
+AT_THE_DOOR = 8
+"""Connections above the limit of peers that may show the token, each for a moment."""
 REST = 1.0
 """Seconds without a new peer, when this process has no file left for one."""
 
@@ -50,23 +52,40 @@ class Server(Link):
             self._rests_until = time.perf_counter() + REST
             self._warn(f"cannot let anybody in: {error.strerror}")
             return
-        if self._has_room(time.perf_counter()):
-            self._has_warned = False
-            self._add(connection, f"{host}:{port}")
+        if len(self._peers) >= self._limits.peers + AT_THE_DOOR:
+            connection.close()
+            self._turned_away(host)
             return
-        connection.close()
-        self._warn(f"turned {host} away: {len(self._peers)} peers")
-
-    def _has_room(self, now: float) -> bool:
-        """Whether one more may come; who has been silent for long gives way."""
         if len(self._peers) < self._limits.peers:
-            return True
-        silent = min(self._peers, key=lambda peer: (peer.is_authorized, peer.heard))
-        if now - silent.heard < self._limits.silence:
-            return False
-        log.debug("%s: %s gives way to another one", self.address, silent.name)
-        self._remove(silent)
-        return True
+            self._has_warned = False
+        self._add(connection, f"{host}:{port}")
+
+    def _tend(self, now: float) -> float:
+        if now >= self._rests_until:
+            self._rests_until = math.inf
+            self._selector.register(self._socket, selectors.EVENT_READ, self._accept)
+        return min(self._rests_until, self._settle(now))
+
+    def _settle(self, now: float) -> float:
+        """Find places for those at the door, or turn them away; when to look again.
+
+        Whoever shows the token gets the place of a stranger. Others get the place of whoever had
+        been silent for long when they came: nobody who steers had.
+        """
+        for guest in self._peers[self._limits.peers :]:
+            silent = min(
+                self._peers[: self._limits.peers], key=lambda peer: (peer.is_authorized, peer.heard)
+            )
+            goes_before = guest.is_authorized and not silent.is_authorized
+            if goes_before or guest.came - silent.heard >= self._limits.silence:
+                log.debug("%s: %s gives way to another one", self.address, silent.name)
+                self._remove(silent)
+                self._has_warned = False
+            elif now - guest.came >= self._limits.introduction:
+                self._remove(guest)
+                self._turned_away(guest.name)
+        waiting = self._peers[self._limits.peers :]
+        return min((peer.came + self._limits.introduction for peer in waiting), default=math.inf)
 
     def _obey(self, message: Message, peer: Peer) -> bool:
         token = control.shown_token(message)
@@ -81,23 +100,20 @@ class Server(Link):
 
     def _authorize(self, peer: Peer, token: str) -> None:
         try:
-            peer.is_authorized = is_token(token)
+            peer.grant = Grant(token)
         except HriError as error:
             raise PeerError(str(error)) from error
         if not peer.is_authorized:
             peer.tell(control.refusal("this is not the token"))
             raise PeerError("it showed a wrong token")
 
+    def _turned_away(self, name: str) -> None:
+        self._warn(f"turned {name} away: {self._limits.peers} peers")
+
     def _warn(self, what: str) -> None:
         if not self._has_warned:
             log.warning("%s: %s", self.address, what)
         self._has_warned = True
-
-    def _tend(self, now: float) -> float:
-        if now >= self._rests_until:
-            self._rests_until = math.inf
-            self._selector.register(self._socket, selectors.EVENT_READ, self._accept)
-        return self._rests_until
 
     def _hang_up(self) -> None:
         self._socket.close()

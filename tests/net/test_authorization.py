@@ -222,6 +222,54 @@ def test_a_token_that_was_replaced_is_a_wrong_one(robot):
     assert "this is not the token" in peer.read()
 
 
+def test_a_connection_loses_what_a_token_gave_it_when_that_is_replaced(robot):
+    here = steered(robot())
+    peer = here.connect(own_token())
+    here.send(peer, VELOCITY)
+    here.tick()
+    assert here.goal == pytest.approx(0.2)
+    new_token()
+    here.send(peer, VELOCITY)
+    here.tick(5)
+    assert here.goal == 0
+    (told,) = decode(peer.read().encode()).items
+    assert "takes no value without the token" in told.text
+    peer.send(introduction(own_token()).decode().strip())
+    here.send(peer, VELOCITY)
+    here.tick()
+    assert here.goal == pytest.approx(0.2)
+
+
+def test_what_was_said_before_the_token_was_replaced_goes_on_no_more(robot):
+    """A value without a count is repeated, whether its sender says anything or not."""
+    here = robot()
+    here.run(here.bridge)
+    seen = []
+    here.runners[0].watch("bridge", "text", lambda text, now: seen.append(text))
+    here.tick()
+    here.send(here.connect(own_token()), "<bridge><text>hello</text></bridge>")
+    here.tick(2)
+    assert seen == ["hello", "hello"]
+    new_token()
+    here.tick(2)
+    assert seen == ["hello", "hello"]
+
+
+def test_a_client_of_ours_shows_the_new_one_by_itself(robot):
+    here, there = steered(robot()), robot()
+    there.bridge = Sender("peer", tcp_host="127.0.0.1", tcp_port=here.bridge.port_in_use)
+    there.bridge.set_parameter("tag_name", "bridge")
+    speed = Constant("speed", parsed_value="20")
+    there.run(speed, there.bridge, links=[("speed.value", "peer.velocity")])
+    assert here.bridge._link.wait_for_peers(1, WITHIN)
+    (peer,) = here.bridge._link._peers
+    there.wait_until(lambda: peer.is_authorized)
+    new_token()
+    assert not peer.is_authorized
+    there.tick()
+    there.wait_until(lambda: peer.is_authorized)
+
+
 def test_the_one_of_the_environment_counts_on_both_sides(robot, monkeypatch):
     monkeypatch.setenv(VARIABLE, "chosen-by-the-user")
     here = steered(robot())

@@ -1,10 +1,11 @@
+import math
 import random
 import resource
 import socket
 import struct
 import threading
 import time
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 
 import pytest
 
@@ -12,8 +13,8 @@ from hri.core.errors import HriError
 from hri.net.client import Client, _own_echo
 from hri.net.control import introduction
 from hri.net.link import MOST_WARNINGS
-from hri.net.protocol import Item, Message, encode
-from hri.net.server import Server
+from hri.net.protocol import Item, Message, decode, encode
+from hri.net.server import AT_THE_DOOR, Server
 from hri.net.sharing import borrow, give_back
 from tests.net.conftest import WITHIN, Taken
 
@@ -270,6 +271,64 @@ def test_of_silent_peers_the_one_that_showed_the_token_goes_last(links, monkeypa
         assert stranger.recv(1) == b""
     for peer in (known, stranger):
         peer.close()
+
+
+def test_chatty_strangers_do_not_keep_out_who_shows_the_token(links, monkeypatch):
+    """They say something all the time, so none of them ever gives way to a stranger."""
+    monkeypatch.setenv("HRI_TOKEN", "known-to-somebody")
+    server, _ = links
+    here = server(peers=4, silence=math.inf)
+    strangers = [raw(here.port) for _ in range(4)]
+    assert here.wait_for_peers(4, WITHIN)
+    with raw(here.port) as turned_away:
+        assert turned_away.recv(1) == b""
+    heard = Taken()
+    here.subscribe("t", heard)
+    with raw(here.port) as known:
+        known.sendall(introduction("known-to-somebody"))
+        assert strangers[0].recv(1) == b"", "the one that was heard longest ago"
+        known.sendall(encode(message("here")))
+        heard.wait_for(1)
+        assert here.wait_for_peers(4, WITHIN)
+        assert heard.messages[0].sender.is_authorized
+    for peer in strangers:
+        peer.close()
+
+
+def test_at_the_door_a_stranger_may_stop_the_robot(links):
+    server, _ = links
+    here = server(peers=1, silence=math.inf)
+    heard = Taken()
+    here.subscribe("hri", heard)
+    with raw(here.port), raw(here.port) as other:
+        other.sendall(b"<hri><stop/></hri>\n")
+        heard.wait_for(1)
+
+
+def test_a_crowd_at_the_door_is_turned_away(links):
+    server, _ = links
+    here = server(peers=1, silence=math.inf, introduction=WITHIN)
+    with ExitStack() as opened:
+        for _ in range(1 + AT_THE_DOOR):
+            opened.enter_context(raw(here.port))
+        assert here.wait_for_peers(1 + AT_THE_DOOR, WITHIN)
+        assert opened.enter_context(raw(here.port)).recv(1) == b""
+
+
+def test_more_after_the_end_of_a_message_costs_a_line_and_not_the_connection(links, caplog):
+    server, _ = links
+    here = server()
+    taken = Taken()
+    here.subscribe("t", taken)
+    with raw(here.port) as peer:
+        two = encode(message("one")).strip() + encode(message("two"))
+        peer.sendall(two + encode(message("three")))
+        assert taken.wait_for(1) == [message("three")]
+        (told,) = decode(peer.recv(1000)).items
+    assert told.port == "refused"
+    assert "more after </t> - write each message in a line of its own" in told.text
+    (record,) = caplog.records
+    assert "skipped a line of 127.0.0.1" in record.message
 
 
 def test_peers_that_come_again_and_again_do_not_fill_the_log(links, caplog):
