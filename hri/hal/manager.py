@@ -25,6 +25,7 @@ from hri.hal.resource import ORIGIN, Description, Resource
 log = logging.getLogger("hri.resources")
 
 R = TypeVar("R", bound=Resource)
+T = TypeVar("T")
 
 
 class ResourceManager:
@@ -51,6 +52,7 @@ class ResourceManager:
         self._open: list[Resource] = []
         """In the order they were opened, so that what others use closes after them."""
         self._stand_ins: dict[str, str] = {}
+        self._shared: dict[tuple[type, tuple[str, ...]], Any] = {}
 
     @classmethod
     def load(cls, config: str | Path = "resource-config", clock: Clock | None = None) -> Self:
@@ -183,6 +185,14 @@ class ResourceManager:
             description = self.descriptions[link]
             pose = description.pose.then(pose)
         return pose
+
+    def shared(self, kind: type[T], ids: tuple[str, ...], make: Callable[[], T]) -> T:
+        """What all resources about the same ids have in common of that kind, made for the first."""
+        with self._lock:
+            if (kind, ids) not in self._shared:
+                self._shared[kind, ids] = make()
+            found: T = self._shared[kind, ids]
+            return found
 
     def stand_in_of(self, id: str) -> str | None:
         """Id of the device that stands in for this one; None when it is there itself."""

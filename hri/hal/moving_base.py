@@ -34,16 +34,16 @@ class MovingBase(SteeredBase):
 
     def set_idle_power(self, percent: float) -> Pending[None]:
         _within(percent, "idle power", least=0.0)
-        with self._lock:
+        with self._chassis.lock:
             self._refuse_closed()
             self._idle_power = percent
-            if self._run is None:
+            if self._chassis.run is None:
                 self._set_power(percent, self.manager.clock.now())
         return completed(self.manager.clock, None)
 
     def set_move_power(self, percent: float) -> Pending[None]:
         _within(percent, "move power", least=1.0)
-        with self._lock:
+        with self._chassis.lock:
             self._refuse_closed()
             self._move_power = percent
         return completed(self.manager.clock, None)
@@ -89,7 +89,7 @@ class MovingBase(SteeredBase):
 
     def halt(self, how: Stop = Stop.SMOOTH) -> Pending[None]:
         with self._stopping():
-            self._helm.let_go()
+            self._chassis.helm.let_go()
             if how is Stop.ABRUPT:
                 return self._begin(Brake())
             start = self._velocity(self.manager.clock.now())

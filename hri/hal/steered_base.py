@@ -14,15 +14,15 @@ import threading
 from abc import abstractmethod
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
-from hri.core.clock import Timer
 from hri.core.errors import HriError
 from hri.core.signals import Twist
+from hri.hal.chassis import Chassis, Run
 from hri.hal.drive import DriveSystem
 from hri.hal.emergency_stop import EmergencyStop
-from hri.hal.helm import HOLD, PROGRAM, Helm, Writer
+from hri.hal.helm import HOLD, PROGRAM, Writer
 from hri.hal.motion import (
     PERIOD,
     PROMPT,
@@ -46,20 +46,6 @@ log = logging.getLogger("hri.resources")
 FULL_POWER = 100.0
 
 
-@dataclass(eq=False)
-class _Run:
-    """A motion on its way."""
-
-    motion: Motion
-    pending: Pending[None]
-    began: float
-    due: float
-    """When its next command is sent."""
-    origin: Way
-    """What the wheels had rolled when it began."""
-    timer: Timer | None = None
-
-
 class _Here(threading.local):
     """What this thread is about."""
 
@@ -74,15 +60,16 @@ class SteeredBase(DriveSystem, EmergencyStop):
 
     def __init__(self, description: Description, manager: ResourceManager) -> None:
         super().__init__(description, manager)
-        self._helm = Helm(self.id)
-        self._run: _Run | None = None
-        self._until = math.inf
-        """When the velocity that was sent last counts no more."""
-        self._expiry: Timer | None = None
         self._here = _Here()
-        self._is_latched = False
-        self._because = ""
-        """Why it was stopped last."""
+
+    @cached_property
+    def _chassis(self) -> Chassis:
+        return self.manager.shared(Chassis, self._hardware, lambda: Chassis(self.id))
+
+    @property
+    def _hardware(self) -> tuple[str, ...]:
+        """Ids of what it moves; drives with the same ids are drives of one base."""
+        return (self.id,)
 
     def _open(self) -> None:
         self._idle_power = 0.0
@@ -91,15 +78,22 @@ class SteeredBase(DriveSystem, EmergencyStop):
     def deactivate(self) -> None:
         ended = None
         try:
-            with self._lock:
-                ended = self._forget()
+            with self._lock, self._chassis.lock:
+                if self._is_driving:
+                    ended = self._forget()
                 super().deactivate()
         finally:
             self._interrupt(ended, "the drive was closed - open it again")
 
     def _close(self) -> None:
         self._idle_power = 0.0
-        self._try_to_rest()
+        if self._is_driving:
+            self._try_to_rest()
+
+    @property
+    def _is_driving(self) -> bool:
+        """Whether no other drive of this base gave the last command."""
+        return self._chassis.driven_by in (None, self)
 
     # --- what a driver fills in ---
 
@@ -126,17 +120,17 @@ class SteeredBase(DriveSystem, EmergencyStop):
     # --- who steers ---
 
     def claim(self, writer: Writer) -> None:
-        with self._lock:
-            self._helm.claim(writer)
+        with self._chassis.lock:
+            self._chassis.helm.claim(writer)
 
     def leave(self, writer: Writer, now: float) -> None:
         self.let_go(writer, now)
-        with self._lock:
-            self._helm.leave(writer)
+        with self._chassis.lock:
+            self._chassis.helm.leave(writer)
 
     def let_go(self, writer: Writer, now: float) -> None:
-        with self._lock:
-            if self._helm.is_free_for(writer, now):
+        with self._chassis.lock:
+            if self._chassis.helm.is_free_for(writer, now):
                 self.stop(now)
 
     # --- velocities ---
@@ -147,7 +141,7 @@ class SteeredBase(DriveSystem, EmergencyStop):
         self._refuse_while_stopping()
         reason = "a velocity came in between - send none while it moves"
         with self._in_place_of_motion(reason, by, now + HOLD):
-            if self._is_latched:
+            if self._chassis.is_latched:
                 self._brake(now)
             else:
                 self._send(twist, now)
@@ -157,43 +151,42 @@ class SteeredBase(DriveSystem, EmergencyStop):
         if not self.is_active:
             return  # closing it was a stop
         with self._stopping(), self._in_place_of_motion("the drive was stopped - start it again"):
-            self._helm.let_go()
+            self._chassis.helm.let_go()
             self._brake(now)
 
     # --- the emergency stop ---
 
     @property
     def is_latched(self) -> bool:
-        return self._is_latched
+        return self._chassis.is_latched
 
     def stop_latched(self, because: str) -> None:
-        with self._lock:
-            self._is_latched, self._because = True, because
+        with self._chassis.lock:
+            self._chassis.is_latched, self._chassis.because = True, because
         self.stop(self.manager.clock.now())
 
     def unlatch(self) -> None:
-        self._is_latched = False
+        self._chassis.is_latched = False
 
     def explain(self) -> str:
-        return f"I stopped because {self._because}" if self._because else "I have not stopped"
+        because = self._chassis.because
+        return f"I stopped because {because}" if because else "I have not stopped"
 
     # --- velocities that expire ---
 
     def _expire_at(self, until: float) -> None:
         """Rest at a time, unless another command comes before it; one timer serves them all."""
-        self._until = until
-        if until < math.inf and self._expiry is None:
-            self._expiry = self.manager.clock.call_at(until, self._expire)
+        self._chassis.until = until
+        if until < math.inf and self._chassis.expiry is None:
+            self._chassis.expiry = self.manager.clock.call_at(until, self._expire)
 
     def _expire(self) -> None:
-        with self._lock:
-            self._expiry = None
-            if not self.is_active:
-                return
-            if self.manager.clock.now() < self._until:
-                self._expire_at(self._until)
-            else:
-                self._try_to_rest()
+        with self._chassis.lock:
+            self._chassis.expiry = None
+            if self.manager.clock.now() < self._chassis.until:
+                self._expire_at(self._chassis.until)
+            elif isinstance(drive := self._chassis.driven_by, SteeredBase) and drive.is_active:
+                drive._try_to_rest()
 
     # --- one motion in place of another ---
 
@@ -204,7 +197,7 @@ class SteeredBase(DriveSystem, EmergencyStop):
         reason = "another command took its place - wait for the one before"
         with self._in_place_of_motion(reason, PROGRAM):
             now = clock.now()
-            self._run = run = _Run(motion, pending, now, now, self._rolled(now))
+            self._chassis.run = run = Run(motion, pending, now, now, self._rolled(now))
             self._set_power(self._move_power, now)
             self._tick(run)
         return pending
@@ -220,11 +213,12 @@ class SteeredBase(DriveSystem, EmergencyStop):
         """
         ended = None
         try:
-            with self._lock:
+            with self._chassis.lock:
                 self._refuse_closed()
                 if by is not None:
-                    self._helm.take(by, self.manager.clock.now(), until)
+                    self._chassis.helm.take(by, self.manager.clock.now(), until)
                 ended = self._forget()
+                self._chassis.driven_by = self
                 try:
                     yield
                 except Exception:
@@ -233,24 +227,24 @@ class SteeredBase(DriveSystem, EmergencyStop):
         finally:
             self._interrupt(ended, reason)
 
-    def _interrupt(self, run: _Run | None, reason: str) -> None:
+    def _interrupt(self, run: Run | None, reason: str) -> None:
         if run is not None:
             run.pending.fail(Interrupted(f"{self.id}: {reason}"))
 
-    def _forget(self) -> _Run | None:
+    def _forget(self) -> Run | None:
         """Let no motion run and no velocity expire; the motion that ran."""
-        self._until = math.inf
-        run, self._run = self._run, None
+        self._chassis.until = math.inf
+        run, self._chassis.run = self._chassis.run, None
         if run is not None and run.timer is not None:
             run.timer.cancel()
         return run
 
     def _abandon(self, pending: Pending[None]) -> None:
         """Brake when the motion of that call still is the one that runs."""
-        with self._lock:
-            if self._run is not None and self._run.pending is pending:
+        with self._chassis.lock:
+            if self._chassis.run is not None and self._chassis.run.pending is pending:
                 self._forget()
-                self._helm.let_go()
+                self._chassis.helm.let_go()
                 self._brake(self.manager.clock.now())
 
     @contextmanager
@@ -272,11 +266,11 @@ class SteeredBase(DriveSystem, EmergencyStop):
 
     # --- the timer ---
 
-    def _tick(self, run: _Run) -> None:
+    def _tick(self, run: Run) -> None:
         """Say the next command of a motion, unless something else has taken its place."""
         try:
-            with self._lock:
-                if self._run is not run or self._step(run):
+            with self._chassis.lock:
+                if self._chassis.run is not run or self._step(run):
                     return
                 self._end()
         except Exception as error:
@@ -284,7 +278,7 @@ class SteeredBase(DriveSystem, EmergencyStop):
         else:
             run.pending.complete(None)
 
-    def _step(self, run: _Run) -> bool:
+    def _step(self, run: Run) -> bool:
         """Send a command; False when the motion is over."""
         if self.is_latched and not isinstance(run.motion, (SlowDown, Brake)):
             raise HriError(f"{self.explain()} - unlatch the base first")
@@ -297,12 +291,12 @@ class SteeredBase(DriveSystem, EmergencyStop):
         else:
             self._send(twist, now)
         if isinstance(run.motion, Ramp) and run.motion.goal == REST == twist:
-            self._helm.let_go()  # it has no end, but has nothing more to do
+            self._chassis.helm.let_go()  # it has no end, but has nothing more to do
         run.due = max(run.due + PERIOD, now)
         run.timer = self.manager.clock.call_at(run.due, lambda: self._tick(run))
         return True
 
-    def _reading(self, run: _Run, now: float) -> Reading:
+    def _reading(self, run: Run, now: float) -> Reading:
         rolled, origin = self._rolled(now), run.origin
         way = Way(rolled.linear - origin.linear, rolled.angular - origin.angular)
         return Reading(way, self._velocity(now), self.steering)
@@ -310,17 +304,17 @@ class SteeredBase(DriveSystem, EmergencyStop):
     def _end(self) -> None:
         """Let the base rest, with no motion that runs."""
         self._forget()
-        self._helm.let_go()
+        self._chassis.helm.let_go()
         now = self.manager.clock.now()
         try:
             self._brake(now)
         finally:
             self._set_power(self._idle_power, now)
 
-    def _fail(self, run: _Run, error: Exception) -> None:
+    def _fail(self, run: Run, error: Exception) -> None:
         """End a motion that cannot go on, whatever the hardware says to that."""
-        with self._lock:
-            if self._run is run:
+        with self._chassis.lock:
+            if self._chassis.run is run:
                 self._try_to_rest()
         if not isinstance(error, HriError):
             log.error("%s: a motion failed: %s", self.id, error, exc_info=error)

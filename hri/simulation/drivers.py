@@ -23,7 +23,7 @@ from hri.hal.moving_base import MovingBase
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Description
 from hri.simulation.actors import Appearance, Optics, render_people
-from hri.simulation.device import InWorld
+from hri.simulation.device import InWorld, world_id
 from hri.simulation.lens import Lens
 from hri.simulation.person import Person
 from hri.simulation.sound import RATE, Source
@@ -134,6 +134,10 @@ class SimulatedDrive(InWorld, MovingBase):
         self.max_linear, self.max_angular = limits.linear, limits.angular
         self.max_acceleration = limits.acceleration
         self.max_angular_acceleration = limits.angular_acceleration
+
+    @property
+    def _hardware(self) -> tuple[str, ...]:
+        return (world_id(self.manager, self.description.bus),)
 
     def _send(self, twist: Twist, now: float) -> None:
         self.world.command(twist, now)

@@ -16,6 +16,7 @@ from hri.core.signals import Event, Twist
 from hri.drive.behaviors import COMMAND
 from hri.drive.supervisor.bus import BaseBus
 from hri.hal.drive import DriveSystem
+from hri.hal.emergency_stop import EmergencyStop
 from hri.hal.helm import Outranked
 from hri.hal.manager import ResourceManager
 from hri.hal.pending import Interrupted
@@ -184,6 +185,77 @@ def test_what_a_network_wants_goes_before_the_motion_of_a_script(stage: Stage) -
     with pytest.raises(Interrupted, match="a velocity came in between"):
         pending.result()
     assert stage.run(0.5) == pytest.approx(0.2)
+
+
+# --- several drives of one base ---
+
+OTHER = Description("other", "Hri.SimulatedDrive", bus="world")
+
+
+@pytest.fixture
+def other(stage: Stage) -> DriveSystem:
+    """A second drive on the base of the stage."""
+    stage.resources.declare(OTHER)
+    return stage.resources.obtain("other", DriveSystem)
+
+
+def elsewhere(id: str, speed: float, rank: str = "behaviors") -> str:
+    drive = '<Parameter name="drive_id" value="other"/>'
+    return driver(id, speed, rank).replace(
+        '<Parameter name="rank"', drive + '<Parameter name="rank"'
+    )
+
+
+def test_two_networks_on_two_drives_of_one_base_are_refused_with_one_rank(
+    stage: Stage, other: DriveSystem
+) -> None:
+    stage.start("first", driver("ahead", 20))
+    with pytest.raises(HriError, match=r'"ahead" steers it already.*"back" - stop one'):
+        stage.start("second", elsewhere("back", -20))
+    assert stage.run(1.0) == pytest.approx(0.2)
+    stage.start("third", elsewhere("hand", -20, "teleop"))
+    assert stage.run(1.5) == pytest.approx(-0.2)
+    stage.context.networks.stop("third")
+    assert stage.run(1.5) == pytest.approx(0.2)
+
+
+def test_the_motion_of_one_drive_ends_that_of_another_on_the_same_base(
+    stage: Stage, other: DriveSystem
+) -> None:
+    first = stage.drive.move_delta(1.0, 0.2, 0.4)
+    stage.run(1.0)
+    second = other.move_delta(-1.0, 0.2, 0.4)
+    with pytest.raises(Interrupted, match="another command took its place"):
+        first.result()
+    assert stage.run(2.0) == pytest.approx(-0.2)
+    stage.drive.halt().wait(3)
+    assert stage.run(0.0) == 0.0
+    with pytest.raises(Interrupted, match="another command took its place"):
+        second.result()
+
+
+def test_a_velocity_that_has_expired_ends_no_later_one_of_another_drive(
+    stage: Stage, other: DriveSystem
+) -> None:
+    now = stage.clock.now()
+    stage.drive.set_velocity(Twist(0.1), now, now + 0.1)
+    other.set_velocity(Twist(0.2), now, now + 0.3)
+    stage.resources.release(stage.drive)
+    assert stage.run(0.25) > 0.1
+    assert stage.run(0.15) < 0.1
+
+
+def test_a_stop_of_one_drive_latches_its_base(stage: Stage, other: DriveSystem) -> None:
+    assert isinstance(stage.drive, EmergencyStop)
+    assert isinstance(other, EmergencyStop)
+    pending = other.move_delta(1.0, 0.2, 0.4)
+    stage.run(1.0)
+    stage.drive.stop_latched("you said stop")
+    assert pending.is_done
+    assert other.is_latched
+    with pytest.raises(HriError, match="you said stop - unlatch"):
+        other.move_delta(0.2, 0.2, 0.4).wait(1.0)
+    assert stage.run(0.5) == 0.0
 
 
 # --- what arrives at a supervisor ---

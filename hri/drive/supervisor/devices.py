@@ -80,6 +80,10 @@ class BaseDrive(OnBase, MovingBase):
         self.max_linear, self.max_angular = self._slowest.forward, self._slowest.angular
 
     @property
+    def _hardware(self) -> tuple[str, ...]:
+        return (self.description.bus,)
+
+    @property
     def _slowest(self) -> Cap:
         """What is allowed whoever comes near; a motion planned faster might lag behind and fail."""
         return within_hardware(self.bus.limits.cap(is_near=True), self.bus.fastest)
@@ -103,7 +107,7 @@ class BaseDrive(OnBase, MovingBase):
         return super().move_delta(distance, velocity, acceleration)
 
     def _send(self, twist: Twist, now: float) -> None:
-        source = Level(self._helm.rank(now))
+        source = Level(self._chassis.helm.rank(now))
         if source is not self._source and self._source is not Level.NOBODY:
             self.bus.ask(self._source, None)
         self._source = source

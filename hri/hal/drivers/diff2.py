@@ -71,6 +71,10 @@ class Diff2Drive(TwoMotors, MovingBase):
         self.max_acceleration = strongest
         self.max_angular_acceleration = strongest / (self.wheels.track / 2)
 
+    @property
+    def _hardware(self) -> tuple[str, ...]:
+        return tuple(sorted(self.description.members))
+
     def _send(self, twist: Twist, now: float) -> None:
         velocities = self.wheels.rolling(twist.linear, twist.angular)
         for motor, velocity in zip(self.motors, velocities, strict=True):
