@@ -62,7 +62,11 @@ def run(options: argparse.Namespace) -> int:
         return 0
     said = _drawn(grammar, rules, options) if options.random is not None else None
     is_part = options.rule is not None and rules[0] not in grammar.public_rules
-    tell = partial(_with_tags, grammar.alone(rules[0])) if is_part else partial(_expected, grammar)
+    tell = (
+        partial(_with_tags, grammar.with_commands(rules[:1]))
+        if is_part
+        else partial(_expected, grammar)
+    )
     is_any = False
     for sentence in said or sentences(grammar, rules, options.n):
         is_any = True

@@ -23,7 +23,7 @@ from hri.speech.grammar.expressions import (
 )
 from hri.speech.grammar.finding import SEVERITIES, Finding, hint, warning
 from hri.speech.grammar.jsgf import NameListImport
-from hri.speech.grammar.matching import Parse, parse, parses
+from hri.speech.grammar.matching import Parse, parse
 from hri.speech.grammar.overwriting import overwritten
 from hri.speech.grammar.phrases import Phrases, Words, phrases, phrases_of_rules
 from hri.speech.grammar.rules import Grammar, Rule
@@ -87,17 +87,30 @@ def _own_rules(grammar: Grammar) -> Iterator[Rule]:
 
 
 def _broken_examples(grammar: Grammar) -> Iterator[Finding]:
-    for rule in _own_rules(grammar):
+    for rule, commands in _with_examples(grammar):
         for tag in rule.doc_tags:
-            if tag.name == "example" and not _allows(grammar, rule, tag.text):
+            if tag.name == "example" and parse(commands, tag.text, (rule.key,)) is None:
                 what = f'<{rule.key}> does not allow its example "{tag.text}"'
                 yield Finding("error", rule.place(tag.span), what, "mend the rule or the example")
 
 
-def _allows(grammar: Grammar, rule: Rule, text: str) -> bool:
-    if rule.is_public and any(found.rule == rule.key for found in parses(grammar, text)):
-        return True
-    return parse(grammar.alone(rule.key), text) is not None
+def _with_examples(grammar: Grammar) -> Iterator[tuple[Rule, Grammar]]:
+    """The rules with examples, each with a grammar in which it is a command."""
+    rules = [rule for rule in _own_rules(grammar) if rule.examples]
+    yield from ((rule, grammar) for rule in rules if rule.is_public)
+    parts = [rule for rule in rules if not rule.is_public]
+    together = grammar.with_commands({rule.key for rule in parts})
+    is_together = len(parts) > 1 and _fits(together)
+    for rule in parts:
+        yield rule, together if is_together else grammar.with_commands({rule.key})
+
+
+def _fits(grammar: Grammar) -> bool:
+    """Whether the commands can be written out side by side."""
+    try:
+        return bool(grammar.automaton)
+    except AuthoringError:
+        return False
 
 
 def _unknown_marks(grammar: Grammar) -> Iterator[Finding]:

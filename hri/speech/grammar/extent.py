@@ -15,10 +15,12 @@ from hri.speech.grammar import analysis
 from hri.speech.grammar.expressions import (
     Alternative,
     Expression,
+    Optional,
+    Repeat,
     RuleReference,
     Sequence,
+    Tagged,
     Token,
-    children,
     heard_choices,
 )
 
@@ -30,7 +32,8 @@ if TYPE_CHECKING:
 class _Rule:
     """What one rule holds by itself."""
 
-    words: int = 0
+    steps: int = 0
+    """Its words and references."""
     inside: list[str] = field(default_factory=list)
     """Rules that something follows: written out for each use."""
     last: list[str] = field(default_factory=list)
@@ -42,19 +45,21 @@ def too_large(grammar: Grammar, most: int) -> str | None:
 
     It counts the least that is written: a rule inside itself counts as nothing.
     """
-    rules = {key: _counted(rule.expression) for key, rule in grammar.rules.items()}
+    may_defer = bool(grammar.recursive_rules)
+    rules = {key: _counted(rule.expression, may_defer) for key, rule in grammar.rules.items()}
     reached = set(analysis.reachable(grammar.rules, grammar.public_rules))
     used = {name for key in reached for name in rules[key].inside}
     sizes: dict[str, int] = {}
     looked_at = 0
     for key in grammar.used_first:
         if key in used and key in reached and key not in grammar.recursive_rules:
-            ending = list(_ending(rules, key))
+            ending = list(_ending(rules, key, set()))
             looked_at += len(ending)  # each of them is an arc at least
             sizes[key] = most + 1 if looked_at > most else _size(rules, ending, sizes)
     total = 0
+    written: set[str] = set()
     for key in grammar.public_rules:
-        total += _size(rules, list(_ending(rules, key)), sizes)
+        total += _size(rules, list(_ending(rules, key, written)), sizes)
         if total > most:
             return key
     return None
@@ -62,39 +67,46 @@ def too_large(grammar: Grammar, most: int) -> str | None:
 
 def _size(rules: Mapping[str, _Rule], ending: list[str], sizes: Mapping[str, int]) -> int:
     inside = sum(sizes.get(name, 0) for key in ending for name in rules[key].inside)
-    return inside + sum(rules[key].words for key in ending)
+    return inside + sum(rules[key].steps for key in ending)
 
 
-def _ending(rules: Mapping[str, _Rule], key: str) -> Iterator[str]:
-    """A rule, and those that follow each other at its end, each once."""
-    found, pending = {key}, [key]
+def _ending(rules: Mapping[str, _Rule], key: str, found: set[str]) -> Iterator[str]:
+    """A rule, and those that follow each other at its end, without those found before."""
+    pending = [key]
     while pending:
         key = pending.pop()
-        yield key
-        new = [name for name in rules[key].last if name in rules and name not in found]
-        pending += dict.fromkeys(new)
-        found.update(new)
+        if key not in found:
+            found.add(key)
+            yield key
+            pending += [name for name in rules[key].last if name in rules and name not in found]
 
 
-def _counted(expression: Expression) -> _Rule:
+def _counted(expression: Expression, may_defer: bool) -> _Rule:
     rule = _Rule()
-    _count(expression, rule, is_last=True)
+    _count(expression, rule, True, may_defer)
     return rule
 
 
-def _count(node: Expression, rule: _Rule, is_last: bool) -> None:
+def _count(node: Expression, rule: _Rule, is_last: bool, may_defer: bool) -> None:
+    """Add what a node holds; in a grammar with recursion the tags behind a rule may be deferred,
+    so that it is at the end all the same.
+    """
     match node:
         case Token():
-            rule.words += 1
+            rule.steps += 1
         case RuleReference(name=name):
+            rule.steps += 1
             (rule.last if is_last else rule.inside).append(name)
         case Sequence(items=(*others, last)):
             for item in others:
-                _count(item, rule, is_last=False)
-            _count(last, rule, is_last)
+                _count(item, rule, False, may_defer)
+            _count(last, rule, is_last, may_defer)
         case Alternative():
             for choice in heard_choices(node):
-                _count(choice, rule, is_last)
-        case _:
-            for child in children(node):
-                _count(child, rule, is_last)
+                _count(choice, rule, is_last, may_defer)
+        case Tagged(item=item):
+            _count(item, rule, is_last and may_defer, may_defer)
+        case Repeat(item=item):
+            _count(item, rule, False, may_defer)
+        case Optional(item=item):
+            _count(item, rule, is_last, may_defer)

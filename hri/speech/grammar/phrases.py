@@ -77,14 +77,15 @@ def _joined(first: Phrases, second: Phrases, most_words: int) -> Phrases:
         return second
     said = set(first.said & second.said & _NOTHING.said)  # Silence is never what is left out.
     is_all = first.is_all and second.is_all
+    shortest = sorted(second.said, key=len)
     for before in first.said:
-        for after in second.said:
+        for after in shortest:
             if len(before) + len(after) > most_words:
                 is_all = False
-            elif len(said) >= MOST_PHRASES:
+                break
+            if len(said) >= MOST_PHRASES:
                 return Phrases(frozenset(said), is_all=False)
-            else:
-                said.add(before + after)
+            said.add(before + after)
     return Phrases(frozenset(said), is_all)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -100,9 +100,9 @@ class Grammar:
         """Whether its header names English, or no language."""
         return not self.locale or self.locale.lower().startswith("en")
 
-    def alone(self, rule: str) -> Grammar:
-        """The same rules, with one of them, public or not, as the only command."""
-        rules = {key: replace(one, is_public=key == rule) for key, one in self.rules.items()}
+    def with_commands(self, keys: Collection[str]) -> Grammar:
+        """The same rules, with some of them, public or not, as the only commands."""
+        rules = {key: replace(rule, is_public=key in keys) for key, rule in self.rules.items()}
         return replace(self, rules=rules)
 
     def marked(self, mark: str) -> frozenset[str]:

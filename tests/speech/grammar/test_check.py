@@ -9,6 +9,7 @@ from hri.core.errors import NotAvailable
 from hri.speech.grammar import load_grammar, read_grammar
 from hri.speech.grammar.check import check
 from hri.speech.grammar.overwriting import overwritten
+from hri.speech.grammar.phrases import phrases_of_rules
 from hri.speech.pronunciation.lexicon import VARIABLE, load_lexicon
 
 HOUSE = Path(__file__).resolve().parents[3]
@@ -360,3 +361,24 @@ def test_thousands_of_alternatives_are_checked_in_a_moment(write):
     begun = time.process_time()
     check(grammar, load_lexicon())
     assert time.process_time() - begun < 5.0
+
+
+def test_thousands_of_examples_are_tried_at_once(write):
+    examples = "".join(f" * @example left {number}\n" for number in range(1500))
+    others = "".join(f"<c{number}> = other{number};\n" for number in range(300))
+    path = write(f"public <a> = go <b>;\n{others}/** A side.\n{examples} */\n<b> = left | right;")
+    grammar, _ = read_grammar(path)
+
+    start = time.process_time()
+    assert len([found for found in check(grammar) if found.severity == "error"]) == 1500
+    assert time.process_time() - start < 1.5
+
+
+def test_long_alternatives_of_large_rules_are_compared_at_once(write):
+    clock = " | ".join(f"hour{number % 24} minute{number}" for number in range(1400))
+    choices = " | ".join(["<b> <b>"] * 30)
+    grammar, _ = read_grammar(write(f"public <a> = {choices};\n<b> = {clock};"))
+
+    start = time.process_time()
+    assert not phrases_of_rules(grammar, 3)["a"].is_all
+    assert time.process_time() - start < 1.0

@@ -204,7 +204,10 @@ def build_arcs(grammar) -> int:
     return len(builder._arcs.sources) + builder._contexts
 
 
-@pytest.mark.parametrize("use", ["<a{}> <a{}>", "one <a{}> [two] <a{}> three", "<a{}>* <a{}>"])
+@pytest.mark.parametrize(
+    "use",
+    ["<a{}> <a{}>", "one <a{}> [two] <a{}> three", "<a{}>* <a{}>", "<a{}> {{x}} | <a{}> {{y}}"],
+)
 def test_a_small_grammar_that_explodes_is_refused_at_once(use, write):
     """Thirty rules, each twice in the one before: a billion steps."""
     rules = [f"<a{i}> = {use.format(i + 1, i + 1)};" for i in range(30)]
