@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 from typing import Any
 
@@ -24,6 +25,7 @@ from hri.robot.app import App
 from hri.speech.behaviors import Listener, Voice
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.tags import written
+from hri.speech.recognizers.typed import TypedRecognizer
 from hri.speech.tasks import hears_people
 from hri.task.context import TaskContext
 from hri.task.lane import Lane
@@ -37,6 +39,14 @@ ALWAYS = ("stop", "wake")
 SHOW_SECONDS = 4.0
 FOR_GOOD = 1e9
 QUIET_SECONDS = 60.0
+GREETINGS = ("greet", "wake")
+"""Rules that end its being quiet."""
+EXAMPLES = 5
+"""Commands that it names at once when it is asked what can be said."""
+COMPANY_SECONDS = 45.0
+"""How long after the last words somebody who is seen counts as company."""
+ALIKE = 0.5
+"""Share of letters in common, of 1, from which a typed line is like a command."""
 
 
 def authored_replies(context: TaskContext) -> Replies:
@@ -73,6 +83,8 @@ class Companion:
         self.silent_until = -math.inf
         self.last_contact = -math.inf
         self._turns: dict[str, int] = {}
+        self._named = 0
+        self._has_hinted = False
 
     @classmethod
     def of(cls, context: TaskContext) -> Companion:
@@ -87,9 +99,13 @@ class Companion:
     def reply(self, rule: str, text: str, tags: dict[str, Any]) -> None:
         """Do what the file says of this rule."""
         self.last_contact = self.context.clock.now()
+        self._has_hinted = False
         reply = self.replies.replies.get(rule)
         if reply is None or (self.is_asleep and rule not in ALWAYS):
             return
+        if rule in GREETINGS and not self.may_speak:
+            self._be_quiet(0.0)
+        may_speak = self.may_speak  # who is told to be quiet may still answer that
         if reply.feel:
             # Whoever talks is taken to be the one it attends to.
             self.emotion.feel(reply.feel, reply.intensity, people_of(self.context).attended)
@@ -104,8 +120,30 @@ class Companion:
             self.face.start(self._show, label)
         if reply.gesture:
             self.make(reply.gesture)
-        if words:
-            self.say(words)
+        if words and (may_speak or self.may_speak):
+            self.talk.start(verbs.say, words)
+
+    def puzzle(self, reason: str, text: str) -> None:
+        """Show that it did not understand somebody; the first time, say what is nearest to it.
+
+        What is typed is meant for it. A sound is as far as it was like a command in a conversation.
+        """
+        is_typed = bool(self.context.resources.opened(TypedRecognizer))
+        is_talking = self.context.clock.now() - self.last_contact < COMPANY_SECONDS
+        is_meant = reason == "not in grammar" if is_typed else reason == "low confidence"
+        if not is_meant or self.is_asleep or not (is_typed or is_talking):
+            return
+        self.face.start(self._show, "confused")
+        if not self._has_hinted:
+            self._has_hinted = True
+            nearest = self._most_like(text) if is_typed else text
+            self.say(self.replies.unasked["not_understood"].format(nearest=nearest))
+
+    def _most_like(self, text: str) -> str:
+        """The example of a command that is most like a text; else the question for all of them."""
+        examples = self._examples()
+        near = difflib.get_close_matches(text, examples, n=1, cutoff=ALIKE)
+        return near[0] if near else next((one for one in examples if "can i say" in one), "hello")
 
     async def _perform(self, context: TaskContext, task: TaskType, tags: dict[str, Any]) -> None:
         """Run a task of the app with the tags it takes; a text that it returns is said."""
@@ -119,8 +157,13 @@ class Companion:
 
     def say(self, words: str) -> None:
         """Say it, in place of what is being said; nothing while it was told to be quiet."""
-        if self.context.clock.now() >= self.silent_until:
+        if self.may_speak:
             self.talk.start(verbs.say, words)
+
+    @property
+    def may_speak(self) -> bool:
+        """Whether nobody told it to be quiet just now."""
+        return self.context.clock.now() >= self.silent_until
 
     def _words(self, rule: str, reply: Reply, text: str, tags: dict[str, Any]) -> str:
         if not reply.say:
@@ -145,14 +188,18 @@ class Companion:
         return battery.level(self.context.clock.now()) if battery else 1.0
 
     def _commands(self) -> str:
-        """One example for each of some rules."""
+        """Examples of some commands, own ones first; further ones each time it is asked."""
+        examples = self._examples()
+        first = self._named % max(1, len(examples))
+        self._named = first + EXAMPLES if first + EXAMPLES < len(examples) else 0
+        return ", ".join(examples[first : first + EXAMPLES])
+
+    def _examples(self) -> list[str]:
+        """One sentence for each command, those of the app's own grammar first."""
         grammar: Grammar = self.listener.loaded_grammar
-        examples = [
-            next(iter(grammar.sentences_of(rule, 1)), "")
-            for rule in ("greet", "move", "turn", "show", "stop")
-            if rule in grammar.public_rules
-        ]
-        return ", ".join(example for example in examples if example)
+        rules = [rule for rule in grammar.public_rules if rule not in grammar.marked("answer")]
+        rules.sort(key=lambda rule: grammar.rules[rule].path != grammar.path)
+        return [example for rule in rules if (example := _example(grammar, rule))]
 
     # --- actions, named as in replies.toml; what one returns is said in place of the reply ---
 
@@ -201,7 +248,12 @@ class Companion:
     def _quiet(self, tags: dict[str, Any]) -> None:
         self.talk.stop()
         self.voice.hush()
-        self.silent_until = self.context.clock.now() + QUIET_SECONDS
+        self._be_quiet(QUIET_SECONDS)
+
+    def _be_quiet(self, seconds: float) -> None:
+        """Say nothing for so long, and show that it listens."""
+        self.silent_until = self.context.clock.now() + seconds
+        self._settle()
 
     def _sleep(self, tags: dict[str, Any]) -> None:
         self.is_asleep = True
@@ -210,7 +262,6 @@ class Companion:
 
     def _wake(self, tags: dict[str, Any]) -> None:
         self.is_asleep = False
-        self.silent_until = -math.inf
         self._settle()
 
     def _eyes(self, tags: dict[str, Any]) -> None:
@@ -227,9 +278,15 @@ class Companion:
     # --- what the face shows ---
 
     def _settle(self) -> None:
-        """Show shut eyes for as long as it sleeps or does not watch, else what it feels."""
+        """Show shut eyes while it sleeps or does not watch, that it listens while it is quiet.
+
+        Else it shows what it feels.
+        """
         if self.is_asleep or not self.camera.is_on:
             self.face.start(verbs.show, "asleep", FOR_GOOD)
+        elif not self.may_speak:
+            quiet_for = self.silent_until - self.context.clock.now()
+            self.face.start(verbs.show, "listening", quiet_for)
         else:
             self.face.stop()
 
@@ -257,3 +314,9 @@ class Companion:
     def is_calm(self) -> bool:
         """Nobody talks and nothing moves."""
         return not (self.talk.is_busy or self.motion.is_busy or self.listener.is_hearing.value)
+
+
+def _example(grammar: Grammar, rule: str) -> str:
+    """What its comment gives as an example, else its first sentence."""
+    given = grammar.rules[rule].examples
+    return given[0] if given else next(iter(grammar.sentences_of(rule, 1)), "")

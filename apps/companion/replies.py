@@ -4,22 +4,19 @@ from __future__ import annotations
 
 import re
 import string
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from inspect import Parameter
 from pathlib import Path
-from typing import TypeVar
 
-from hri.core.errors import AuthoringError, AuthoringErrors, HriError, did_you_mean
+from hri.core.errors import AuthoringError, HriError, Mistakes, did_you_mean
 from hri.core.events import OWN_SUBJECTS
 from hri.core.toml import Table, load_toml
 from hri.robot.app import App
 from hri.speech.grammar import Grammar
 from hri.speech.grammar.giving import sure_tags
 from hri.task.task import TaskType
-
-T = TypeVar("T")
 
 FILE = "replies.toml"
 ACTIONS = ("move", "turn", "come", "follow", "stop", "release", "quiet", "eyes", "sleep", "wake")
@@ -85,6 +82,8 @@ class Vocabulary:
 
 
 UNASKED = ("blocked", "bump", "battery_low", "nobody", "waiting", "no_stop")
+USUALLY_UNASKED = {"not_understood": "I did not understand. I know: {nearest}."}
+"""What need not be written."""
 
 
 def load_replies(files: Sequence[Path], vocabulary: Vocabulary) -> Replies:
@@ -95,7 +94,7 @@ def load_replies(files: Sequence[Path], vocabulary: Vocabulary) -> Replies:
     mistakes = Mistakes()
     own = vocabulary.app.folder / FILE
     tables = [load_toml(path, "file of replies") for path in files]
-    found = Replies()
+    found = Replies(unasked=USUALLY_UNASKED)
     for table in tables:
         found = _joined(found, _read(table, vocabulary, mistakes, is_own=table.path == own))
     # Where the app has no replies of its own, it is there that some are missing.
@@ -150,31 +149,6 @@ def _refuse_gaps(found: Replies, table: Table, vocabulary: Vocabulary, mistakes:
             )
 
 
-class Mistakes:
-    """All mistakes of a file: what has one is left out, and reading goes on behind it."""
-
-    def __init__(self) -> None:
-        self._errors: list[AuthoringError] = []
-
-    def keep(self, read: Callable[[], T]) -> T | None:
-        """What was read; None when there was a mistake in it."""
-        try:
-            return read()
-        except AuthoringError as error:
-            self.add(error)
-            return None
-
-    def add(self, error: AuthoringError) -> None:
-        self._errors.append(error)
-
-    def tell(self) -> None:
-        """Raise what was found."""
-        if len(self._errors) > 1:
-            raise AuthoringErrors(self._errors)
-        for error in self._errors:
-            raise error
-
-
 def _unanswered(table: Table, missing: Sequence[str]) -> AuthoringError:
     rules = f"rule{'s' * (len(missing) > 1)} {', '.join(f'<{rule}>' for rule in missing)}"
     each = " for each" * (len(missing) > 1)
@@ -183,8 +157,12 @@ def _unanswered(table: Table, missing: Sequence[str]) -> AuthoringError:
 
 
 def _unasked(spoken: Table) -> dict[str, str]:
-    unasked = {key: spoken.string(key) for key in UNASKED if key in spoken}
-    spoken.finish()
+    known = (*UNASKED, *USUALLY_UNASKED)
+    unasked = {key: spoken.string(key) for key in known if key in spoken}
+    for key in set(spoken.keys()) - set(known):
+        raise spoken.error(key, f'unknown key "{key}"', did_you_mean(key, known))
+    if "not_understood" in unasked:
+        _check_braces(spoken, unasked["not_understood"], ["nearest"], "not_understood")
     return unasked
 
 
@@ -192,7 +170,7 @@ def _reply(rule: str, entry: Table, vocabulary: Vocabulary) -> Reply:
     say = entry.data.get("say")
     texts = entry.strings("say") if isinstance(say, list) else [entry.string("say", "")]
     for text in texts:
-        _check_braces(entry, text, vocabulary.grammar.tag_names())
+        _check_braces(entry, text, (*FILLED_IN, *vocabulary.grammar.tag_names()))
     show = entry.string("show", "")
     if show and not show.startswith("{") and show not in vocabulary.expressions:
         remedy = did_you_mean(show, sorted(vocabulary.expressions))
@@ -264,12 +242,11 @@ def _question(entry: Table) -> Question:
     return question
 
 
-def _check_braces(entry: Table, text: str, tags: Collection[str]) -> None:
-    known = (*FILLED_IN, *tags)
+def _check_braces(entry: Table, text: str, known: Collection[str], key: str = "say") -> None:
     try:
         names = [field for _, field, _, _ in string.Formatter().parse(text) if field is not None]
     except ValueError as error:
-        raise entry.error("say", f"{error}", "close every {brace}") from error
+        raise entry.error(key, f"{error}", "close every {brace}") from error
     for name in names:
         if name not in known:
-            raise entry.error("say", f"nothing fills in {{{name}}}", did_you_mean(name, known))
+            raise entry.error(key, f"nothing fills in {{{name}}}", did_you_mean(name, known))

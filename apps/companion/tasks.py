@@ -27,14 +27,12 @@ from hri.robot import verbs
 from hri.robot.app import App
 from hri.task.context import TaskContext
 
-from .companion import Companion, authored_replies, vocabulary_of
+from .companion import COMPANY_SECONDS, Companion, authored_replies, vocabulary_of
 from .replies import FILE, Question, Replies, load_replies
 
 FIRST_QUESTION = 7.0
 """Seconds of calm after a conversation before it asks a question of its own."""
 BETWEEN_QUESTIONS = 40.0
-COMPANY_SECONDS = 45.0
-"""How long after the last words somebody who is seen counts as company."""
 UNSEEN_SECONDS = 20.0
 """The same for somebody who is not seen."""
 LOOK_EVERY = 1.0
@@ -91,11 +89,15 @@ async def take_saved_replies(context: TaskContext) -> None:
 
 
 async def converse(context: TaskContext) -> None:
-    """Reply to everything that is heard."""
+    """Reply to everything that is heard, and show what is not understood."""
     companion = Companion.of(context)
-    with context.queue("speech.heard") as queue:
+    with context.queue("speech.heard", "speech.rejected") as queue:
         while True:
-            heard = (await queue.get()).properties
+            event = await queue.get()
+            heard = event.properties
+            if event.name == "speech.rejected":
+                companion.puzzle(heard["reason"], heard["text"])
+                continue
             try:
                 companion.reply(heard["rule"], heard["text"], dict(heard["tags"]))
             except (LookupError, ValueError, TypeError) as error:

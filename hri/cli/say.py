@@ -30,6 +30,7 @@ from hri.hal.resource import Description
 from hri.speech.synthesizers.espeak import FASTEST, LONGEST_TEXT, SLOWEST
 from hri.speech.synthesizers.espeak_library import Setting
 
+STANDARD_OUTPUT = Path("-")
 PATIENCE = 2.0
 """Seconds beyond the length of the speech after which a speaker is given up."""
 FRAMES = 30
@@ -66,10 +67,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--emotion", metavar="E", help=f"how it sounds: neutral, {', '.join(NAMES)}, or happy, ...")
     add("--intensity", type=float, default=1.0, metavar="X", help="of the emotion, 0 to 1")
     add("--wav", type=Path, metavar="FILE", help="write the sound there, play nothing")
-    add("--phonemes", type=Path, metavar="FILE", help="write the times there as JSON, likewise")
+    times = 'write the times there as JSON, likewise; "-" is standard output'
+    add("--phonemes", type=Path, metavar="FILE", help=times)
     video = "write a face that says it, likewise: .mp4, .webp or .gif"
     add("--face-video", type=Path, metavar="FILE", help=video)
-    add("--visemes", type=Path, metavar="FILE", help="write the shapes of the mouth as JSON")
+    add(
+        "--visemes",
+        type=Path,
+        metavar="FILE",
+        help="write the shapes of the mouth as JSON, likewise",
+    )
     add("--face", default="robot", metavar="NAME", help="the face, from faces/ (%(default)s)")
     add("--captions", action="store_true", help="write what is said below the face")
 
@@ -95,9 +102,9 @@ def run(options: argparse.Namespace) -> int:
 def _written(speech: Speech, options: argparse.Namespace) -> bool:
     """Write the files that are asked for; whether there were any."""
     if options.phonemes is not None:
-        write_text(options.phonemes, json.dumps(times_of(speech), indent=1) + "\n")
+        _write_json(options.phonemes, times_of(speech))
     if options.visemes is not None:
-        write_text(options.visemes, json.dumps(visemes_of(speech), indent=1) + "\n")
+        _write_json(options.visemes, visemes_of(speech))
     if options.wav is not None:
         write_wav(options.wav, speech.samples, speech.rate)
     if options.face_video is not None:
@@ -106,6 +113,15 @@ def _written(speech: Speech, options: argparse.Namespace) -> bool:
         film.shoot(scene, load_face(options.face), options.face_video, options.wav)
     files = (options.phonemes, options.visemes, options.wav, options.face_video)
     return any(file is not None for file in files)
+
+
+def _write_json(path: Path, what: Mapping[str, Any]) -> None:
+    """Write an object to a file, or to standard output for "-"."""
+    text = json.dumps(what, indent=1) + "\n"
+    if path == STANDARD_OUTPUT:
+        sys.stdout.write(text)
+    else:
+        write_text(path, text)
 
 
 def check(options: argparse.Namespace) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
@@ -11,6 +11,7 @@ from typing import TypeVar
 from hri.core.quoting import message_line
 
 E = TypeVar("E", bound=BaseException)
+T = TypeVar("T")
 
 
 class HriError(Exception):
@@ -58,6 +59,33 @@ class AuthoringErrors(AuthoringError):
 
     def __str__(self) -> str:
         return "\n".join(map(str, self.errors))
+
+
+class Mistakes:
+    """All mistakes of a file: what has one is left out, and reading goes on behind it."""
+
+    def __init__(self) -> None:
+        self.errors: list[AuthoringError] = []
+
+    def keep(self, read: Callable[[], T]) -> T | None:
+        """What was read; None when there was a mistake in it."""
+        try:
+            return read()
+        except AuthoringErrors as several:
+            self.errors += several.errors
+        except AuthoringError as error:
+            self.errors.append(error)
+        return None
+
+    def add(self, error: AuthoringError) -> None:
+        self.errors.append(error)
+
+    def tell(self) -> None:
+        """Raise what was found: AuthoringError, or AuthoringErrors for several."""
+        if len(self.errors) > 1:
+            raise AuthoringErrors(self.errors)
+        for error in self.errors:
+            raise error
 
 
 def did_you_mean(word: str, known: Iterable[str], otherwise: str = "") -> str:

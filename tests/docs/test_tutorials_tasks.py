@@ -164,6 +164,13 @@ def test_move_relative_takes_a_heading_and_then_an_array(world, clock):
     assert clock.now() == pytest.approx((math.pi / 2 / 1.0 + 1.0) + (30 / 15 + 15 / 30), abs=0.6)
 
 
+def test_echo_ends_on_ctrl_d(monkeypatch, capsys):
+    _, program = load(monkeypatch, "python-02-parallel", "echo.py")
+    monkeypatch.setattr("sys.stdin", io.StringIO(""))
+    program.main()
+    assert capsys.readouterr().err == ""
+
+
 @pytest.mark.proves("T08", "T26", "E10")
 def test_echo_speaks_short_lines_and_cuts_long_ones(monkeypatch, capsys, heard):
     tutorial, program = load(monkeypatch, "python-02-parallel", "echo.py")

@@ -1,9 +1,12 @@
 """`hri face check` tells what is likely a slip, where it is, and what to do."""
 
+import shutil
 from pathlib import Path
 
 import pytest
 
+from hri.cli.main import main
+from hri.core import paths
 from hri.face import load_face
 from hri.face.checking import Finding, findings
 from tests.face.small_face import write_face, write_target
@@ -94,3 +97,20 @@ def test_patterns_of_the_head_that_fit_nothing_are_told(folder: Path) -> None:
     change(folder / "face.toml", 'still = ["neck"]', 'still = ["nekc"]')
     finding = told(folder, '"nekc" fits no part')
     assert 'did you mean "neck"' in finding.remedy
+
+
+def test_everything_that_is_wrong_is_told_at_once(tmp_path, capsys):
+    folder = tmp_path / "eyes"
+    shutil.copytree(paths.find("faces", "eyes"), folder)
+    toml = folder / "face.toml"
+    text = toml.read_text().replace("roll_degrees", "rol_degrees")
+    toml.write_text(text.replace("rate_per_minute = ", "rate_per_minute = 6", 1).replace(
+        "[expressions.sad]\n", "[expressions.sad]\nbrowUp = 1.0\n", 1
+    ))  # fmt: skip
+    for name in ("rage", "tear"):
+        (folder / "targets" / f"{name}.svg").write_text("<svg")
+    assert main(["face", "check", str(folder)]) == 2
+    told = capsys.readouterr().err.splitlines()
+    assert len(told) == 5
+    wrong = ("browUp", "rate_per_minute", "rol_degrees", "rage.svg", "tear.svg")
+    assert all(any(name in line for line in told) for name in wrong)

@@ -138,3 +138,10 @@ def test_a_language_nobody_speaks_is_told(language, remedy, capsys):
 def test_what_is_too_long_to_be_said_is_told(tmp_path, capsys):
     assert main(["say", "a" + " " * 5000, "--wav", str(tmp_path / "a.wav")]) == 0
     assert "only the first 5000 characters of 5001 are said" in capsys.readouterr().err
+
+
+def test_the_times_go_to_standard_output_for_a_dash(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["say", "Hello.", "--phonemes", "-"]) == 0
+    assert json.loads(capsys.readouterr().out)["text"] == "Hello."
+    assert list(tmp_path.iterdir()) == []

@@ -1,5 +1,7 @@
 """Speak what is typed, for a second at most."""
 
+from contextlib import suppress
+
 from hri.task import Parallel, get_task_manager
 from hri.task.speech import Speak
 from hri.task.util import Wait
@@ -16,13 +18,14 @@ def echo(text: str) -> bool:
 
 
 def main() -> None:
-    """Echo line after line, until an empty one."""
+    """Echo line after line, until an empty one or Ctrl-D."""
     print("The text-to-speech echo system is ready.")
     print("Type a line of text and it will be spoken.")
     print("Press ENTER on an empty line to quit.")
-    while text := input("Text to speak: "):
-        if not echo(text):
-            print("(Oops, that took too long!)")
+    with suppress(EOFError):  # Ctrl-D
+        while text := input("Text to speak: "):
+            if not echo(text):
+                print("(Oops, that took too long!)")
     get_task_manager().shutdown()
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 
 from hri.core import paths
 from hri.core.quoting import message_line
@@ -16,10 +17,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Exit status 1 when there is something to warn of; what is wrong raises an error."""
+    """Exit status 1 when there is something to warn of, 2 when the face cannot be loaded."""
     from hri.face.checking import findings
+    from hri.face.mistakes import mistakes
 
     folder = paths.find("faces", options.face)
+    if wrong := mistakes(folder):
+        for error in wrong:
+            print(error, file=sys.stderr)
+        return 2
     model = load_face(folder)
     load_gestures(model)
     found = findings(model, folder)

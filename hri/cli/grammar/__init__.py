@@ -12,13 +12,14 @@ import importlib
 import sys
 
 from hri.cli.messages import OptionParser
-from hri.core.errors import AuthoringError
+from hri.core.errors import AuthoringError, AuthoringErrors, HriError
 
 COMMANDS = {
     "check": "say what is wrong and what is heard badly",
     "parse": "say what a sentence means",
     "expand": "list, draw or count the sentences that are understood",
     "test": "try a file of sentences, or recordings, that should be understood",
+    "watch": "check a grammar, and test it, each time it is saved",
     "listen": "hear with a grammar: a microphone, recordings or typed lines",
     "confuse": "find sentences of different meaning that sound alike",
     "pronounce": "tell and mend how words are said",
@@ -56,12 +57,17 @@ def run(options: argparse.Namespace) -> int:
     try:
         status: int = module.run(given)
     except AuthoringError as error:
-        print(_with_its_line(error), file=sys.stderr)
+        print(explained(error), file=sys.stderr)
         return 2
     return status
 
 
-def _with_its_line(error: AuthoringError) -> str:
+def explained(error: HriError) -> str:
+    """The error; each mistake in a file with the line it is in."""
     from hri.cli.grammar.excerpt import Excerpts
 
-    return f"{error}\n{Excerpts().of(error.place)}".rstrip()
+    if not isinstance(error, AuthoringError):
+        return str(error)
+    errors = error.errors if isinstance(error, AuthoringErrors) else [error]
+    excerpts = Excerpts()
+    return "\n".join(f"{one}\n{excerpts.of(one.place)}".rstrip() for one in errors)

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 from pathlib import Path
 
+from hri.cli.grammar import explained
 from hri.cli.grammar.arguments import share
 from hri.cli.grammar.clips import read_manifest
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
 from hri.cli.progress import progress
 from hri.core import paths
-from hri.core.errors import HriError
+from hri.core.errors import HriError, Mistakes
 from hri.core.quoting import message_line
 from hri.core.statistics import told
-from hri.speech.grammar import Grammar, load_grammar
+from hri.speech.grammar import Grammar, analysis, read_grammar
 from hri.speech.grammar.expectations import Failure, failures, meaning_of, read_expectations
 from hri.speech.judgement import STRICTNESS
 from hri.speech.trials import Attempt, attempt, confusions, score
@@ -50,15 +52,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     if not options.files and options.audio is None:
         raise HriError("nothing to test - name a file of sentences, or --audio MANIFEST.tsv")
-    statuses = [_try_sentences(path, options) for path in options.files]
+    statuses = [_tried(path, options) for path in options.files]
     if options.audio is not None:
         statuses.append(_try_recordings(options))
     return max(statuses)
 
 
+def _tried(path: Path, options: argparse.Namespace) -> int:
+    """Try a file; a wrong one does not keep the others from being tried."""
+    if len(options.files) == 1:
+        return _try_sentences(path, options)
+    try:
+        return _try_sentences(path, options)
+    except HriError as error:
+        print(explained(error), file=sys.stderr)
+        return 2
+
+
 def _try_sentences(path: Path, options: argparse.Namespace) -> int:
     expectations = read_expectations(path)
-    grammar = load_grammar(_grammar_of(path, options.grammar or expectations.grammar))
+    grammar = _loaded(_grammar_of(path, options.grammar or expectations.grammar))
     failed = failures(grammar, expectations)
     count = len(expectations.lines)
     if options.json:
@@ -68,6 +81,16 @@ def _try_sentences(path: Path, options: argparse.Namespace) -> int:
             print(message_line(str(failure)))
         print(f"{path}: {count - len(failed)} of {count} sentences as expected")
     return 1 if failed else 0
+
+
+def _loaded(path: Path) -> Grammar:
+    """The grammar. Raises AuthoringError; AuthoringErrors when there are several mistakes in it."""
+    grammar, errors = read_grammar(path)
+    mistakes = Mistakes()
+    for error in errors or analysis.errors(grammar):
+        mistakes.add(error)
+    mistakes.tell()
+    return grammar
 
 
 def _grammar_of(path: Path, named: str) -> Path:
@@ -101,7 +124,7 @@ def _as_json(path: Path, count: int, failed: list[Failure]) -> dict[str, object]
 
 
 def _try_recordings(options: argparse.Namespace) -> int:
-    grammar = load_grammar(_grammar_of(options.audio, options.grammar or ""))
+    grammar = _loaded(_grammar_of(options.audio, options.grammar or ""))
     rows = read_manifest(options.audio, grammar)
     with started_engine(options, grammar) as engine:
         heard = [

@@ -20,9 +20,10 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
-from hri.core.errors import AuthoringError, Place
+from hri.core.errors import AuthoringError, Mistakes, Place
 from hri.core.reading import read_text
 from hri.speech.grammar.matching import Parse, parse, refusal
 from hri.speech.grammar.rules import Grammar
@@ -141,9 +142,10 @@ def _how_far(grammar: Grammar, sentence: str) -> str:
 def read_expectations(path: Path) -> Expectations:
     """The expectations of a file.
 
-    Raises AuthoringError for the first line that cannot be read, for a file without a sentence and
-    for a grammar; HriError when it cannot be read.
+    Raises AuthoringError for a line that cannot be read (AuthoringErrors for several), for a file
+    without a sentence and for a grammar; HriError when it cannot be read.
     """
+    mistakes = Mistakes()
     grammar = ""
     lines: list[Expectation] = []
     text = read_text(path, "file of expectations")
@@ -156,9 +158,10 @@ def read_expectations(path: Path) -> Expectations:
         if line.startswith("//") or not line:
             continue
         if line.split()[0] == "grammar" and not lines and not grammar:
-            grammar = _grammar_of(line, place)
-        else:
-            lines.append(_expectation(line, place))
+            grammar = mistakes.keep(partial(_grammar_of, line, place)) or ""
+        elif (read := mistakes.keep(partial(_expectation, line, place))) is not None:
+            lines.append(read)
+    mistakes.tell()
     if not lines:
         raise AuthoringError(Place(path), "no sentence in this file", "write one: + hello robot")
     return Expectations(path, grammar, tuple(lines))

@@ -17,6 +17,7 @@ import difflib
 import itertools
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 from hri.speech.grammar.automaton import (
@@ -30,6 +31,7 @@ from hri.speech.grammar.automaton import (
     Leave,
 )
 from hri.speech.grammar.numerals import in_words
+from hri.speech.grammar.spellings import contracted_forms, spellings
 from hri.speech.grammar.tags import TagEntry, Value, are_same, evaluate
 from hri.speech.grammar.words import normalize
 
@@ -135,13 +137,10 @@ def refusal(grammar: Grammar, text: str) -> Refusal | None:
 
     Raises AuthoringError where `Grammar.automaton` does.
     """
-    words = normalize(text)[: MOST_WORDS + 1]
-    state, position = grammar.matcher.begin(), 0
-    for word in words:
-        step = state.step(word)
-        if step is None:
-            break
-        state, position = step.state, position + 1
+    forms = grammar.matcher.forms(normalize(text)[: MOST_WORDS + 1])
+    words, state, position = max(
+        (grammar.matcher.followed(words) for words in forms), key=lambda way: way[2]
+    )
     if position == len(words) <= MOST_WORDS and state.is_final and words:
         return None
     word = words[position] if position < len(words) else ""
@@ -269,8 +268,38 @@ class Matcher:
             known = self._leaving[node] = (silent, table)
         return known
 
+    @cached_property
+    def _contracted(self) -> dict[str, str]:
+        return contracted_forms(self.words)
+
+    def forms(self, words: list[str]) -> Iterator[list[str]]:
+        """A text as it stands, then what else it may stand for: "2" is "two"."""
+        yield words
+        yield from spellings(words, self.words, self._contracted)
+
+    def followed(self, words: list[str]) -> tuple[list[str], State, int]:
+        """The words, where they lead, and how many of them fit."""
+        state, position = self.begin(), 0
+        for word in words:
+            step = state.step(word)
+            if step is None:
+                break
+            state, position = step.state, position + 1
+        return words, state, position
+
     def readings(self, words: list[str], rules: Collection[str] | None = None) -> Iterator[Parse]:
-        """What a sentence means, reading by reading; each way of taking tags and rules once."""
+        """What a sentence means, reading by reading; each way of taking tags and rules once.
+
+        The first of its forms that means something is all that counts.
+        """
+        for form in self.forms(words):
+            found = self._readings(form, rules)
+            if (first := next(found, None)) is not None:
+                yield first
+                yield from found
+                return
+
+    def _readings(self, words: list[str], rules: Collection[str] | None) -> Iterator[Parse]:
         ways = self._ways(words)
         if ways is None:
             return

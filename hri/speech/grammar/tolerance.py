@@ -118,8 +118,9 @@ def nearest(
     exact = parse(grammar, text, rules)
     if exact is not None:
         return Tolerant(exact)
-    words = normalize(text)
-    if not 0 < len(words) <= MOST_WORDS or not _may_be_forgiven(grammar, words):
+    forms = grammar.matcher.forms(normalize(text))
+    words = next((words for words in forms if _may_be_forgiven(grammar, words)), [])
+    if not 0 < len(words) <= MOST_WORDS:
         return None
     for trace in _cheapest_first(words, grammar.matcher.begin(), most):
         steps = _unwound(trace)
