@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import difflib
 import math
+from collections.abc import Callable
+from string import Formatter
 from typing import Any
 
 from hri.core import paths
@@ -41,8 +43,8 @@ FOR_GOOD = 1e9
 QUIET_SECONDS = 60.0
 GREETINGS = ("greet", "wake")
 """Rules that end its being quiet."""
-EXAMPLES = 5
-"""Commands that it names at once when it is asked what can be said."""
+EXAMPLES = 4
+"""Commands that it names at once when it is asked what can be said, and how to stop it."""
 COMPANY_SECONDS = 45.0
 """How long after the last words somebody who is seen counts as company."""
 ALIKE = 0.5
@@ -142,8 +144,8 @@ class Companion:
     def _most_like(self, text: str) -> str:
         """The example of a command that is most like a text; else the question for all of them."""
         examples = self._examples()
-        near = difflib.get_close_matches(text, examples, n=1, cutoff=ALIKE)
-        return near[0] if near else next((one for one in examples if "can i say" in one), "hello")
+        near = difflib.get_close_matches(text, examples.values(), n=1, cutoff=ALIKE)
+        return near[0] if near else examples.get("help", next(iter(examples.values()), ""))
 
     async def _perform(self, context: TaskContext, task: TaskType, tags: dict[str, Any]) -> None:
         """Run a task of the app with the tags it takes; a text that it returns is said."""
@@ -170,36 +172,41 @@ class Companion:
             return ""
         turn = self._turns[rule] = self._turns.get(rule, -1) + 1
         template = reply.say[turn % len(reply.say)]
-        facts = {
-            "text": text,
-            "name": self.replies.name,
-            "time": f"{self.context.clock.wall():%H:%M}",
-            "battery": round(100 * self._battery()),
-            "why": self.emotion.why_words(str(tags.get("emotion", ""))),
-            "feeling": self.emotion.feeling_words(),
-            "why_stopped": self.guard.explain() or self.replies.unasked["no_stop"],
-            "commands": self._commands(),
+        facts: dict[str, Callable[[], object]] = {
+            "text": lambda: text,
+            "name": lambda: self.replies.name,
+            "time": lambda: f"{self.context.clock.wall():%H:%M}",
+            "battery": lambda: round(100 * self._battery()),
+            "why": lambda: self.emotion.why_words(str(tags.get("emotion", ""))),
+            "feeling": self.emotion.feeling_words,
+            "why_stopped": lambda: self.guard.explain() or self.replies.unasked["no_stop"],
+            "commands": self._commands,
         }
-        values = {key: written(value) for key, value in tags.items()}
-        return template.format(**values, **facts)
+        values: dict[str, object] = {key: written(value) for key, value in tags.items()}
+        # Only what is filled in is asked for: commands are named in turns.
+        fields = {field for _, field, _, _ in Formatter().parse(template) if field}
+        values.update((field, facts[field]()) for field in fields & facts.keys())
+        return template.format_map(values)
 
     def _battery(self) -> float:
         battery = self.context.resources.find(Battery)
         return battery.level(self.context.clock.now()) if battery else 1.0
 
     def _commands(self) -> str:
-        """Examples of some commands, own ones first; further ones each time it is asked."""
+        """Examples of some commands, own ones first and others each time; the last one stops it."""
         examples = self._examples()
-        first = self._named % max(1, len(examples))
-        self._named = first + EXAMPLES if first + EXAMPLES < len(examples) else 0
-        return ", ".join(examples[first : first + EXAMPLES])
+        stops = [example for rule, example in examples.items() if rule == "stop"]
+        others = [example for rule, example in examples.items() if rule != "stop"]
+        first = self._named if self._named < len(others) else 0
+        self._named = first + EXAMPLES
+        return ", ".join(others[first : first + EXAMPLES] + stops)
 
-    def _examples(self) -> list[str]:
-        """One sentence for each command, those of the app's own grammar first."""
+    def _examples(self) -> dict[str, str]:
+        """One sentence for each command by its rule, those of the app's own grammar first."""
         grammar: Grammar = self.listener.loaded_grammar
         rules = [rule for rule in grammar.public_rules if rule not in grammar.marked("answer")]
         rules.sort(key=lambda rule: grammar.rules[rule].path != grammar.path)
-        return [example for rule in rules if (example := _example(grammar, rule))]
+        return {rule: example for rule in rules if (example := _example(grammar, rule))}
 
     # --- actions, named as in replies.toml; what one returns is said in place of the reply ---
 

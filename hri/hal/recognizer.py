@@ -87,6 +87,9 @@ class Recognizer(Resource):
     def listen(self, samples: Samples, end: float) -> list[Segment]:
         """Take the sound up to time `end`; the pieces of speech that ended in it."""
 
+    def mind(self, is_speaking: bool, now: float) -> None:
+        """Told whether the robot speaks, before each `listen`; for those whose pieces can wait."""
+
     @abstractmethod
     def flush(self) -> list[Segment]:
         """The piece of speech that is still open, at the end of all sound."""

@@ -196,6 +196,7 @@ class Robot:
         if self._finished.is_set():
             raise RuntimeError("this robot has lived - make a new one")
         script.enter(self.tasks)
+        script.print_what_nobody_hears(self.context)
         try:
             self.tasks.thread = LoopThread(self.clock, "robot", self._live_in_thread)
             self.tasks.thread.start()

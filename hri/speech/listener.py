@@ -200,6 +200,7 @@ class Listener(Behavior):
         samples = self._without_own_voice(heard, now)
         is_deaf = self.is_muted or bool(self.push_to_talk.sources and not self.push_to_talk.value)
         was_hearing = self._recognizer.is_hearing
+        self._recognizer.mind(is_speaking, now)
         segments = self._recognizer.listen(samples[:0] if is_deaf else samples, now)
         if (self._ear.has_ended or is_deaf) and self._recognizer.is_hearing:
             segments += self._recognizer.flush()

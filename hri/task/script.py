@@ -20,7 +20,10 @@ from hri.behavior.behavior import Context
 from hri.behavior.doors import Doors
 from hri.core.clock import Clock, RealClock
 from hri.core.events import EventBus
+from hri.core.signals import Event
 from hri.hal.manager import ResourceManager
+from hri.hal.speaker import Speaker
+from hri.task.context import TaskContext
 from hri.task.manager import TaskManager
 from hri.task.thread import LoopThread
 
@@ -37,6 +40,7 @@ class _Stage:
         self._context = Context(clock, EventBus(clock), resources, doors=doors)
         self._finished = trio.Event()
         self.manager = TaskManager(self._context)
+        print_what_nobody_hears(self.manager.context)
         self._thread = LoopThread(clock, "task manager", self._run)
 
     def start(self) -> None:
@@ -84,6 +88,18 @@ def use(
     with _lock:
         _refuse_second()
         _make = partial(_started, config, clock, doors)
+
+
+def print_what_nobody_hears(context: TaskContext) -> None:
+    """Print what is said while no real speaker plays it; not on fake time, where nobody waits."""
+
+    def show(event: Event) -> None:
+        speakers = context.resources.opened(Speaker)
+        if not any(speaker.is_hardware for speaker in speakers):
+            print(f"said: {event.properties['text']}", flush=True)
+
+    if not context.clock.is_fake:
+        context.events.subscribe("speech.said", show)
 
 
 def get_task_manager() -> TaskManager:

@@ -312,7 +312,8 @@ def test_what_can_be_said_names_own_commands_first_and_then_others(put):
     told = [text for text in said(events) if text.startswith("You can say")]
     first, second = (text.partition(": ")[2].rstrip(".").split(", ") for text in told)
     assert first[0] == "tell me a joke"
-    assert len({*first, *second}) == 10
+    assert first[-1] == second[-1] == "stop"
+    assert len({*first, *second}) == 9
 
 
 def test_quiet_is_answered_and_shown_and_ends_with_a_greeting(put):
@@ -332,3 +333,20 @@ def test_quiet_is_over_after_a_minute(put):
     events = live(robot, 67, {1.0: "be quiet", 64.0: "what is your name"}, looks)
     assert said(events) == ["Okay, I am quiet.", "My name is Robin."]
     assert seen == {50.0: "listening", 63.0: ""}
+
+
+def test_typed_lines_wait_until_it_has_spoken_and_stop_does_not(put):
+    robot = robot_of(put(JOKE))
+    keyboard = robot.resources.obtain("recognizer", TypedRecognizer)
+    lines = ["what can I say", *["tell me a joke"] * 24, "what is your name"]
+    for line in lines:
+        keyboard.type_line(line, 0.0)
+    events = live(robot, 110)
+    assert len(named(events, "speech.heard")) == len(lines)
+    assert not any(event.properties["cut"] for event in named(events, "speech.finished"))
+    assert said(events)[len(lines) - 1] == "My name is Robin."
+    robot = robot_of(put(JOKE, "other"))
+    events = live(robot, 6, {1.0: "what can I say", 2.0: "tell me a joke", 2.5: "stop"})
+    rules = [(event.properties["rule"], event.time) for event in named(events, "speech.heard")]
+    assert [rule for rule, _ in rules] == ["help", "stop", "joke"]
+    assert rules[1][1] == pytest.approx(2.6, abs=0.2)

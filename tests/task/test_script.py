@@ -248,3 +248,19 @@ def test_a_script_that_waits_in_a_thread_is_told_of_the_shutdown(clock):
     manager.shutdown()
     thread.join(10)
     assert told == ["the task manager has ended"]
+
+
+def test_what_nobody_hears_is_printed_by_a_plain_script(tmp_path):
+    config = tmp_path / "silent.xml"
+    config.write_text(
+        '<Resources><Devices><Device id="speaker" type="Hri.SilentSpeaker"/>'
+        '<Device id="voice" type="Hri.EspeakVoice"/></Devices></Resources>'
+    )
+    script = (
+        "from hri.task.script import use\nfrom hri.task.speech import Speak\n"
+        f'use({str(config)!r})\nSpeak("Hi.")\n'
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=False, timeout=300
+    )
+    assert (run.stdout, run.returncode) == ("said: Hi.\n", 0), run.stderr

@@ -16,6 +16,9 @@ class DelegatingRecognizer(Recognizer):
     def start(self, grammar: Grammar) -> None:
         self.engine.start(grammar)
 
+    def mind(self, is_speaking: bool, now: float) -> None:
+        self.engine.mind(is_speaking, now)
+
     def listen(self, samples: Samples, end: float) -> list[Segment]:
         return self.engine.listen(samples, end)
 

@@ -3,10 +3,14 @@
 A line need not be a sentence to the letter: little words too many or too few are forgiven, at the
 price that `hri.speech.grammar.tolerance` puts on them. All that may be forgiven at once halves the
 confidence.
+
+Lines wait for each other and until the robot has spoken; only what a rule marked @interrupts allows
+is heard at once.
 """
 
 from __future__ import annotations
 
+import math
 import sys
 import threading
 from collections import deque
@@ -15,7 +19,11 @@ from collections.abc import Collection
 from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, Hypothesis, Recognizer, Segment
 from hri.speech.grammar import Grammar as WrittenGrammar
+from hri.speech.grammar.matching import parse
 from hri.speech.grammar.tolerance import MOST_COST, nearest
+
+REPLY_SECONDS = 1.0
+"""How long the line behind another one waits for the robot to begin to speak."""
 
 
 class TypedRecognizer(Recognizer):
@@ -28,7 +36,10 @@ class TypedRecognizer(Recognizer):
         if source not in ("code", "stdin"):
             raise self.description.error("source", f'no source "{source}"', "write code or stdin")
         self._grammar: WrittenGrammar | None = None
-        self._lines: deque[tuple[str, float | None]] = deque(maxlen=100)
+        self._lines: deque[tuple[str, float | None]] = deque()
+        self._is_speaking = False
+        self._free_at = -math.inf
+        """Seconds of the clock from which the next line may be heard."""
         if source == "stdin":
             # A daemon: nobody can end a read from a terminal.
             threading.Thread(target=self._read, daemon=True).start()
@@ -52,14 +63,35 @@ class TypedRecognizer(Recognizer):
     def start(self, grammar: Grammar) -> None:
         self._grammar = grammar if isinstance(grammar, WrittenGrammar) else None
 
+    def mind(self, is_speaking: bool, now: float) -> None:
+        if self._is_speaking and not is_speaking:
+            self._free_at = now
+        self._is_speaking = is_speaking
+
     def listen(self, samples: Samples, end: float) -> list[Segment]:
-        segments = []
-        while self._lines:
-            text, when = self._lines.popleft()
-            time = end if when is None else when
-            if text:
-                segments.append(Segment(time, time, text=text))
-        return segments
+        text, when = self._next(end)
+        if not text:
+            return []
+        self._free_at = end + REPLY_SECONDS
+        time = end if when is None else when
+        return [Segment(time, time, text=text)]
+
+    def _next(self, now: float) -> tuple[str, float | None]:
+        """The line that is heard now, and when it was typed; an empty one when all must wait."""
+        while self._lines and not self._lines[0][0]:
+            self._lines.popleft()
+        if not self._is_speaking and now >= self._free_at:
+            return self._lines.popleft() if self._lines else ("", None)
+        for line in tuple(self._lines):
+            if self._interrupts(line[0]):
+                self._lines.remove(line)
+                return line
+        return "", None
+
+    def _interrupts(self, text: str) -> bool:
+        grammar = self._grammar
+        rules = grammar.marked("interrupts") if grammar is not None else frozenset()
+        return bool(rules) and grammar is not None and parse(grammar, text, rules) is not None
 
     def flush(self) -> list[Segment]:
         return []
