@@ -45,6 +45,12 @@ SMALLEST = 20.0
 """Pixels of a face, below which a mesh is a guess."""
 
 
+FAR_SMALLER = 0.5
+"""Part of the size of a face; what is smaller is far behind it."""
+NECK_AND_CHEST = (0.5, (0.4, 1.5))
+"""Sizes of a face to each side of its middle, and from where to where below it."""
+
+
 @dataclass(frozen=True, slots=True)
 class Sight:
     """A picture, made ready to follow faces in it."""
@@ -90,6 +96,16 @@ class FollowedFace:
     def middle(self) -> tuple[float, float]:
         """Pixels."""
         return self.region.x, self.region.y
+
+    def hides(self, found: FoundFace) -> bool:
+        """Whether a face that was found is none, for this person's neck or chest is there.
+
+        One so much smaller would be behind them, where nobody can see it.
+        """
+        region, (aside, (begins, ends)) = region_of(found), NECK_AND_CHEST
+        x, y = (region.x - self.region.x) / self.breadth, (region.y - self.region.y) / self.breadth
+        is_there = abs(x) < aside and begins < y < ends
+        return is_there and region.side < FAR_SMALLER * self.region.side
 
     def follow(self, sight: Sight) -> None:
         """Move along with the points of the face."""

@@ -110,6 +110,8 @@ class PeopleTracker:
         """Numbers of each two whose faces may have been mixed up."""
         self._candidates: list[FoundFace] = []
         self._searched = -math.inf
+        self._turns = itertools.count()
+        """Of the searches, so that the finder sees the same in the same film."""
         self._attending = Attending()
 
     def _lose_all(self) -> None:
@@ -153,7 +155,8 @@ class PeopleTracker:
     def _search(self, sight: Sight) -> None:
         self._searched = sight.time
         strangers = []
-        for found in self._finder.find(sight.image):
+        turn = next(self._turns)
+        for found in self._finder.find(sight.image, turn):
             owner = self._owner(found)
             if owner is None:
                 strangers.append(found)
@@ -176,6 +179,9 @@ class PeopleTracker:
         before, self._candidates = self._candidates, strangers
         faces: list[FollowedFace] = []
         for found in strangers[:MOST]:
+            known = [*faces, *(other for _, other in self._seen())]
+            if any(other.hides(found) for other in known):
+                continue
             landmarks = None
             if self._mesh is not None:
                 landmarks = self._fitted(sight, found)
@@ -184,7 +190,6 @@ class PeopleTracker:
             elif not any(overlap(found.box, other.box) > SAME_BOX for other in before):
                 continue
             face = FollowedFace(sight, found, landmarks)
-            known = [*faces, *(other for _, other in self._seen())]
             if all(_between(face, other) > SAME_FACE for other in known):
                 faces.append(face)
         return faces

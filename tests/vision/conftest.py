@@ -27,7 +27,6 @@ def mesh(face_models: Path) -> FaceMesh:
 
 @pytest.fixture
 def blazeface(face_models: Path) -> BlazeFace:
-    """A new one for each test: it remembers where it is to look in turn."""
     return BlazeFace(face_models / DETECTOR.name)
 
 

@@ -96,7 +96,7 @@ class Stage:
     def detectors(self) -> Detectors:
         return Detectors(self, self if self.has_mesh else None)  # type: ignore[arg-type]
 
-    def find(self, image: Image) -> list[FoundFace]:
+    def find(self, image: Image, turn: int = 0) -> list[FoundFace]:
         self.searches += 1
         boxes = [_box(spot) for _, spot in self.on_view()] + self.phantoms
         return [FoundFace(box, 0.9) for box in boxes]

@@ -171,3 +171,19 @@ def test_smile_brows_and_blink_are_told(detectors: Detectors) -> None:
     assert told(brows=1.0)[1] > 0.5
     assert told(brows=-1.0)[1] < -0.15
     assert told(lids=0.0)[2] > 0.5
+
+
+def test_a_film_gives_the_same_people_whatever_the_detectors_saw_before(
+    detectors: Detectors,
+) -> None:
+    far = film(duration=1.0, height=40.0, place=lambda time: (250.0, 60.0))
+
+    def told() -> list[str]:
+        tracker = PeopleTracker(detectors)
+        return [repr(tracker.see(frame)) for frame in far]
+
+    first = told()
+    assert "p1" in first[-1]
+    for _ in range(3):
+        PeopleTracker(detectors).see(far[0])
+        assert told() == first

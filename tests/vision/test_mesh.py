@@ -34,8 +34,8 @@ def see(*persons: Appearance) -> Image:
 
 
 def found(detectors: Detectors, image: Image) -> FoundFace:
-    for _ in range(12):
-        if faces := detectors.finder.find(image):
+    for turn in range(12):
+        if faces := detectors.finder.find(image, turn):
             return faces[0]
     raise AssertionError("no face is found")
 

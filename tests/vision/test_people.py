@@ -208,6 +208,17 @@ def test_what_the_mesh_does_not_take_for_a_face_is_nobody():
     assert [p.id for p in seen[-1].persons] == ["p1"]
 
 
+@pytest.mark.parametrize(
+    ("x", "y", "size", "count"),
+    [(155, 185, 32, 1), (155, 200, 70, 2), (270, 185, 32, 2), (160, 20, 32, 2)],
+)
+def test_a_small_face_on_somebodys_neck_is_nobody(x, y, size, count):
+    stage = Stage([Player(standing(y=100, size=100)), Player(standing(x, y, size))])
+    stage.on_view = lambda: [(p, p.part(stage.time)) for p in stage.players]
+    seen = list(stage.watch(tracker(stage), 2.0))
+    assert len(seen[-1].persons) == count
+
+
 def test_without_a_mesh_a_face_counts_when_it_was_found_twice():
     stage = Stage([Player(standing())], has_mesh=False)
     seen = list(stage.watch(tracker(stage), 2.0))

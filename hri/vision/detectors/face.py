@@ -33,10 +33,13 @@ class FoundFace:
 
 
 class FaceFinder(Protocol):
-    """Finds the faces of a picture."""
+    """Finds the faces of a picture; remembers nothing of those before."""
 
-    def find(self, image: Image) -> list[FoundFace]:
-        """The faces, the surest first; none for what is no picture of 8 bits RGB."""
+    def find(self, image: Image, turn: int = 0) -> list[FoundFace]:
+        """The faces, the surest first; none for what is no picture of 8 bits RGB.
+
+        `turn` counts the searches, for finders that look at some parts of the picture in turn.
+        """
         ...
 
 

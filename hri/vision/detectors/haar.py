@@ -30,7 +30,7 @@ class HaarDetector:
     def __init__(self) -> None:
         self._cascade = cv2.CascadeClassifier(str(FOLDER / CASCADE))
 
-    def find(self, image: Image) -> list[FoundFace]:
+    def find(self, image: Image, turn: int = 0) -> list[FoundFace]:
         """All faces, the surest first; none for what is no picture."""
         picture = gray_picture(image)
         if picture is None or min(picture.gray.shape) < SMALLEST:

@@ -44,7 +44,7 @@ class YuNet:
         except cv2.error as error:
             raise NotAvailable(f"{file}: damaged, or not YuNet - {remedy}") from error
 
-    def find(self, image: Image) -> list[FoundFace]:
+    def find(self, image: Image, turn: int = 0) -> list[FoundFace]:
         """All faces, the surest first; none for what is no picture."""
         if not is_picture(image):
             return []
