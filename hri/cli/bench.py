@@ -24,7 +24,7 @@ TAKES = {
     "inputs": ("tries", "seed", "keep", "only", "jobs"),
     "people": ("quick",),
     "speech": ("quick", "recordings", "draw"),
-    "vision": ("quick",),
+    "vision": ("quick", "only"),
     "writes": ("quick",),
 }
 """The options that the `measure` of some of them takes."""
@@ -39,7 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         " a tenth (drive, face, people, vision, writes)"
     )
     parser.add_argument("--quick", action="store_true", default=None, help=about)
-    about = "run only this part, such as chain or rooms (drive), or this reader (inputs);"
+    about = "run only this part, such as rooms (drive) or nods (vision), or this reader (inputs);"
     about += " a wrong name lists them all"
     parser.add_argument("--only", metavar="PART", help=about)
     about = "recordings of people, a folder with a manifest.tsv (speech)"

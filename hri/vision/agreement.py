@@ -14,8 +14,11 @@ from hri.core.signals import HeadGesture, Person
 from hri.vision.gesture import GestureRecognizer
 from hri.vision.patterns import AXES, Pattern
 
-AGREEMENT = 0.8
-"""Seconds within which both signals must tell of a gesture."""
+AGAIN = 1.25
+"""Seconds after which a signal may tell of a gesture again that goes on: the other may have been
+late, and who nods along nods again and again."""
+NEAR = 0.3
+"""Seconds by which movements that the two signals tell of may miss each other."""
 ROLL = AXES.index("roll")
 """The motion tells nothing of it, so that the pose alone decides."""
 
@@ -26,8 +29,8 @@ class AgreeingRecognizer:
     def __init__(self, patterns: Iterable[Pattern]) -> None:
         patterns = tuple(patterns)
         self._by_pose_alone = {pattern.gesture for pattern in patterns if pattern.axis == ROLL}
-        self._of_pose = GestureRecognizer(patterns)
-        self._of_motion = GestureRecognizer(map(_with_less, patterns))
+        self._of_pose = GestureRecognizer(patterns, AGAIN)
+        self._of_motion = GestureRecognizer(map(_with_less, patterns), AGAIN)
         self._by_pose: HeadGesture | None = None
         self._by_motion: HeadGesture | None = None
         self._has_motion = False
@@ -57,11 +60,11 @@ def _with_less(pattern: Pattern) -> Pattern:
 
 
 def _agreed(pose: HeadGesture | None, motion: HeadGesture | None) -> HeadGesture | None:
-    """What both tell alike: as sure as the pose is, with the later time and the earlier onset."""
+    """What both tell of movements that overlap: as sure as the pose, from the earlier onset."""
     if pose is None or motion is None or pose.kind != motion.kind:
         return None
-    if abs(pose.time - motion.time) > AGREEMENT:
+    onsets = pose.time - pose.latency, motion.time - motion.latency
+    if max(onsets) > min(pose.time, motion.time) + NEAR:
         return None
-    time = max(pose.time, motion.time)
-    onset = min(pose.time - pose.latency, motion.time - motion.latency)
+    time, onset = max(pose.time, motion.time), min(onsets)
     return HeadGesture(pose.kind, time, pose.confidence, latency=time - onset)

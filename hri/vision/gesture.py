@@ -12,7 +12,8 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from itertools import pairwise
 
 from hri.core.signals import HeadGesture, HeadPose
 from hri.vision.noise import Angles, Noise, Steadying
@@ -31,6 +32,11 @@ HISTORY = 3.0
 """Seconds of poses that are kept."""
 LARGEST = 100.0
 """Radians; what is beyond is no angle."""
+STILL = 0.2
+"""Seconds without a movement after which no gesture goes on; a slow nod stays so long at a turn."""
+LEAP, LEAP_S = 0.75, 0.075
+"""Part of a swing that no head makes between two poses, and seconds up to which they are that near:
+where it does, one picture was switched for another. The quickest nods make 0.6 at 15 a second."""
 MOST_POSES = 600
 """Poses that are kept, whatever their rate."""
 
@@ -38,19 +44,22 @@ MOST_POSES = 600
 class GestureRecognizer:
     """Takes the poses of one head, one by one, at 10 to 100 a second.
 
-    A gesture is told once, however long it lasts; until the head rests only one about another axis
-    is told, too: a nod that turns into a shake.
+    A gesture is told once, however long it lasts, or again after `again` seconds while it goes on;
+    until the head rests one about another axis is told, too: a nod that turns into a shake.
     A pose with NaN, or of the same time as the one before, is passed over. After a gap, or when
     time goes back, it starts anew.
     """
 
-    def __init__(self, patterns: Iterable[Pattern]) -> None:
+    def __init__(self, patterns: Iterable[Pattern], again: float = math.inf) -> None:
         self._patterns = tuple(patterns)
+        self._again = again
         self._movement = Movement(Noise())
         self._time = -math.inf
         self._axes = {pattern.gesture: pattern.axis for pattern in self._patterns}
         self._axis: int | None = None
         """Of the gesture that is being made; None when there is none."""
+        self._told = -math.inf
+        """Seconds, when it was told."""
 
     def update(self, pose: HeadPose, prompted: bool = False) -> HeadGesture | None:
         """The gesture that this pose completes, if any. `prompted`: an answer is expected."""
@@ -65,11 +74,23 @@ class GestureRecognizer:
             # The head rests: what it did before counts no more.
             self._movement, self._axis = Movement(self._movement.noise), None
             return None
-        others = (pattern for pattern in self._patterns if pattern.axis != self._axis)
-        gesture = self._movement.gesture(others, prompted)
-        if gesture is not None:
-            self._axis = self._axes[gesture.kind]
+        gesture = self._movement.gesture(self._patterns, prompted, self._counted_from)
+        if gesture is None or self._goes_on(gesture):
+            return None
+        self._axis, self._told = self._axes[gesture.kind], time
         return gesture
+
+    def _counted_from(self, axis: int) -> float:
+        """Seconds from which on swings of an angle count: what was told once is not told anew."""
+        if axis != self._axis:
+            return -math.inf
+        return self._told if math.isfinite(self._again) else math.inf
+
+    def _goes_on(self, gesture: HeadGesture) -> bool:
+        """Whether a gesture is still the one that was told, and that not long ago."""
+        is_same = self._axes[gesture.kind] == self._axis
+        onset = gesture.time - gesture.latency
+        return is_same and onset <= self._told and gesture.time - self._told < self._again
 
 
 class Movement:
@@ -80,6 +101,8 @@ class Movement:
         self._steadying = Steadying()
         self._times: deque[float] = deque(maxlen=MOST_POSES)
         self._angles: deque[Angles] = deque(maxlen=MOST_POSES)
+        self._seen: deque[Angles] = deque(maxlen=MOST_POSES)
+        """The angles before they were steadied."""
         self._zigzags = ZigZag(), ZigZag(), ZigZag()
         self._least = TURN
         self._last: Angles = (0.0, 0.0, 0.0)
@@ -92,9 +115,11 @@ class Movement:
         steady, left = self._steadying.update(time, angles, self.noise.deviations())
         self._times.append(time)
         self._angles.append(steady)
+        self._seen.append(angles)
         while time - self._times[0] > HISTORY:
             self._times.popleft()
             self._angles.popleft()
+            self._seen.popleft()
         pitch, yaw, roll = (
             max(turn, NOISE_GAIN * deviation) for turn, deviation in zip(TURN, left, strict=True)
         )
@@ -107,20 +132,31 @@ class Movement:
         """Seconds; when any angle turned."""
         return max(zigzag.last_turn for zigzag in self._zigzags)
 
-    def gesture(self, patterns: Iterable[Pattern], prompted: bool) -> HeadGesture | None:
-        """The gesture of the first row that the latest swings satisfy."""
+    def gesture(
+        self,
+        patterns: Iterable[Pattern],
+        prompted: bool,
+        counted_from: Callable[[int], float] = lambda axis: -math.inf,
+    ) -> HeadGesture | None:
+        """The gesture of the first row that the latest swings satisfy.
+
+        `counted_from` tells the seconds from which on the swings of an angle count.
+        """
         for pattern in patterns:
+            since = counted_from(pattern.axis)
             for row in pattern.rows:
-                if prompted in row.prompted and self.makes(row, pattern.axis):
+                if prompted in row.prompted and self.makes(row, pattern.axis, since):
                     return self._found(pattern, row)
         return None
 
-    def makes(self, row: Row, axis: int) -> bool:
-        """Whether the latest swings of an angle satisfy a row."""
+    def makes(self, row: Row, axis: int, since: float = -math.inf) -> bool:
+        """Whether the latest swings of an angle, all begun after some seconds, satisfy a row."""
         swings = self._zigzags[axis].swings()[-row.swings :]
-        if not swings or not row.fits(swings, self._least[axis]):
+        if not swings or swings[0].start < since or not row.fits(swings, self._least[axis]):
             return False
         *before, running = swings
+        if since > -math.inf and self._held(running, axis) >= STILL:
+            return False
         held = self._held(running, axis) if row.hold else 0.0
         now = self._times[-1]
         return (
@@ -129,6 +165,7 @@ class Movement:
             and all(swing.end - swing.start <= row.duration for swing in before)
             and self._dominates(row, axis, swings)
             and (row.slowing >= 1 or self._slowing(running, axis) <= row.slowing)
+            and 2 * sum(self._leaps(swing, axis) for swing in swings) <= len(swings)
         )
 
     def _found(self, pattern: Pattern, row: Row) -> HeadGesture:
@@ -154,6 +191,21 @@ class Movement:
                 if reach[axis] < ratio * reach[AXES.index(other)]:
                     return False
         return True
+
+    def _leaps(self, swing: Swing, axis: int) -> bool:
+        """Whether most of a swing lies between two poses in a row."""
+        seen = [
+            (time, angles[axis])
+            for time, angles in zip(self._times, self._seen, strict=True)
+            if swing.start <= time <= swing.end
+        ]
+        steps = [
+            abs(angle - before)
+            for (begun, before), (time, angle) in pairwise(seen)
+            if time - begun <= LEAP_S
+        ]
+        width = _range([angle for _, angle in seen])
+        return max(steps, default=0.0) >= LEAP * width > 0.0
 
     def _slowing(self, swing: Swing, axis: int) -> float:
         return slowing(*self._since(swing.start, axis))

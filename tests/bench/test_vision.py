@@ -5,8 +5,10 @@ import itertools
 import numpy as np
 import pytest
 
-from hri.bench.vision import crossing, recordings, videos
+from hri.bench import vision
+from hri.bench.vision import crossing, nods, recordings, videos
 from hri.bench.vision.script import scripts
+from hri.core.errors import HriError
 from hri.core.signals import FaceBox, HeadGesture, HeadPose, People, Person
 from hri.simulation.actors import ACTORS
 
@@ -31,6 +33,30 @@ def test_films_are_of_faces_kept_for_tests_and_the_same_each_time() -> None:
         assert one == other
         assert one.film(30.0).lens == other.film(15.0).lens
         assert all(ACTORS[role.actor].is_for_tests for role in one.film(30.0).roles)
+
+
+def test_films_of_nods_have_twenty_of_them_within_thirty_seconds_after_a_turn() -> None:
+    for seed in range(nods.SEEDS):
+        made = nods.nods(seed)
+        spans = made.spans()
+        assert len(spans) == nods.NODS
+        assert spans[0][0] > nods.TURN_AT + nods.TURN_S
+        assert all(one[0] < other[0] for one, other in itertools.pairwise(spans))
+        assert spans[-1][1] <= nods.DURATION + nods.SLACK
+        assert made(0.9).yaw == pytest.approx(nods.TURN if made.stays_turned else 0.0, abs=0.18)
+
+
+def test_a_nod_that_is_told_twice_counts_once() -> None:
+    made = nods.nods(0)
+    first, second, *_ = made.starts
+    found = [told("nod", first + 0.5), told("nod", first + 0.9), told("shake", second + 0.5)]
+    assert nods.hits(made, found) == 1
+    assert nods.hits(made, [*found, told("nod", second + 0.5)]) == 2
+
+
+def test_an_unknown_part_is_refused_with_the_nearest() -> None:
+    with pytest.raises(HriError, match='no part "nod" - did you mean "nods"'):
+        vision.measure(only="nod")
 
 
 def told(kind: str, time: float) -> HeadGesture:

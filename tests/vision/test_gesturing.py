@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Output
+from hri.bench.vision import nods as bench
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.core.events import EventBus
@@ -313,3 +314,52 @@ def test_a_network_chooses_its_gestures() -> None:
     assert [e.name for e in events_of(tilted, "pose", gestures="nod tilt")] == ["head.tilted"]
     with pytest.raises(HriError, match='did you mean "tilt"'):
         events_of(tilted, "pose", gestures="tlit")
+
+
+def nodding(pose_noise: float = 0.6, late: float = 0.1) -> list[HeadGesture]:
+    """Twenty nods after a turn of the head, as mesh and motion tell of them, 15 times a second."""
+    dice, nods = np.random.default_rng(0), bench.nods(0)
+    recognizer, found = AgreeingRecognizer(PATTERNS), []
+    for number in range(round(15 * bench.DURATION)):
+        time = number / 15
+        held, moved = nods(time), nods(time - late)
+        noise = np.radians(dice.normal(0.0, pose_noise, 3))
+        told = Person(
+            "p1",
+            HeadPose(time, held.pitch + noise[0], held.yaw + noise[1], noise[2]),
+            HeadPose(time, moved.pitch, moved.yaw),
+        )
+        if (gesture := recognizer.update(told)) is not None:
+            found.append(gesture)
+    return found
+
+
+def test_who_nods_again_and_again_is_told_each_time() -> None:
+    found = nodding()
+    assert bench.hits(bench.nods(0), found) >= bench.FOUND
+    assert {gesture.kind for gesture in found} == {"nod"}
+
+
+def test_a_nod_that_one_signal_tells_late_is_told() -> None:
+    def lasting(time: float) -> tuple[float, float, float]:
+        return nod_angles(time - 0.3, cycles=9.0, frequency=1.8)
+
+    def turned_first(time: float) -> tuple[float, float, float]:
+        return lasting(time) if time > 2.0 else (0.0, nod_angles(time)[0], 0.0)
+
+    assert "nod" in [gesture.kind for gesture in watched(lasting, turned_first)]
+
+
+@pytest.mark.parametrize("prompted", [False, True])
+@pytest.mark.parametrize("rate", [15, 30])
+@pytest.mark.parametrize("seed", range(3))
+def test_still_pictures_one_switched_for_another_are_no_gesture(
+    seed: int, rate: int, prompted: bool
+) -> None:
+    shown, dice = bench.pictures(seed), np.random.default_rng(seed)
+    recognizer = AgreeingRecognizer(PATTERNS)
+    for number in range(10 * rate):
+        held = shown(number / rate)
+        down, left = np.radians(dice.normal(0.0, 0.4, 2))
+        pose = HeadPose(number / rate, held.pitch + down, held.yaw + left)
+        assert recognizer.update(Person("p1", pose, pose), prompted) is None
