@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
+from hri.cli.progress import waiting
 from hri.core.errors import HriError, did_you_mean
 from hri.robot import kept
 from hri.robot.kept import Trace
@@ -25,9 +26,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Erase what is found, place by place; a failure at one place spares no other."""
     person = options.person
-    found = kept.traces(person)
+    with waiting("looking for what is kept"):
+        found = kept.traces(person)
+        known = set() if found else kept.people()
     if not found:
-        known = kept.people()
         if person and known:
             raise HriError(f'nobody called "{person}" - {did_you_mean(person, known)}')
         print("there is nothing to forget")

@@ -6,9 +6,11 @@ import argparse
 import json
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
+from hri.cli.progress import waiting
 from hri.cli.watching import (
     FILM_RATE,
     add_source,
@@ -72,8 +74,11 @@ def run(options: argparse.Namespace) -> int:
     if options.pose:
         if options.overlay or options.video or options.images or options.camera:
             raise HriError("--pose takes no pictures - leave out the other source and --overlay")
-        return _run_poses(options.pose, patterns, options.prompted, tell)
-    _run_pictures(options, patterns, tell)
+        with waiting("looking at the poses"):
+            return _run_poses(options.pose, patterns, options.prompted, tell)
+    is_live = not (options.video or options.images or options.simulated)
+    with nullcontext() if is_live else waiting("looking at the pictures"):
+        _run_pictures(options, patterns, tell)
     return 0
 
 

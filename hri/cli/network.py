@@ -11,6 +11,7 @@ from hri.behavior.drawing import to_svg
 from hri.behavior.layout import lay_out
 from hri.behavior.network import Network, load_network
 from hri.behavior.writer import save_network, write_network
+from hri.cli.progress import waiting
 from hri.core.errors import HriError
 from hri.core.quoting import escaped, message_line
 from hri.core.writing import write_text
@@ -27,8 +28,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     action, _ = ACTIONS[options.action]
-    network = load_network(options.network)
-    return action(network, options)
+    with waiting("reading the network"):
+        return action(load_network(options.network), options)
 
 
 def check(network: Network, options: argparse.Namespace) -> int:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 import threading
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
-from typing import TypeVar
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from typing import Any, TextIO, TypeVar, cast
 
 from hri.core.clock import RealClock
 
@@ -16,6 +16,8 @@ WIDTH = 30
 """Characters of the bar."""
 EVERY = 1.0
 """Seconds between two lines about work that has no end in sight."""
+SILENCE = 2.0
+"""Seconds without a word after which there is such a line."""
 
 
 def progress(items: Iterable[T], total: int, what: str) -> Iterator[T]:
@@ -35,23 +37,72 @@ def progress(items: Iterable[T], total: int, what: str) -> Iterator[T]:
 
 @contextmanager
 def waiting(what: str) -> Iterator[None]:
-    """While the body runs for long, what is done and for how many seconds is shown on stderr."""
+    """While the body runs for long in silence, what is done and for how many seconds is shown.
+
+    The line goes away as soon as the body prints something, and at the end.
+    """
     if not sys.stderr.isatty():
         yield
         return
-    clock, done = RealClock(), threading.Event()
-    begun = clock.now()
+    line, done = _Line(sys.stderr, what), threading.Event()
 
     def show() -> None:
         while not done.wait(EVERY):
-            sys.stderr.write(f"\r{what}, {clock.now() - begun:.0f} s")
-            sys.stderr.flush()
+            line.show()
 
     clerk = threading.Thread(target=show, daemon=True)
     clerk.start()
+    out, errors = (cast(TextIO, _Announced(stream, line)) for stream in (sys.stdout, sys.stderr))
     try:
-        yield
+        with redirect_stdout(out), redirect_stderr(errors):
+            yield
     finally:
         done.set()
         clerk.join()
-        sys.stderr.write("\r\x1b[K")
+        line.wipe()
+
+
+class _Line:
+    """A line on a terminal that is there as long as nothing else is printed."""
+
+    def __init__(self, terminal: TextIO, what: str) -> None:
+        self._terminal = terminal
+        self._what = what
+        self._clock = RealClock()
+        self._begun = self._printed = self._clock.now()
+        self._is_shown = False
+        self._lock = threading.Lock()
+
+    def show(self) -> None:
+        with self._lock:
+            now = self._clock.now()
+            if now - self._printed >= SILENCE:
+                self._write(f"\r{self._what}, {now - self._begun:.0f} s\x1b[K")
+                self._is_shown = True
+
+    def wipe(self) -> None:
+        """Make room for what is printed now."""
+        with self._lock:
+            if self._is_shown:
+                self._write("\r\x1b[K")
+                self._is_shown = False
+            self._printed = self._clock.now()
+
+    def _write(self, text: str) -> None:
+        self._terminal.write(text)
+        self._terminal.flush()
+
+
+class _Announced:
+    """A stream that wipes the line before it writes."""
+
+    def __init__(self, stream: TextIO, line: _Line) -> None:
+        self._stream = stream
+        self._line = line
+
+    def write(self, text: str) -> int:
+        self._line.wipe()
+        return self._stream.write(text)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)

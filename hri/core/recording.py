@@ -64,21 +64,21 @@ def read_events(path: Path) -> list[dict[str, Any]]:
         path, "log of events", LARGEST_LOG, LONGEST_LINE, errors="surrogateescape"
     ) as lines:
         return [
-            _read(line, Place(path, number))
+            _read(line, path, number)
             for number, line in enumerate(lines, 1)
             if line.endswith("\n") and line.strip()
         ]
 
 
-def _read(line: str, place: Place) -> dict[str, Any]:
+def _read(line: str, path: Path, number: int) -> dict[str, Any]:
     if not _is_text(line):
-        raise AuthoringError(place, "not UTF-8 text", _REMEDY)
+        raise AuthoringError(Place(path, number), "not UTF-8 text", _REMEDY)
     try:
         found = parse_json(line)
     except ValueError as error:
-        raise AuthoringError(place, f"not JSON: {error}", _REMEDY) from error
+        raise AuthoringError(Place(path, number), f"not JSON: {error}", _REMEDY) from error
     if not (isinstance(found, dict) and "event" in found and "t" in found):
-        raise AuthoringError(place, "not an event", _REMEDY)
+        raise AuthoringError(Place(path, number), "not an event", _REMEDY)
     return found
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from hri.cli.drive.plan import Plan
 from hri.cli.drive.recorded import read_run
-from hri.cli.progress import progress
+from hri.cli.progress import progress, waiting
 from hri.core.errors import HriError
 from hri.hal.drivers.picture_file import write_picture
 from hri.testing.trips import DEFAULT_POLICY, POLICIES
@@ -41,12 +41,13 @@ def run(options: argparse.Namespace) -> int:
     if options.policy and not options.run.isdecimal():
         what = f"--policy {options.policy}: {options.run} is driven already"
         raise HriError(f"{what} - leave it out, or give the number of a room")
-    plan = Plan(read_run(options.run, options.policy or DEFAULT_POLICY))
     out = options.out or Path("run.png")
-    if out.suffix.lower() == ".png":
-        write_picture(out, plan.whole())
-    else:
-        _write_film(out, plan, options.speed)
+    with waiting("reading and drawing the run"):
+        plan = Plan(read_run(options.run, options.policy or DEFAULT_POLICY))
+        if out.suffix.lower() == ".png":
+            write_picture(out, plan.whole())
+        else:
+            _write_film(out, plan, options.speed)
     print(f"{out}: {plan.run.title or options.run}")
     return 0
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import nullcontext
 
 from hri.cli import forget
 from hri.cli.emotion import check, list, simulate, watch
+from hri.cli.progress import waiting
 
 COMMANDS = {
     "check": (check, "load all emotion files, run their self-tests, report what is wrong"),
@@ -15,6 +17,8 @@ COMMANDS = {
     "forget": (forget, "the same as `hri forget`"),
 }
 """Each is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
+LIVE = ("watch", "forget")
+"""Those that somebody looks at while they run, or answers."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -24,6 +28,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    module, _ = COMMANDS[options.emotion_command]
-    status: int = module.run(options)
+    name = options.emotion_command
+    module, about = COMMANDS[name]
+    with nullcontext() if name in LIVE else waiting(about):
+        status: int = module.run(options)
     return status

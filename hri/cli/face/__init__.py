@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import nullcontext
 
 from hri.cli.face import animate, check, export, list, new, render, sheet, show
+from hri.cli.progress import waiting
 
 COMMANDS = {
     "render": (render, "draw one picture"),
@@ -17,6 +19,8 @@ COMMANDS = {
     "export": (export, "write a baked face as JSON, for drawing it elsewhere"),
 }
 """Each is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
+LIVE = ("show",)
+"""Those that somebody looks at while they run, or answers."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,6 +30,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    module, _ = COMMANDS[options.face_command]
-    status: int = module.run(options)
+    name = options.face_command
+    module, about = COMMANDS[name]
+    with nullcontext() if name in LIVE else waiting(about):
+        status: int = module.run(options)
     return status
