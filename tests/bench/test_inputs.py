@@ -1,5 +1,6 @@
 import io
 import json
+import subprocess
 import zipfile
 from pathlib import Path
 from random import Random
@@ -12,6 +13,7 @@ from hri.bench import inputs
 from hri.bench.inputs import good
 from hri.bench.inputs.mutation import LARGEST, mutated
 from hri.bench.inputs.readers import READERS, bad_input
+from hri.bench.workers import running
 from hri.core.errors import HriError
 
 SEEDS = [b'[a]\nb = 1.5 # "c"\n', b"<a><b c='d'/></a>"]
@@ -99,3 +101,24 @@ def test_an_unknown_reader_is_one_line() -> None:
 def test_every_reader_takes_its_good_inputs() -> None:
     for name, reader in READERS.items():
         assert all(reader.seeds()), name
+
+
+@pytest.mark.parametrize(
+    ("code", "told"),
+    [
+        ("while time.process_time() < 1.0: pass\nprint('done')", [b"done"]),
+        ("time.sleep(600)", None),
+    ],
+)
+def test_a_child_that_works_is_waited_for_and_one_that_hangs_is_not(
+    code: str, told: list[bytes] | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(inputs, "PATIENCE", 1.0)
+    with running(f"import time\n{code}", subprocess.PIPE) as child:
+        assert child.stdout is not None
+        lines = inputs._lines(child.stdout.fileno(), child.pid)
+        if told is None:
+            with pytest.raises(TimeoutError):
+                list(lines)
+        else:
+            assert list(lines) == told

@@ -31,7 +31,7 @@ MOST_SECONDS = 5.0
 MOST_BYTES = 300_000_000
 """Bytes by which the memory of the process may grow for one input."""
 PATIENCE = 120.0
-"""Seconds without a word from the child; a busy machine takes some."""
+"""Seconds without a word from a child that does not work, either; on a busy machine it waits."""
 BATCH = 2000
 """Tries of one child, after which what was found is saved."""
 MOST_KEPT = 20
@@ -175,7 +175,7 @@ def _child(name: str, seed: int, first: int, last: int, folder: Path) -> Iterato
     ):
         assert child.stdout is not None
         try:
-            for line in _lines(child.stdout.fileno()):
+            for line in _lines(child.stdout.fileno(), child.pid):
                 report = json.loads(line)
                 number = report["number"] + 1
                 yield report
@@ -192,18 +192,26 @@ def _child(name: str, seed: int, first: int, last: int, folder: Path) -> Iterato
         yield {"number": number, "seconds": 0.0, "bytes": 0, "what": "ended", "why": why}
 
 
-def _lines(pipe: int) -> Iterator[bytes]:
-    """The lines that come through a pipe. Raises TimeoutError when none comes."""
-    rest = b""
+def _lines(pipe: int, child: int) -> Iterator[bytes]:
+    """The lines that come through a pipe from a process. Raises TimeoutError when it hangs."""
+    rest, worked = b"", 0.0
     with selectors.DefaultSelector() as selector:
         selector.register(pipe, selectors.EVENT_READ)
         while True:
-            if not selector.select(PATIENCE):
-                raise TimeoutError
+            while not selector.select(PATIENCE):
+                before, worked = worked, _processor_time(child)
+                if worked <= before:
+                    raise TimeoutError
             if not (some := os.read(pipe, 1 << 16)):
                 return
             *lines, rest = (rest + some).split(b"\n")
             yield from lines
+
+
+def _processor_time(process: int) -> float:
+    """Seconds that a process worked so far."""
+    fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def _keep(keep: Path | None, name: str, seed: int, number: int) -> None:
