@@ -274,10 +274,7 @@ class _Loader:
         key = file.own[use.name]
         path = next((path for path in _places_of(file.document.path, use.file)), None)
         if path is None:
-            beside = sorted(file.document.path.parent.glob("*.txt"))[:100]
-            near = [entry.name for entry in beside if entry.name != use.file]
-            remedy = did_you_mean(use.file, near, "put it beside the grammar")
-            self._report(file, use.span, f'no list of names "{use.file}"', remedy)
+            self._report(file, use.span, *_no_list(file.document.path, use.file))
         else:
             try:
                 names, errors = read_names(path, use.name)
@@ -364,6 +361,24 @@ def _places_of(importer: Path, file: str) -> Iterator[Path]:
         place = folder / file
         if paths.is_file(place) and place.resolve().is_relative_to(folder.resolve()):
             yield place
+
+
+def _no_list(importer: Path, file: str) -> tuple[str, str]:
+    """Why a list is not read, and what to do."""
+    if _leads_out(importer.parent, file):
+        what = f'the list of names "{file}" is not read, for it leads out of the grammar\'s folder'
+        return what, "copy the list itself into that folder"
+    beside = sorted(importer.parent.glob("*.txt"))[:100]
+    near = [entry.name for entry in beside if entry.name != file]
+    return f'no list of names "{file}"', did_you_mean(file, near, "put it beside the grammar")
+
+
+def _leads_out(folder: Path, file: str) -> bool:
+    """Whether a path is absolute, goes upwards or over a link to somewhere else."""
+    try:
+        return not (folder / file).resolve().is_relative_to(folder.resolve())
+    except (OSError, ValueError, RuntimeError):  # no name that a file can have, links in a circle
+        return False
 
 
 def _grammars_near(file: _File) -> list[str]:
