@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import argparse
 import logging
-from typing import NoReturn
+from pathlib import Path
+from typing import Any, NoReturn
 
 from hri.core.quoting import escaped, message_line
 
@@ -24,3 +25,8 @@ class OptionParser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         super().error(message_line(message))
+
+    def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
+        if action.type is Path and not arg_string:  # to Python, the current folder
+            raise argparse.ArgumentError(action, "an empty name - name a file or a folder")
+        return super()._get_value(action, arg_string)

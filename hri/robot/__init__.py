@@ -110,6 +110,8 @@ class Robot:
         self.tasks = TaskManager(context, behaviors)
         self.context = self.tasks.context
         self.app.check(self.context)
+        if record == "":
+            raise HriError("an empty name of a folder for the recording - name one, or write None")
         self.record = None if record is None else Path(record)
         """Folder for a recording; may be set until the robot lives."""
         self._record_rejected = record_rejected

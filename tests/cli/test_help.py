@@ -5,6 +5,8 @@ from importlib.metadata import entry_points
 import pytest
 
 from hri.cli import main
+from hri.core.errors import HriError
+from hri.robot import Robot
 
 SCRIPTS = sorted(
     (entry for entry in entry_points(group="console_scripts") if entry.value.startswith("hri.")),
@@ -32,3 +34,18 @@ def test_a_command_explains_itself(name, capsys):
     shown = capsys.readouterr().out
     assert f"usage: hri {name}" in shown
     assert main.COMMANDS[name][1].split()[0] in shown
+
+
+@pytest.mark.parametrize(
+    "words", [("run", "companion", "--record", ""), ("bench", "inputs", "--keep", "")]
+)
+def test_an_empty_name_is_not_the_current_folder(words, capsys):
+    with pytest.raises(SystemExit) as end:
+        main.main(words)
+    assert end.value.code == 2
+    assert f"argument {words[2]}: an empty name - name a file" in capsys.readouterr().err
+
+
+def test_a_robot_does_not_record_into_a_folder_without_a_name():
+    with pytest.raises(HriError, match="an empty name of a folder"):
+        Robot(record="")
