@@ -24,6 +24,8 @@ from hri.net.protocol import Item, Sender
 KEPT = {"string": 1000}
 """How many values wait, by datatype; the oldest give way."""
 KEPT_MEASUREMENTS = 2
+KEPT_CHARACTERS = 1_000_000
+"""Of all strings that wait at one port; the oldest give way, the newest never."""
 
 Admits = Callable[[str, Sender], bool]
 """Whether a value for a port, from that sender, may come in."""
@@ -40,6 +42,44 @@ class _Waiting:
         self.sender = sender
 
 
+class _Queue:
+    """The values that wait at one port, the oldest first."""
+
+    def __init__(self, most: int) -> None:
+        self._values: deque[_Waiting] = deque()
+        self._most = most
+        self._characters = 0
+
+    def __bool__(self) -> bool:
+        return bool(self._values)
+
+    @property
+    def first(self) -> _Waiting:
+        return self._values[0]
+
+    def append(self, value: _Waiting) -> None:
+        """In the place of one that waited only for another to come."""
+        if self._values and self._values[-1].ticks is None:
+            self._forget(self._values.pop())
+        self._values.append(value)
+        self._characters += _length(value)
+        while len(self._values) > self._most or self._is_full():
+            self.drop()
+
+    def drop(self) -> None:
+        self._forget(self._values.popleft())
+
+    def _forget(self, value: _Waiting) -> None:
+        self._characters -= _length(value)
+
+    def _is_full(self) -> bool:
+        return self._characters > KEPT_CHARACTERS and len(self._values) > 1
+
+
+def _length(waiting: _Waiting) -> int:
+    return len(waiting.value) if isinstance(waiting.value, str) else 0
+
+
 class Inbox:
     """Filled by the thread of a port, emptied by the robot loop."""
 
@@ -47,8 +87,8 @@ class Inbox:
         """`datatypes` of the ports, by name."""
         self._datatypes = dict(datatypes)
         self._lock = threading.Lock()
-        self._waiting: dict[str, deque[_Waiting]] = {
-            port: deque(maxlen=KEPT.get(datatype, KEPT_MEASUREMENTS))
+        self._waiting = {
+            port: _Queue(KEPT.get(datatype, KEPT_MEASUREMENTS))
             for port, datatype in datatypes.items()
         }
 
@@ -61,10 +101,7 @@ class Inbox:
         read = [values.read(self._datatypes[item.port], item.text) for item in ours]
         with self._lock:
             for item, value in zip(ours, read, strict=True):
-                waiting = self._waiting[item.port]
-                if waiting and waiting[-1].ticks is None:
-                    waiting.pop()
-                waiting.append(_Waiting(value, item.count, sender))
+                self._waiting[item.port].append(_Waiting(value, item.count, sender))
 
     def take(self, admits: Admits = lambda port, sender: True) -> dict[str, tuple[Any, float]]:
         """The values of this tick by port, each with when its sender spoke last, in seconds.
@@ -74,17 +111,17 @@ class Inbox:
         taken = {}
         with self._lock:
             for port, waiting in self._waiting.items():
-                while waiting and not admits(port, waiting[0].sender):
-                    waiting.popleft()
+                while waiting and not admits(port, waiting.first.sender):
+                    waiting.drop()
                 if waiting:
                     taken[port] = _next(waiting)
         return taken
 
 
-def _next(waiting: deque[_Waiting]) -> tuple[Any, float]:
-    first = waiting[0]
+def _next(waiting: _Queue) -> tuple[Any, float]:
+    first = waiting.first
     if first.ticks is not None:
         first.ticks -= 1
         if not first.ticks:
-            waiting.popleft()
+            waiting.drop()
     return first.value, -math.inf if first.sender.is_gone else first.sender.spoken

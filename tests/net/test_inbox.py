@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hri.net.inbox import KEPT, Inbox
+from hri.net.inbox import KEPT, KEPT_CHARACTERS, Inbox
 from hri.net.protocol import Item, ProtocolError, Sender
 
 
@@ -55,6 +55,18 @@ def test_of_too_many_strings_the_oldest_give_way():
     for number in range(KEPT["string"] + 5):
         filled.put(Item("text", str(number)), sender=Sender())
     assert ticks(filled, 1) == ["5"]
+
+
+def test_strings_of_a_port_take_a_megabyte_at_most_and_the_newest_always_stays():
+    filled = inbox()
+    texts = [f"{number} {'x' * 65_000}" for number in range(100)]
+    for text in texts:
+        filled.put(Item("text", text), sender=Sender())
+    came = [text for text in ticks(filled, 100) if text is not None]
+    assert came == texts[-len(came) :]
+    assert KEPT_CHARACTERS - 65_100 < sum(map(len, came)) <= KEPT_CHARACTERS
+    filled.put(Item("text", "y" * 2 * KEPT_CHARACTERS), sender=Sender())
+    assert len(ticks(filled, 1)[0]) == 2 * KEPT_CHARACTERS
 
 
 def test_ports_are_matched_by_name_and_values_by_datatype():
