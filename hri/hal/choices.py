@@ -11,6 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from hri.core import paths
+from hri.core.ownership import require_of_user
 from hri.core.privacy import folder_for
 from hri.core.registry import canonical
 from hri.core.toml import load_toml
@@ -26,10 +27,14 @@ def choices_file() -> Path:
 
 
 def load_choices() -> dict[str, str]:
-    """Device by id; empty when nothing was chosen. Raises AuthoringError."""
+    """Device by id; empty when nothing was chosen.
+
+    Raises AuthoringError for a mistake in the file, HriError for one that others may have written.
+    """
     path = choices_file()
     if not path.is_file():
         return {}
+    require_of_user(path, "choice of devices")
     table = load_toml(path, "choice of devices")
     chosen = {}
     for id in CHOOSABLE:

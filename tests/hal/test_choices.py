@@ -1,7 +1,7 @@
 import pytest
 
 from hri.core.clock import FakeClock, RealClock
-from hri.core.errors import AuthoringError
+from hri.core.errors import AuthoringError, HriError
 from hri.hal.choices import apply_choices, choices_file, load_choices, save_choices
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
@@ -49,3 +49,12 @@ def test_a_spoilt_choice_is_told_with_its_place():
     choices_file().write_text("[microphon]\ndevice = '1'\n")
     with pytest.raises(AuthoringError, match=r"devices.toml:1:1: unknown key .* did you mean"):
         load_choices()
+
+
+def test_a_choice_that_somebody_else_may_have_written_is_not_used():
+    path = save_choices({"microphone": "USB Audio"})
+    path.chmod(0o666)
+    with pytest.raises(HriError, match=r"devices.toml: somebody else may have written this choice"):
+        load_choices()
+    path.chmod(0o600)
+    assert load_choices() == {"microphone": "USB Audio"}

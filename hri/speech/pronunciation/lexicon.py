@@ -23,6 +23,7 @@ from typing import Literal
 
 from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
+from hri.core.ownership import require_of_user
 from hri.core.privacy import folder_for
 from hri.core.reading import read_text
 from hri.core.writing import PRIVATE, write_text
@@ -139,8 +140,12 @@ def user_lexicon() -> Path:
 
 def _of_user() -> tuple[Path, ...]:
     path = user_lexicon()
-    # One that is named must be there; the usual one may be.
-    return (path,) if os.environ.get(VARIABLE) or path.exists() else ()
+    if os.environ.get(VARIABLE):  # by the user, who may share it: it must be there
+        return (path,)
+    if not path.exists():
+        return ()
+    require_of_user(path, "lexicon")
+    return (path,)
 
 
 def read_lexicon(path: Path) -> dict[str, tuple[Phones, ...]]:

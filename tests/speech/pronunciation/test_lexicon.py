@@ -239,3 +239,13 @@ def test_only_its_owner_can_read_which_words_were_looked_up(tmp_path):
     cache.chmod(0o644)
     assert Guesses(cache)["quillobrand"]
     assert stat.S_IMODE(cache.stat().st_mode) == 0o600
+
+
+def test_a_lexicon_that_somebody_else_may_have_written_is_not_used(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+    monkeypatch.delenv(VARIABLE, raising=False)
+    add_to_lexicon(user_lexicon(), "zorb", ("Z", "AO"))
+    assert load_lexicon().known("zorb") == (("Z", "AO"),)
+    user_lexicon().chmod(0o666)
+    with pytest.raises(HriError, match=r"lexicon.txt: somebody else may have written this lexicon"):
+        load_lexicon()
