@@ -30,6 +30,7 @@ from hri.hal.microphone import Microphone
 from hri.hal.resource import Description, Resource
 from hri.robot import Job, Robot
 from hri.robot.app import load_app
+from hri.robot.recording import RECORDINGS
 from hri.robot.verbs import is_quiet
 from hri.simulation.script import Visit, load_visit
 from hri.simulation.world import SimulatedWorld
@@ -141,7 +142,7 @@ def recordings_folder(robot: Robot) -> Path:
 
     Raises HriError or OSError when it cannot be made.
     """
-    folder = Path("recordings") / f"{robot.clock.wall():%Y-%m-%d-%H-%M-%S}"
+    folder = Path(RECORDINGS) / f"{robot.clock.wall():%Y-%m-%d-%H-%M-%S}"
     make_folder(folder.parent)
     numbered = (folder.with_name(f"{folder.name}-{number}") for number in count(2))
     for free in chain([folder], numbered):

@@ -22,7 +22,7 @@ from hri.core.whereabouts import noted, tidy
 from hri.core.writing import PRIVATE, delete, leftovers, write_text
 from hri.emotion import persistence
 from hri.hal import choices
-from hri.robot.recording import parts
+from hri.robot.recording import BY_DATE, RECORDINGS, parts
 from hri.speech.pronunciation.guesses import GUESSES
 from hri.speech.pronunciation.lexicon import user_lexicon
 from hri.vision.recognition import Acquaintances
@@ -173,7 +173,12 @@ class Devices(Kept):
         return _mentions(place, person)
 
     def forget(self, place: Path, person: str) -> None:
-        chosen = choices.load_choices()
+        """The devices named so; the whole file when it cannot be used."""
+        try:
+            chosen = choices.load_choices()
+        except HriError:
+            self.delete(place)
+            return
         rest = {id: name for id, name in chosen.items() if not is_named(person, name)}
         choices.save_choices(rest)
 
@@ -184,7 +189,9 @@ class Recordings(Kept):
     about = "a recording"
 
     def places(self) -> list[Path]:
-        return [folder for folder in noted("recording") if parts(folder)]
+        """Those that were noted; those below the current folder may be older than the notes."""
+        here = sorted(Path(RECORDINGS).resolve().glob(BY_DATE))
+        return [folder for folder in dict.fromkeys((*noted("recording"), *here)) if parts(folder)]
 
     def concerns(self, place: Path, person: str) -> bool:
         return any(_mentions(file, person) for file in parts(place) if file.suffix == ".jsonl")

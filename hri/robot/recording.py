@@ -45,6 +45,10 @@ STREAMS = ("events.jsonl", "face.mp4", "robot.wav")
 """Files that grow while the robot lives."""
 FILES = (*STREAMS, "timeline.png", "feelings.svg")
 """All that a recording consists of."""
+RECORDINGS = "recordings"
+"""The folder, below the current one, in which a robot records that nobody sees."""
+BY_DATE = "[0-9][0-9][0-9][0-9]-[0-9][0-9]-[0-9][0-9]-*"
+"""The names of recordings there: a date and a time."""
 REJECTED: Mapping[str, Collection[str]] = {
     "speech.rejected": ("text", "detail"),
     "speech.partial": ("text",),

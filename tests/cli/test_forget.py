@@ -48,6 +48,7 @@ def home(tmp_path, monkeypatch):
     for name in ("CONFIG", "CACHE", "STATE"):
         monkeypatch.delenv(f"XDG_{name}_HOME", raising=False)
     monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.chdir(tmp_path)  # recordings below the current folder are theirs, too
     return tmp_path
 
 
@@ -237,6 +238,23 @@ def test_where_recordings_are_is_noted_once_and_only_as_long_as_they_are_there(h
     assert noted("recording") == [home / "again"]
 
 
+def test_recordings_from_before_the_notes_are_found_where_robots_record_by_default(home, capsys):
+    old = a_recording(home / "recordings" / "2024-05-01-12-00-00", f"We met {ANNA}.")
+    other = a_recording(home / "recordings" / "mine", f"We met {ANNA}.")
+    whereabouts_file().unlink()
+    assert forget(ANNA, "--yes") == 0
+    assert not old.exists()
+    assert other.exists()
+    assert str(old) in capsys.readouterr().out
+
+
+def test_a_choice_that_somebody_else_may_have_written_is_forgotten_whole(home):
+    save_choices({"microphone": f"Headset of {ANNA}", "speaker": "USB"})
+    choices_file().chmod(0o666)
+    assert forget(ANNA, "--yes") == 0
+    assert not choices_file().exists()
+
+
 class Terminal(io.StringIO):
     """A standard input at which somebody sits."""
 
@@ -246,7 +264,7 @@ class Terminal(io.StringIO):
 
 def a_recording(out, said="Hello."):
     """What a robot would leave behind."""
-    out.mkdir()
+    out.mkdir(parents=True)
     line = {"t": 1.0, "event": "speech.said", "text": said}
     (out / "events.jsonl").write_text(json.dumps(line) + "\n")
     (out / "face.mp4").write_bytes(b"film")

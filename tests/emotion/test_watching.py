@@ -121,8 +121,12 @@ def test_a_robot_that_keeps_nothing_cannot_be_watched(
 
 
 def test_one_command_forgets_a_person_or_everything(
-    dynamics: Dynamics, capsys: pytest.CaptureFixture[str]
+    dynamics: Dynamics,
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    monkeypatch.chdir(tmp_path)  # recordings below the current folder would be found, too
     remember(dynamics, 0.0)
     assert main(["emotion", "forget", "Bop"]) == 2
     assert 'did you mean "Bob"' in capsys.readouterr().err
