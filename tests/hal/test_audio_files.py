@@ -220,26 +220,35 @@ def test_a_wrong_rate_has_its_place(clock):
         manager.obtain("m", object)
 
 
+FORMATS = ("wav", "mp3", "flac", "ogg")
+
+
 @pytest.fixture(scope="module")
 def encoded(tmp_path_factory):
     """The bytes of a tone in every format."""
     folder = tmp_path_factory.mktemp("encoded")
-    formats = ("wav", "mp3", "flac", "ogg")
-    for suffix in formats:
+    for suffix in FORMATS:
         soundfile.write(folder / f"tone.{suffix}", tone(22050, 0.3), 22050)
-    return folder, {suffix: (folder / f"tone.{suffix}").read_bytes() for suffix in formats}
+    return folder, {suffix: (folder / f"tone.{suffix}").read_bytes() for suffix in FORMATS}
 
 
-@given(st.data())
-def test_a_broken_file_is_played_as_far_as_it_goes_or_refused_in_one_line(encoded, data):
+SPOTS = st.integers(0, 2**16)
+"""Places in a file; where it is shorter they go around. What is drawn must not depend on the files:
+an encoder need not write the same bytes each time."""
+
+
+@given(
+    st.sampled_from(FORMATS), st.lists(st.tuples(SPOTS, st.integers(0, 255)), max_size=30), SPOTS
+)
+def test_a_broken_file_is_played_as_far_as_it_goes_or_refused_in_one_line(
+    encoded, suffix, wrong, end
+):
     folder, formats = encoded
-    suffix = data.draw(st.sampled_from(sorted(formats)))
     content = bytearray(formats[suffix])
-    spots = st.integers(0, len(content) - 1)
-    for at, byte in data.draw(st.lists(st.tuples(spots, st.integers(0, 255)), max_size=30)):
-        content[at] = byte
+    for at, byte in wrong:
+        content[at % len(content)] = byte
     path = folder / f"broken.{suffix}"
-    path.write_bytes(content[: data.draw(spots)])
+    path.write_bytes(content[: end % len(content)])
     refusal = refusal_of(path)
     assert refusal == "" or refusal.startswith(f"{path}: ")
     assert len(refusal.splitlines()) <= 1
