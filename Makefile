@@ -1,5 +1,7 @@
 # make run     set up and start the companion
 # make test    set up and run the tests
+# make slow    run the tests that take long by nature
+# make fuzz    run the property tests with examples of chance; OPTIONS=--hypothesis-seed=1 repeats a run
 # make check   format, lint, types, import rules
 # make docs    the reference of all classes, in build/reference/
 # make checklist    run the tests and write docs/checklist.md
@@ -8,7 +10,7 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 
-.PHONY: run test check docs checklist format clean
+.PHONY: run test slow fuzz check docs checklist format clean
 
 # The networks that see faces, once; without them they are found coarsely, and fewer nods.
 FETCH_FACES := $(BIN)/hri models fetch face >/dev/null || echo "going on without seeing well"
@@ -19,7 +21,14 @@ run: $(VENV)/.run
 
 test: $(VENV)/.dev
 	@$(FETCH_FACES)
-	$(BIN)/python -m pytest -n logical --dist loadfile $(OPTIONS)
+	$(BIN)/python -m pytest -n logical --dist loadfile -m "not slow" $(OPTIONS)
+
+slow: $(VENV)/.dev
+	@$(FETCH_FACES)
+	$(BIN)/python -m pytest -n logical --dist worksteal -m slow $(OPTIONS)
+
+fuzz: $(VENV)/.dev
+	HYPOTHESIS_PROFILE=random $(BIN)/python -m pytest -n logical --dist worksteal -m hypothesis $(OPTIONS)
 
 check: $(VENV)/.dev
 	$(BIN)/ruff format --check .

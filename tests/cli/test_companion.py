@@ -18,6 +18,7 @@ from hri.core import paths
 from hri.core.recording import read_events
 
 SHARED = Path(__file__).resolve().parents[2].parent / "shared"
+SLOW = pytest.mark.slow
 GOFORWARD = SHARED / "speech" / "real" / "robot" / "goforward.wav"
 
 
@@ -33,22 +34,25 @@ def start(*arguments):
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 
-@pytest.fixture(scope="module")
-def demos(tmp_path_factory):
-    """Two runs of the same demo, side by side on two cores."""
-    folders = [tmp_path_factory.mktemp("demo") / name for name in ("one", "two")]
-    runs = [
-        start("companion", "--demo", "--fast", "--seed", 7, "--headless", "--record", folder)
-        for folder in folders
-    ]
+def demos(folder, count, *more):
+    """The folders of so many runs of the same demo, side by side."""
+    folders = [folder / str(number) for number in range(count)]
+    words = ("companion", "--demo", "--fast", "--seed", 7, "--headless", *more, "--record")
+    runs = [start(*words, folder) for folder in folders]
     outputs = [run.communicate(timeout=800)[0] for run in runs]
-    assert [run.returncode for run in runs] == [0, 0], outputs
+    assert [run.returncode for run in runs] == [0] * count, outputs
     return folders
 
 
 @pytest.fixture(scope="module")
-def events(demos):
-    return read_events(demos[0] / "events.jsonl")
+def demo(tmp_path_factory):
+    """A whole one."""
+    return demos(tmp_path_factory.mktemp("demo"), 1)[0]
+
+
+@pytest.fixture(scope="module")
+def events(demo):
+    return read_events(demo / "events.jsonl")
 
 
 EVENTS = {
@@ -64,9 +68,17 @@ EVENTS = {
 }
 
 
-def test_two_demos_are_equal_byte_for_byte(demos):
+@pytest.mark.parametrize(
+    "more",
+    [
+        pytest.param(("--duration", "12"), id="its beginning"),
+        pytest.param((), marks=SLOW, id="all"),
+    ],
+)
+def test_two_demos_are_equal_byte_for_byte(more, tmp_path):
+    one, two = demos(tmp_path, 2, *more)
     for name in ("events.jsonl", "face.mp4", "robot.wav"):
-        assert (demos[0] / name).read_bytes() == (demos[1] / name).read_bytes(), name
+        assert (one / name).read_bytes() == (two / name).read_bytes(), name
 
 
 @pytest.mark.parametrize("name", EVENTS)
