@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from statistics import median
 from typing import Any
 
 from hri.core.signals import Twist
@@ -44,17 +45,19 @@ said again."""
 
 Kind = tuple[type[BaseProtocol], Callable[[], EmulatedArduino | EmulatedCreate2]]
 CREATE_2: Kind = Create2, EmulatedCreate2
-ARDUINO: Kind = ArduinoBridge, lambda: EmulatedArduino(auto_stop=AUTO_STOP)
+ARDUINO: Kind = ArduinoBridge, lambda: EmulatedArduino(auto_stop=AUTO_STOP, knows_checks=True)
 """With our firmware."""
+OLD_ARDUINO: Kind = ArduinoBridge, lambda: EmulatedArduino(auto_stop=AUTO_STOP)
+"""With our firmware of before lines had checks."""
 
 
 class Chain:
     """A controller that turns each TURN, and the base at the end of its line."""
 
-    def __init__(self, faults: Faults | None = None, kind: Kind = CREATE_2) -> None:
+    def __init__(self, faults: Faults | None = None, kind: Kind = CREATE_2, seed: int = 0) -> None:
         protocol, emulated = kind
         self.base = emulated()
-        self.port = EmulatedPort(Line(self.base, faults))
+        self.port = EmulatedPort(Line(self.base, faults, seed))
         supervisor = Supervisor(rules(protocol(), Limits(), Body(), {}))
         self.controller = Controller(protocol, self.port, supervisor)
         self.now = 0.0
@@ -196,6 +199,9 @@ FAULTS: Mapping[str, Fault] = {
     "every tenth byte damaged": Fault(_spoiled("damaged", 0.1), "stale"),
     "packets halved": Fault(_spoiled("halved", 0.9), "stale"),
     "every hundredth byte damaged": Fault(_spoiled("damaged", 0.01), "garbled"),
+    "every hundredth byte of an Arduino damaged": Fault(
+        _spoiled("damaged", 0.01), "unsteady", kind=ARDUINO
+    ),
     "reports 0.3 s late": Fault(_spoiled("report_delay", 0.3), "late"),
     "line 0.15 s late in both directions": Fault(_spoiled("delay", 0.15), "late"),
     "answers of an Arduino 0.3 s late": Fault(
@@ -234,3 +240,24 @@ def figures() -> dict[str, Any]:
     """Which faults there are, and which were survived with the base stopped and the cause named."""
     results = {name: survived(fault) for name, fault in FAULTS.items()}
     return {"survived": sum(results.values()), "of": len(results), "faults": results}
+
+
+def on_damaged_bytes(kind: Kind, share: float, tries: int, seconds: float = 20.0) -> dict[str, Any]:
+    """What a base does that is told to go straight on while a share of all bytes is damaged.
+
+    How far it goes until it latches (median and most, m), and the fastest that it turned, rad/s.
+    """
+    ways, turns = [], [0.0]
+    for seed in range(tries):
+        chain = Chain(kind=kind, seed=seed).start()
+        body = chain.base.body.base
+        begun = body.travelled
+        chain.port.line.faults.damaged = share
+        for _ in range(round(seconds / TURN)):
+            chain.turn(*chain.asked(GO))
+            turns.append(abs(body.velocity.angular))
+            if chain.controller.state(chain.now).is_latched:
+                ways.append(body.travelled - begun)
+                break
+    found = {"latched": len(ways), "of": tries, "fastest_turn": round(max(turns), 3)}
+    return found | {"median": round(median(ways), 3), "max": round(max(ways), 3)}

@@ -1,7 +1,8 @@
 // Firmware of a small base with two driven wheels, for any Arduino and for the Pico.
 //
 // It speaks the text protocol of ROSArduinoBridge: a letter, up to two numbers, a carriage return;
-// the answer is one line. What the letters mean is in the table at `run`. The board looks after
+// the answer is one line. What the letters mean is in the table at `carry_out`. A line may end with a
+// check, ` *` and two hexadecimal digits; then its answer does, too. The board looks after
 // itself as well: without a new velocity it stops after AUTO_STOP_MS, it does not drive ahead while
 // a bumper is pressed or a cliff sensor sees no floor, and not at all while the stop switch is
 // pressed, whoever asks for it.
@@ -174,33 +175,95 @@ void set_gains(const char *text) {
   }
 }
 
-void agree() { Serial.println(F("OK")); }
+// --- checks: the CRC-8 (polynomial 0x07) of all that stands before ` *` ---
 
-void run(const char *command) {
+const int CHECK_SIZE = 4;
+// After a weighty line with a check, and for so long after any other, weighty ones need a check.
+const unsigned long CHECKED_MS = 2000;
+unsigned long checked_at = 0;
+bool needs_checks = false;
+
+uint8_t crc_of(const char *text, int size) {
+  uint8_t crc = 0;
+  for (int i = 0; i < size; i++) {
+    crc ^= (uint8_t)text[i];
+    for (int bit = 0; bit < 8; bit++) crc = (crc & 0x80) ? (uint8_t)(crc << 1) ^ 0x07 : crc << 1;
+  }
+  return crc;
+}
+
+char digit(uint8_t number) { return number < 10 ? '0' + number : 'A' + number - 10; }
+
+bool has_check(const char *text, int size) {
+  return size >= CHECK_SIZE && text[size - CHECK_SIZE] == ' ' && text[size - CHECK_SIZE + 1] == '*';
+}
+
+bool is_whole(const char *text, int size) {
+  const uint8_t crc = crc_of(text, size - CHECK_SIZE);
+  return text[size - 2] == digit(crc >> 4) && text[size - 1] == digit(crc & 15);
+}
+
+// --- what is asked ---
+
+char answer[32];
+
+void say(const char *text) { strcpy(answer, text); }
+void say(long number) { snprintf(answer, sizeof answer, "%ld", number); }
+
+void carry_out(const char *command) {
   const char *first_word = strchr(command, ' ');
   const char *second_word = first_word ? strchr(first_word + 1, ' ') : NULL;
   const int first = first_word ? atoi(first_word + 1) : 0;
   const int second = second_word ? atoi(second_word + 1) : 0;
   const bool is_refused = strchr("cpwx", command[0]) && is_kept(first);
-  switch (is_too_long || is_refused ? 0 : command[0]) {
-    case 'a': Serial.println(analogRead(input_pin(first))); break;
-    case 'b': Serial.print(' '); Serial.println(BAUD); break;
-    case 'c': pinMode(first, second == 1 ? OUTPUT : INPUT); agree(); break;
-    case 'd': Serial.println(digitalRead(first)); break;
-    case 'e': Serial.print(counted(0)); Serial.print(' '); Serial.println(counted(1)); break;
-    case 'm': drive(first, second); agree(); break;
-    case 'p': Serial.println(ping(first)); break;
-    case 'r': reset(); agree(); break;
-    case 'u': if (first_word) set_gains(first_word + 1); agree(); break;
+  say("OK");
+  switch (is_refused ? 0 : command[0]) {
+    case 'a': say(analogRead(input_pin(first))); break;
+    case 'b': snprintf(answer, sizeof answer, " %ld", BAUD); break;
+    case 'c': pinMode(first, second == 1 ? OUTPUT : INPUT); break;
+    case 'd': say(digitalRead(first)); break;
+    case 'e': snprintf(answer, sizeof answer, "%ld %ld", counted(0), counted(1)); break;
+    case 'm': drive(first, second); break;
+    case 'p': say(ping(first)); break;
+    case 'r': reset(); break;
+    case 'u': if (first_word) set_gains(first_word + 1); break;
     case 'w':
       // On an input it switches the pull-up, as it does by itself on boards of the first years.
       if (is_bumper(first)) pinMode(first, second ? INPUT_PULLUP : INPUT);
       else digitalWrite(first, second ? HIGH : LOW);
-      agree();
       break;
-    case 'x': analogWrite(first, second); agree(); break;
-    default: Serial.println(F("Invalid Command"));
+    case 'x': analogWrite(first, second); break;
+    default: say("Invalid Command");
   }
+}
+
+bool is_weighty(const char *command) { return command[0] && strchr("mrux", command[0]); }
+
+// Whether a line without a check may be one that was damaged, and has weight. A stop is a stop.
+bool is_doubtful(const char *command) {
+  return needs_checks && is_weighty(command) && strcmp(command, "m 0 0");
+}
+
+void run(char *command, int size) {
+  if (millis() - checked_at >= CHECKED_MS) needs_checks = false;
+  const bool is_checked = !is_too_long && has_check(command, size);
+  bool is_good = !is_too_long;
+  if (is_checked) {
+    is_good = is_whole(command, size);
+    command[size - CHECK_SIZE] = '\0';
+    if (is_good && is_weighty(command)) needs_checks = true;
+    if (is_good) checked_at = millis();
+  } else if (is_doubtful(command)) {
+    is_good = false;
+  }
+  carry_out(is_good ? command : "");
+  if (is_checked) {
+    const int end = strlen(answer);
+    const uint8_t crc = crc_of(answer, end);
+    const char check[] = {' ', '*', digit(crc >> 4), digit(crc & 15), '\0'};
+    strcat(answer, check);
+  }
+  Serial.println(answer);
 }
 
 // Pins that no command may touch: what turns the wheels has to go through `drive`, which looks after
@@ -230,7 +293,7 @@ void hear() {
     if (letter == '\n') continue;
     if (letter == '\r') {
       line[length] = '\0';
-      run(line);
+      run(line, length);
       length = 0;
       is_too_long = false;
     } else if (length < LONGEST) {

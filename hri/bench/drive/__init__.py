@@ -14,7 +14,7 @@ PARTS: Mapping[str, Callable[[bool], Iterator[Row]]] = {
     "stops": stopping.rows,
     "chain": stopping.chain,
     "steering": steering.rows,
-    "faults": lambda quick: stopping.faults(),
+    "faults": stopping.faults,
     "odometry": lambda quick: wheels.rows(),
     "simulated world": world.rows,
     "rooms": lambda quick: rooms.rows(quick, max(1, os.cpu_count() or 1)),

@@ -4,6 +4,10 @@ A letter, arguments, a carriage return; an answer in one line. Facts are from it
 (hbrobotics/ros_arduino_bridge, 2012 to 2017) and from that of joshnewans (2022), which most
 tutorials use; `config/firmware/` has a sketch of our own. Such a base speaks only when it is asked,
 so `poll` asks for all sensors in one go, and the answers come back in that order.
+
+Our firmware answers a line that carries a check (`hri.drive.bases.check`) with one that does. The
+greeting has such a line, which all others take for one without; once an answer comes with its
+check, all lines carry one, and what comes without it makes no sense.
 """
 
 from __future__ import annotations
@@ -15,6 +19,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Self
 
 from hri.core.signals import Twist
+from hri.drive.bases.check import checked, without_check
 from hri.drive.bases.odometer import Encoders, Odometer
 from hri.drive.bases.protocol import BaseProtocol, BaseReport, Greeting, Sensors
 from hri.hal.resource import Description
@@ -30,6 +35,8 @@ BATTERY_EVERY = 100
 ACKNOWLEDGED = b"OK"
 """Answers a velocity, so it may come at any time."""
 NUMBERS = re.compile(rb"-?\d{1,10}(?: -?\d{1,10})?")
+STOP = b"m 0 0"
+BAUD_QUESTION = b"b"
 BAUD_ANSWER = re.compile(rb"(?:^|[\r\n]) ?57600\r\n")
 
 SHAPE = {
@@ -98,7 +105,7 @@ class ArduinoBridge(BaseProtocol):
     period = 0.01
     timeout = 2.0  # of the firmware of 2012 to 2022; ours stops after 0.5 s
     boot = 2.0  # opening the port resets many boards, and their boot loader listens that long
-    question: ClassVar[bytes] = b"\rb\r"
+    question: ClassVar[bytes] = b"\r" + BAUD_QUESTION + b"\r"
 
     def __init__(
         self,
@@ -128,6 +135,8 @@ class ArduinoBridge(BaseProtocol):
         self._heard = -math.inf
         self._owed: list[Question] = []
         self._is_confused = False
+        self._has_checks = False
+        """Whether the base has shown that it knows checks."""
         self._rounds = 0
         self._counts = (0, 0)
         self._numbers: dict[str, dict[str, int]] = {}
@@ -149,27 +158,32 @@ class ArduinoBridge(BaseProtocol):
         return BAUD_ANSWER.search(answer) is not None
 
     def greeting(self) -> Sequence[Greeting]:
-        """Stops the wheels, waits for a boot loader, and pulls up the switches' pins."""
+        """Stops the wheels, waits for a boot loader, pulls up switches' pins, asks for checks."""
         pins = (*self.wiring.bumps.values(), *self.wiring.buttons.values())
         pulled_up = b"".join(b"c %d 0\rw %d 1\r" % (pin, pin) for pin in pins)
+        # A board that knows no checks takes this one for a word, which it does not read.
+        asked = checked(BAUD_QUESTION) + b"\r"
         return (
             Greeting(self.emergency_stop, self.boot),  # not every port resets its board
             Greeting(self.emergency_stop, QUIET),
-            Greeting(pulled_up, QUIET),
+            Greeting(pulled_up + asked, QUIET),
         )
 
     def velocity(self, twist: Twist) -> bytes:
         per_frame = self._meters_per_count * self.shape["frame_rate"]
-        return b"m %d %d\r" % tuple(round(rim / per_frame) for rim in self._rims(twist))
+        return self._line_of(b"m %d %d" % tuple(round(o / per_frame) for o in self._rims(twist)))
 
     @property
     def stop(self) -> bytes:
-        return b"m 0 0\r"
+        return self._line_of(STOP)
 
     @property
     def emergency_stop(self) -> bytes:
-        """The first return ends what another began to write."""
-        return b"\r" + self.stop * 2
+        """The first return ends what another began to write; the rest any board obeys."""
+        return b"\r" + (STOP + b"\r") * 2
+
+    def _line_of(self, text: bytes) -> bytes:
+        return (checked(text) if self._has_checks else text) + b"\r"
 
     def poll(self, now: float) -> bytes:
         if self._owed and now - self._asked > ANSWER_TIME:
@@ -182,22 +196,22 @@ class ArduinoBridge(BaseProtocol):
         self._asked = now
         self._owed = self._questions()
         self._rounds += 1
-        return b"".join(question.text for question in self._owed)
+        return b"".join(self._line_of(question.text) for question in self._owed)
 
     def _questions(self) -> list[Question]:
         """Encoders, switches and cliffs each time; sonars in turn, as each holds up the board."""
-        asked = [Question(b"e\r", "counts")]
+        asked = [Question(b"e", "counts")]
         wiring, battery_pin = self.wiring, int(self.battery["battery_pin"])
         for kind, pins in (("bumps", wiring.bumps), ("buttons", wiring.buttons)):
-            asked += [Question(b"d %d\r" % pin, kind, place) for place, pin in pins.items()]
+            asked += [Question(b"d %d" % pin, kind, place) for place, pin in pins.items()]
         asked += [
-            Question(b"a %d\r" % pin, "cliffs", place, 1023) for place, pin in wiring.cliffs.items()
+            Question(b"a %d" % pin, "cliffs", place, 1023) for place, pin in wiring.cliffs.items()
         ]
         if wiring.sonars:
             place, pin = list(wiring.sonars.items())[self._rounds % len(wiring.sonars)]
-            asked.append(Question(b"p %d\r" % pin, "sonars", place, 10_000))
+            asked.append(Question(b"p %d" % pin, "sonars", place, 10_000))
         if battery_pin >= 0 and self._rounds % BATTERY_EVERY == 0:
-            asked.append(Question(b"a %d\r" % battery_pin, "battery", "", 1023))
+            asked.append(Question(b"a %d" % battery_pin, "battery", "", 1023))
         return asked
 
     def feed(self, data: bytes, now: float) -> list[BaseReport]:
@@ -207,16 +221,25 @@ class ArduinoBridge(BaseProtocol):
                 if len(self._line) <= LONGEST_LINE:
                     self._line.append(byte)
                 continue
-            line = bytes(self._line).strip()
+            line = bytes(self._line)
             self._line.clear()
-            if not line or line == ACKNOWLEDGED:
+            if not line.strip() or (text := self._text_of(line)) == ACKNOWLEDGED:
                 continue
             self._heard = now
-            if not (self._owed and self._takes(line, now)):
+            if not (self._owed and self._takes(text, now)):
                 self.senseless += len(line)
             elif not self._owed:
                 found.append(self._report(now))
         return found
+
+    def _text_of(self, line: bytes) -> bytes:
+        """What a line says; nothing where its check is wrong, or missing from one that has them."""
+        text = without_check(line)
+        if text is None:
+            is_stop_heard = line == ACKNOWLEDGED  # a stop carries no check
+            return line.strip() if is_stop_heard or not self._has_checks else b""
+        self._has_checks = True
+        return text.strip()
 
     def _takes(self, line: bytes, now: float) -> bool:
         """Whether a line is the next answer of a round; what makes no sense ends the round."""

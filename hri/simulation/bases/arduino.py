@@ -5,13 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 
-from hri.drive.bases.arduino import BUMPER_PRESSED, BUTTON_PRESSED, SHAPE, Wiring
+from hri.drive.bases.arduino import BUMPER_PRESSED, BUTTON_PRESSED, SHAPE, STOP, Wiring
+from hri.drive.bases.check import checked, has_check, without_check
 from hri.simulation.base import Limits
 from hri.simulation.bases.body import Body
 from hri.simulation.bases.emulator import Emulator, Wire
 
 LONGEST = 48
 """Characters of a command; what is longer is no command."""
+CHECKED_S = 2.0
+"""Seconds for which, after one of WEIGHTY and then any line with a check, the next of WEIGHTY needs
+one, unless it is STOP."""
+WEIGHTY = b"mrux"
 FLOOR, NO_FLOOR = 700, 30
 """Counts of a cliff sensor."""
 SONAR_REACH = 4.0
@@ -46,9 +51,10 @@ class EmulatedArduino(Emulator):
         battery_pin: int = -1,
         auto_stop: float = 2.0,
         shape: Mapping[str, float] | None = None,
+        knows_checks: bool = False,
     ) -> None:
         """`auto_stop`: seconds without a velocity after which the wheels stop; `shape`: what
-        differs from the defaults of SHAPE."""
+        differs from the defaults of SHAPE; `knows_checks`: as our firmware does."""
         self._wiring = wiring or Wiring()
         shape = {name: value[0] for name, value in SHAPE.items()} | dict(shape or {})
         self.body = body or Body(limits(shape))
@@ -59,6 +65,9 @@ class EmulatedArduino(Emulator):
         self._rim_speed = self._meters_per_count * shape["frame_rate"]
         self._wire = Wire(self.baud)
         self._command = bytearray()
+        self._knows_checks = knows_checks
+        self._checked_until = -math.inf
+        """Until when it does nothing of weight without a check."""
         self._commanded = 0.0
         self._now = 0.0
         self._origin = (0.0, 0.0)
@@ -79,6 +88,16 @@ class EmulatedArduino(Emulator):
         return self._wire.arrived(now)
 
     def _run(self, command: bytes, now: float) -> None:
+        if not self._knows_checks or not has_check(command):
+            is_refused = now < self._checked_until and _is_weighty(command) and command != STOP
+            self._wire.send(self._answer(b"" if is_refused else command, now) + b"\r\n", now)
+            return
+        text = without_check(command)
+        if text is not None and (_is_weighty(text) or now < self._checked_until):
+            self._checked_until = now + CHECKED_S
+        self._wire.send(checked(self._answer(text or b"", now)) + b"\r\n", now)
+
+    def _answer(self, command: bytes, now: float) -> bytes:
         words = command.split(b" ")
         numbers = [_atoi(word) for word in words[1:3]] + [0, 0]
         actions: dict[bytes, Callable[[int, int, float], str]] = {
@@ -95,7 +114,7 @@ class EmulatedArduino(Emulator):
             b"x": self._agree,
         }
         action = actions.get(words[0][:1], self._refuse)
-        self._wire.send(action(numbers[0], numbers[1], now).encode() + b"\r\n", now)
+        return action(numbers[0], numbers[1], now).encode()
 
     def _roll(self, left: int, right: int, now: float) -> str:
         self._commanded = now
@@ -149,6 +168,10 @@ class EmulatedArduino(Emulator):
                 distance = self.body.distance(place, now)
                 return str(round(distance * 100)) if distance < SONAR_REACH else "0"
         return "0"
+
+
+def _is_weighty(command: bytes) -> bool:
+    return bool(command) and command[0] in WEIGHTY
 
 
 def _atoi(word: bytes) -> int:

@@ -68,4 +68,6 @@ class ArduinoLine(EmulatedBase):
                     raise self.description.error(name, what, did_you_mean(place, PLACES))
         body = RoomBody(self.world, limits(told.shape))
         pin = int(told.battery["battery_pin"])
-        return EmulatedArduino(told.wiring, body, pin, auto_stop=AUTO_STOP, shape=told.shape)
+        return EmulatedArduino(
+            told.wiring, body, pin, auto_stop=AUTO_STOP, shape=told.shape, knows_checks=True
+        )

@@ -3,10 +3,13 @@
 import math
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from hri.core.errors import AuthoringError
 from hri.core.signals import Twist
 from hri.drive.bases.arduino import ArduinoBridge, Wiring
+from hri.drive.bases.check import checked, without_check
 from hri.hal.resource import Description
 from hri.simulation.bases.arduino import EmulatedArduino
 from hri.simulation.bases.line import Line
@@ -96,6 +99,39 @@ def test_a_board_without_buttons_reports_none(talk):
     talk.greet()
     talk.run(0.1)
     assert talk.last.buttons == {}
+
+
+def test_a_board_that_knows_checks_gets_them_and_is_believed_only_with_them():
+    line = Line(EmulatedArduino(WIRING, knows_checks=True))
+    talk = Talk(ArduinoBridge(WIRING), line)
+    talk.greet()
+    assert talk.protocol.velocity(Twist()) == checked(b"m 0 0") + b"\r"
+    for _ in range(10):
+        talk.say(talk.protocol.emergency_stop)
+        talk.run(0.1, Twist(0.2, 0.0))
+    talk.run(1.0, Twist(0.2, 0.0))
+    assert talk.last.velocity.linear == pytest.approx(0.2, abs=0.02)
+    assert talk.protocol.senseless < 500, "only the answers to returns without a command"
+    asked = talk.protocol.poll(talk.now + 1.0) + talk.protocol.poll(talk.now + 2.0)
+    assert asked.startswith(checked(b"e") + b"\r" + checked(b"d 7") + b"\r")
+    reports = len(talk.reports)
+    talk.hear(b"9999 9999\r\n1\r\n1\r\n700\r\n700\r\n0\r\n")
+    assert len(talk.reports) == reports
+
+
+def test_a_board_of_old_goes_on_as_it_is(talk):
+    talk.greet()
+    talk.run(0.5, Twist(0.2, 0.0))
+    assert talk.protocol.velocity(Twist()) == b"m 0 0\r"
+    assert talk.last.velocity.linear == pytest.approx(0.2, abs=0.02)
+
+
+@given(st.binary(max_size=30), st.integers(0, 33), st.integers(1, 255))
+def test_a_check_finds_every_wrong_byte(text, at, wrong):
+    line = bytearray(checked(text))
+    assert without_check(bytes(line)) == text
+    line[at % len(line)] ^= wrong
+    assert without_check(bytes(line)) is None
 
 
 def test_a_reset_of_the_counts_moves_nothing(talk):

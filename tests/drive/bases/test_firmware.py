@@ -10,6 +10,7 @@ import pytest
 
 from hri.core.signals import Twist
 from hri.drive.bases.arduino import SHAPE, ArduinoBridge, Wiring
+from hri.drive.bases.check import checked, without_check
 from hri.simulation.bases.arduino import EmulatedArduino
 from hri.simulation.bases.emulator import Emulator
 from hri.simulation.bases.line import Line
@@ -216,6 +217,37 @@ def test_it_answers_as_the_emulated_board_does(board, command):
     expected = EmulatedArduino()
     expected.feed(command.replace(b"\n", b""), 0.0)
     assert board.feed(command, 0.5) == expected.feed(b"", 1.0)
+
+
+@pytest.mark.parametrize("command", [b"b", b"e", b"d 12", b"m 10 10", b"hello", b""])
+def test_a_line_with_a_check_is_answered_with_one_as_the_emulated_board_does(board, command):
+    expected = EmulatedArduino(WIRING, knows_checks=True)
+    answer = board.feed(checked(command) + b"\r", 0.5)
+    expected.feed(checked(command) + b"\r", 0.0)
+    assert answer == expected.feed(b"", 1.0)
+    assert without_check(answer.strip(b"\r\n")) is not None
+
+
+@pytest.mark.parametrize("at", range(len(checked(b"m 20 20"))))
+def test_a_velocity_that_was_damaged_anywhere_moves_nothing(talk, board, at):
+    talk.run(0.1, Twist())
+    whole = checked(b"m 20 20")
+    damaged = whole[:at] + bytes([whole[at] ^ 0x11]) + whole[at + 1 :]
+    assert b"Invalid Command" in board.feed(damaged + b"\r", talk.now)
+    assert not board.is_rolling
+    assert b"OK" in board.feed(whole + b"\r", talk.now)
+    assert board.is_rolling
+    assert board.feed(b"m 0 0\r", talk.now) == b"OK\r\n", "a stop needs no check"
+    assert not board.is_rolling
+
+
+def test_a_program_that_knows_no_checks_drives_once_the_other_has_gone(talk, board):
+    talk.run(0.1, Twist())
+    assert board.feed(b"m 20 20\r", talk.now) == b"Invalid Command\r\n"
+    talk.run(2.1)
+    assert board.feed(b"m 20 20\r", talk.now) == b"Invalid Command\r\n", "it still asks"
+    board.feed(b"", talk.now + 2.1)
+    assert board.feed(b"m 20 20\r", talk.now + 2.1) == b"OK\r\n"
 
 
 def test_a_line_without_an_end_does_no_harm(board):
