@@ -30,7 +30,7 @@ from hri.drive.histogram import (
     sector,
     valleys,
 )
-from hri.drive.leaning import Leaning
+from hri.drive.leaning import Leaning, back_off
 from hri.drive.mechanics import Mechanics
 from hri.drive.progress import Progress
 from hri.drive.route import Route, find_route, narrow_way
@@ -54,14 +54,12 @@ CLOSEST = 0.2
 """Metres of a beam that gets shorter at which it only creeps."""
 CREEPING = 0.06
 """Metres a second."""
-BACKING, BACKING_S = 0.1, 1.5
-"""How fast, m/s, and for how many seconds it backs off."""
+BACKING_S = 1.5
+"""Seconds for which a robot that gets nowhere backs off."""
 STARTLE_S = 0.2
 """Seconds for which it stands after a touch: the gate hears nobody who has not let go since."""
 LOOKING = 0.8
 """Share of the turn rate with which it looks for whoever leans on it."""
-LEAST_BEHIND = 0.1
-"""Metres that must be free behind it for that."""
 BLIND_S = 0.5
 """Seconds for which a reading counts; without one of each sensor the robot does not go ahead."""
 ASIDE = 0.2
@@ -179,9 +177,9 @@ class Avoidance:
         """Take in whether something presses the bumper, which does not know on which side.
 
         A robot that went somewhere has driven into a thing: it remembers that something is ahead,
-        stands, and backs off. To one that stood somebody has come, from wherever.
+        and backs off until that is free. To one that stood somebody has come, from wherever.
         """
-        if not self._leaning.feel(is_pressed):
+        if not self._leaning.feel(now, pose, is_pressed):
             return
         self._startled_until = now + STARTLE_S
         if self._leaning.stood(pose):
@@ -191,7 +189,6 @@ class Avoidance:
             angle = pose.heading + aside
             x, y = pose.x + reach * math.cos(angle), pose.y + reach * math.sin(angle)
             self.memory.feel(x, y, now, angle)
-        self._backing_until = self._startled_until + BACKING_S
 
     def steer(self, now: float, pose: Pose2D, goal: Pose2D) -> Twist:
         """The velocity for now on the way to a goal; rest when it is reached, or nothing is free.
@@ -207,10 +204,10 @@ class Avoidance:
             twist = REST
         elif now < self._startled_until:
             twist = REST
-        elif now < self._backing_until:
-            twist = self._back_off(pose, ways)
         elif self._leaning.is_pressed:
-            twist = self._let_go(pose, ways)
+            twist = self._leaning.let_go(now, pose, ways, LOOKING * self.manner.turn_rate)
+        elif now < self._backing_until:
+            twist = back_off(pose.heading, ways)
         else:
             twist = self._forth(now, pose, ways, goal, distance)
         self._is_moving = twist.linear > 0
@@ -348,17 +345,6 @@ class Avoidance:
 
     def _safe(self, free: float) -> float:
         return safe_speed(free, 0.0, self.manner.deceleration, self._is_moving)
-
-    def _let_go(self, pose: Pose2D, ways: Array) -> Twist:
-        """Turn from whoever leans on it, then back off."""
-        rate = LOOKING * self.manner.turn_rate * (self.side or 1)
-        turn = self._leaning.turn(pose.heading, ways, LEAST_BEHIND, rate)
-        return self._back_off(pose, ways) if turn is None else turn
-
-    def _back_off(self, pose: Pose2D, ways: Array) -> Twist:
-        """Slowly back where it came from, as far as nothing is known to be there."""
-        behind = float(ways[sector(pose.heading + math.pi)])
-        return Twist(-BACKING) if behind > LEAST_BEHIND else REST
 
 
 def _careful(manner: Manner, mechanics: Mechanics) -> Manner:

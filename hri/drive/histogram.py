@@ -33,6 +33,9 @@ BEAM = 0.05
 """Metres to the side of a beam within which it shows that an old point is gone."""
 TOLERANCE = 0.16
 """Metres before the end of a beam in which nothing is said to be gone: noise, and thin things."""
+STAYS_S = 8.0
+"""Seconds; what is in the same place for longer stands there for good. People who pass by stay for
+some seconds at most."""
 FELT_S = 15.0
 """Seconds for which something is remembered that the bumper felt."""
 FARTHEST = 10.0
@@ -54,8 +57,9 @@ class Memory:
     def __init__(self, keep_s: float) -> None:
         """`keep_s`: seconds that a point is remembered."""
         self._keep = keep_s
-        self._points: Array = np.zeros((0, 5))
-        """x, y, when it was seen last, the direction it was looked at in, 1 when it was felt."""
+        self._points: Array = np.zeros((0, 6))
+        """x, y, when it was seen last, the direction it was looked at in, 1 when it was felt, and
+        when it was seen first."""
 
     @property
     def points(self) -> Array:
@@ -67,8 +71,9 @@ class Memory:
         return self._deep(self._points)
 
     def since(self, time: float) -> Array:
-        """The same of what was seen since a time."""
-        return self._deep(self._points[self._points[:, 2] >= time])
+        """The same of what was seen since a time, or has been there for longer than people stay."""
+        last, first = self._points[:, 2], self._points[:, 5]
+        return self._deep(self._points[(last >= time) | (last - first >= STAYS_S)])
 
     @staticmethod
     def _deep(points: Array) -> Array:
@@ -103,7 +108,7 @@ class Memory:
 
     def feel(self, x: float, y: float, now: float, angle: float) -> None:
         """Remember what the bumper felt, for FELT_S, though no beam may see it."""
-        self._points = np.vstack((self._points, (x, y, now, angle, 1.0)))
+        self._points = np.vstack((self._points, (x, y, now, angle, 1.0, now)))
 
     def add(self, x: float, y: float, now: float, angle: float) -> None:
         """Remember a point of the odometry frame that was looked at in this direction."""
@@ -112,7 +117,8 @@ class Memory:
         if known.any():
             self._points[known, 2:4] = now, angle
         else:
-            self._points = np.vstack((self._points[-MOST_POINTS + 1 :], (x, y, now, angle, 0.0)))
+            point = (x, y, now, angle, 0.0, now)
+            self._points = np.vstack((self._points[-MOST_POINTS + 1 :], point))
 
     def _clear(self, start: tuple[float, float], angle: float, length: float) -> None:
         """Forget what a beam passed through."""

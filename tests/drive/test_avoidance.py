@@ -12,6 +12,7 @@ from hri.core.signals import HeadPose, People, Person, Pose2D, RangeReading, Twi
 from hri.drive.avoidance import Avoidance, Manner, straight_to, turn_to
 from hri.drive.closing import Closing
 from hri.drive.gate import REST
+from hri.drive.leaning import WAITS_S
 from hri.drive.mechanics import Mechanics, mechanics_of, swept_radius
 from hri.drive.progress import Progress
 from hri.hal.configuration import Shape, load_configuration
@@ -179,29 +180,61 @@ def test_a_touch_makes_it_back_off_and_go_around() -> None:
     trial.go(Pose2D(3.0, 0.0), 2.0)
     before = trial.pose.x
     trial.avoidance.touch(trial.now, trial.pose, True)
-    trial.avoidance.touch(trial.now, trial.pose, False)
     assert trial.tick(Pose2D(3.0, 0.0)) == REST
     trial.go(Pose2D(3.0, 0.0), 0.3)
     assert trial.tick(Pose2D(3.0, 0.0)).linear < 0
     trial.go(Pose2D(3.0, 0.0), 1.0)
     assert trial.pose.x < before
+    trial.avoidance.touch(trial.now, trial.pose, False)
     assert trial.go(Pose2D(3.0, 0.0), 40.0)
     assert max(abs(pose.y) for pose in trial.path) > 0.25
 
 
-def test_one_who_leans_on_a_robot_that_stands_is_looked_for_and_backed_off_from() -> None:
-    trial = Trial(Room([Circle(0.0, 0.41, 0.21)]))
+def _leaned_on(*leaning: Circle) -> Trial:
+    """A robot that stands, and on which somebody leans."""
+    trial = Trial(Room(leaning))
     for _ in range(10):
         trial.avoidance.see(trial.now, trial.pose, trial.readings())
-    for _ in range(200):
-        clearance = trial.room.clearance(trial.pose.x, trial.pose.y) - RADIUS
+    return trial
+
+
+def _let_go(trial: Trial) -> float:
+    """Seconds until nobody leans on the robot any more; it drives away from them, never on."""
+    begun = trial.now
+    while (clearance := trial.room.clearance(trial.pose.x, trial.pose.y) - RADIUS) < 0.01:
         trial.avoidance.touch(trial.now, trial.pose, clearance < 0.01)
-        twist = trial.tick(Pose2D(3.0, 0.0))
-        if clearance >= 0.01:
-            break
-        assert twist.linear <= 0.0
-    assert clearance >= 0.01
-    assert trial.closest > -0.01
+        before = trial.pose
+        assert trial.tick(Pose2D(3.0, 0.0)).linear <= 0.0
+        if trial.room.clearance(trial.pose.x, trial.pose.y) < RADIUS - 0.005:
+            trial.pose = replace(before, heading=trial.pose.heading)  # they do not give way
+        assert trial.now - begun < 30.0
+    return trial.now - begun
+
+
+@pytest.mark.parametrize("bearing", [0.0, 90.0, 180.0, 250.0])
+def test_who_leans_on_a_robot_that_stands_is_waited_for_then_backed_off_from(
+    bearing: float,
+) -> None:
+    x, y = 0.41 * math.cos(math.radians(bearing)), 0.41 * math.sin(math.radians(bearing))
+    trial = _leaned_on(Circle(x, y, 0.21))
+    assert WAITS_S <= _let_go(trial) < WAITS_S + 10.0
+
+
+def test_who_goes_by_themselves_is_not_backed_off_from() -> None:
+    trial = _leaned_on(Circle(0.0, 0.41, 0.21))
+    while trial.now < WAITS_S - 0.5:
+        trial.avoidance.touch(trial.now, trial.pose, True)
+        assert trial.tick(Pose2D(3.0, 0.0)).linear == 0.0
+    trial.room = Room()
+    trial.avoidance.touch(trial.now, trial.pose, False)
+    assert trial.go(Pose2D(3.0, 0.0), 30.0)
+    assert min(pose.x for pose in trial.path) > -0.01
+
+
+def test_a_robot_between_two_people_gets_away_sideways() -> None:
+    trial = _leaned_on(Circle(0.0, 0.41, 0.21), Circle(0.0, -0.5, 0.21))
+    _let_go(trial)
+    assert abs(trial.pose.x) > abs(trial.pose.y)
 
 
 @settings(max_examples=4, deadline=None)

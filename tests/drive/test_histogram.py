@@ -89,6 +89,12 @@ def test_what_was_felt_just_now_is_as_sure_as_what_was_seen() -> None:
     assert not len(memory.points)
 
 
+def test_what_is_in_the_same_place_for_longer_than_people_stay_counts_as_furniture() -> None:
+    memory = remembering((0.0, 0.5), (9.0, 0.5))
+    memory.add(3.0, 0.0, 9.0, 0.0)
+    assert memory.since(50.0) == pytest.approx(np.array([(0.6, 0.0), (0.9, 0.0)]))
+
+
 def test_memory_does_not_grow_for_ever() -> None:
     memory = Memory(1e9)
     for number in range(2000):

@@ -40,7 +40,7 @@ REMEMBERED = 10.0
 """Seconds for which it remembers a thing that no beam sees any more."""
 PASSED = 0.05
 """Meters beside a beam within which it shows that a thing is gone."""
-NEAR_PEOPLE, MET_S = 0.18, 5.0
+NEAR_PEOPLE, MET_S = 0.1, 4.0
 """Meters a second that are enough, and for how many seconds, after somebody came near: they, or
 whoever is with them, may come again from where no sensor looks."""
 SHORT_REACH = 0.5
