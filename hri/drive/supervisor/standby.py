@@ -18,7 +18,7 @@ from contextlib import suppress
 
 from hri.drive.supervisor.watchdog import AGAIN, BEAT, EVERY, write_last_stops, write_stop
 
-PATIENCE = 0.15
+PATIENCE = 0.13
 """Seconds without a heartbeat after which the program stops the base. The watchdog is due before
 it, and the supervisor takes less for a gap: when it goes on, it knows that it was away."""
 LEND, WITHDRAW = b"+", b"-"
