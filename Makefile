@@ -15,6 +15,10 @@ BIN    := $(VENV)/bin
 # The networks that see faces, once; without them they are found coarsely, and fewer nods.
 FETCH_FACES := $(BIN)/hri models fetch face >/dev/null || echo "going on without seeing well"
 
+# What follows from pip names each package and its size, with its progress.
+TELL_SOURCE := echo "fetching packages from $$($(BIN)/python -m pip config get global.index-url \
+  2>/dev/null || echo https://pypi.org/simple); each is named with its size ..."
+
 run: $(VENV)/.run
 	@$(FETCH_FACES)
 	$(BIN)/hri companion $(OPTIONS)
@@ -59,9 +63,11 @@ $(BIN)/python:
 	@$(PYTHON) -m venv $(VENV)
 
 $(VENV)/.run: pyproject.toml | $(BIN)/python
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+	@$(TELL_SOURCE)
+	$(BIN)/python -m pip install --disable-pip-version-check --progress-bar on --editable .
 	@touch $@
 
 $(VENV)/.dev: pyproject.toml | $(BIN)/python
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@$(TELL_SOURCE)
+	$(BIN)/python -m pip install --disable-pip-version-check --progress-bar on --editable '.[dev]'
 	@touch $@ $(VENV)/.run

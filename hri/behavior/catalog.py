@@ -49,9 +49,8 @@ def find_schema(type_name: str) -> Path:
         return paths.find("config", file)
     except HriError as error:
         searched = ", ".join(str(folder) for folder in paths.search_folders())
-        wanted = registry.canonical(type_name)
         otherwise = f"no {file} in {searched}; add it there, or set HRI_PATH"
-        remedy = did_you_mean(wanted, registry.known(GROUP), otherwise)
+        remedy = registry.meant(GROUP, type_name, otherwise)
         raise HriError(f'unknown behavior type "{type_name}" - {remedy}') from error
 
 
@@ -83,7 +82,7 @@ def _driver(schema: Schema) -> type[Behavior]:
     if registry.canonical(schema.driver) in registry.known(GROUP):
         driver: type[Behavior] = registry.find(GROUP, schema.driver)
         return driver
-    remedy = did_you_mean(registry.canonical(schema.driver), registry.known(GROUP))
+    remedy = registry.meant(GROUP, schema.driver)
     raise HriError(f'unknown driver "{schema.driver}" - {remedy}')
 
 

@@ -63,6 +63,8 @@ class Network:
     path: Path = Path("-")
     document: Element | None = None
     """What it was read from: comments, order, and numbers as they were written."""
+    types: dict[str, str] = field(default_factory=dict)
+    """By id, the types of behaviors as they were written: what messages call them."""
 
     def __getitem__(self, id: str) -> Behavior:
         for behavior in self.behaviors:
@@ -179,7 +181,8 @@ class Network:
             raise AuthoringError(place, f'no behavior "{id}" for the link "{text}"', remedy)
         ports = getattr(behavior, kind)
         if port not in ports:
-            what = f'{type(behavior).__name__} "{id}" has no {kind[:-1]} "{port}"'
+            written = self.types.get(id, type(behavior).__name__)
+            what = f'{written} "{id}" has no {kind[:-1]} "{port}"'
             raise AuthoringError(place, what, did_you_mean(port, ports))
         return behavior, port
 
@@ -260,6 +263,7 @@ def _add(network: Network, element: Element) -> None:
             raise child.error(f"{name}: {what}", remedy, "value") from error
     behavior = cls(**parameters)
     behavior.id = element.get("id")
+    network.types[behavior.id] = element.get("type")
     try:
         network.add(behavior)
     except HriError as error:

@@ -13,11 +13,12 @@ import trio
 
 from hri.behavior.behavior import Context
 from hri.behavior.network import load_network
-from hri.behavior.runner import Runner
+from hri.behavior.runner import Runner, Statistics
 from hri.cli.doors import add_door_options, doors_of
 from hri.cli.ending import Ending
 from hri.cli.messages import LineFormatter, OptionParser
 from hri.cli.outcome import status_of
+from hri.cli.port_plot import PortPlot
 from hri.cli.streams import unfailing_output
 from hri.core.clock import Clock, FakeClock, RealClock
 from hri.core.events import EventBus
@@ -53,6 +54,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--without-resources", action="store_true", help="configure no devices at all")
     add("--load-all-resources", action="store_true", help="open every device at the start")
     add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
+    add("--plot", action="append", default=[], metavar="PORT", help="draw an output, as ID.OUTPUT")
     add("--realtime", action="store_true", help="run ahead of other programs, where allowed")
     add("--fast", action="store_true", help="fake time, as fast as the machine can")
     add_door_options(parser)
@@ -119,6 +121,8 @@ def _behave(options: argparse.Namespace, ending: Ending) -> int:
         log.warning(line)
     lent = Context(clock, EventBus(clock), resources, doors=doors)
     runner = Runner(network, lent)
+    plots = [PortPlot(runner, port) for port in options.plot]
+    began = clock.now()
     try:
         if options.load_all_resources:
             for id in resources.ids(Resource):
@@ -132,7 +136,18 @@ def _behave(options: argparse.Namespace, ending: Ending) -> int:
         runner.stop()
         resources.close()
         _tell_timings(runner)
+    _tell_outcome(runner.statistics, clock.now() - began)
+    for plot in plots:
+        print(plot.write())
     return 1 if runner.statistics.failures else 0
+
+
+def _tell_outcome(statistics: Statistics, seconds: float) -> None:
+    """One line at the end, beside what the network prints."""
+    count = f"{statistics.ticks} tick{'s' * (statistics.ticks != 1)} in {seconds:.1f} s"
+    missed = f"{statistics.missed} missed" if statistics.missed else "none missed"
+    failed = f"{statistics.failures} failures" if statistics.failures else "no failures"
+    print(f"behave: {count}, {missed}, {failed}", file=sys.stderr)
 
 
 def _tell_timings(runner: Runner) -> None:

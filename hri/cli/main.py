@@ -16,7 +16,7 @@ COMMANDS = {
     "run": ("hri.cli.run", "start an app by name or path"),
     "doctor": ("hri.cli.doctor", "test microphone, speaker, camera, screen, base and models"),
     "devices": ("hri.cli.devices", "list the devices of a configuration and what is present"),
-    "new": ("hri.cli.new", "start a driver, behavior, task, app or face of your own"),
+    "new": ("hri.cli.new", "start a driver, behavior, task, primitive, app or face of your own"),
     "network": ("hri.cli.network", "check, show and draw behavior networks"),
     "schema": ("hri.cli.schema", "export the schemas of behaviors as XML"),
     "grammar": ("hri.cli.grammar", "check, parse with, and expand grammars"),

@@ -63,7 +63,10 @@ def _fetch(options: argparse.Namespace) -> int:
         name: str = options.name
         place = bring(name, paths.expanded(options.source), CATALOG.parts(name))
     else:
-        place = fetch(CATALOG.download(options.name), _ProgressLine(options.name))
+        model = CATALOG.download(options.name)
+        if not CATALOG.is_here(model):
+            print(f"{model.name}: {model.size / 1e6:.1f} MB from {model.url}", file=sys.stderr)
+        place = fetch(model, _ProgressLine(options.name))
     print(place)
     return 0
 

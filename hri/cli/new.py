@@ -1,4 +1,4 @@
-"""`hri new`: a small working start for a driver, behavior, task, app or face of your own.
+"""`hri new`: a small working start for a driver, behavior, task, primitive, app or face.
 
 The folders of `templates/` work as they are, under the name `thing`; a new one is a copy with
 another name.
@@ -44,6 +44,7 @@ KINDS = {
         ("HRI_PATH=. behave ./thing.xml --without-resources",),
     ),
     "task": Kind("a task that is a script as well", ("python thing.py",)),
+    "primitive": Kind("a task that is a network, and a script as well", ("python thing.py",)),
     "app": Kind(
         "an app that hears, answers, nods and counts",
         (

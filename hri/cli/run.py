@@ -240,9 +240,12 @@ class Session:
         resources = self.robot.resources
         is_deaf = resources.stand_in_of("microphone") is not None
         if self._authored is not None and (self.options.demo or is_deaf):
+            world = resources.obtain("world", SimulatedWorld)
+            if not world.people and not self.options.demo:
+                self.narrator.tell("no microphone, and nobody in the simulated room")
+                return
             if is_deaf and not self.options.fast:
                 self.narrator.tell("no microphone: a simulated person visits for two minutes")
-            world = resources.obtain("world", SimulatedWorld)
             self.visit = self._authored
             self.visit.start(world, context.clock, context.events)
         elif resources.stand_in_of("camera") is not None:

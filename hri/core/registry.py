@@ -70,6 +70,15 @@ def canonical(name: str) -> str:
     return "Hri." + name.removeprefix("Evolution.") if name.startswith("Evolution.") else name
 
 
+def meant(group: str, name: str, otherwise: str = "") -> str:
+    """The remedy for an unknown name: the nearest one, spelled as in 2003 where that one was."""
+    names = known(group)
+    if name.startswith("Evolution."):
+        names = [f"Evolution.{one.removeprefix('Hri.')}" for one in names if one[:4] == "Hri."]
+        names += [one for one in ALIASES if canonical(one) in known(group)]
+    return did_you_mean(name, names, otherwise)
+
+
 def find(group: str, name: str) -> Any:
     """The class of that name.
 
@@ -77,9 +86,7 @@ def find(group: str, name: str) -> Any:
     """
     entry = _entries(group).get(canonical(name))
     if entry is None:
-        raise HriError(
-            f'unknown {GROUPS[group]} "{name}" - {did_you_mean(canonical(name), known(group))}'
-        )
+        raise HriError(f'unknown {GROUPS[group]} "{name}" - {meant(group, name)}')
     try:
         return entry.load()
     except (ImportError, AttributeError) as error:

@@ -306,7 +306,7 @@ class SimulatedCamera(InWorld, Camera):
         super()._close()
 
     def pan(self, now: float) -> float:
-        return self.world.bearing_of(self.world.person, now)
+        return self.world.bearing_of(self.world.person, now) if self.world.people else 0.0
 
     def _read(self, now: float) -> Frame | None:
         drawn = self._worker.poll()

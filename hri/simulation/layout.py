@@ -69,7 +69,7 @@ class Layout:
     room: Room
     robot: RobotStart
     people: tuple[PersonStart, ...]
-    """The camera follows the first."""
+    """The camera follows the first; none in a bare room."""
     noise_db: float
     """Level of the room's noise against full scale."""
     items: tuple[Item, ...] = ()
@@ -164,7 +164,9 @@ def _robot(table: Table) -> RobotStart:
 
 
 def _people(root: Table) -> list[Table]:
-    """`[person]`, or `[[person]]` for each of several."""
+    """`[person]`, or `[[person]]` for each of several; none for a room without people."""
+    if "person" not in root:
+        return list(root.array("person"))
     if not isinstance(root.data.get("person"), list):
         return [root.table("person")]
     tables = root.array("person")

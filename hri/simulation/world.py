@@ -43,7 +43,7 @@ class SimulatedWorld(Resource):
     base: Base
     axle: Axle
     people: tuple[Person, ...]
-    """The camera follows the first."""
+    """The camera follows the first; none in a bare room."""
     sound: Sound
     beams: Beams
 
@@ -121,7 +121,11 @@ class SimulatedWorld(Resource):
 
     @property
     def person(self) -> Person:
-        """The first of the people."""
+        """The first of the people. Raises HriError in a world without any."""
+        if not self.people:
+            raise HriError(
+                "nobody is in this world - add [person] with at = [1.2, 0.6] to its file"
+            )
         return self.people[0]
 
     def find_person(self, name: str) -> Person:

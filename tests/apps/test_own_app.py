@@ -2,9 +2,11 @@
 
 import pytest
 
+from hri.core import paths
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, AuthoringErrors, HriError
 from hri.robot import Robot, load_app
+from hri.simulation.world import SimulatedWorld
 from hri.speech.recognizers.typed import TypedRecognizer
 from hri.testing import live_for
 from tests.devices import TYPED
@@ -350,3 +352,16 @@ def test_typed_lines_wait_until_it_has_spoken_and_stop_does_not(put):
     rules = [(event.properties["rule"], event.time) for event in named(events, "speech.heard")]
     assert [rule for rule, _ in rules] == ["help", "stop", "joke"]
     assert rules[1][1] == pytest.approx(2.6, abs=0.2)
+
+
+def test_the_companion_lives_in_a_bare_room_and_who_speaks_there_is_missed(tmp_path):
+    (tmp_path / "bare.toml").write_text("[robot]\nstart = [0, 0]\n")
+    config = tmp_path / "bare.xml"
+    text = paths.find("config", "simulated").read_text()
+    config.write_text(text.replace('value="home"', 'value="bare.toml"'))
+    robot = Robot(config=str(config), clock=FakeClock(), devices=TYPED[:2])
+    world = robot.resources.obtain("world", SimulatedWorld)
+    with pytest.raises(HriError, match=r"nobody is in this world - add \[person\]"):
+        world.say("hello", at=1.0)
+    events = live_for(robot, 2.0, *robot.app.load_tasks())
+    assert "person.seen" not in {event.name for event in events}

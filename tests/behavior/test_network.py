@@ -65,7 +65,16 @@ def test_the_interval_is_a_tenth_of_a_second_unless_told(tmp_path):
             '<Behavior id="a" type="Hri.Scale"><Parameter name="factor" value="x"/></Behavior>',
             'factor: "x" is no number - write a number',
         ),
-        (SUM + '<Link from="one.out" to="sum.input"/>', 'Constant "one" has no output "out"'),
+        (SUM + '<Link from="one.out" to="sum.input"/>', 'Hri.Constant "one" has no output "out"'),
+        (
+            SUM.replace("Hri.Constant", "Evolution.Constant")
+            + '<Link from="one.out" to="sum.input"/>',
+            'Evolution.Constant "one" has no output "out"',
+        ),
+        (
+            '<Behavior id="a" type="Evolution.Constnt"/>',
+            'unknown behavior type "Evolution.Constnt" - did you mean "Evolution.Constant"?',
+        ),
         (SUM + '<Link from="won.value" to="sum.input"/>', 'no behavior "won"'),
         (SUM + SUM, 'the id "show" is used twice'),
         ("<Behaviour/>", "<Behaviour> has no place"),

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import cv2
 import pytest
 
 from hri.cli.behave import main
@@ -160,7 +161,8 @@ def test_a_signal_stops_its_behaviors_and_ends_it_cleanly(number, network, tmp_p
                 break
         process.send_signal(number)
         out, err = process.communicate(timeout=20)
-        assert (process.returncode, err) == (0, "")
+        assert process.returncode == 0
+        assert re.fullmatch(r"behave: \d+ ticks? in .* s, .*\n", err)
         assert out.splitlines()[-1] == "stopped"
 
 
@@ -178,3 +180,35 @@ def test_realtime_runs_and_says_in_a_line_when_it_may_not(tmp_path):
     assert len(refusals) == 1
     assert "rtprio" in refusals[0]
     assert done.stdout.count("double: 3") == 2
+
+
+def test_it_ends_with_a_line_of_what_happened_and_draws_an_output(
+    network, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    words = [network, "--without-resources", "--fast", "--invocation-count=3"]
+    assert main([*words, "--plot", "three.value"]) == 0
+    out = capsys.readouterr()
+    assert out.err == "behave: 3 ticks in 0.2 s, none missed, no failures\n"
+    assert out.out.endswith("net-three.value.png\n")
+    assert cv2.imread("net-three.value.png").shape == (400, 1000, 3)
+
+
+@pytest.mark.parametrize(
+    ("port", "told"),
+    [
+        ("three", "write a behavior and its output"),
+        ("three.valu", 'did you mean "value"?'),
+        ("four.value", 'no behavior "four" - known are: show, text, three'),
+        ("text.value", "it sent str, which is not a number"),
+    ],
+)
+def test_what_cannot_be_drawn_is_one_line(port, told, network, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "net.xml"
+    word = '<Parameter name="parsed_value" value="&quot;a&quot;"/>'
+    text = f'<Behavior id="text" type="Hri.Constant">{word}</Behavior>'
+    path.write_text(path.read_text().replace("<Link", text + "<Link"))
+    words = [network, "--without-resources", "--fast", "--invocation-count=3"]
+    assert main([*words, "--plot", port]) == 2
+    assert told in capsys.readouterr().err

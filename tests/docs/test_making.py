@@ -1,6 +1,8 @@
 """The page for makers: what it shows works when it is copied."""
 
 import re
+import shutil
+import subprocess
 
 import pytest
 
@@ -61,3 +63,14 @@ def test_the_message_of_the_page_is_what_is_said(copied):
     with pytest.raises(AuthoringError) as error:
         Robot("./kitchen", "simulated", clock=FakeClock())
     assert str(error.value).splitlines()[0] in PAGE
+
+
+@pytest.mark.skipif(shutil.which("make") is None, reason="no make")
+@pytest.mark.parametrize("target", [".venv/.run", ".venv/.dev"])
+def test_setting_up_tells_what_is_fetched_and_from_where(target):
+    words = ["make", "-n", "-W", "pyproject.toml", target]
+    done = subprocess.run(words, cwd=paths.house(), capture_output=True, text=True, check=True)
+    (told,) = (line for line in done.stdout.splitlines() if "fetching packages from" in line)
+    (install,) = (line for line in done.stdout.splitlines() if " pip install " in line)
+    assert "index-url" in told
+    assert "--quiet" not in install

@@ -59,3 +59,7 @@ def test_too_many_obstacles_are_refused(write: Write) -> None:
     circle = "[[circle]]\ncenter = [9, 9]\nradius = 0.1\n"
     with pytest.raises(AuthoringError, match="leave some of them out"):
         load_layout(write(START + circle * (MOST_OBSTACLES + 1)))
+
+
+def test_a_bare_room_has_nobody_in_it(write: Write) -> None:
+    assert load_layout(write("[robot]\nstart = [0, 0]\n")).people == ()

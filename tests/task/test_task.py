@@ -41,7 +41,9 @@ def test_a_task_is_found_by_name_and_run_with_a_context():
     stage = Stage()
     stage.run(wait, 1500)
     assert stage.clock.now() == 1.5
-    with pytest.raises(HriError, match=r'unknown task "Evolution.Wiat" - did you mean "Hri.Wait"'):
+    with pytest.raises(
+        HriError, match=r'unknown task "Evolution.Wiat" - did you mean "Evolution.Wait"'
+    ):
         find_task("Evolution.Wiat")
 
 
