@@ -7,6 +7,7 @@ from collections import Counter
 from pathlib import Path
 from typing import TextIO
 
+from hri.behavior.runner import Statistics
 from hri.cli.streams import let_go
 from hri.core.quoting import message_line
 from hri.core.signals import Event
@@ -42,6 +43,14 @@ LINES = {
     "battery.lowered": "battery   low",
     "microphone.muted": "muted     {muted}",
 }
+
+
+VERDICTS = (
+    (0.1, "this machine is too slow for it: raise its invocation_interval, or end other programs"),
+    (0.01, "it may stutter: end other programs"),
+    (0.0, "nobody notices that"),
+)
+"""What it means when a network missed at least such a part of its ticks."""
 
 
 class Narrator:
@@ -111,13 +120,9 @@ class Narrator:
             lived = self.robot.lived - self._first_frame
             frames = self._renderer.frames if self._renderer is not None else 0
             self.tell(f"{frames / max(lived, 0.1):.1f} frames a second")
-        missed = {
-            runner.network.name: runner.statistics.missed
-            for runner in self.robot.runners
-            if runner.statistics.missed
-        }
-        if missed:
-            self.tell("missed ticks: " + ", ".join(f"{name} {n}" for name, n in missed.items()))
+        for runner in self.robot.runners:
+            if runner.statistics.missed:
+                self.tell(missed_ticks(runner.network.name, runner.statistics))
         if self.robot.recording is not None:
             folder: Path = self.robot.recording.folder
             files = "events.jsonl, face.mp4, robot.wav, timeline.png, feelings.svg"
@@ -128,6 +133,15 @@ def _why(event: Event) -> str:
     """The reason an event gives, with its detail where it has one."""
     reasons = (event.properties.get(name) for name in ("reason", "detail"))
     return ": ".join(str(reason) for reason in reasons if reason)
+
+
+def missed_ticks(network: str, statistics: Statistics) -> str:
+    """How many ticks a network missed, and what that means."""
+    missed, due = statistics.missed, statistics.ticks + statistics.missed
+    share = missed / due
+    verdict = next(words for least, words in VERDICTS if share >= least)
+    told = f"missed ticks: {network} {missed} of {due} ({share:.1%}) - {verdict}"
+    return f"{told}; the slowest was {statistics.slowest}" if statistics.slowest else told
 
 
 class _Known(dict[str, object]):

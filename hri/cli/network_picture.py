@@ -13,6 +13,8 @@ from hri.core.writing import write_bytes
 
 SCALE = 2
 """Pixels of the picture for each of the layout."""
+FINER = 2
+"""It is drawn so many times larger, and averaged: a line that is nearly level has no steps then."""
 MOST_PIXELS = 60_000_000
 STEPS = 24
 """Straight pieces of a curve."""
@@ -21,19 +23,19 @@ STEPS = 24
 def write_png(layout: Layout, type_names: dict[str, str], out: Path) -> None:
     """Write the picture; a very large network is drawn smaller. Raises HriError."""
     area = layout.width * layout.height
-    scale = min(SCALE, (MOST_PIXELS / area) ** 0.5)
+    scale = min(FINER * SCALE, (MOST_PIXELS / area) ** 0.5)
     size = (round(layout.width * scale), round(layout.height * scale))
     image = Image.new("RGB", size, COLORS["paper"])
     pen = _Pen(ImageDraw.Draw(image), scale)
     for wire in layout.wires:
         for piece in curve(wire.points):
-            pen.line(_samples(piece), wire_color(wire.link.datatype))
+            pen.line(strokes(piece), wire_color(wire.link.datatype))
     linked = {(wire.link.source.id, wire.link.output) for wire in layout.wires}
     linked |= {(wire.link.target.id, wire.link.input) for wire in layout.wires}
     for box in layout.boxes:
         _draw_box(pen, box, type_names, linked)
     picture = io.BytesIO()
-    image.save(picture, "PNG")
+    image.reduce(FINER).save(picture, "PNG")
     write_bytes(out, picture.getvalue())
 
 
@@ -62,8 +64,11 @@ class _Pen:
         self.draw.text(position, text, color, self.font, anchor=anchor)
 
 
-def _samples(piece: tuple[tuple[float, float], ...]) -> list[tuple[float, float]]:
+def strokes(piece: tuple[tuple[float, float], ...]) -> list[tuple[float, float]]:
+    """The points that a piece of a curve is drawn through."""
     (x0, y0), (x1, y1), (x2, y2), (x3, y3) = piece
+    if y0 == y3:
+        return [piece[0], piece[-1]]  # Rounding would break a level line into pieces.
     points = []
     for step in range(STEPS + 1):
         t = step / STEPS

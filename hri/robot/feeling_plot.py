@@ -26,16 +26,18 @@ MOST_EMOTIONS = 6
 FELT = 0.01
 """An emotion that stays below this intensity gets no curve."""
 
-_LEFT, _WIDTH, _RIGHT, _BOTTOM = 70, 800, 110, 480
-_MOOD_TOP, _MOOD_HEIGHT = 60, 200
-_FELT_TOP, _FELT_HEIGHT = 285, 160
+TITLE = "What the robot felt"
+STEPS_S, MOST_TICKS = (10.0, 30.0, 60.0), 12
+"""Seconds from one tick to the next: the first with which there are not more."""
+
+_LEFT, _WIDTH, _RIGHT, _BOTTOM = 70, 800, 110, 500
+_MOOD_TOP, _MOOD_HEIGHT = 80, 200
+_FELT_TOP, _FELT_HEIGHT = 305, 160
 _APART = 14.0
 """Between two labels, in units of the drawing."""
-_MOOD = {
-    "pleasure": ("valence", "#2e8b57"),
-    "arousal": ("arousal", "#c46210"),
-    "dominance": ("dominance", "#6a5acd"),
-}
+MOOD_COLORS = {"pleasure": "#2e8b57", "arousal": "#c46210", "dominance": "#6a5acd"}
+_FIELDS = {"pleasure": "valence", "arousal": "arousal", "dominance": "dominance"}
+"""What a state calls the axes of the mood."""
 _COLORS = ("#1f6fb4", "#b22222", "#e0a000", "#8b4fa8", "#3aa6a6", "#777777")
 
 
@@ -64,10 +66,12 @@ def feeling_plot(moments: Sequence[Moment]) -> str:
         f'<svg xmlns="http://www.w3.org/2000/svg" font-family="sans-serif" font-size="11"'
         f' viewBox="0 0 {_LEFT + _WIDTH + _RIGHT} {_BOTTOM}">',
         '<rect width="100%" height="100%" fill="white"/>',
+        f'<text x="{_LEFT + _WIDTH / 2:.0f}" y="16" text-anchor="middle" font-size="13">{TITLE}'
+        "</text>",
+        *_ticks(time),
         *_mood(shown, time),
         *_felt(shown, time),
         *_labels(shown, time),
-        *_minutes(time),
         "</svg>",
     ]
     return "\n".join(parts) + "\n"
@@ -80,9 +84,9 @@ def write_feeling_plot(moments: Sequence[Moment], path: Path) -> None:
 
 def _mood(moments: Sequence[Moment], axis: _Time) -> Iterable[str]:
     yield from _frame("mood", (-1, 0, 1), _MOOD_TOP, _MOOD_HEIGHT)
-    for row, (name, (field, color)) in enumerate(_MOOD.items()):
+    for row, (name, color) in enumerate(MOOD_COLORS.items()):
         points = [
-            (axis.x(time), _MOOD_TOP + _MOOD_HEIGHT * (1 - getattr(state, field)) / 2)
+            (axis.x(time), _MOOD_TOP + _MOOD_HEIGHT * (1 - getattr(state, _FIELDS[name])) / 2)
             for time, state in moments
         ]
         yield from _curve(name, points, color, _MOOD_TOP, row)
@@ -121,14 +125,26 @@ def _labels(moments: Sequence[Moment], axis: _Time) -> Iterable[str]:
             before, free = state.label, x + _APART
 
 
-def _minutes(axis: _Time) -> Iterable[str]:
-    """The time below the frames."""
-    first = max(0, math.ceil((axis.end - axis.span) / 60))
-    for minute in range(first, int(axis.end // 60) + 1):
+def _ticks(axis: _Time) -> Iterable[str]:
+    """The time below the frames, and fine lines through them."""
+    step = next(step for step in STEPS_S if axis.span <= MOST_TICKS * step)
+    first = max(0, math.ceil((axis.end - axis.span) / step))
+    for number in range(first, int(axis.end // step) + 1):
+        x, seconds = axis.x(step * number), step * number
+        for top, height in ((_MOOD_TOP, _MOOD_HEIGHT), (_FELT_TOP, _FELT_HEIGHT)):
+            yield f'<path d="M{x:.1f} {top}v{height}" stroke="#eee"/>'
         yield (
-            f'<text x="{axis.x(60.0 * minute):.1f}" y="{_FELT_TOP + _FELT_HEIGHT + 16}"'
-            f' text-anchor="middle" fill="#444">{minute} min</text>'
+            f'<text x="{x:.1f}" y="{_FELT_TOP + _FELT_HEIGHT + 16}"'
+            f' text-anchor="middle" fill="#444">{_clock(round(seconds))}</text>'
         )
+
+
+def _clock(seconds: int) -> str:
+    """A time: "40 s", "1 min", "1:30 min"."""
+    minutes, rest = divmod(seconds, 60)
+    if not rest:
+        return f"{minutes} min"
+    return f"{minutes}:{rest:02} min" if minutes else f"{rest} s"
 
 
 def _frame(title: str, values: tuple[int, ...], top: int, height: int) -> Iterable[str]:

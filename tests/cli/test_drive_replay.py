@@ -7,11 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hri.cli.drive.plan import Moment, Plan, Run
+from hri.cli.drive.plan import PAPER, ROW, Moment, Plan, Run, legend
 from hri.cli.drive.recorded import read_run
 from hri.cli.main import main
 from hri.core.errors import HriError
 from hri.core.signals import Pose2D
+from hri.simulation.room import Circle
 from hri.simulation.rooms import furnished
 from hri.testing.trips import Journey
 
@@ -38,6 +39,28 @@ def test_a_run_is_drawn_with_its_room(tmp_path: Path) -> None:
     assert picture is not None
     colors = {tuple(int(c) for c in color) for color in picture.reshape(-1, 3)[:, ::-1]}
     assert {(32, 104, 176), (212, 112, 62), (205, 200, 190)} <= colors, "robot, person, box"
+
+
+def test_the_legend_explains_what_is_there_and_nothing_else() -> None:
+    def pose(x: float) -> Pose2D:
+        return Pose2D(x, 0.0, 0.0)
+
+    alone = Run([Moment(0.0, pose(0.0)), Moment(1.0, pose(1.0))])
+    met = Run(
+        [Moment(0.0, pose(0.0), ((2.0, 1.0),), ((1.0, 1.0),)), Moment(1.0, pose(1.0))],
+        obstacles=[Circle(3.0, 0.0, 0.2)],
+        goal=(1.0, 0.0),
+    )
+    own = ["robot", "robot's way", "start"]
+    assert [name for name, _, _ in legend(alone, 900)] == own
+    names = [*own, "goal", "person", "person's way", "seen", "thing"]
+    assert [name for name, _, _ in legend(met, 900)] == names
+
+    assert max(row for _, _, row in legend(met, 300)) > 0, "it is wrapped"
+    picture = Plan(alone).whole()
+    assert all(side % 2 == 0 for side in picture.shape[:2]), "films need even sides"
+    below = picture[-ROW * 2 :]
+    assert (below != PAPER).any()
 
 
 def test_a_film_shows_the_robot_move(tmp_path: Path) -> None:

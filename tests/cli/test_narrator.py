@@ -4,7 +4,8 @@ import io
 
 import pytest
 
-from hri.cli.narrator import Narrator
+from hri.behavior.runner import Statistics
+from hri.cli.narrator import Narrator, missed_ticks
 from hri.core.clock import FakeClock
 from hri.robot import Robot
 
@@ -31,3 +32,22 @@ def test_what_is_ignored_is_told_with_why_it_does_not_count(told):
     assert "ignored hm (no speech)" in told(
         "speech.rejected", text="hm", reason="no speech", detail=""
     )
+
+
+@pytest.mark.parametrize(
+    ("ticks", "missed", "told"),
+    [
+        (11895, 105, "moving 105 of 12000 (0.9%) - nobody notices that"),
+        (950, 50, "moving 50 of 1000 (5.0%) - it may stutter"),
+        (50, 50, "moving 50 of 100 (50.0%) - this machine is too slow for it"),
+    ],
+)
+def test_missed_ticks_come_with_a_verdict(ticks, missed, told):
+    assert missed_ticks("moving", Statistics(ticks=ticks, missed=missed)).startswith(
+        f"missed ticks: {told}"
+    )
+
+
+def test_the_slowest_behavior_of_a_missed_tick_is_named():
+    statistics = Statistics(ticks=9, missed=1, slowest="gate")
+    assert missed_ticks("moving", statistics).endswith("; the slowest was gate")

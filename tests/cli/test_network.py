@@ -1,6 +1,7 @@
 import pytest
 
 from hri.cli.main import main
+from hri.cli.network_picture import STEPS, strokes
 from hri.robot import load_app
 from tests.disk import full_disk
 
@@ -51,6 +52,14 @@ def test_draw_writes_a_picture(network, tmp_path, name, begin):
     out = tmp_path / name
     assert main(["network", "draw", str(network), "--out", str(out)]) == 0
     assert out.read_bytes().startswith(begin)
+
+
+def test_a_level_piece_of_a_line_is_one_stroke_and_a_curve_many():
+    """Rounding would break it into strokes at different heights."""
+    level = ((0.0, 7.3), (150.0, 7.3), (150.0, 7.3), (300.0, 7.3))
+    curve = ((0.0, 0.0), (50.0, 0.0), (50.0, 40.0), (100.0, 40.0))
+    assert strokes(level) == [(0.0, 7.3), (300.0, 7.3)]
+    assert len(strokes(curve)) == STEPS + 1
 
 
 def test_draw_knows_which_pictures_it_can(network, capsys):

@@ -2,7 +2,14 @@ from itertools import pairwise
 from xml.etree import ElementTree
 
 from hri.core.signals import EmotionState
-from hri.robot.feeling_plot import FELT, MOST_EMOTIONS, SPAN_S, feeling_plot, write_feeling_plot
+from hri.robot.feeling_plot import (
+    FELT,
+    MOST_EMOTIONS,
+    SPAN_S,
+    TITLE,
+    feeling_plot,
+    write_feeling_plot,
+)
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -41,6 +48,19 @@ def test_a_run_that_has_just_begun_fills_the_drawing_after_a_minute():
         first, last = curves([(0.0, state()), (seconds, state())])[0]
         assert (first[0], last[0]) == (left, 870.0)
     assert {"0 min", "3 min"} <= set(texts([(0.0, state()), (200.0, state())]))
+
+
+def test_it_has_a_title_and_ticks_however_short_it_is():
+    assert TITLE in texts([])
+    minute = texts([(0.0, state()), (45.0, state())])
+    assert [text for text in minute if text in ("0 min", "10 s", "40 s", "50 s")] == [
+        "0 min",
+        "10 s",
+        "40 s",
+    ]
+    assert "1:30 min" in texts([(0.0, state()), (200.0, state())])
+    long = [(10.0 * i, state()) for i in range(200)]
+    assert len([text for text in texts(long) if text.endswith(" min")]) == 10
 
 
 def test_what_is_older_than_ten_minutes_is_left_out():

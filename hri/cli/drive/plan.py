@@ -22,6 +22,7 @@ EDGE: Color = (96, 92, 86)
 WAY: Color = (32, 104, 176)
 ROBOT: Color = (32, 104, 176)
 PERSON: Color = (212, 112, 62)
+PERSON_WAY: Color = (237, 204, 187)
 GOAL: Color = (44, 138, 84)
 SEEN: Color = (176, 48, 72)
 INK: Color = (40, 40, 40)
@@ -31,6 +32,9 @@ FINE = 4
 """Bits behind the point of a pixel, with which OpenCV draws."""
 LARGEST = 1400
 """Pixels across at most."""
+ROW, LETTER, SIGN = 24, 9, 26
+"""Pixels of a row of the legend, of a letter in it at most, and of the sign before its words."""
+WORDS = cv2.FONT_HERSHEY_SIMPLEX, 0.5, INK, 1, cv2.LINE_AA
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,8 +75,12 @@ class Plan:
         width, height = (
             math.ceil(way * self._scale / 2) * 2 for way in (right - left, top - bottom)
         )
-        self._ground = np.empty((height, width, 3), np.uint8)
+        self._legend = legend(self.run, width)
+        rows = 1 + max((row for _, _, row in self._legend), default=0)
+        self._ground = np.empty((height + rows * ROW, width, 3), np.uint8)
         self._ground[:] = PAPER
+        for name, x, row in self._legend:
+            self._explain(name, x, height + row * ROW + ROW // 2)
         for obstacle in self.run.obstacles:
             self._obstacle(self._ground, obstacle)
 
@@ -92,7 +100,7 @@ class Plan:
         last = moments[-1]
         for number in range(len(last.people)):
             way = [moment.people[number] for moment in moments if len(moment.people) > number]
-            self._line(picture, way, tuple((c + 2 * 250) // 3 for c in PERSON), 1)
+            self._line(picture, way, PERSON_WAY, 1)
         for moment in moments:
             for point in moment.seen:
                 self._disc(picture, point, 0.012, SEEN)
@@ -111,10 +119,33 @@ class Plan:
         nose = (pose.x + radius * math.cos(pose.heading), pose.y + radius * math.sin(pose.heading))
         self._line(picture, [(pose.x, pose.y), nose], PAPER, 2)
 
+    def _explain(self, name: str, x: int, y: int) -> None:
+        """A sign as it stands in the picture, and what it means."""
+        picture, middle = self._ground, (x + SIGN // 2, y)
+        match name:
+            case "robot" | "person":
+                color = ROBOT if name == "robot" else PERSON
+                cv2.circle(picture, middle, 7, color, -1, cv2.LINE_AA)
+            case "start":
+                cv2.circle(picture, middle, 7, WAY, 1, cv2.LINE_AA)
+            case "goal":
+                for way in (6, -6):
+                    start, end = (middle[0] - 6, y - way), (middle[0] + 6, y + way)
+                    cv2.line(picture, start, end, GOAL, 2, cv2.LINE_AA)
+            case "seen":
+                for step in (4, 9, 13, 18, 22):
+                    cv2.circle(picture, (x + step, y), 1, SEEN, -1, cv2.LINE_AA)
+            case "thing":
+                cv2.rectangle(picture, (x + 5, y - 7), (x + 20, y + 7), THING, -1)
+                cv2.rectangle(picture, (x + 5, y - 7), (x + 20, y + 7), EDGE, 1)
+            case _:
+                color, thick = (WAY, 2) if name == "robot's way" else (PERSON_WAY, 1)
+                cv2.line(picture, (x + 3, y), (x + SIGN - 4, y), color, thick, cv2.LINE_AA)
+        cv2.putText(picture, MEANING.get(name, name), (x + SIGN, y + 5), *WORDS)
+
     def _titled(self, picture: Image, time: float) -> Image:
         text = f"{self.run.title}   {time:.1f} s".strip()
-        style = cv2.FONT_HERSHEY_SIMPLEX, 0.5, INK, 1, cv2.LINE_AA
-        cv2.putText(picture, text, (8, 18), *style)
+        cv2.putText(picture, text, (8, 18), *WORDS)
         return picture
 
     def _obstacle(self, picture: Image, obstacle: Obstacle) -> None:
@@ -154,6 +185,36 @@ class Plan:
     def _pixels(self, point: Point) -> tuple[int, int]:
         x, y = (point[0] - self._left) * self._scale, (self._top - point[1]) * self._scale
         return round(x * 2**FINE), round(y * 2**FINE)
+
+
+MEANING = {"seen": "what its sensors saw"}
+"""Signs of the legend that are called otherwise in it."""
+
+
+def legend(run: Run, width: int) -> list[tuple[str, int, int]]:
+    """The signs that are in a picture of so many pixels across.
+
+    Each comes with the pixel at which it begins, and with its row of the legend.
+    """
+    has_people = any(moment.people for moment in run.moments)
+    signs = {
+        "robot": True,
+        "robot's way": True,
+        "start": True,
+        "goal": run.goal is not None,
+        "person": has_people,
+        "person's way": has_people,
+        "seen": any(moment.seen for moment in run.moments),
+        "thing": any(not isinstance(obstacle, Segment) for obstacle in run.obstacles),
+    }
+    places, x, row = [], 8, 0
+    for name in (name for name, is_shown in signs.items() if is_shown):
+        length = SIGN + LETTER * (len(MEANING.get(name, name)) + 1)
+        if x + length > width and x > 8:
+            x, row = 8, row + 1
+        places.append((name, x, row))
+        x += length
+    return places
 
 
 def _bounds(run: Run) -> tuple[float, float, float, float]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import bisect
 import io
-import math
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
@@ -18,6 +17,8 @@ from hri.core.writing import write_bytes
 from hri.emotion.affect import Affect
 from hri.emotion.appraisal import appraise
 from hri.emotion.dynamics import Dynamics
+from hri.robot.feeling_plot import MOOD_COLORS
+from hri.robot.labels import placed
 
 POINTS = 600
 """Moments between the first and the last; events come on top."""
@@ -33,7 +34,6 @@ LETTER = 0.0073
 """Width of a letter, of the plot's."""
 LONGEST_NAME = 38
 """Letters of an event's name that are written."""
-_MOOD = {"pleasure": "#2e8b57", "arousal": "#c46210", "dominance": "#6a5acd"}
 
 
 def plot_affects(
@@ -60,7 +60,7 @@ def figure_of(
         "dominance": [state.dominance for state in states],
     }
     for name, values in axes.items():
-        mood.plot(times, values, color=_MOOD[name], label=name)
+        mood.plot(times, values, color=MOOD_COLORS[name], label=name)
     _finish(mood, "mood", -1.05)
     _write(mood, _changes(times, states))
     for name in _strongest(states):
@@ -114,19 +114,13 @@ def _changes(times: Sequence[float], states: Sequence[EmotionState]) -> Iterator
 def _write(axes: Axes, names: Iterable[tuple[float, str]]) -> None:
     """Names above a plot, at their times; a name for which there is no room is left out."""
     left, right = axes.get_xlim()
-    ends = [-math.inf] * ROWS
-    for time, name in names:
-        at = (time - left) / (right - left)
-        row = next((row for row, end in enumerate(ends) if end <= at), None)
-        if row is None:
-            continue
-        ends[row] = at + LETTER * (len(name) + 1)
-        axes.axvline(time, color="#dddddd", zorder=0)
+    for label in placed(names, left, right, LETTER, ROWS):
+        axes.axvline(label.time, color="#dddddd", zorder=0)
         axes.annotate(
-            name,
-            xy=(time, 1.0),
-            xycoords=("data", "axes fraction"),
-            xytext=(0, 2 + 10 * row),
+            label.text,
+            xy=(label.at, 1.0),
+            xycoords="axes fraction",
+            xytext=(0, 2 + 10 * label.level),
             textcoords="offset points",
             fontsize=8,
             parse_math=False,
