@@ -14,6 +14,7 @@ class Doubler(Behavior):
 
 from __future__ import annotations
 
+import math
 import zlib
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -48,6 +49,10 @@ class Context:
     """All that run, in the order they were started."""
     has_tasks: bool = False
     """Whether tasks run beside the networks."""
+    held_up_by: str = ""
+    """The task that kept all others waiting last, for longer than it should."""
+    held_up_at: float = -math.inf
+    """Seconds of the clock when it let them go on."""
 
     @cached_property
     def networks(self) -> Networks:

@@ -249,7 +249,8 @@ class Runner:
             if (late := ended - (begin + slot * interval)) > 0:
                 skipped = int(late / interval) + 1
                 slot += skipped
-                self._report_missed(skipped, began_late=began - deadline > ended - began)
+                began_late = began - deadline > ended - began
+                self._report_missed(skipped, deadline if began_late else None)
 
     def _timed(self, behaviors: list[Behavior]) -> list[tuple[Behavior, Timing, bool]]:
         """With each its timing, and whether what it sends may rest on the word of a relay."""
@@ -304,11 +305,16 @@ class Runner:
             awake = [b for b in self.network.behaviors if b not in self._resting]
             self._order = self._timed(awake)
 
-    def _report_missed(self, skipped: int, began_late: bool) -> None:
-        """Count what was missed; tell of it at once, but not more often than a person can read."""
+    def _report_missed(self, skipped: int, waited_since: float | None) -> None:
+        """Count what was missed; report it at once, but not more often than a person can read.
+
+        `waited_since`: the deadline of a tick that began late; None for one that took too long.
+        """
         self.statistics.missed += skipped
         self.statistics.slowest, cause = "", "something else held the loop up"
-        if not began_late and self._ran:
+        if waited_since is not None and self.context.held_up_at >= waited_since:
+            cause = f"{self.context.held_up_by} held the loop up"
+        elif waited_since is None and self._ran:
             behavior, *_ = max(self._ran, key=lambda ran: ran[1].last)
             self.statistics.slowest, cause = behavior.id, f"slowest was {behavior.id}"
         now = self.context.clock.now()

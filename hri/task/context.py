@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractAsyncContextManager, contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NoReturn, TypeVar
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
+
+import trio
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.networks import Networks
-from hri.core.clock import Clock
+from hri.core.clock import Clock, FakeClock
 from hri.core.errors import HriError
 from hri.core.events import EventBus
 from hri.core.latest import Board
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
     from hri.task.task import Task
 
 B = TypeVar("B", bound=Behavior)
+T = TypeVar("T")
 
 
 class TaskFailed(HriError):
@@ -94,6 +97,21 @@ class TaskContext:
     def claim(self, name: str, priority: int = 0) -> AbstractAsyncContextManager[None]:
         """Have "drive", "voice" or the like alone while the body runs; see `hri.task.claims`."""
         return self.manager.claims.claim(name, priority, self.task.name)
+
+    async def blocking(self, function: Callable[..., T], *arguments: Any) -> T:
+        """Run a function that waits or computes for long in a thread; what it returns or raises.
+
+        Networks and other tasks go on meanwhile; fake time stands still. A task that is cancelled
+        does not wait for the function, which goes on to its end.
+        """
+        held = self.clock if isinstance(self.clock, FakeClock) else None
+        if held is not None:
+            held.hold()
+        try:
+            return await trio.to_thread.run_sync(function, *arguments, abandon_on_cancel=True)
+        finally:
+            if held is not None:
+                held.release()
 
     @property
     def termination_requested(self) -> bool:

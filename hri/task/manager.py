@@ -12,6 +12,7 @@ from hri.behavior.behavior import Behavior, Context
 from hri.core.signals import Event
 from hri.task.claims import Claims, forget_claims
 from hri.task.context import TaskContext
+from hri.task.hold_up import HoldUpWatch
 from hri.task.task import Job, Task, TaskType
 from hri.task.thread import LoopThread
 
@@ -37,6 +38,7 @@ class TaskManager:
         self.on_shutdown: Callable[[], object] = lambda: None
         """Ends the loop, where that is the task manager's business."""
         self._nursery: trio.Nursery | None = None
+        self._hold_ups = HoldUpWatch(context)
         self.context = TaskContext(
             context.clock,
             context.events,
@@ -50,8 +52,13 @@ class TaskManager:
         """What tasks are lent; each gets a copy with itself in it."""
 
     def live_in(self, nursery: trio.Nursery) -> None:
-        """Let installed tasks run in a nursery; it must end with the robot loop."""
+        """Let installed tasks run in a nursery; it must end with the robot loop.
+
+        On real time, a task that holds the loop up is named from then on.
+        """
         self._nursery = nursery
+        if not self.clock.is_fake:
+            nursery.start_soon(self._hold_ups.watch)
 
     def make(self, job: Job, *arguments: Any) -> Task:
         """A task that has not been started. Raises HriError for arguments that do not fit."""

@@ -30,6 +30,7 @@ from hri.core.signals import Event
 from hri.hal.pending import Interrupted
 from hri.task.claims import Leave
 from hri.task.context import TaskContext
+from hri.task.hold_up import CURRENT
 from hri.task.queue import EventQueue
 
 if TYPE_CHECKING:
@@ -111,6 +112,7 @@ class Task:
         if self.is_over:
             return None
         self.status, outcome = TaskStatus.RUNNING, TaskStatus.CANCELLED
+        outer = CURRENT.set(self.name)
         try:
             with self._scope:
                 self.result = await self._job(replace(context, task=self), *self._arguments)
@@ -125,6 +127,7 @@ class Task:
                 raise error from raised
             raise
         finally:
+            CURRENT.reset(outer)
             self._end(outcome)
         return self.result
 
