@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from itertools import pairwise
 
 from hri.core.signals import HeadGesture, HeadPose
@@ -44,8 +45,9 @@ MOST_POSES = 600
 class GestureRecognizer:
     """Takes the poses of one head, one by one, at 10 to 100 a second.
 
-    A gesture is told once, however long it lasts, or again after `again` seconds while it goes on;
-    until the head rests one about another axis is told, too: a nod that turns into a shake.
+    A gesture is told once, however long it lasts, or again after `again` seconds while it goes on
+    and no answer is expected; until the head rests one about another axis is told, too: a nod that
+    turns into a shake.
     A pose with NaN, or of the same time as the one before, is passed over. After a gap, or when
     time goes back, it starts anew.
     """
@@ -74,17 +76,21 @@ class GestureRecognizer:
             # The head rests: what it did before counts no more.
             self._movement, self._axis = Movement(self._movement.noise), None
             return None
-        gesture = self._movement.gesture(self._patterns, prompted, self._counted_from)
+        since = partial(self._counted_from, prompted)
+        gesture = self._movement.gesture(self._patterns, prompted, since)
         if gesture is None or self._goes_on(gesture):
             return None
         self._axis, self._told = self._axes[gesture.kind], time
         return gesture
 
-    def _counted_from(self, axis: int) -> float:
-        """Seconds from which on swings of an angle count: what was told once is not told anew."""
+    def _counted_from(self, prompted: bool, axis: int) -> float:
+        """Seconds from which on swings of an angle count: what was told once is not told anew.
+
+        An answer is given once; so few swings make one that steps of a walk would be told often.
+        """
         if axis != self._axis:
             return -math.inf
-        return self._told if math.isfinite(self._again) else math.inf
+        return math.inf if prompted or math.isinf(self._again) else self._told
 
     def _goes_on(self, gesture: HeadGesture) -> bool:
         """Whether a gesture is still the one that was told, and that not long ago."""

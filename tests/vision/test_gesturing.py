@@ -340,6 +340,14 @@ def test_who_nods_again_and_again_is_told_each_time() -> None:
     assert {gesture.kind for gesture in found} == {"nod"}
 
 
+def test_an_answer_is_told_once_however_long_somebody_nods() -> None:
+    def lasting(time: float) -> tuple[float, float, float]:
+        return nod_angles(time - 0.3, cycles=6.0, frequency=1.8)
+
+    assert len(watched(lasting, lasting)) == 3
+    assert len(watched(lasting, lasting, prompted=True)) == 1
+
+
 def test_a_nod_that_one_signal_tells_late_is_told() -> None:
     def lasting(time: float) -> tuple[float, float, float]:
         return nod_angles(time - 0.3, cycles=9.0, frequency=1.8)
