@@ -6,7 +6,7 @@ import math
 from typing import Generic, TypeVar
 
 from hri.behavior.behavior import Behavior, Context
-from hri.behavior.drivers import counts_until
+from hri.behavior.drive_command import counts_until
 from hri.behavior.effects import NOTHING
 from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
 from hri.core.events import EventBus

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -54,3 +55,25 @@ def _kind(thing: object) -> str:
     if isinstance(thing, np.ndarray):
         return f"an array of {thing.ndim} dimensions"
     return f"a {type(thing).__name__}"
+
+
+Resize = Callable[[Image, int, int], NDArray[np.uint8]]
+"""Gives a picture so many columns and rows."""
+
+
+def nearest(image: Image, columns: int, rows: int) -> NDArray[np.uint8]:
+    """The picture in another size; each pixel is the nearest one of before."""
+    across = np.arange(columns) * image.shape[1] // columns
+    return image[np.ix_(np.arange(rows) * image.shape[0] // rows, across)]
+
+
+def fitted(image: Image, width: int, height: int, resize: Resize = nearest) -> Image:
+    """A picture scaled to fit into another size, with black bars where the shapes differ."""
+    if image.shape[:2] == (height, width):
+        return image
+    scale = min(height / image.shape[0], width / image.shape[1])
+    rows, columns = (max(1, round(size * scale)) for size in image.shape[:2])
+    canvas: Image = np.zeros((height, width, 3), np.uint8)
+    top, left = (height - rows) // 2, (width - columns) // 2
+    canvas[top : top + rows, left : left + columns] = resize(image, columns, rows)
+    return canvas

@@ -6,22 +6,22 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hri.behavior.drive_command import DriveCommand
 from hri.behavior.drivers import (
     BatteryLevel,
     BumperSwitch,
     CameraFrames,
     CliffEdge,
-    DriveCommand,
     ImageDisplay,
     JoystickSticks,
     MicrophoneLevel,
     OdometryPose,
     RangeSensorReading,
-    fitted,
 )
 from hri.core.signals import Frame, Twist
 from hri.hal.drive import DriveSystem
 from hri.hal.drivers.memory import MemoryJoystick, MemoryMicrophone, OffscreenScreen
+from hri.hal.picture import fitted
 from hri.hal.resource import Description
 from hri.simulation.world import SimulatedWorld
 from hri.testing import context, run_for

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hri.behavior.behavior import Behavior
-from hri.behavior.drivers import DriveCommand
+from hri.behavior.drive_command import DriveCommand
 from hri.behavior.effects import ANYTHING, NOTHING, Effect
 from hri.behavior.library.arithmetic import Addition
 from hri.behavior.library.callback import CallbackBehavior

@@ -10,7 +10,8 @@ from typing import Any
 import pytest
 import trio
 
-from hri.behavior.drivers import BumperSwitch, DriveCommand
+from hri.behavior.drive_command import DriveCommand
+from hri.behavior.drivers import BumperSwitch
 from hri.behavior.network import Network, load_network
 from hri.behavior.ports import OutputPort
 from hri.core import paths

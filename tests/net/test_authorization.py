@@ -9,7 +9,7 @@ import pytest
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.doors import Doors
-from hri.behavior.drivers import DriveCommand
+from hri.behavior.drive_command import DriveCommand
 from hri.behavior.library.constant import Constant
 from hri.behavior.library.printing import InputCollector
 from hri.behavior.library.sharing import Share, Shared

@@ -6,7 +6,8 @@ from hypothesis import strategies as st
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.doors import Doors
-from hri.behavior.drivers import DriveCommand, JoystickSticks
+from hri.behavior.drive_command import DriveCommand
+from hri.behavior.drivers import JoystickSticks
 from hri.behavior.library.arithmetic import Addition, Multiplication
 from hri.behavior.library.constant import Constant
 from hri.behavior.library.sharing import Share, Shared

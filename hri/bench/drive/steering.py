@@ -19,7 +19,8 @@ import trio
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.doors import Doors
-from hri.behavior.drivers import DriveCommand, JoystickSticks
+from hri.behavior.drive_command import DriveCommand
+from hri.behavior.drivers import JoystickSticks
 from hri.behavior.network import Network
 from hri.behavior.ports import LINEAR_VELOCITY, Output
 from hri.behavior.runner import Runner

@@ -8,21 +8,25 @@ from enum import StrEnum
 
 from hri.core.signals import Twist
 from hri.hal.drive import PATIENCE
+from hri.hal.helm import Rank
 from hri.hal.motion import REST
 
 
 class Level(StrEnum):
-    """Who decides what the wheels do, the most important first."""
+    """Who decides what the wheels do, the most important first.
+
+    The supervisor itself, then the ranks of commands (`hri.hal.helm`) under their names.
+    """
 
     LATCH = "e-stop"
     REFLEX = "reflex"
-    TELEOP = "teleop"
-    BEHAVIORS = "behaviors"
-    TASKS = "tasks"
-    NOBODY = "nobody"
+    TELEOP = Rank.TELEOP.value
+    BEHAVIORS = Rank.BEHAVIORS.value
+    TASKS = Rank.TASKS.value
+    NOBODY = Rank.NOBODY.value
 
 
-SOURCES = (Level.TELEOP, Level.BEHAVIORS, Level.TASKS)
+SOURCES = tuple(Level(rank.value) for rank in Rank if rank is not Rank.NOBODY)
 """Those who command from outside, the most important first."""
 TOLERANCE = 1.001
 """A command may exceed what the base can do by so much, which is how numbers are rounded."""

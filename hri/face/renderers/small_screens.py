@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import Image
+from hri.hal.picture import fitted
 from hri.hal.screen import Screen
 
 Bits = NDArray[np.bool_]
@@ -82,13 +83,11 @@ def _fitted(image: Image, size: tuple[int, int]) -> Image:
     width, height = size
     if not (1 <= width <= LARGEST and 1 <= height <= LARGEST):
         raise HriError(f"a display of {width}x{height} - give sides from 1 to {LARGEST} pixels")
-    scale = min(width / image.shape[1], height / image.shape[0])
-    inner = max(1, round(scale * image.shape[1])), max(1, round(scale * image.shape[0]))
-    shrunk = cv2.resize(image, inner, interpolation=cv2.INTER_AREA)
-    left, top = (width - inner[0]) // 2, (height - inner[1]) // 2
-    fitted = np.zeros((height, width, 3), np.uint8)
-    fitted[top : top + inner[1], left : left + inner[0]] = shrunk
-    return fitted
+    return fitted(image, width, height, _shrunk)
+
+
+def _shrunk(image: Image, columns: int, rows: int) -> NDArray[np.uint8]:
+    return np.asarray(cv2.resize(image, (columns, rows), interpolation=cv2.INTER_AREA), np.uint8)
 
 
 def _bayer(size: int) -> NDArray[np.uint8]:
