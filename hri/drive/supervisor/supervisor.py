@@ -7,7 +7,6 @@ what it is told, and what it does not understand it takes for a reason to stand.
 from __future__ import annotations
 
 import math
-from collections import deque
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -43,26 +42,21 @@ from hri.drive.supervisor.lag import Lag
 from hri.drive.supervisor.latch import Latch
 from hri.drive.supervisor.limiter import Cap, Limiter, within_hardware
 from hri.drive.supervisor.multiplexer import Command, Level, Multiplexer
+from hri.drive.supervisor.nearness import Nearness
 from hri.drive.supervisor.oncoming import Oncoming
 from hri.drive.supervisor.plausibility import Plausibility
 from hri.drive.supervisor.reflex import Reflex
 from hri.drive.supervisor.rules import Rules
+from hri.drive.supervisor.silences import Silences
 from hri.hal.motion import REST
 
 STALE = 0.1
 """Seconds after which a report tells nothing any more; three periods of a base that is slower."""
 LOST = 1.0
 """Seconds without a report after which only a release helps."""
-MOST_SILENCES, MEMORY = 3, 10.0
-"""So many times within so many seconds a base that falls silent may stop while it drives; then only
-a release helps."""
 GAP = 0.1
 """Seconds between two steps after which all that was known is old; the watchdog stops the base a
 little later. A longer one than LOST needs a release."""
-NEAR = 1.5
-"""Meters; a person who is nearer slows the base down."""
-PERSON_FRESH = 1.0
-"""Seconds that a person's distance is believed; then somebody may be near."""
 MOST_NOISE = 0.3
 """Part of the bytes from the base that may make no sense; one wrong byte in a thousand spoils every
 fifteenth report of a Create 2, one in a hundred every second."""
@@ -99,15 +93,14 @@ class Supervisor:
         """Buttons."""
         self._holding: Sequence[Cause] = ()
         """Why it must stand for as long as these last."""
-        self._silences: deque[float] = deque(maxlen=MOST_SILENCES)
-        """When the base fell silent while it drove, and was stopped for it."""
+        self._silences = Silences()
         self._must_cut = False
         self._report: BaseReport | None = None
         self._judged = -math.inf
         """The time of the last report that was looked at."""
         self._time: float | None = None
         self._sent = REST
-        self._person = math.inf, -math.inf
+        self._nearness = Nearness()
         self._waking_since: float | None = None
         self._was_released = False
         self._news: Cause | None = None
@@ -117,9 +110,7 @@ class Supervisor:
     @property
     def is_near(self) -> bool:
         """Whether somebody is near, or nobody knows; as of the last step."""
-        distance, time = self._person
-        is_fresh = self._time is not None and 0 <= self._time - time <= PERSON_FRESH
-        return not (is_fresh and distance >= NEAR)
+        return self._time is None or self._nearness.is_near(self._time)
 
     @property
     def allowed(self) -> Cap:
@@ -166,7 +157,7 @@ class Supervisor:
 
     def hear_person(self, distance: float, now: float) -> None:
         """How far the nearest person is, meters; infinite when surely nobody is about."""
-        self._person = (distance if distance >= 0 else 0.0), now
+        self._nearness.hear(distance, now)
 
     def hear_noise(self, share: float) -> None:
         """How much of what the base says makes no sense, 0 to 1; too much latches the base."""
@@ -287,12 +278,9 @@ class Supervisor:
         return Decision(self._limiter.halt(), level, cause)
 
     def _silent(self, now: float) -> Decision:
-        if self._sent != REST:
-            self._silences.append(now)
-            if len(self._silences) == MOST_SILENCES and now - self._silences[0] <= MEMORY:
-                self._silences.clear()
-                self.trip(UNSTEADY)
-                return self._rest(Level.LATCH, UNSTEADY)
+        if self._sent != REST and self._silences.add(now):
+            self.trip(UNSTEADY)
+            return self._rest(Level.LATCH, UNSTEADY)
         return self._rest(Level.REFLEX, SILENT_BASE)
 
     def _waking(self, now: float) -> Decision:
