@@ -115,7 +115,8 @@ class Acquaintances:
         try:
             for name, vectors in parse_json(text).items():
                 for vector in vectors:
-                    known.learn(name, np.array(vector, np.float32))
+                    with np.errstate(over="ignore"):
+                        known.learn(name, np.array(vector, np.float32))
         except (ValueError, AttributeError, TypeError, OverflowError, HriError) as error:
             remedy = "delete it and let the robot learn the names anew"
             raise AuthoringError(Place(path), f"no file of faces: {error}", remedy) from error
@@ -196,8 +197,9 @@ def _sampled(image: Image, places: Vector) -> Image:
 
 def _normalized(vector: Vector) -> Vector:
     """Of length 1. Raises HriError for what is not finite, or 0."""
-    flat = np.asarray(vector, np.float32).ravel()
-    length = float(np.linalg.norm(flat))
+    with np.errstate(over="ignore"):  # what overflows is not finite, and refused
+        flat = np.asarray(vector, np.float32).ravel()
+        length = float(np.linalg.norm(flat))
     if not math.isfinite(length) or length == 0:
         raise HriError("the model gave no vector for this face - see that it is the right one")
     unit: Vector = flat / length

@@ -1,5 +1,6 @@
 import json
 import stat
+import warnings
 
 import numpy as np
 import pytest
@@ -70,6 +71,16 @@ def test_a_damaged_file_is_told(tmp_path, text):
     with pytest.raises(AuthoringError, match="learn the names anew"):
         Acquaintances.load(path)
     assert Acquaintances.load(tmp_path / "none.json").names == []
+
+
+@pytest.mark.parametrize("number", ["1e39", "1e30"])
+def test_numbers_too_large_for_a_face_are_refused_without_a_warning(tmp_path, number):
+    path = tmp_path / "faces.json"
+    path.write_text(f'{{"Anna": [[{number}, {number}]]}}')
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(AuthoringError, match="learn the names anew"):
+            Acquaintances.load(path)
 
 
 def test_a_file_that_cannot_be_read_or_written_is_told(tmp_path):
