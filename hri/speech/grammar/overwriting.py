@@ -153,6 +153,7 @@ def effect(node: Expression, known: Effects, tell: Tell = lambda node, tags: Non
         case Tagged(item=item, entries=entries):
             inside, outside = effect(item, known, tell), _effect_of_tags(item, entries)
             tell(node, inside.lost(outside))
+            tell(node, _set_twice(entries))
             return inside.then(outside)
         case _:
             return NOTHING
@@ -165,6 +166,17 @@ def _row(items: tuple[Expression, ...], known: Effects, tell: Tell) -> Effect:
         tell(item, so_far.lost(further))
         so_far = so_far.then(further)
     return so_far
+
+
+def _set_twice(entries: tuple[TagEntry, ...]) -> list[str]:
+    """The tags that one pair of braces gives a value and then another one."""
+    before: set[str] = set()
+    lost = []
+    for entry in entries:
+        if entry.operation == "=" and entry.name in before and entry.name not in entry.takes:
+            lost.append(entry.name)
+        before.add(entry.name)
+    return lost
 
 
 def _effect_of_tags(item: Expression, entries: tuple[TagEntry, ...]) -> Effect:

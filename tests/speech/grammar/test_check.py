@@ -109,6 +109,7 @@ def test_only_values_that_are_lost_are_told(write, rules):
         ("public <a> = <color> or <paint>;\n<paint> = any (red {color=r} | blue);", "4:25", "name"),
         ("public <a> = [red {color=r}] or blue {color=b};", "4:33", "{color+=b}"),
         ("public <a> = (red {x=1} | blue {x=2}) {x=3};", "4:15", "collect them"),
+        ("public <a> = red wine {x=red x=wine};", "4:18", "{x+=red x+=wine}"),
     ],
 )
 def test_a_value_that_another_part_replaces_is_told(write, rules, place, remedy):
