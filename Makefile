@@ -29,7 +29,7 @@ test: $(VENV)/.dev
 
 slow: $(VENV)/.dev
 	@$(FETCH_FACES)
-	$(BIN)/python -m pytest -n logical --dist worksteal -m slow $(OPTIONS)
+	$(BIN)/python -m pytest -n logical --dist loadfile -m slow $(OPTIONS)
 
 fuzz: $(VENV)/.dev
 	HYPOTHESIS_PROFILE=random $(BIN)/python -m pytest -n logical --dist worksteal -m hypothesis $(OPTIONS)

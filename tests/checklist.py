@@ -25,6 +25,9 @@ tests that show ours doing it. `make checklist` writes this page from the marker
 PROVES = "proves"
 """The property of a report with the rows that its test proves."""
 
+ALL_THAT_PROVE = "not slow"
+"""What `make test` chooses: no slow test proves a row."""
+
 
 class Checklist:
     """Collects what the tests of a run prove."""
@@ -46,7 +49,10 @@ class Checklist:
         option = config.option
         paths = [str(word).partition("::")[0] for word in config.invocation_params.args]
         is_chosen = (
-            option.keyword or option.markexpr or getattr(option, "lf", False) or option.collectonly
+            option.keyword
+            or option.markexpr not in ("", ALL_THAT_PROVE)
+            or getattr(option, "lf", False)
+            or option.collectonly
         )
         self.is_whole = not is_chosen and not any(Path(path).exists() for path in paths)
         if self.is_writing and not self.is_whole:

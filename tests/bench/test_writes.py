@@ -29,6 +29,7 @@ def left_by_kills(of):
     return {of.interrupt(lambda w, at=at: run_interrupted(w, at), is_there=True) for at in stops}
 
 
+@pytest.mark.slow
 def test_a_writer_killed_at_any_system_call_leaves_the_old_or_the_new_file(tmp_path):
     assert left_by_kills(site(tmp_path, write_bytes)) == {"old", "new"}
 

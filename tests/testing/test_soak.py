@@ -1,3 +1,5 @@
+import pytest
+
 import hri.testing.soak as soak_module
 from hri.cli.main import main
 from hri.core.clock import FakeClock
@@ -11,6 +13,7 @@ def test_two_simulated_minutes_pass(capsys):
     assert out.splitlines()[-1] == "passed"
 
 
+@pytest.mark.slow
 def test_two_runs_are_equal():
     first, second = (Soak(0.02, 10, lambda line: None).run() for _ in range(2))
     assert (first.events, first.tasks, first.injected) == (
@@ -47,6 +50,7 @@ def test_bases_drive_and_numbers_cross_bridges_meanwhile():
     assert verdict.crossings >= 2
 
 
+@pytest.mark.slow
 def test_timers_that_are_kept_until_they_would_be_due_are_found():
     class Hoarder(FakeClock):
         """Forgets no timer of the far future, though it was cancelled."""
