@@ -214,11 +214,11 @@ class Session:
         self.ending = ending
         self.options = options
         self.narrator = narrator
-        visit = robot.app.folder / "demo.toml"
-        if options.demo and not visit.is_file():
+        visits = robot.app.files("demo.toml")
+        if options.demo and not visits:
             raise HriError(f"{robot.app.folder}: this app has no demo.toml - run it without --demo")
         # Read before anything starts: it is played, too, when there is no microphone.
-        self._authored = load_visit(visit) if visit.is_file() else None
+        self._authored = load_visit(visits[-1]) if visits else None
         self.visit: Visit | None = None
 
     def jobs(self) -> list[Job]:

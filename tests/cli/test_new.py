@@ -79,6 +79,12 @@ def test_a_new_app_hears_answers_and_does_something(base, line, words, folder, m
     assert words in capsys.readouterr().out
 
 
+def test_an_app_of_the_companion_has_its_visit(folder, capsys):
+    main(["new", "app", "parrot", "--from", "companion"])
+    options = ["--demo", "--fast", "--headless", "--duration", "0.5"]
+    assert main(["run", "./parrot", *options]) == 0
+
+
 @pytest.mark.parametrize("name", ["joke", "timer"])
 def test_an_app_of_the_companion_may_be_called_like_what_it_does(name, folder):
     assert main(["new", "app", name, "--from", "companion"]) == 0
