@@ -91,8 +91,6 @@ class Behavior:
 
     def __init_subclass__(cls, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
-        if not cls.__doc__:
-            raise TypeError(f"{cls.__name__} needs a docstring - say in a line what it does")
         cls.inputs, cls.outputs, cls.parameters = (
             dict(cls.inputs),
             dict(cls.outputs),
@@ -122,10 +120,14 @@ class Behavior:
             self.set_parameter(name, value)
 
     def set_parameter(self, name: str, value: Any) -> None:
-        """Set a parameter. Raises HriError when it has none of that name, type or range."""
+        """Set a parameter; a text is read as in a file, so that "60" and "pi/4" are numbers.
+
+        Raises HriError when it has none of that name, type or range.
+        """
         declared = self._declared(name, self.parameters, "parameter")
         try:
-            self.__dict__[name] = declared.check(value)
+            read = declared.parse if isinstance(value, str) else declared.check
+            self.__dict__[name] = read(value)
         except ValueError as error:
             raise HriError(f"{self.id}.{name}: {error}") from error
 

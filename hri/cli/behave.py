@@ -21,6 +21,7 @@ from hri.cli.outcome import status_of
 from hri.cli.port_plot import PortPlot
 from hri.cli.streams import unfailing_output
 from hri.core.clock import Clock, FakeClock, RealClock
+from hri.core.errors import HriError, did_you_mean
 from hri.core.events import EventBus
 from hri.core.realtime import become_realtime
 from hri.hal.manager import ResourceManager
@@ -39,7 +40,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 2
     ending = Ending()
     with unfailing_output(), ending.kept_for_later():
-        _set_up_logging(options.debug)
         return status_of(lambda: _behave(options, ending))
 
 
@@ -59,6 +59,13 @@ def _parser() -> argparse.ArgumentParser:
     add("--fast", action="store_true", help="fake time, as fast as the machine can")
     add_door_options(parser)
     return parser
+
+
+CATEGORIES = (
+    *("behave", "behavior", "drive", "emotion", "events", "face", "net", "network", "recording"),
+    *("resources", "service", "task", "vision", "whereabouts"),
+)
+"""What `--debug` can be told of: the parts of `hri` that write a log."""
 
 
 class _at_least:
@@ -100,11 +107,15 @@ def _set_up_logging(debug: str | None) -> None:
     ours = logging.getLogger("hri")
     ours.handlers = [handler]
     ours.setLevel(logging.INFO)
+    if debug and debug not in CATEGORIES:
+        remedy = did_you_mean(debug, CATEGORIES)
+        raise HriError(f'behave: --debug has no category "{debug}" - {remedy}')
     if debug is not None:
         logging.getLogger(f"hri.{debug}" if debug else "hri").setLevel(logging.DEBUG)
 
 
 def _behave(options: argparse.Namespace, ending: Ending) -> int:
+    _set_up_logging(options.debug)
     print("Initializing...", end="", flush=True)
     clock: Clock = FakeClock() if options.fast else RealClock()
     resources = _resources(options, clock)

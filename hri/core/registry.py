@@ -42,6 +42,9 @@ ALIASES = {
     "Evolution.WmmeFileAudioPlay": "Hri.AudioFilePlayer",
     "Evolution.WmmeFileAudioRecord": "Hri.AudioFileRecorder",
     # Two names for one thing.
+    "Examples.PrintBehavior": "Hri.PrintBehavior",
+    "Examples.SkeletonBehavior": "Hri.SkeletonBehavior",
+    "Examples.StopCrash": "Hri.StopCrash",
     "Hri.Listener": "Hri.Recognizer",
     "Hri.SpeechLevel": "Hri.MicrophoneLevel",
 }
@@ -67,7 +70,9 @@ def name_of(group: str, cls: type) -> str:
 def canonical(name: str) -> str:
     """Today's name: aliases resolved, `Evolution.` read as `Hri.`."""
     name = ALIASES.get(name, name)
-    return "Hri." + name.removeprefix("Evolution.") if name.startswith("Evolution.") else name
+    if name.startswith("Evolution."):
+        name = "Hri." + name.removeprefix("Evolution.")
+    return ALIASES.get(name, name)
 
 
 def meant(group: str, name: str, otherwise: str = "") -> str:

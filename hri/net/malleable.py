@@ -44,6 +44,11 @@ class MalleableBehavior(Behavior):
     keep_quotes = Param(
         True, "leave the quotes that strings of other behaviors come in, as in 2003"
     )
+    separator = Param(
+        "space",
+        "between the numbers of an array that is sent; all are read",
+        among=tuple(values.SEPARATORS),
+    )
 
     @property
     def bridge_ports(self) -> tuple[tuple[str, str], ...]:
@@ -98,7 +103,7 @@ class MalleableBehavior(Behavior):
 
     def compute(self, now: float, dt: float) -> None:
         items = [
-            Item(name, values.write(datatype, value))
+            Item(name, values.write(datatype, value, self.separator))
             for name, port, datatype in self._inputs
             for value in port.values
             if values.can_travel(value)

@@ -4,7 +4,7 @@
 |---|---|---|
 | `string` | in quotes, `"text"` | without them |
 | `double` | six decimals (`%f`), `5.000000`, `inf` | any decimal number, `1e-3` |
-| `doublearray` | doubles with a space between, `1.000000 2.000000` | any white space between |
+| `doublearray` | doubles with a space between, `1.000000 2.000000` | white space, `,` or `;` |
 | `boolean` | `true`, `false` | `1`, `0` |
 
 NaN does not travel.
@@ -23,6 +23,9 @@ from typing import Any
 from hri.net.protocol import ProtocolError
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?|[+-]?inf")
+_BETWEEN = re.compile(r"\s*[,;]\s*|\s+")
+SEPARATORS = {"space": " ", "comma": ", ", "semicolon": ";"}
+"""What may stand between the numbers of an array that is sent; the first is the usual one."""
 _TRUTHS = {"true": True, "1": True, "false": False, "0": False}
 
 
@@ -54,9 +57,16 @@ def can_travel(value: Any) -> bool:
     return all(number == number for number in numbers)  # only NaN is not equal to itself
 
 
-def write(datatype: str, value: Any) -> str:
-    """The text of a value that can travel."""
+def write(datatype: str, value: Any, separator: str = "space") -> str:
+    """The text of a value that can travel; `separator`: one of SEPARATORS, for arrays."""
+    if datatype == "doublearray":
+        return SEPARATORS[separator].join(f"{number:f}" for number in value)
     return FORMS[datatype].write(value)
+
+
+def _numbers(text: str) -> tuple[float, ...]:
+    text = text.strip()
+    return tuple(map(_number, _BETWEEN.split(text))) if text else ()
 
 
 def _number(text: str) -> float:
@@ -74,10 +84,7 @@ def _truth(text: str) -> bool:
 FORMS: dict[str, Form] = {
     "string": Form(lambda value: f'"{value}"', str),
     "double": Form(lambda value: f"{value:f}", lambda text: _number(text.strip())),
-    "doublearray": Form(
-        lambda value: " ".join(f"{number:f}" for number in value),
-        lambda text: tuple(map(_number, text.split())),
-    ),
+    "doublearray": Form(lambda value: write("doublearray", value), _numbers),
     "boolean": Form(lambda value: "true" if value else "false", _truth),
 }
 """The datatypes that travel."""

@@ -31,6 +31,19 @@ class TaskFailed(HriError):
     """A task that says itself that it has failed."""
 
 
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """Yes or no, which gives itself when it is called."""
+
+    is_yes: bool
+
+    def __bool__(self) -> bool:
+        return self.is_yes
+
+    def __call__(self) -> bool:
+        return self.is_yes
+
+
 @dataclass
 class TaskContext:
     """Lent to every task; made by the TaskManager."""
@@ -114,9 +127,12 @@ class TaskContext:
                 held.release()
 
     @property
-    def termination_requested(self) -> bool:
-        """Whether the task was told to end; for loops that look in place of being cancelled."""
-        return self.task.termination_requested
+    def termination_requested(self) -> Answer:
+        """Whether the task was told to end; for loops that look in place of being cancelled.
+
+        May be called, as in 2003: `while not context.termination_requested():`.
+        """
+        return Answer(self.task.termination_requested)
 
     def fail(self, why: str) -> NoReturn:
         """End the task with the status FAILURE."""

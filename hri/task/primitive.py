@@ -31,7 +31,7 @@ from hri.core import paths
 from hri.core.errors import HriError
 from hri.hal.pending import Interrupted
 from hri.task.context import TaskContext
-from hri.task.task import TaskStatus, TaskType
+from hri.task.task import TaskStatus, TaskType, declared
 
 
 class Primitive:
@@ -159,7 +159,7 @@ def primitive(id: str) -> Callable[[type[Primitive]], TaskType]:
             return await cls(context, *arguments).run()
 
         run.__doc__ = cls.__doc__
-        return TaskType(id, run, cls)
+        return declared(TaskType(id, run, cls))
 
     return decorated
 

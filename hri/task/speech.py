@@ -11,4 +11,4 @@ from hri.task.library import tasks_by_name
 
 __all__ = ["Ask", "Listen", "Speak", "WaitForSpeech"]  # noqa: F822
 
-__getattr__ = tasks_by_name(__name__, *__all__)
+__getattr__, __dir__ = tasks_by_name(__name__, *__all__)

@@ -288,13 +288,30 @@ _KINDS: dict[Any, str] = {
 }
 
 
+_declared: dict[str, TaskType] = {}
+"""The tasks that modules which are imported by now have declared, by name."""
+
+
 def task(id: str) -> Callable[[Job], TaskType]:
     """Make a coroutine function that takes a TaskContext first a task of that name."""
-    return partial(TaskType, id)
+    return lambda function: declared(TaskType(id, function))
+
+
+def declared(type: TaskType) -> TaskType:
+    """The task, which `find_task` finds from now on unless a package has one of that name."""
+    _declared[type.id] = type
+    return type
 
 
 def find_task(id: str) -> TaskType:
-    """The task of that name: "Hri.Speak", or as in 2003 "Evolution.Speak". Raises HriError."""
+    """The task of that name: "Hri.Speak", or as in 2003 "Evolution.Speak".
+
+    A package declares its tasks as entry points; those of this program are found as well. Raises
+    HriError.
+    """
+    name = registry.canonical(id)
+    if name in _declared and name not in registry.known("hri.tasks"):
+        return _declared[name]
     found = registry.find("hri.tasks", id)
     return found if isinstance(found, TaskType) else TaskType(registry.canonical(id), found)
 

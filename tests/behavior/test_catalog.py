@@ -1,8 +1,10 @@
 import pytest
 
+from hri.behavior.behavior import Behavior
 from hri.behavior.catalog import find_behavior, type_of
 from hri.behavior.network import load_network
 from hri.behavior.schema import schema_of
+from hri.core import registry
 from hri.core.errors import AuthoringError, HriError
 
 WAVE = '''
@@ -193,3 +195,43 @@ def test_of_a_library_whose_import_was_interrupted_no_half_is_left(folder):
         find_behavior("Mine.Wave")
     (path.parent / "wave.py").write_text(WAVE)
     assert find_behavior("Mine.Wave")("w").height == 1.0
+
+
+@pytest.mark.parametrize(
+    ("theirs", "ours"),
+    [
+        ("Evolution.SpeechLevel", "Hri.MicrophoneLevel"),
+        ("Evolution.Listener", "Hri.Recognizer"),
+        ("Examples.PrintBehavior", "Hri.PrintBehavior"),
+        ("Examples.SkeletonBehavior", "Hri.SkeletonBehavior"),
+        ("Examples.StopCrash", "Hri.StopCrash"),
+    ],
+)
+def test_second_names_are_understood_with_either_prefix(theirs, ours):
+    assert find_behavior(theirs) is find_behavior(ours)
+
+
+def test_every_second_name_is_understood_as_evolution_too():
+    for name in registry.ALIASES:
+        evolution = name.replace("Hri.", "Evolution.")
+        assert registry.canonical(evolution) == registry.canonical(name)
+
+
+def test_a_parameter_may_be_set_to_a_text_as_files_write_it():
+    behavior = find_behavior("Hri.StopCrash")("stop")
+    behavior.set_parameter("stop_limit", "2*30")
+    assert behavior.stop_limit == 60.0
+    with pytest.raises(HriError, match=r"stop.stop_limit: .*write a number"):
+        behavior.set_parameter("stop_limit", "far")
+
+
+def test_a_behavior_needs_no_docstring():
+    class Bare(Behavior):
+        def compute(self, now, dt):
+            pass
+
+    assert schema_of(Bare).type == "Bare"
+
+
+def test_constant_is_in_the_palette_where_it_was():
+    assert find_behavior("Evolution.Constant").category == "util"

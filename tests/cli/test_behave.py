@@ -9,7 +9,8 @@ from pathlib import Path
 import cv2
 import pytest
 
-from hri.cli.behave import main
+from hri.cli.behave import CATEGORIES, main
+from hri.core import paths
 
 NETWORK = """\
 <BehaviorNetwork>
@@ -212,3 +213,13 @@ def test_what_cannot_be_drawn_is_one_line(port, told, network, tmp_path, monkeyp
     words = [network, "--without-resources", "--fast", "--invocation-count=3"]
     assert main([*words, "--plot", port]) == 2
     assert told in capsys.readouterr().err
+
+
+def test_a_category_that_is_not_there_is_refused_with_those_that_are(network, capsys):
+    assert main([network, "--debug=netwrok", "--without-resources", "--fast", "--duration=1"]) == 2
+    assert 'no category "netwrok" - did you mean "network"?' in capsys.readouterr().err
+
+
+def test_every_part_that_writes_a_log_is_a_category():
+    source = "".join(path.read_text() for path in (paths.house() / "hri").rglob("*.py"))
+    assert set(re.findall(r'getLogger\("hri\.(\w+)"\)', source)) == set(CATEGORIES)

@@ -178,3 +178,21 @@ def test_a_message_of_any_length_goes_in_lines_that_each_can_be_read(sent):
     for line, next_one in itertools.pairwise(lines):
         with pytest.raises(ProtocolError):
             encode(Message("t", decode(line).items + decode(next_one).items[:1]))
+
+
+def test_a_count_without_quotes_is_read_and_text_that_looks_like_one_is_kept():
+    bare = decode(b"<t><a count=3>1</a><b count=1/><c>count=1 > 0</c></t>")
+    assert bare.items == (Item("a", "1", 3), Item("b", "", 1), Item("c", "count=1 > 0", None))
+
+
+@pytest.mark.parametrize("separator", values.SEPARATORS)
+def test_an_array_is_read_with_whatever_separator_it_was_sent(separator):
+    text = values.write("doublearray", (1.0, 2.0, 3.0), separator)
+    assert text == values.SEPARATORS[separator].join(["1.000000", "2.000000", "3.000000"])
+    assert values.read("doublearray", text) == (1.0, 2.0, 3.0)
+
+
+def test_an_array_with_a_number_missing_is_refused():
+    for text in ("1,,2", ",1", "1, 2,"):
+        with pytest.raises(ProtocolError, match="no doublearray"):
+            values.read("doublearray", text)

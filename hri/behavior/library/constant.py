@@ -22,7 +22,6 @@ _DATATYPES: dict[type, str] = {
 class Constant(Behavior):
     """Sends the same value at every tick."""
 
-    category = "operators"
     may_do = NOTHING
     parsed_value = Param("0", 'a number, a text, an array such as "1, 2, 3", true or false')
     value = Output[Any]("any", "the value")
