@@ -122,3 +122,9 @@ def test_a_child_that_works_is_waited_for_and_one_that_hangs_is_not(
                 list(lines)
         else:
             assert list(lines) == told
+
+
+def test_replies_are_read_by_the_companion_wherever_the_input_lies() -> None:
+    tally = inputs.measure(tries=5, only="replies", jobs=1)["readers"]["replies"]
+    assert tally["failures"] == []
+    assert tally["taken"] + tally["refused"] == 5

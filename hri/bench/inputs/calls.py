@@ -229,10 +229,10 @@ def _replies_of_companion() -> tuple[Any, Any]:
 
 
 def replies(path: Path) -> object:
-    """The companion's replies."""
+    """The companion's replies, as those of an app that extends it."""
     module, vocabulary = _replies_of_companion()
-    own = replace(vocabulary, app=replace(vocabulary.app, folder=path.parent))
-    return module.load_replies([path], own)
+    app = replace(vocabulary.app, folder=path.parent, base=vocabulary.app)
+    return module.load_replies([path], replace(vocabulary, app=app))
 
 
 @cache
