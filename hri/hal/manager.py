@@ -19,6 +19,7 @@ from hri.core.geometry import Pose3D
 from hri.core.python_file import load_class
 from hri.hal.choices import apply_choices, load_choices
 from hri.hal.configuration import NO_SHAPE, Shape, load_configuration, spec_folders
+from hri.hal.ids_2003 import IDS
 from hri.hal.interface_2003 import IDriveSystem, interface_named, resource_of
 from hri.hal.resource import ORIGIN, Description, Resource
 
@@ -218,7 +219,15 @@ class ResourceManager:
         with self._lock:
             return self._open.pop() if self._open else None
 
+    def known_id(self, id: str) -> str:
+        """The id itself, or what an id of 2003 is called in a configuration without one of it."""
+        if id in self.descriptions or id in self._resources:
+            return id
+        ours = IDS.get(id, id)
+        return ours if ours in self.descriptions else id
+
     def _reserved(self, id: str) -> Resource:
+        id = self.known_id(id)
         stand_in = self._stand_ins.get(id)
         if stand_in is not None:
             return self._reserved(stand_in)
@@ -258,7 +267,7 @@ class ResourceManager:
             return self._resources[id]
 
     def _description(self, id: str) -> Description:
-        description = self.descriptions.get(id)
+        description = self.descriptions.get(self.known_id(id))
         if description is None:
             raise HriError(f'no device "{id}" - {did_you_mean(id, self.descriptions)}')
         return description

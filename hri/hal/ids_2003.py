@@ -1,0 +1,20 @@
+"""The ids that the configuration of 2003 gave its devices, and what ours are called.
+
+So a network or a program of that time finds the devices of a configuration that has none of these
+ids. One that has them goes by its own.
+"""
+
+IDS = {
+    "Battery": "battery",
+    "IR_tn": "range_front",
+    "IR_tne": "range_right",
+    "IR_tnw": "range_left",
+    "audio_in": "microphone",
+    "audio_out": "speaker",
+    "camera0": "camera",
+    "eloquence_tts": "voice",
+    "robohead": "screen",
+    "viavoice_asr": "recognizer",
+    "win_tts": "voice",
+    "winvoice_asr": "recognizer",
+}
