@@ -23,6 +23,7 @@ from hri.drive.gate import REST
 from hri.drive.going import PEOPLE
 from hri.drive.mechanics import mechanics_of, range_sensors
 from hri.drive.navigation import checked
+from hri.drive.own_gate import see_to_gate
 from hri.drive.progress import Patience
 from hri.drive.tasks import motion_of
 from hri.drive.wandering import Wandering
@@ -300,6 +301,7 @@ async def _worked_out(context: TaskContext, job: Callable[[], float]) -> float:
 
 @contextmanager
 def _traveler(context: TaskContext) -> Iterator[_Traveler]:
+    see_to_gate(context)
     traveler = _Traveler(context)
     try:
         yield traveler

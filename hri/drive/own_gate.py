@@ -1,0 +1,55 @@
+"""A gate and a drive for tasks that drive where no network has them, as in a plain script."""
+
+from __future__ import annotations
+
+import math
+
+from hri.behavior.behavior import Behavior
+from hri.behavior.drive_command import DriveCommand
+from hri.behavior.drivers import BumperSwitch, RangeSensorReading
+from hri.behavior.network import Network
+from hri.core.errors import HriError
+from hri.drive.behaviors import CommandGate
+from hri.drive.mechanics import range_sensors
+from hri.hal.bumper import Bumper
+from hri.hal.drive import DriveSystem
+from hri.task.context import TaskContext
+
+INTERVAL = 0.02
+"""Seconds between two ticks of the network."""
+AHEAD = math.radians(10)
+"""A range sensor that looks to the side by more does not say what is ahead."""
+
+
+def see_to_gate(context: TaskContext) -> None:
+    """Start a gate with a drive, bumpers and what looks ahead, unless a gate runs.
+
+    It runs on for the tasks to come. Raises HriError without a drive, and where a network steers it
+    that has no gate.
+    """
+    if context.find_behavior(CommandGate) is not None:
+        return
+    if context.find_behavior(DriveCommand) is not None:
+        what = "the network that steers the drive takes no commands of tasks"
+        raise HriError(f"{what} - put an Hri.CommandGate before its Hri.DriveSystem")
+    drives = context.resources.ids(DriveSystem)
+    if not drives:
+        raise HriError("no drive in the configuration - add one")
+    context.networks.start(_network(context, drives[0]))
+
+
+def _network(context: TaskContext, drive_id: str) -> Network:
+    resources = context.resources
+    gate, drive = CommandGate("gate"), DriveCommand("drive", drive_id=drive_id)
+    sensors: list[Behavior] = []
+    for id in range_sensors(resources):
+        if abs(resources.pose_of(id).yaw) <= AHEAD:
+            sensor = RangeSensorReading(f"range_{len(sensors)}", sensor_id=id)
+            gate.range.sources.append(sensor.reading)
+            sensors.append(sensor)
+    for id in resources.ids(Bumper):
+        bumper = BumperSwitch(f"bumper_{len(sensors)}", bumper_id=id)
+        gate.bump.sources.append(bumper.is_pressed)
+        sensors.append(bumper)
+    drive.velocity.sources.append(gate.velocity)
+    return Network("own gate", INTERVAL, behaviors=[*sensors, gate, drive])
