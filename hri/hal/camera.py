@@ -8,6 +8,7 @@ from collections import deque
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
+import trio
 from numpy.typing import NDArray
 
 from hri.core.signals import Frame
@@ -107,21 +108,37 @@ class Camera(Resource):
         self._watch(now, frame is not None)
         return frame
 
-    def take(self, timeout: float = 5.0) -> Frame:
-        """Wait for the next picture; for programs without a robot loop.
+    def take(self, timeout: float = 5.0) -> Any:
+        """Wait for the next picture, a Frame; in a task it is awaited: `await camera.take()`.
 
         Raises NotAvailable when none comes within `timeout` seconds, or it is switched off.
         """
+        if trio.lowlevel.in_trio_run():
+            return self._awaited(timeout)
         clock = self.manager.clock
         end = clock.now() + timeout
-        while (frame := self.read(clock.now())) is None:
-            if not self._is_on:
-                raise self.not_available("switched off", "switch it on")
-            if clock.now() >= end:
-                why = f"no picture within {timeout:g} s"
-                raise self.not_available(why, "unplug it and plug it in again")
+        while (frame := self._look_for(end, timeout)) is None:
             clock.advance(LOOK)
         return frame
+
+    async def _awaited(self, timeout: float) -> Frame:
+        clock = self.manager.clock
+        end = clock.now() + timeout
+        while (frame := self._look_for(end, timeout)) is None:
+            await clock.sleep(LOOK)
+        return frame
+
+    def _look_for(self, end: float, timeout: float) -> Frame | None:
+        """The next picture; None while it is worth to wait for one. Raises NotAvailable."""
+        now = self.manager.clock.now()
+        if (frame := self.read(now)) is not None:
+            return frame
+        if not self._is_on:
+            raise self.not_available("switched off", "switch it on")
+        if now >= end:
+            why = f"no picture within {timeout:g} s"
+            raise self.not_available(why, "unplug it and plug it in again")
+        return None
 
     def try_out(self, seconds: float = 0.6) -> None:
         """Read for a moment, so that `footage` and `describe` can tell the rate."""
