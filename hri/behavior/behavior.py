@@ -105,15 +105,17 @@ class Behavior:
             if isinstance(declared, (Input, Output, Param)):
                 if hasattr(Behavior, name):
                     raise TypeError(f"{cls.__name__}.{name} hides what Behavior uses - rename it")
-                declared.name = name
-                tables[type(declared)][name] = declared
+                if isinstance(declared, Output):
+                    declared.attribute = name
+                declared.name = declared.name or name
+                tables[type(declared)][declared.name] = declared
 
     def __init__(self, id: str = "", **parameters: Any) -> None:
         self.id = id or type(self).__name__
         for name in self.inputs:
             self.__dict__[name] = InputPort()
-        for name, output in self.outputs.items():
-            self.__dict__[name] = OutputPort(datatype=output.datatype)
+        for output in self.outputs.values():
+            self.__dict__[output.attribute] = OutputPort(datatype=output.datatype)
         for name, declared in self.parameters.items():
             self.__dict__[name] = declared.default
         for name, value in parameters.items():
@@ -142,6 +144,11 @@ class Behavior:
         """What is declared of an output. Raises HriError when there is none of that name."""
         declared: Output[Any] = cls._declared(name, cls.outputs, "output")
         return declared
+
+    def output_port(self, name: str) -> OutputPort[Any]:
+        """The port of an output, which an input may share its name with. Raises KeyError."""
+        port: OutputPort[Any] = getattr(self, type(self).outputs[name].attribute)
+        return port
 
     @classmethod
     def _declared(cls, name: str, table: dict[str, Any], kind: str) -> Any:

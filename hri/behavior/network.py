@@ -101,12 +101,12 @@ class Network:
             self.warnings.append(
                 f"{place}: {source} means {sends.semantic}, {target} wants {takes.semantic}"
             )
-        if getattr(sender, output) in getattr(receiver, input).sources:
+        if sender.output_port(output) in getattr(receiver, input).sources:
             what = f"the link {source} -> {target} is there twice"
             raise AuthoringError(place, what, "take one of them out")
         self.links.append(Link(sender, output, receiver, input, place))
         log.debug("link %s (%s)", self.links[-1], sends.datatype)
-        getattr(receiver, input).sources.append(getattr(sender, output))
+        getattr(receiver, input).sources.append(sender.output_port(output))
 
     def place_of(self, behavior: Behavior) -> Place:
         """Where a behavior stands in the file; the file itself where it stands in none."""

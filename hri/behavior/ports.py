@@ -163,7 +163,12 @@ class Output(Generic[T]):
 
     name = ""
 
-    def __init__(self, datatype: str, doc: str, semantic: str = GENERIC) -> None:
+    attribute = ""
+    """What holds its port in a behavior; not the name where an input has the same."""
+
+    def __init__(self, datatype: str, doc: str, semantic: str = GENERIC, *, name: str = "") -> None:
+        """`name`: where an input has it too, so that the attribute must be another word."""
+        self.name = name
         self.datatype = _checked(datatype)
         self.doc = doc
         self.semantic = semantic

@@ -95,7 +95,9 @@ class Runner:
         timings = {behavior.id: Timing() for behavior in network.behaviors}
         self.statistics = Statistics(timings)
         self._outputs = [
-            getattr(behavior, name) for behavior in network.behaviors for name in behavior.outputs
+            behavior.output_port(name)
+            for behavior in network.behaviors
+            for name in behavior.outputs
         ]
         self._carriers = _carriers(network)
         self._order = self._ran = self._timed(network.behaviors)
@@ -167,7 +169,7 @@ class Runner:
         """
         source = self.network[behavior]
         source.output_named(output)
-        watch = Watch(getattr(source, output), callback, self._watches)
+        watch = Watch(source.output_port(output), callback, self._watches)
         self._watches.append(watch)
         return watch
 
@@ -350,4 +352,4 @@ def _carry(behavior: Behavior) -> None:
     ]
     if words:
         for name in behavior.outputs:
-            getattr(behavior, name).spoken = min(words)
+            behavior.output_port(name).spoken = min(words)

@@ -119,7 +119,10 @@ def subclass(driver: type[Behavior], schema: Schema) -> type[Behavior]:
     for port in schema.inputs:
         members[port.name] = Input(port.datatype, port.description, port.semantic_type)
     for port in schema.outputs:
-        members[port.name] = Output(port.datatype, port.description, port.semantic_type)
+        is_shared = port.name in driver.inputs or port.name in members
+        members[f"{port.name}_out" if is_shared else port.name] = Output(
+            port.datatype, port.description, port.semantic_type, name=port.name
+        )
     members["category"] = schema.category
     cls: type[Behavior] = type(schema.type.rpartition(".")[2], (driver,), members)
     whole = schema_of(cls, schema.type)
@@ -164,12 +167,17 @@ def load_schema(path: Path) -> Schema:
     if not TYPE_NAME.fullmatch(name):
         raise root.error(f'"{name}" is no type', "write Namespace.Name", "type")
     found: dict[str, list[Any]] = {"Parameter": [], "Inputs": [], "Outputs": [], "Output": []}
-    seen: set[str] = set()
+    inputs: set[str] = set()  # with the parameters, which share no name with any port
+    outputs: set[str] = set()
     for element in root:
         if element.tag == "Parameter":
-            found["Parameter"].append(_read_parameter(element, seen))
+            parameter = _read_parameter(element, inputs | outputs)
+            found["Parameter"].append(parameter)
+            inputs.add(parameter.name)
+            outputs.add(parameter.name)
             continue
         element.check(("Port",))
+        seen = inputs if element.tag == "Inputs" else outputs
         found[element.tag].extend(_read_port(child, seen) for child in element)
     return Schema(
         type=name,

@@ -116,7 +116,7 @@ class MalleableBehavior(Behavior):
             self._events.raise_event("drive.halt", because="I was told to over the network")
         for name, (value, spoken) in self._inbox.take(self._door.admits).items():
             is_bare = self.keep_quotes or not isinstance(value, str)
-            getattr(self, name).send(value if is_bare else values.unquoted(value), spoken)
+            self.output_port(name).send(value if is_bare else values.unquoted(value), spoken)
 
     def stop(self) -> None:
         self._link.unsubscribe(self.tag_name, self._receive)

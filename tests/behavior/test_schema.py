@@ -169,7 +169,7 @@ def test_any_schema_is_the_same_after_class_and_file(tmp_path_factory, schema):
         ('<Inputs><Port name="a" datatype="dooble"/></Inputs>', 'did you mean "double"?'),
         (
             '<Inputs><Port name="a" datatype="double"/></Inputs>'
-            '<Outputs><Port name="a" datatype="double"/></Outputs>',
+            '<Inputs><Port name="a" datatype="double"/></Inputs>',
             "used twice",
         ),
         ("<Inputs><Prt/></Inputs>", 'did you mean "Port"?'),
