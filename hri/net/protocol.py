@@ -171,7 +171,8 @@ class _Reader:
         parser.CharacterDataHandler = self._text
         parser.StartDoctypeDeclHandler = self._doctype
         try:
-            parser.Parse(_BARE_COUNT.sub(rb'\1"\2"', line), True)
+            has_count = b"count=" in line
+            parser.Parse(_BARE_COUNT.sub(rb'\1"\2"', line) if has_count else line, True)
         except expat.ExpatError as error:
             if error.code == _JUNK:
                 what = f"column {error.offset + 1}: more after </{self.tag[:60]}>"
