@@ -17,6 +17,8 @@ MOST_TRIED = 1000
 """Sentences whose readings are compared; many may mean the same in all their readings."""
 MOST_SAMPLED = 200
 """Sentences of a grammar too large to be walked, of which some are tried."""
+MOST_READ = 6_000_000
+"""Arcs of the automaton times sentences that are tried: each may be read along most of the arcs."""
 MOST_ALIKE = 20
 """Beginnings with several ways to the same nodes that are walked on from: what they mean is told
 by what was said before, which the nodes do not tell."""
@@ -51,7 +53,8 @@ def ambiguities(grammar: Grammar) -> Iterator[Ambiguity]:
 def _tried(grammar: Grammar) -> Iterator[str]:
     is_all = yield from suspects(grammar.matcher)
     if not is_all:
-        yield from grammar.sample(MOST_SAMPLED)
+        arcs = len(grammar.automaton.targets)
+        yield from grammar.sample(min(MOST_SAMPLED, MOST_READ // arcs))
 
 
 def ambiguity(grammar: Grammar, sentence: str) -> Ambiguity | None:
