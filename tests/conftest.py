@@ -1,5 +1,6 @@
 import logging
 import os
+import signal
 from collections.abc import Iterator
 
 import pytest
@@ -18,6 +19,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    # Who runs the tests in the background of a shell leaves Ctrl-C ignored, and some tests press it.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     config.pluginmanager.register(Checklist(config.getoption("--checklist")), "checklist")
 
 
