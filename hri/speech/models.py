@@ -10,20 +10,26 @@ from hri.core.models import Download, Packaged, fetched, models_folder
 from hri.speech.recognizers.ctc.weights import PACKAGE, find_weights
 
 
-def _pocketsphinx() -> Path:
+def find_pocketsphinx() -> Path:
+    """The English model inside the installed PocketSphinx, which is not imported for it.
+
+    Raises NotAvailable where it is not installed.
+    """
     package = importlib.util.find_spec("pocketsphinx")
     for folder in (package.submodule_search_locations or ()) if package else ():
         model = Path(folder, "model", "en-us")
         if model.is_dir():
             return model
-    raise NotAvailable("the package pocketsphinx is missing - pip install pocketsphinx")
+    raise NotAvailable(
+        "pocketsphinx is not installed (Python 3.14 has no wheels of it) - use another recognizer"
+    )
 
 
 _VOSK = "https://alphacephei.com/vosk/models"
 
 PACKAGED = (
     Packaged("ctc", "English phones, the default engine", "Apache-2.0", PACKAGE, find_weights),
-    Packaged("pocketsphinx", "English, and its dictionary", "BSD", "pocketsphinx", _pocketsphinx),
+    Packaged("pocketsphinx", "English", "BSD", "pocketsphinx", find_pocketsphinx),
 )
 DOWNLOADS = (
     Download(

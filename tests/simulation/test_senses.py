@@ -24,6 +24,7 @@ from .conftest import Build
 
 @pytest.fixture
 def manager() -> Iterator[ResourceManager]:
+    pytest.importorskip("pocketsphinx", reason="it has no wheels for this Python")
     descriptions = [
         Description("world", "Hri.SimulatedWorld"),
         Description("microphone", "Hri.SimulatedMicrophone", bus="world"),

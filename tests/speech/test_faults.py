@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import signal
 
@@ -180,6 +181,7 @@ def test_a_model_directory_that_is_half_there_says_so(resources, companion, tmp_
     vosk = VoskRecognizer(Description("ears", "Hri.Vosk", model), resources)
     with pytest.raises(NotAvailable, match=r"am/final\.mdl is missing - unpack the model again"):
         vosk.activate()
+    pytest.importorskip("pocketsphinx", reason="it has no wheels for this Python")
     best = {**model, "weights": "/nowhere"}
     ears = AutomaticRecognizer(Description("ears", "Hri.Recognizer", best), resources)
     ears.activate()
@@ -197,6 +199,7 @@ def test_a_model_directory_that_is_half_there_says_so(resources, companion, tmp_
 def test_a_piece_on_which_the_decoder_hangs_is_given_up_and_the_next_is_heard(
     resources, monkeypatch, write
 ):
+    pytest.importorskip("pocketsphinx", reason="it has no wheels for this Python")
     recognizer = PocketSphinxRecognizer(Description("ears", "Hri.PocketSphinx"), resources)
     recognizer.activate()
     recognizer.start(load_grammar(write("public <turn> = turn left;")))
@@ -213,6 +216,7 @@ def test_a_piece_on_which_the_decoder_hangs_is_given_up_and_the_next_is_heard(
 
 
 def test_a_decoder_that_died_is_replaced_and_asked_again(resources):
+    pytest.importorskip("pocketsphinx", reason="it has no wheels for this Python")
     recognizer = PocketSphinxRecognizer(Description("ears", "Hri.PocketSphinx"), resources)
     recognizer.activate()
     recognizer._process = pocketsphinx._new_process()
@@ -220,6 +224,20 @@ def test_a_decoder_that_died_is_replaced_and_asked_again(resources):
 
     assert recognizer._ask({"lookup": ["zorg"]}) == {"missing": ["zorg"]}
     recognizer.deactivate()
+
+
+def test_a_python_without_pocketsphinx_hears_and_says_what_is_missing(resources, monkeypatch):
+    find = importlib.util.find_spec
+    hide = lambda name, *rest: None if name == "pocketsphinx" else find(name, *rest)  # noqa: E731
+    monkeypatch.setattr(importlib.util, "find_spec", hide)
+
+    sphinx = PocketSphinxRecognizer(Description("ears", "Hri.PocketSphinx"), resources)
+    with pytest.raises(NotAvailable, match=r"pocketsphinx is not installed .* another recognizer"):
+        sphinx.activate()
+    ears = AutomaticRecognizer(Description("ears", "Hri.Recognizer"), resources)
+    ears.activate()
+    ears.deactivate()
+    assert "robot" in cmu_dictionary()
 
 
 def test_pocketsphinx_says_words_as_the_user_s_lexicon_does():

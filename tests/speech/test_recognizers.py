@@ -37,6 +37,7 @@ needs_recordings = pytest.mark.skipif(
 
 @pytest.fixture(scope="module")
 def sphinx(companion):
+    pytest.importorskip("pocketsphinx", reason="it has no wheels for this Python")
     manager = ResourceManager((), FakeClock())
     recognizer = PocketSphinxRecognizer(Description("ears", "Hri.PocketSphinx"), manager)
     recognizer.activate()
@@ -153,6 +154,7 @@ def test_an_endless_voice_is_cut(sphinx, spoken):
 
 
 def test_a_word_of_no_dictionary_gets_its_sound(write, resources, spoken):
+    pytest.importorskip("pocketsphinx", reason="it has no wheels for this Python")
     grammar = load_grammar(write("public <a> = hello zorblax | good night everyone;"))
     recognizer = PocketSphinxRecognizer(Description("ears", "Hri.PocketSphinx"), resources)
     recognizer.activate()
@@ -247,6 +249,8 @@ def vosk_model(folder):
     ],
 )
 def test_the_best_engine_that_is_there_serves(resources, tmp_path, parameters, chosen):
+    if chosen is PocketSphinxRecognizer:
+        pytest.importorskip("pocketsphinx", reason="it has no wheels for this Python")
     told = []
     resources.notice = told.append
     if "model" in parameters:

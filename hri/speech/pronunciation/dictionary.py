@@ -1,4 +1,4 @@
-"""The CMU Pronouncing Dictionary, as PocketSphinx brings it: looked up in the file itself.
+"""The CMU Pronouncing Dictionary, in the version of PocketSphinx: looked up in the file itself.
 
 The words are sorted by their bytes, their variants behind them ("a", "a(2)", "a's"), so a word is
 found by halving the file some twenty times, and nothing has to be read or kept.
@@ -6,14 +6,13 @@ found by halving the file some twenty times, and nothing has to be read or kept.
 
 from __future__ import annotations
 
-import importlib.util
 import mmap
 from pathlib import Path
 
-from hri.core.errors import NotAvailable
 from hri.speech.pronunciation.phones import Phones
 
-_INSIDE = Path("model", "en-us", "cmudict-en-us.dict")
+DICTIONARY = Path(__file__).with_name("cmudict-en-us.dict")
+"""134,000 lines, sorted by bytes: a word, spaces, its phones without stress."""
 
 
 class Dictionary:
@@ -61,14 +60,5 @@ def _without_number(name: bytes) -> bytes:
 
 
 def cmu_dictionary() -> Dictionary:
-    """The dictionary inside the installed PocketSphinx, which is not imported for it.
-
-    Raises NotAvailable with what to install.
-    """
-    package = importlib.util.find_spec("pocketsphinx")
-    folders = package.submodule_search_locations if package is not None else None
-    for folder in folders or ():
-        path = Path(folder, _INSIDE)
-        if path.is_file():
-            return Dictionary(path)
-    raise NotAvailable("the dictionary of PocketSphinx is missing - pip install pocketsphinx")
+    """The dictionary that comes with `hri`."""
+    return Dictionary(DICTIONARY)

@@ -123,8 +123,7 @@ def _without_stress(phone: str) -> str:
 def load_lexicon(*files: Path) -> Lexicon:
     """The lexicon of the user, of these files (a later one wins), and of the house.
 
-    Raises AuthoringError for a mistake in a file, HriError when one cannot be read, NotAvailable
-    when the dictionary is missing.
+    Raises AuthoringError for a mistake in a file, HriError when one cannot be read.
     """
     own: dict[str, tuple[Phones, ...]] = {}
     for path in (*_of_user(), *files):

@@ -17,6 +17,7 @@ from hri.core.errors import HriError
 from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, HeardWord, Hypothesis, Segment
 from hri.speech.confidence import FRAME, PathFigures, confidence
+from hri.speech.models import find_pocketsphinx
 from hri.speech.pronunciation.lexicon import Lexicon, load_lexicon
 from hri.speech.recognizers.sound import SoundRecognizer
 
@@ -33,6 +34,7 @@ class PocketSphinxRecognizer(SoundRecognizer):
     """Decodes finished pieces of speech in a process of its own, so that nothing waits for it."""
 
     def _open(self) -> None:
+        find_pocketsphinx()
         super()._open()
         self._process: subprocess.Popen[bytes] | None = None
         self._grammar_request: dict[str, Any] | None = None

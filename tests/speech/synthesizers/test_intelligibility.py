@@ -23,6 +23,7 @@ QUIET = np.zeros(4800, np.int16)
 
 @pytest.fixture(scope="module")
 def ears():
+    pytest.importorskip("pocketsphinx", reason="it has no wheels for this Python")
     resources = ResourceManager((), FakeClock())
     recognizer = PocketSphinxRecognizer(Description("ears", "Hri.PocketSphinx"), resources)
     recognizer.activate()
