@@ -19,7 +19,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    # Who runs the tests in the background of a shell leaves Ctrl-C ignored, and some tests press it.
+    # A shell leaves Ctrl-C ignored in what it runs in the background, and some tests press it.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     config.pluginmanager.register(Checklist(config.getoption("--checklist")), "checklist")
 
