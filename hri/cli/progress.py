@@ -47,6 +47,7 @@ def waiting(what: str) -> Iterator[None]:
     line, done = _Line(sys.stderr, what), threading.Event()
 
     def show() -> None:
+        line.show()
         while not done.wait(EVERY):
             line.show()
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import mmap
 from pathlib import Path
 
+from hri.core.errors import NotAvailable
 from hri.speech.pronunciation.phones import Phones
 
 DICTIONARY = Path(__file__).with_name("cmudict-en-us.dict")
@@ -60,5 +61,7 @@ def _without_number(name: bytes) -> bytes:
 
 
 def cmu_dictionary() -> Dictionary:
-    """The dictionary that comes with `hri`."""
+    """The dictionary that comes with `hri`. Raises NotAvailable in a copy that lacks it."""
+    if not DICTIONARY.is_file():
+        raise NotAvailable(f"the dictionary {DICTIONARY} is missing - install hri again")
     return Dictionary(DICTIONARY)

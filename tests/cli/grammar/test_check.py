@@ -93,7 +93,7 @@ def test_a_caret_stands_under_its_spot_in_long_and_wide_lines(grammar, write, ca
 
 
 def test_without_a_dictionary_the_rest_is_checked(grammar, write, monkeypatch, capsys):
-    monkeypatch.setattr("hri.speech.pronunciation.dictionary._INSIDE", Path("nowhere"))
+    monkeypatch.setattr("hri.speech.pronunciation.dictionary.DICTIONARY", Path("nowhere"))
     path = write("public <a> = go forward | no;\n<b> = never;")
 
     assert grammar("check", path) == 0
