@@ -211,7 +211,7 @@ class Companion:
     # --- actions, named as in replies.toml; what one returns is said in place of the reply ---
 
     def _drive(self, job: Job, *arguments: Any) -> str | None:
-        """Start a motion; why there is none, while the base must not move."""
+        """Start a motion; while the base must not move, return why it does not."""
         if self.guard.must_wait:
             return f"{self.guard.explain()}. {self.replies.unasked['waiting']}"
         self.motion.start(job, *arguments)

@@ -42,7 +42,7 @@ class Reply:
     action: str = ""
     """One of ACTIONS."""
     task: TaskType | None = None
-    """What `action` names that is none of ACTIONS."""
+    """The task that `action` names, when it is not one of ACTIONS."""
     event: str = ""
     """What is raised, with the tags as its properties."""
 

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Literal
 
 from hri.bench.figures import machine
-from hri.core.errors import HriError, NotAvailable
+from hri.core.errors import HriError, NotAvailable, did_you_mean
 from hri.core.statistics import wilson
 
 Row = dict[str, Any]
+Parts = Mapping[str, Callable[[bool], Iterator[Row]]]
+"""The parts of a bench by name, in the order of the table; each is told whether to be quick."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,3 +87,12 @@ def report(bench: str, rows: Sequence[Row], quick: bool) -> dict[str, Any]:
         "missed": [row["what"] for row in rows if not row.get("passed", True)],
         "skipped": [row["what"] for row in rows if "skipped" in row],
     }
+
+
+def measured(bench: str, parts: Parts, quick: bool, only: str | None) -> dict[str, Any]:
+    """The report of all parts of a bench, or of one. Raises HriError for an unknown part."""
+    if only is not None and only not in parts:
+        raise HriError(f'bench {bench} has no part "{only}" - {did_you_mean(only, parts)}')
+    chosen = parts if only is None else {only: parts[only]}
+    rows = [row for name, part in chosen.items() for row in attempted(name, partial(part, quick))]
+    return report(bench, rows, quick)

@@ -98,7 +98,7 @@ class FollowedFace:
         return self.region.x, self.region.y
 
     def hides(self, found: FoundFace) -> bool:
-        """Whether a face that was found is none, for this person's neck or chest is there.
+        """Whether a face that was found is not one, because this person's neck or chest is there.
 
         One so much smaller would be behind them, where nobody can see it.
         """

@@ -96,6 +96,7 @@ def test_a_network_runs_on_when_nothing_can_be_printed(tmp_path, out):
     assert "Traceback" not in run.stderr
     told = [line for line in run.stderr.splitlines() if not line.startswith("behave: ")]
     assert len(told) <= 1
+    assert len(run.stderr.splitlines()) - len(told) <= 1
 
 
 def test_nothing_is_written_here_when_home_is_no_folder(tmp_path):

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from hri.bench.drive import rooms, steering, stopping, wheels, world
-from hri.bench.table import Row, attempted, report
-from hri.core.errors import HriError, did_you_mean
+from hri.bench.table import Parts, measured
 
-PARTS: Mapping[str, Callable[[bool], Iterator[Row]]] = {
+PARTS: Parts = {
     "stops": stopping.rows,
     "chain": stopping.chain,
     "steering": steering.rows,
@@ -27,12 +25,4 @@ def measure(quick: bool = False, only: str | None = None) -> dict[str, Any]:
 
     `quick` takes a tenth of the time. Raises HriError for an unknown part.
     """
-    if only is not None and only not in PARTS:
-        raise HriError(f'bench drive has no part "{only}" - {did_you_mean(only, PARTS)}')
-    chosen = PARTS if only is None else {only: PARTS[only]}
-    told = [row for name, rows in chosen.items() for row in attempted(name, _begun(rows, quick))]
-    return report("drive", told, quick)
-
-
-def _begun(rows: Callable[[bool], Iterator[Row]], quick: bool) -> Callable[[], Iterator[Row]]:
-    return lambda: rows(quick)
+    return measured("drive", PARTS, quick, only)

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from hri.bench.table import Row, attempted, report
+from hri.bench.table import Parts, measured
 from hri.bench.vision import cross_validation, crossing, nods, pose, recordings, speed, videos
-from hri.core.errors import HriError, did_you_mean
 
 WORKERS = max(1, os.cpu_count() or 1)
 """Processes in which films are judged."""
-PARTS: Mapping[str, Callable[[bool], Iterator[Row]]] = {
+PARTS: Parts = {
     "recordings of real heads": lambda quick: recordings.rows(),
     "cross-validation on them": lambda quick: cross_validation.rows(),
     "the chain on one core": speed.rows,
@@ -29,12 +27,4 @@ def measure(quick: bool = False, only: str | None = None) -> dict[str, Any]:
 
     `quick` takes a tenth of the time. Raises HriError for an unknown part.
     """
-    if only is not None and only not in PARTS:
-        raise HriError(f'bench vision has no part "{only}" - {did_you_mean(only, PARTS)}')
-    chosen = PARTS if only is None else {only: PARTS[only]}
-    told = [row for name, rows in chosen.items() for row in attempted(name, _begun(rows, quick))]
-    return report("vision", told, quick)
-
-
-def _begun(rows: Callable[[bool], Iterator[Row]], quick: bool) -> Callable[[], Iterator[Row]]:
-    return lambda: rows(quick)
+    return measured("vision", PARTS, quick, only)

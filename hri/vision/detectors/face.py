@@ -36,7 +36,7 @@ class FaceFinder(Protocol):
     """Finds the faces of a picture; remembers nothing of those before."""
 
     def find(self, image: Image, turn: int = 0) -> list[FoundFace]:
-        """The faces, the surest first; none for what is no picture of 8 bits RGB.
+        """The faces, the surest first; none for what is not an 8-bit RGB picture.
 
         `turn` counts the searches, for finders that look at some parts of the picture in turn.
         """
