@@ -60,7 +60,7 @@ class EventBus:
 
     def raise_event(self, name: str, /, **properties: Any) -> Event:
         """Tell all listeners whose pattern fits, now; one that fails keeps none from hearing."""
-        return self._tell(Event(name, self.clock.now(), properties))
+        return self._tell(Event(name, self.clock.now(), properties, is_raised=True))
 
     def raise_from_outside(self, event: Event) -> Event:
         """Raise an event of another program, now and marked as such.
@@ -68,7 +68,8 @@ class EventBus:
         Raises HriError as `check_from_outside` does.
         """
         check_from_outside(event)
-        return self._tell(replace(event, time=self.clock.now(), is_from_outside=True))
+        now = self.clock.now()
+        return self._tell(replace(event, time=now, is_from_outside=True, is_raised=True))
 
     def _tell(self, event: Event) -> Event:
         for subscription in tuple(self.subscriptions):

@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.errors import HriError, did_you_mean
+from hri.core.properties import checked_name, plain_value
 
 T = TypeVar("T")
 
@@ -342,6 +344,16 @@ class Frame:
         """Pixels."""
         return int(self.image.shape[0])
 
+    def write_file(self, path: str | Path, quality: float = 0.8) -> None:
+        """Write it as the suffix says: .jpg, .jpeg or .png.
+
+        `quality` is 0 (small) to 1 (like the original) for a JPEG; a PNG is always exact. Raises
+        HriError when it cannot be written, ValueError for a quality out of range.
+        """
+        from hri.core.picture_file import write_picture  # OpenCV, only for who writes a file
+
+        write_picture(path, self.image, quality)
+
 
 @dataclass(frozen=True, slots=True)
 class Twist:
@@ -382,6 +394,19 @@ class Event:
     properties: Mapping[str, Any] = field(default_factory=dict)
     is_from_outside: bool = False
     """Whether another program raised it, over the network: nothing that the robot has sensed."""
+    is_raised: bool = field(default=False, compare=False, repr=False)
+    """Whether it has happened, so that others have it."""
+
+    def set_property(self, name: str, value: float | str) -> None:
+        """Give a property to an event that will be raised; a text like "3.0" becomes a number.
+
+        Raises HriError once it has been raised, for a name that cannot be written, and for what is
+        not a finite number or a text.
+        """
+        if self.is_raised or not isinstance(self.properties, dict):
+            remedy = "make an event of that name, and set its properties"
+            raise HriError(f"{self.name} has been raised and does not change - {remedy}")
+        self.properties[checked_name(name)] = plain_value(name, value)
 
     def get_property(self, name: str, kind: type[T]) -> T:
         """The value of a property, which must be of a type; a whole number is a float as well.

@@ -20,7 +20,7 @@ KIND = "config/worlds"
 MOST_OBSTACLES = 500
 MOST_PEOPLE = 8
 CLEAR_VOICE, CLEAR_RATE = "en-us+m5", 125.0
-"""The voice and words a minute that PocketSphinx heard best of 18 that were tried."""
+"""The voice and words a minute that were heard best of 18 that were tried."""
 _FARTHEST = 100.0
 _SMALLEST = 0.01
 

@@ -21,14 +21,13 @@ from urllib.parse import quote, unquote
 
 from hri.core.clock import Clock
 from hri.core.errors import HriError
+from hri.core.properties import NUMBER, checked_name, plain_value
 from hri.core.signals import Event
 
 LONGEST = 65_536
 """Characters of an event as text."""
 MOST_PROPERTIES = 1000
 
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
-_NAME = re.compile(r'[^\s\[\](){}":]+')
 _HEAD = re.compile(r'\{Event ([^\s\[\](){}":]+) \[time ([^\s\]]+)\]')
 _PROPERTY = re.compile(r' \(([^\s\[\](){}":]+): (?:"((?:[^"\\]|\\.)*)"|([^\s")]+))\)', re.DOTALL)
 _ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\t": "\\t"}
@@ -51,13 +50,13 @@ def write_event(event: Event, clock: Clock | None = None) -> str:
     The time is 0 for an event that was not raised; with a `clock`, that on which it was raised, it
     is in seconds since 1970. Raises HriError for what the form cannot hold.
     """
-    _check_name(event.name)
+    checked_name(event.name)
     seconds = event.time if clock is None else _since_1970(event, clock)
     # Since 1970 as 2003 wrote it, which is too coarse for a time that is read again.
     time = f"{seconds:g}" if clock is not None else _exact(f"{seconds:g}", seconds)
     parts = [f"{{Event {event.name} [time {time}]"]
     for name in sorted(event.properties):
-        _check_name(name)
+        checked_name(name)
         parts.append(f" ({name}: {_written(name, event.properties[name])})")
     return "".join(parts) + "}"
 
@@ -69,7 +68,7 @@ def parse_event(text: str) -> Event:
     head = _HEAD.match(text)
     if head is None:
         raise _wrong(text, "it does not begin like {Event Name [time 0]")
-    if not _NUMBER.fullmatch(head[2]) or not math.isfinite(float(head[2])):
+    if not NUMBER.fullmatch(head[2]) or not math.isfinite(float(head[2])):
         raise _wrong(text, f'"{head[2]:.40}" is no time')
     properties: dict[str, Any] = {}
     at = head.end()
@@ -77,7 +76,7 @@ def parse_event(text: str) -> Event:
         name, words, number = found.groups()
         if name in properties:
             raise _wrong(text, f'"{name:.40}" is there twice')
-        if words is None and not _NUMBER.fullmatch(number):
+        if words is None and not NUMBER.fullmatch(number):
             raise _wrong(text, f'"{number:.40}" is no number and has no quotes')
         properties[name] = number if words is None else _unescaped(words)
         at = found.end()
@@ -88,7 +87,7 @@ def parse_event(text: str) -> Event:
 
 def write_query(event: Event) -> str:
     """The query form, `Name?count=5&name=b_`. Raises HriError for what it cannot hold."""
-    _check_name(event.name)
+    checked_name(event.name)
     pairs = "&".join(f"{_quoted(n)}={_queried(n, v)}" for n, v in event.properties.items())
     return f"{_quoted(event.name)}?{pairs}" if pairs else _quoted(event.name)
 
@@ -110,26 +109,16 @@ def parse_query(text: str) -> Event:
 
 
 def _checked(name: str, time: float, properties: dict[str, Any]) -> Event:
-    _check_name(name)
+    checked_name(name)
     if len(properties) > MOST_PROPERTIES:
         raise HriError(f"{len(properties)} properties - write at most {MOST_PROPERTIES}")
     for key in properties:
-        _check_name(key)
-    return Event(name, time, {key: _value(key, value) for key, value in properties.items()})
-
-
-def _value(name: str, value: Any) -> float | str:
-    if isinstance(value, str):
-        if not _NUMBER.fullmatch(value) or not math.isfinite(float(value)):
-            return value
-        return float(value)
-    if isinstance(value, (int, float)) and math.isfinite(value):
-        return float(value)
-    raise HriError(f"the property {name} is {value!r:.40} - give a finite number or a text")
+        checked_name(key)
+    return Event(name, time, {key: plain_value(key, value) for key, value in properties.items()})
 
 
 def _written(name: str, value: Any) -> str:
-    value = _value(name, value)
+    value = plain_value(name, value)
     if isinstance(value, float):
         return _exact(f"{value:f}", value)
     return '"' + "".join(_ESCAPES.get(letter, letter) for letter in value) + '"'
@@ -141,7 +130,7 @@ def _exact(usual: str, value: float) -> str:
 
 
 def _queried(name: str, value: Any) -> str:
-    value = _value(name, value)
+    value = plain_value(name, value)
     return _quoted(value) if isinstance(value, str) else repr(value).removesuffix(".0")
 
 
@@ -175,12 +164,6 @@ def _since_1970(event: Event, clock: Clock) -> float:
     # What a fake clock shows is the same everywhere on earth.
     origin = wall.replace(tzinfo=UTC) if clock.is_fake else wall
     return origin.timestamp() - (clock.now() - event.time)
-
-
-def _check_name(name: str) -> None:
-    if not _NAME.fullmatch(name):
-        what = f'"{name:.40}" is no name for an event or a property'
-        raise HriError(f'{what} - leave out white space and []{{}}():"')
 
 
 def _check_length(text: str) -> None:

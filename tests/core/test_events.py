@@ -164,3 +164,21 @@ def test_an_event_from_outside_is_marked_and_has_the_time_of_now():
     with pytest.raises(HriError, match=r'only the robot itself raises "speech\.heard"'):
         bus.raise_from_outside(Event("speech.heard"))
     assert len(heard) == 2
+
+
+def test_an_event_is_made_empty_given_its_properties_and_raised():
+    bus = EventBus(FakeClock())
+    heard = []
+    bus.subscribe("*", heard.append)
+    shoot = Event("Examples.Shoot")
+    shoot.set_property("count", "3.0")
+    shoot.set_property("name", "a_")
+    assert shoot.get_property("count", float) == 3.0
+    raised = bus.raise_event(shoot.name, **shoot.properties)
+    assert heard == [raised]
+    with pytest.raises(HriError, match="has been raised and does not change - make an event"):
+        raised.set_property("count", 4)
+    with pytest.raises(HriError, match="give a finite number or a text"):
+        shoot.set_property("count", [1])
+    with pytest.raises(HriError, match="leave out white space"):
+        shoot.set_property("a count", 1)

@@ -2,7 +2,6 @@
 
 from hri.core.clock import Clock, RealClock
 from hri.hal.camera import Camera
-from hri.hal.drivers.picture_file import write_picture
 from hri.hal.manager import ResourceManager
 
 FILE = "camera_image.jpg"
@@ -14,7 +13,7 @@ def main(clock: Clock) -> None:
     with ResourceManager.load("resource-config", clock) as resources:
         camera = resources.obtain("camera", Camera)
         frame = camera.take()
-        write_picture(FILE, frame.image, QUALITY)
+        frame.write_file(FILE, QUALITY)
         print(f"Wrote image {FILE}.")
         resources.release(camera)
 

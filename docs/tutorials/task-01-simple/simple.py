@@ -1,6 +1,5 @@
 """Drive 20 inches ahead, then take a picture."""
 
-from hri.hal.drivers.picture_file import write_picture
 from hri.task import (
     UNIT_ANGLE,
     UNIT_DISTANCE,
@@ -20,7 +19,7 @@ def main() -> None:
 
     navigation.DriveMoveDelta(20, 5, 20)
     frame = vision.GetImage("camera")
-    write_picture("image.jpg", frame.image, 0.9)
+    frame.write_file("image.jpg", 0.9)
     print(f"image.jpg: {frame.width} x {frame.height}")
 
     get_task_manager().shutdown()

@@ -1,6 +1,5 @@
 """Drive 20 inches ahead and take a picture, both at once."""
 
-from hri.hal.drivers.picture_file import write_picture
 from hri.task import (
     UNIT_DISTANCE,
     Parallel,
@@ -23,7 +22,7 @@ def main() -> None:
     for task in (driving, looking):
         print(f"{task.name}: {task.status.value}")
     if looking.status is TaskStatus.SUCCESS:
-        write_picture("image.jpg", looking.result.image, 0.9)
+        looking.result.write_file("image.jpg", 0.9)
 
     get_task_manager().shutdown()
 

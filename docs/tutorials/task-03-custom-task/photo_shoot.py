@@ -2,7 +2,6 @@
 
 import math
 
-from hri.hal.drivers.picture_file import write_picture
 from hri.task.context import TaskContext
 from hri.task.task import task
 from hri.task.units import UNIT_TIME, in_si
@@ -22,7 +21,7 @@ async def PhotoShoot(context: TaskContext, delay: float, stop_count: float = mat
     while photos < stop_count:
         frame = await GetImage(context)
         photos += 1
-        write_picture(f"image{photos:03d}.jpg", frame.image, 0.9)
+        frame.write_file(f"image{photos:03d}.jpg", 0.9)
         context.task.result = photos
         await context.clock.sleep(in_si(UNIT_TIME, delay))
     return photos

@@ -14,7 +14,6 @@ from typing import NamedTuple
 
 from hri.core.errors import HriError
 from hri.core.signals import Event
-from hri.hal.drivers.picture_file import write_picture
 from hri.task.context import TaskContext
 from hri.task.events import event
 from hri.task.task import task
@@ -54,7 +53,7 @@ async def PhotoEvent(context: TaskContext) -> float:
             case None:
                 photos, total = photos + 1, total + 1
                 frame = await GetImage(context)
-                write_picture(f"{order.name}{photos:03d}.jpg", frame.image, 0.9)
+                frame.write_file(f"{order.name}{photos:03d}.jpg", 0.9)
                 due += in_si(UNIT_TIME, order.delay)
                 if photos >= order.count:
                     due = math.inf
