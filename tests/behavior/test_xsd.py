@@ -17,6 +17,7 @@ from hri.core import paths, registry
 from hri.core.errors import HriError
 from hri.core.xml import load_xml
 from hri.hal.configuration import load_configuration
+from tests.recorded import SHARED, needs_shared
 
 XSD = paths.house() / "config" / "xsd"
 FILES = {
@@ -26,7 +27,6 @@ FILES = {
     "ResourceSpec": "resource-spec.xsd",
 }
 SCHEMAS = {tag: xmlschema.XMLSchema(XSD / file) for tag, file in FILES.items()}
-GUIDE = paths.house().parent / "shared" / "guide" / "resource-config.xml"
 SHIPPED = sorted(
     path
     for folder in ("apps", "config", "docs")
@@ -40,10 +40,10 @@ def test_every_shipped_file_is_valid(path):
     SCHEMAS[load_xml(path).tag].validate(path)
 
 
-@pytest.mark.skipif(not GUIDE.exists(), reason="the guide's files are not here")
+@needs_shared("guide/resource-config.xml")
 @pytest.mark.proves("H01")
 def test_the_configuration_of_the_guide_is_valid():
-    SCHEMAS["Resources"].validate(GUIDE)
+    SCHEMAS["Resources"].validate(SHARED / "guide" / "resource-config.xml")
 
 
 def test_every_exported_schema_is_valid():

@@ -7,7 +7,6 @@ import shutil
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,10 +15,9 @@ import soundfile
 from hri.cli.run import add_options, check_files
 from hri.core import paths
 from hri.core.recording import read_events
+from tests.recorded import speech
 
-SHARED = Path(__file__).resolve().parents[2].parent / "shared"
 SLOW = pytest.mark.slow
-GOFORWARD = SHARED / "speech" / "real" / "robot" / "goforward.wav"
 
 
 def hri(*arguments, folder=None, typed=None):
@@ -122,11 +120,10 @@ def test_stop_stops_a_long_way(events):
     assert max(e["x_cm"] for e in later) - min(e["x_cm"] for e in later) < 1.0
 
 
-@pytest.mark.skipif(not GOFORWARD.exists(), reason="needs the recordings beside the project")
 def test_a_person_who_says_go_forward_ten_meters_is_obeyed(tmp_path):
     out = tmp_path / "out"
     run = hri(
-        "companion", "--audio", GOFORWARD, "--camera", "none", "--fast", "--headless",
+        "companion", "--audio", speech("goforward"), "--camera", "none", "--fast", "--headless",
         "--record", out,
     )  # fmt: skip
     assert run.returncode == 0, run.stderr

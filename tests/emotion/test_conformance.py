@@ -10,9 +10,10 @@ from hri.emotion.appraisal import GoalEvent, appraise
 from hri.emotion.emotions import EMOTIONS
 from hri.emotion.label import OCTANTS, known_as, mood_name
 from hri.emotion.personality import FARTHEST, baseline_of, load_personality
+from tests.recorded import SHARED, needs_shared
 
-TABLES = Path(__file__).resolve().parents[3] / "shared" / "emotion_tables"
-pytestmark = pytest.mark.skipif(not TABLES.is_dir(), reason="the published tables are not here")
+TABLES = SHARED / "emotion_tables"
+pytestmark = needs_shared("emotion_tables")
 
 AXES = {e.name: [e.pleasure, e.arousal, e.dominance] for e in EMOTIONS}
 OUR_WORDS = {

@@ -24,10 +24,9 @@ from hri.emotion.dynamics import Dynamics
 from hri.emotion.emotions import EMOTIONS, INDEX, NAMES
 from hri.face import vocabulary
 from tests.emotion.streams import Stream, models, play, streams
+from tests.recorded import SHARED, needs_shared
 
-SCHROEDER = (
-    Path(__file__).resolve().parents[3] / "shared" / "emotion_tables" / "schroeder_mary_prosody.tsv"
-)
+SCHROEDER = "emotion_tables/schroeder_mary_prosody.tsv"
 DISPLAY = load_display()
 axes = st.floats(-1, 1)
 shares = st.floats(0, 1)
@@ -63,9 +62,9 @@ def test_what_feels_bad_never_shows_as_a_smile_nor_the_other_way_round() -> None
         assert shown * emotion.pleasure > 0, emotion.name
 
 
-@pytest.mark.skipif(not SCHROEDER.is_file(), reason="the published table is not here")
+@needs_shared(SCHROEDER)
 def test_the_voice_follows_schroeder() -> None:
-    lines = [line for line in SCHROEDER.read_text().splitlines() if line[0] != "#"]
+    lines = [line for line in (SHARED / SCHROEDER).read_text().splitlines() if line[0] != "#"]
     rows = {row["parameter"]: row for row in csv.DictReader(lines, delimiter="\t")}
     for name, rule in (("rate", DISPLAY.rate), ("pitch", DISPLAY.pitch)):
         row = rows[name]

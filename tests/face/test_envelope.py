@@ -1,7 +1,6 @@
 """A mouth that follows a sound alone."""
 
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,10 +11,9 @@ from hri.core.signals import Phoneme, Samples, Speech
 from hri.face.envelope import VOWELS, EnvelopeTrack
 from hri.face.lipsync import LipTrack, lip_track
 from hri.face.vocabulary import VISEMES
-from hri.hal.drivers.wav_file import load_sound
+from tests.recorded import spoken_by_a_person
 
 RATE = 16000
-RECORDINGS = Path(__file__).parents[3] / "shared" / "speech" / "real"
 
 
 def vowel(first: float, second: float, seconds: float = 0.4) -> Samples:
@@ -95,12 +93,11 @@ def test_lips_without_phonemes_open_where_those_with_phonemes_do() -> None:
     assert heard.weights(0.3) == {}
 
 
-@pytest.mark.skipif(not RECORDINGS.is_dir(), reason="recordings of people are not here")
 @pytest.mark.parametrize("name", ["goforward", "numbers", "cards001", "cards004"])
 def test_with_real_voices_the_mouth_is_open_at_the_loudest_and_shut_in_pauses(name: str) -> None:
-    samples, rate = load_sound(RECORDINGS / "robot" / f"{name}.wav")
-    track = EnvelopeTrack(samples, rate)
-    size = rate // 50
+    samples = spoken_by_a_person(name)
+    track = EnvelopeTrack(samples, RATE)
+    size = RATE // 50
     blocks = samples[: len(samples) // size * size].reshape(-1, size).astype(float)
     loudness = np.convolve(np.sqrt((blocks**2).mean(axis=1)), np.ones(5) / 5, mode="same")
     order = np.argsort(loudness)

@@ -1,7 +1,5 @@
 """The configuration printed in the guide of 2003 works as it stands."""
 
-from pathlib import Path
-
 import pytest
 
 from hri.core.clock import FakeClock, RealClock
@@ -14,10 +12,11 @@ from hri.hal.manager import ResourceManager
 from hri.hal.motor import Motor
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Resource
+from tests.recorded import SHARED, needs_shared
 
-GUIDE = Path(__file__).resolve().parents[3] / "shared" / "guide" / "resource-config.xml"
+GUIDE = SHARED / "guide" / "resource-config.xml"
 
-pytestmark = pytest.mark.skipif(not GUIDE.is_file(), reason="the guide is not here")
+pytestmark = needs_shared("guide/resource-config.xml")
 
 
 @pytest.fixture(scope="module")

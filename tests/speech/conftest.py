@@ -9,7 +9,6 @@ from hri.hal.manager import ResourceManager
 from hri.speech.grammar import Grammar, load_grammar
 
 HOUSE = Path(__file__).resolve().parents[2]
-RECORDINGS = HOUSE.parent / "shared" / "speech" / "real"
 
 
 @pytest.fixture(scope="session")

@@ -8,8 +8,7 @@ from hypothesis import strategies as st
 from hri.hal.drivers.wav_file import read_wav
 from hri.speech.endpoint import FRAME, LONGEST, PAUSE, PRE_ROLL, TRAILING, Endpointer, NoiseLevel
 from hri.speech.recognizers.voice_activity import voice_detector
-
-from .conftest import RECORDINGS
+from tests.recorded import ORDERS, SHARED, needs_shared, spoken_by_a_person
 
 RATE = 16000
 SIZE = round(FRAME * RATE)
@@ -220,17 +219,22 @@ def test_the_noise_is_never_above_the_loudest_of_the_last_two_seconds(powers):
     assert level <= max(-65.0, 10 * np.log10(max(powers) + 1e-12)) + 1e-6
 
 
-@pytest.mark.skipif(not RECORDINGS.is_dir(), reason="the recordings of people are not here")
-def test_recorded_orders_and_digits_are_whole():
-    def count(name):
-        sound, _ = read_wav(name, RATE)
-        return len(
-            pieces_of(np.concatenate([noise(0.5), sound, noise(1.0)]), PAUSE, voice_detector)
-        )
+def count_of(sound):
+    """How many pieces a recording falls into, quiet around it."""
+    return len(pieces_of(np.concatenate([noise(0.5), sound, noise(1.0)]), PAUSE, voice_detector))
 
-    orders = [count(name) for name in sorted(RECORDINGS.glob("orders/*.wav"))[::5]]
-    digits = [count(name) for name in sorted(RECORDINGS.glob("digits/*.wav"))[::10]]
 
-    assert orders.count(1) >= len(orders) - 1
-    assert 0 not in orders
-    assert digits.count(1) >= len(digits) - 1
+def test_recorded_orders_are_whole():
+    counts = [count_of(spoken_by_a_person(name)) for name in ORDERS]
+
+    assert len(counts) == 10
+    assert counts.count(1) >= len(counts) - 1
+    assert 0 not in counts
+
+
+@needs_shared("speech/real/digits")
+def test_recorded_digits_are_whole():
+    files = sorted((SHARED / "speech" / "real" / "digits").glob("*.wav"))[::10]
+    counts = [count_of(read_wav(file, RATE)[0]) for file in files]
+
+    assert counts.count(1) >= len(counts) - 1

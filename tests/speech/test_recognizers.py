@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import itertools
-import wave
 
 import numpy as np
 import pytest
@@ -23,16 +22,11 @@ from hri.speech.recognizers.typed import TypedRecognizer
 from hri.speech.recognizers.veto import VetoRecognizer
 from hri.speech.recognizers.vosk import PARTS, VoskRecognizer, hypothesis, known_sentences
 from hri.speech.synthesizers.espeak import EspeakVoice
-
-from .conftest import RECORDINGS
+from tests.recorded import BOOK, ORDERS, spoken_by_a_person
 
 SECOND = np.zeros(16000, np.int16)
 TICK = 533
 """Samples that a loop of 30 Hz brings."""
-
-needs_recordings = pytest.mark.skipif(
-    not RECORDINGS.is_dir(), reason="the recordings of people are not on this machine"
-)
 
 
 @pytest.fixture(scope="module")
@@ -45,11 +39,6 @@ def sphinx(companion):
     yield recognizer
     recognizer.deactivate()
     recognizer.deactivate()
-
-
-def recording(name):
-    with wave.open(str(RECORDINGS / name)) as file:
-        return np.frombuffer(file.readframes(file.getnframes()), np.int16)
 
 
 def segments_of(recognizer, samples):
@@ -69,9 +58,8 @@ def heard(recognizer, grammar, samples):
     return [result for result in judged if isinstance(result, Utterance)]
 
 
-@needs_recordings
 def test_a_person_s_command_is_heard_exactly(sphinx, companion):
-    (utterance,) = heard(sphinx, companion, recording("robot/goforward.wav"))
+    (utterance,) = heard(sphinx, companion, spoken_by_a_person("goforward"))
 
     assert utterance.text == "go forward ten meters"
     assert (utterance.rule, utterance.tags) == ("move", {"distance": 10.0})
@@ -79,29 +67,23 @@ def test_a_person_s_command_is_heard_exactly(sphinx, companion):
     assert 0.0 <= utterance.start < utterance.end <= 3.0
 
 
-@needs_recordings
 def test_read_lines_of_a_book_are_no_commands(sphinx, companion):
-    lines = sorted(path.name for path in RECORDINGS.glob("robot/sense_*.wav"))
-    sounds = [recording(f"robot/{name}") for name in lines]
+    sounds = [spoken_by_a_person(name) for name in BOOK]
 
     assert len(sounds) == 5
     for sound in [*sounds, np.concatenate(sounds), np.concatenate([*sounds, SECOND] * 2)]:
         assert heard(sphinx, companion, np.concatenate([sound, SECOND])) == []
 
 
-@needs_recordings
 def test_orders_of_coffee_are_no_commands(sphinx, companion):
-    orders = sorted(path.name for path in RECORDINGS.glob("orders/*.wav"))[::5]
-
-    accepted = [name for name in orders if heard(sphinx, companion, recording(f"orders/{name}"))]
+    accepted = [name for name in ORDERS if heard(sphinx, companion, spoken_by_a_person(name))]
 
     assert accepted == []
 
 
-@needs_recordings
 def test_what_is_heard_does_not_depend_on_what_was_heard_before(sphinx):
     names = ["goforward", "something", "numbers", "cards003"]
-    pieces = {name: segments_of(sphinx, recording(f"robot/{name}.wav")) for name in names}
+    pieces = {name: segments_of(sphinx, spoken_by_a_person(name)) for name in names}
 
     first = {name: [sphinx.decode(piece) for piece in pieces[name]] for name in names}
     again = {name: [sphinx.decode(piece) for piece in pieces[name]] for name in reversed(names)}

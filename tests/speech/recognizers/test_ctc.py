@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-import wave
 from dataclasses import replace
 
 import numpy as np
@@ -29,13 +28,10 @@ from hri.speech.recognizers.ctc.confidence import (
 from hri.speech.recognizers.ctc.lattice import Path, Span
 from hri.speech.recognizers.ctc.recognizer import CtcRecognizer
 from hri.speech.recognizers.ctc.silence import KEPT, noise_of, sounding
-from tests.speech.conftest import RECORDINGS
+from tests.recorded import spoken_by_a_person
 from tests.speech.recognizers.speaking import spoken
 from tests.speech.recognizers.word_graphs import random_scores
 
-needs_recordings = pytest.mark.skipif(
-    not RECORDINGS.is_dir(), reason="the recordings of people are not on this machine"
-)
 ACCEPTED = 0.5
 QUIET = np.zeros(8000, np.int16)
 
@@ -57,11 +53,6 @@ def piece(samples, number=1):
 
 def said(text, voice="en-us"):
     return np.concatenate([QUIET, spoken(text, voice), QUIET])
-
-
-def recording(name):
-    with wave.open(str(RECORDINGS / name)) as file:
-        return np.frombuffer(file.readframes(file.getnframes()), np.int16)
 
 
 COMMANDS = (
@@ -99,13 +90,12 @@ def test_other_talk_is_not(engine, text):
     assert engine.decode(piece(said(text))).confidence < ACCEPTED
 
 
-@needs_recordings
 def test_a_person_is_heard_by_the_robot(engine, companion, write):
     grammar = load_grammar(
         write("public <go> = go (forward | back) (one | two | ten | eleven) (meters | feet);")
     )
     engine.start(grammar)
-    hypothesis = engine.decode(piece(recording("robot/goforward.wav")))
+    hypothesis = engine.decode(piece(spoken_by_a_person("goforward")))
     engine.start(companion)
     assert hypothesis.text == "go forward ten meters"
     assert hypothesis.confidence >= ACCEPTED
