@@ -46,12 +46,60 @@ class Manner:
     """After so long it is given up, wherever the search has got to."""
 
 
+class Reason(Enum):
+    """Why following somebody ended."""
+
+    TIME = "time"
+    """The seconds that it was given are over."""
+    LOST = "lost"
+    """They were out of sight, and looked for in vain."""
+    BLOCKED = "blocked"
+    """They stay where they are, and it comes no nearer."""
+    STOPPED = "stopped"
+    """A stop, a touch or another motion ended it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ending:
+    """How following somebody ended; true where it had them in sight to the end."""
+
+    reason: Reason
+    person: str
+    """Id of who was followed last; empty where nobody was seen."""
+    is_in_sight: bool
+    seconds: float
+    """How long it lasted."""
+    halt: str = ""
+    """What stopped it: "bump", "halt"; empty where another motion did."""
+
+    def __bool__(self) -> bool:
+        return self.is_in_sight
+
+    def __str__(self) -> str:
+        who = self.person or "nobody"
+        match self.reason:
+            case Reason.TIME if not self.person:
+                return f"saw nobody for {self.seconds:.0f} s - stand where the camera sees you"
+            case Reason.TIME:
+                state = "in sight" if self.is_in_sight else "out of sight"
+                return f"followed {who}, {state} at the end: the {self.seconds:.0f} s are over"
+            case Reason.LOST:
+                return f"lost sight of {who} and found nobody - stand where the camera sees you"
+            case Reason.BLOCKED:
+                return f"cannot come nearer to {who} - clear the way"
+            case _:
+                by = {"bump": "a touch", "halt": "a stop"}.get(self.halt, "another motion")
+                return f"followed {who} until {by} ended it"
+
+
 class Following:
     """Where to go and what to face, tick by tick."""
 
     def __init__(self, manner: Manner | None = None) -> None:
         self.manner = manner or Manner()
         self.pursuit = Pursuit.WAITING
+        self.person = ""
+        """Id of who was seen last by `look`; empty before."""
         self._target: tuple[float, float] | None = None
         self._side = 1.0
         self._seen = self._looked = -math.inf
@@ -77,8 +125,14 @@ class Following:
             return None
         self._looked = people.time
         if (person := sight_of(people, id, now)) is not None:
+            self.person = person.id
             self.see(now, pose, person.bearing, person.distance)
         return person
+
+    @property
+    def target(self) -> tuple[float, float] | None:
+        """Where the target was seen last, x and y of the odometry frame."""
+        return self._target
 
     def goal(self, now: float, pose: Pose2D) -> Pose2D | None:
         """Where to go and, once there, what to face; None to stay as it is."""
@@ -143,3 +197,9 @@ def tell(events: EventBus, pursuit: Pursuit) -> None:
         events.raise_event("target.found")
     elif pursuit in (Pursuit.SEARCHING, Pursuit.LOST):
         events.raise_event("target.lost", given_up=pursuit is Pursuit.LOST)
+
+
+def tell_ending(events: EventBus, ending: Ending) -> None:
+    """Raise the event of the end: `target.left`."""
+    reason = ending.reason.value
+    events.raise_event("target.left", reason=reason, person=ending.person, text=str(ending))

@@ -14,6 +14,8 @@ LEAST_TURN = 0.6
 """Radians; the same for turning on the spot, which is how it looks for a way."""
 MOST_TURN = math.tau
 """Radians; more than a whole turn on one spot is no progress."""
+WALKED = 0.5
+"""Metres; somebody who is so far from where they were has walked on."""
 
 
 class Progress:
@@ -54,6 +56,27 @@ class Patience:
         if math.isnan(self._since) or remaining < self._best - self._least:
             self._best, self._since = remaining, now
         return now - self._since > self._seconds
+
+
+class Approach:
+    """Notices that somebody who stays where they are is not reached."""
+
+    def __init__(self, seconds: float, least: float) -> None:
+        """It is over after `seconds` in which not `least` metres were gained."""
+        self._limits = seconds, least
+        self.rest()
+
+    def rest(self) -> None:
+        """They are reached, or out of sight: nothing is expected."""
+        self._target: tuple[float, float] | None = None
+        self._patience = Patience(*self._limits)
+
+    def is_over(self, now: float, pose: Pose2D, target: tuple[float, float]) -> bool:
+        """Whether too long nothing was gained on the way to a target (x, y)."""
+        if self._target is None or math.dist(self._target, target) > WALKED:
+            self.rest()
+            self._target = target
+        return self._patience.is_over(now, math.dist((pose.x, pose.y), target))
 
 
 def _apart(one: Pose2D, other: Pose2D) -> float:

@@ -15,16 +15,24 @@ from functools import partial
 from hri.core.clock import Worker
 from hri.core.errors import HriError
 from hri.core.geometry import after_move, wrapped
-from hri.core.signals import People, Pose2D, Twist
+from hri.core.signals import Event, People, Pose2D, Twist
 from hri.drive.avoidance import PERSON_RADIUS, Avoidance, Manner, turn_to
-from hri.drive.following import Following, Pursuit, sight_of, tell
+from hri.drive.following import (
+    Ending,
+    Following,
+    Pursuit,
+    Reason,
+    sight_of,
+    tell,
+    tell_ending,
+)
 from hri.drive.following import Manner as FollowingManner
 from hri.drive.gate import REST
 from hri.drive.going import PEOPLE
 from hri.drive.mechanics import mechanics_of, range_sensors
 from hri.drive.navigation import checked
 from hri.drive.own_gate import see_to_gate
-from hri.drive.progress import Patience
+from hri.drive.progress import Approach, Patience
 from hri.drive.tasks import motion_of
 from hri.drive.wandering import Wandering
 from hri.hal.drive import Odometry
@@ -78,29 +86,57 @@ async def follow(
 ) -> bool:
     """Follow somebody by their id, whoever is attended to without one, `distance` metres apart.
 
-    It faces them, looks for them when they are out of sight, and ends when they stay lost or after
-    so many seconds; whether it had them to the end. It comes no nearer than it may while it moves,
-    whatever distance is asked for. Raises the events `target.lost` and `target.found`, and
+    It faces them, looks for them when they are out of sight, and ends when they stay lost, cannot
+    be reached, or after so many seconds; whether it had them in sight to the end. It comes no
+    nearer than it may while it moves, whatever distance is asked for. Raises the events
+    `target.lost`, `target.found` and in the end `target.left` (`reason`, `person`, `text`), and
     ValueError for a distance or a time that is no number.
     """
+    return bool(await _followed(context, person, distance, seconds))
+
+
+async def _followed(context: TaskContext, person: str, distance: float, seconds: float) -> Ending:
+    """Follow somebody; how that ended."""
     _refuse_nan(distance, seconds)
     with _traveler(context) as traveler:
-        following = traveler.following(distance)
-        end = context.clock.now() + seconds
+        following, approach = traveler.following(distance), Approach(PATIENCE_S, NEARER)
+        start, reason, halt = context.clock.now(), Reason.STOPPED, ""
 
         def steer(now: float, pose: Pose2D) -> Twist | None:
+            nonlocal reason
             before = following.pursuit
             following.look(now, pose, traveler.people, person)
             goal = following.goal(now, pose)
             if following.pursuit is not before:
                 tell(context.events, following.pursuit)
-            if now >= end or following.pursuit is Pursuit.LOST:
-                return None
-            return REST if goal is None else traveler.toward(now, pose, goal, True)[0]
+            twist, is_there = REST, True
+            if goal is not None:
+                twist, is_there = traveler.toward(now, pose, goal, True)
+            if is_there or following.pursuit is not Pursuit.FOLLOWING or not following.target:
+                approach.rest()
+            elif approach.is_over(now, pose, following.target):
+                reason = Reason.BLOCKED
+            if following.pursuit is Pursuit.LOST:
+                reason = Reason.LOST
+            elif now >= start + seconds:
+                reason = Reason.TIME
+            return twist if reason is Reason.STOPPED else None
 
-        with motion_of(context) as motion:
-            await motion.lead(steer)
-        return following.pursuit is Pursuit.FOLLOWING
+        def note(event: Event) -> None:
+            nonlocal halt
+            halt = event.properties["reason"]
+
+        stops = context.events.subscribe("drive.stopped", note)
+        try:
+            with motion_of(context) as motion:
+                await motion.lead(steer)
+        finally:
+            stops.cancel()
+        is_in_sight = following.pursuit is Pursuit.FOLLOWING
+        lasted = context.clock.now() - start
+        ending = Ending(reason, following.person, is_in_sight, lasted, halt)
+        tell_ending(context.events, ending)
+        return ending
 
 
 async def come_here(context: TaskContext, person: str = "", distance: float = 1.2) -> bool:
@@ -194,7 +230,11 @@ async def go_by(context: TaskContext, x: float, y: float) -> None:
     """
     with _traveler(context) as traveler:
         start = traveler.pose(context.clock.now())
-    goal = after_move(start, in_si(UNIT_DISTANCE, x), in_si(UNIT_DISTANCE, y))
+    await go_to_point(context, after_move(start, *(in_si(UNIT_DISTANCE, way) for way in (x, y))))
+
+
+async def go_to_point(context: TaskContext, goal: Pose2D) -> None:
+    """Go to a place and face as it says. Fails the task when it does not get there."""
     if why := await checked(_why_not_gone_to(context, goal, faces=True)):
         context.fail(why)
 
@@ -202,11 +242,14 @@ async def go_by(context: TaskContext, x: float, y: float) -> None:
 @task("Hri.FollowPerson")
 async def follow_person(
     context: TaskContext, person: str = "", distance: float = 0.0, seconds: float = 0.0
-) -> bool:
-    """Follow somebody, in default units; 0 is a usual distance, and no end."""
+) -> Ending:
+    """Follow somebody, in default units; 0 is a usual distance, and no end.
+
+    Gives how it ended: true where it had them in sight, with a `reason`; as text a sentence.
+    """
     apart = in_si(UNIT_DISTANCE, distance) or FollowingManner().distance
     end = in_si(UNIT_TIME, seconds) or math.inf
-    return await checked(follow(context, person, apart, end))
+    return await checked(_followed(context, person, apart, end))
 
 
 @task("Hri.ComeHere")

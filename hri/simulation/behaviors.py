@@ -13,7 +13,7 @@ from hri.behavior.behavior import Context
 from hri.behavior.device import DeviceBehavior
 from hri.behavior.ports import Input, Output, Param
 from hri.core import paths
-from hri.core.errors import HriError
+from hri.core.errors import HriError, did_you_mean
 from hri.core.reading import read_text
 from hri.core.signals import Frame
 from hri.simulation.drivers import DrawnFrame
@@ -35,14 +35,21 @@ class ObjRecRecognizer(DeviceBehavior):
     category = "vision"
     modelset = Param("default.mdl", "file with the names of the objects that it knows")
     field_of_view = Param(0.6, "radians, that of the camera", minimum=0.1, maximum=3.0)
+    only = Param("", "name of the one object to look for; empty takes all that it knows in turn")
     image = Input[Frame]("image", "what the camera sees")
     model_name = Output[str]("string", "name of the object; nothing when none is in view")
     distance = Output[float]("double", "centimeters from the camera to the object")
+    bearing = Output[float]("double", "radians from where the camera looks to the left")
 
     def check(self) -> None:
         lines = read_text(paths.find(MODELS, self.modelset), "model set").splitlines()
         names = (line.partition("#")[0].strip() for line in lines)
         self._known = {name for name in names if name}
+        if self.only:
+            if self.only not in self._known:
+                remedy = did_you_mean(self.only, self._known)
+                raise HriError(f'{self.id}: {self.modelset} has no "{self.only}" - {remedy}')
+            self._known = {self.only}
 
     def start(self, context: Context) -> None:
         super().start(context)
@@ -67,6 +74,7 @@ class ObjRecRecognizer(DeviceBehavior):
             self._turn += 1
             self.model_name.send(chosen.name)
             self.distance.send(chosen.distance * 100)
+            self.bearing.send(chosen.bearing)
 
     def _tell_unable(self) -> None:
         if not self._has_told:

@@ -19,6 +19,8 @@ class Sighting:
     name: str
     distance: float
     """Meters from the camera."""
+    bearing: float
+    """Radians from where the camera looks to the left."""
 
 
 def seen(items: Iterable[Item], room: Room, camera: Pose2D, field_of_view: float) -> list[Sighting]:
@@ -30,5 +32,5 @@ def seen(items: Iterable[Item], room: Room, camera: Pose2D, field_of_view: float
         if abs(bearing) <= field_of_view / 2:
             free = room.cast(camera.x, camera.y, camera.heading + bearing)
             if float(free) >= distance:
-                found.append(Sighting(item.name, distance))
+                found.append(Sighting(item.name, distance, bearing))
     return sorted(found, key=lambda sighting: sighting.distance)

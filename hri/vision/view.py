@@ -16,6 +16,8 @@ EYE_DISTANCE = 0.063
 and extrema of human interpupillary distance", 2004)."""
 FACE_SIZE = 0.178
 """Meters from chin to hairline, which the box of a face takes."""
+FARTHEST_FLOOR = 10.0
+"""Meters; beyond it a pixel more or less is a long way."""
 
 Size = tuple[int, int]
 """Width and height of a picture in pixels."""
@@ -54,6 +56,28 @@ class CameraView:
         """
         ahead, left, up = self._ray(x, y, size)
         return math.atan2(left, ahead), math.atan2(up, math.hypot(ahead, left))
+
+    def on_floor(self, x: float, y: float, size: Size, pan: float = 0.0) -> tuple[float, float]:
+        """Where the floor is that a pixel shows: meters ahead of the robot and to its left.
+
+        `pan` is what the camera is turned to the left beside its mount, radians. Raises HriError
+        for a pixel outside of the picture, at or above the horizon, or of what is too far away to
+        tell, and for a camera whose height is not known.
+        """
+        if not (0 <= x <= size[0] and 0 <= y <= size[1]):
+            what = f"({x:g}, {y:g}) is outside of a picture of {size[0]} x {size[1]}"
+            raise HriError(f"{what} - count columns and rows from its upper left corner")
+        if self.mount.z <= 0:
+            remedy = 'write its z, centimeters above the floor: <Parameter name="z" value="40"/>'
+            raise HriError(f"the height of the camera is not in the configuration - {remedy}")
+        ahead, left, up = self._ray(x, y, size)
+        level = math.hypot(ahead, left)
+        if up >= 0 or self.mount.z * level / -up > FARTHEST_FLOOR:
+            what = f"({x:g}, {y:g}) shows no floor within {FARTHEST_FLOOR:g} m"
+            raise HriError(f"{what} - point at the floor, lower in the picture")
+        far = self.mount.z * level / -up
+        bearing = math.atan2(left, ahead) + pan
+        return self.mount.x + far * math.cos(bearing), self.mount.y + far * math.sin(bearing)
 
     def distance(self, x: float, y: float, pixels: float, meters: float, size: Size) -> float:
         """Meters to something of a known size that takes so many pixels there; NaN for none.

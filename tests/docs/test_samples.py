@@ -26,9 +26,11 @@ from tests.net.conftest import WITHIN, Taken
 SAMPLES = paths.house() / "docs" / "samples"
 GROUPS = [
     *("driver/base", "driver/face", "driver/speech"),
-    *("behavior/emotion", "behavior/navigation", "behavior/network", "behavior/resource"),
+    *("behavior/emotion", "behavior/navigation", "behavior/tracking", "behavior/network"),
+    "behavior/resource",
     *("behavior/speech", "behavior/unit_test", "behavior/vision"),
-    *("task", "objrec"),
+    *("task", "task/custom", "task/parallel", "task/events", "task/primitive"),
+    "objrec",
 ]
 
 
@@ -145,25 +147,81 @@ def test_the_head_is_followed_and_its_nod_is_seen(simulated, capsys):
     assert re.search(r"gesture: kind \w*nod", printed)
 
 
-@pytest.mark.proves("P08")
-def test_the_square_is_driven_once_around(tmp_path, monkeypatch, capsys):
+@pytest.fixture
+def script(tmp_path, monkeypatch):
+    """The task manager of plain scripts, simulated and on fake time."""
     monkeypatch.chdir(tmp_path)
-    clock = FakeClock()
-    use("simulated", clock)
+    use("simulated", FakeClock())
+    yield get_task_manager
+    get_task_manager().shutdown()
+    use()
+
+
+@pytest.mark.proves("P08")
+def test_the_square_is_driven_once_around(script, capsys):
     corners = []
-    try:
-        manager = get_task_manager()
-        base = manager.context.resources.obtain("world", SimulatedWorld).base
-        manager.events.subscribe(
-            "patrol.turned", lambda _: corners.append((base.pose.x, base.pose.y))
-        )
-        load("task/patrol.py").main()
-    finally:
-        get_task_manager().shutdown()
-        use()
+    manager = script()
+    base = manager.context.resources.obtain("world", SimulatedWorld).base
+    manager.events.subscribe("patrol.turned", lambda _: corners.append((base.pose.x, base.pose.y)))
+    load("task/patrol.py").main()
     assert capsys.readouterr().out == "corner 1\ncorner 2\ncorner 3\ncorner 4\nback again\n"
     square = [(0.5, 0.0), (0.5, 0.5), (0.0, 0.5), (0.0, 0.0)]
     assert np.array(corners) == pytest.approx(np.array(square), abs=0.03)
+
+
+@pytest.mark.proves("P08", "T11")
+def test_the_custom_task_counts_and_refuses(script, capsys):
+    load("task/custom.py").main()
+    *counted, too_few, no_number = capsys.readouterr().out.splitlines()
+    assert counted == ["counted 3", "counted 2"]
+    assert too_few == "refused: cannot count down from 0 - give 1 or more"
+    assert no_number == "refused: Examples.Countdown: start is 'many' - give a whole number"
+
+
+@pytest.mark.proves("P08", "T08")
+def test_tasks_run_at_once_and_one_ends_the_other(script, capsys):
+    load("task/parallel.py").main()
+    assert capsys.readouterr().out.splitlines() == [
+        "drive: SUCCESS speech: SUCCESS",
+        "over first: the second",
+        "turn: CANCELLED",
+    ]
+
+
+@pytest.mark.proves("P08", "T12", "T13")
+def test_tasks_ask_and_answer_by_events(script, capsys):
+    load("task/events.py").main()
+    *received, answers = capsys.readouterr().out.splitlines()
+    assert [line.partition("(")[2] for line in received] == [
+        f"number: {n}.000000) (seconds: {n}.000000)}}" for n in range(3)
+    ]
+    assert answers == "answers: 3"
+
+
+@pytest.mark.proves("P08", "T20")
+def test_the_primitive_creeps_until_it_has_come_far_enough(script, monkeypatch, capsys):
+    monkeypatch.setenv("HRI_PATH", str(SAMPLES / "task"))
+    base = script().context.resources.obtain("world", SimulatedWorld).base
+    load("task/primitive.py").main()
+    assert capsys.readouterr().out == "crept 0.30 m\n"
+    assert base.pose.x == pytest.approx(0.3, abs=0.05)
+
+
+@pytest.mark.proves("P08", "B25")
+def test_the_recognized_object_is_followed_around(simulated):
+    world = simulated.resources.obtain("world", SimulatedWorld)
+
+    def apart(x, y):
+        pose = world.base.pose
+        return np.hypot(pose.x - x, pose.y - y)
+
+    name = "dollar_front.jpg"
+    world.place(name, 2.2, -0.3)
+    assert run("behavior/tracking/tracking.xml", simulated, 12.0)
+    assert apart(2.2, -0.3) == pytest.approx(1.0, abs=0.2)
+    world.place(name, 3.5, -0.8)
+    run("behavior/tracking/tracking.xml", simulated, 15.0)
+    assert apart(3.5, -0.8) == pytest.approx(1.0, abs=0.2)
 
 
 @pytest.mark.proves("P08")

@@ -20,6 +20,7 @@ from hri.core.geometry import seen_from
 from hri.core.signals import HeadPose, People, Person, Pose2D, Twist
 from hri.drive import travel
 from hri.drive.behaviors import CommandGate
+from hri.drive.following import Ending, Reason
 from hri.drive.goals import DeadReckoning, FollowTarget
 from hri.drive.going import ObstacleAvoidance
 from hri.simulation.person import RADIUS
@@ -432,3 +433,51 @@ def test_a_goal_of_the_network_that_is_no_place_is_refused(tmp_path: Path) -> No
     with pytest.raises(HriError, match="finite"):
         avoidance.compute(0.0, 0.0)
     assert avoidance.velocity.value is None
+
+
+def _end(stage: Set, **arguments: Any) -> Ending:
+    """How following somebody whom the camera sees ended."""
+    job = partial(travel.follow_person, **arguments)
+    ending: Ending = stage.run(lambda context: stage.watching(job, context))
+    left = next(event for event in stage.events if event.name == "target.left")
+    assert left.properties["reason"] == ending.reason.value
+    assert left.properties["text"] == str(ending)
+    return ending
+
+
+def test_following_says_who_was_followed_until_the_time_was_over(tmp_path: Path) -> None:
+    ending = _end(Set(tmp_path), seconds=25.0)
+    assert ending
+    assert str(ending) == "followed p1, in sight at the end: the 25 s are over"
+
+
+def test_following_says_that_nobody_was_seen(tmp_path: Path) -> None:
+    ending = Set(tmp_path).run(travel.follow_person, "", 0.0, 3.0)
+    assert not ending
+    assert str(ending).startswith("saw nobody for 3 s")
+
+
+def test_following_says_whom_it_lost(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+
+    async def lost(context: TaskContext) -> Ending:
+        stage.see()
+        return await travel.follow_person(context)
+
+    ending = stage.run(lost)
+    assert (ending.reason, ending.person) == (Reason.LOST, "p1")
+    assert "lost sight of p1" in str(ending)
+
+
+def test_following_says_that_the_way_is_blocked(tmp_path: Path) -> None:
+    walls = "".join(f"[[wall]]\nfrom = [{x}, 0]\nto = [{x}, 4]\n" for x in (0, 3.2))
+    ending = _end(Set(tmp_path, ROOM + walls))
+    assert (ending.reason, ending.person) == (Reason.BLOCKED, "p1")
+    assert "clear the way" in str(ending)
+
+
+def test_following_says_that_it_was_stopped(tmp_path: Path) -> None:
+    stage = Set(tmp_path)
+    stage.clock.call_at(3.0, stage.gate.halt)
+    ending = _end(stage)
+    assert str(ending) == "followed p1 until a stop ended it"

@@ -79,3 +79,21 @@ def test_in_the_picture_of_another_camera_it_recognizes_nothing_and_says_so_once
 def test_it_needs_a_simulated_world(models) -> None:
     with pytest.raises(HriError, match=r"see cannot recognize .* real camera yet - add a bus"):
         ObjRecRecognizer("see", modelset=models).start(context())
+
+
+def test_one_object_alone_is_told_with_its_bearing(models, lent) -> None:
+    world = lent.resources.obtain("world", SimulatedWorld)
+    world.place("cup", 0.5, 0.0)
+    world.place("key", 0.8, 0.1)
+    made = ObjRecRecognizer("see", modelset=models, only="key")
+    made.check()
+    made.start(lent)
+    for _ in range(2):
+        sent = tick(made, image=FRAME)
+        assert sent["model_name"] == "key"
+        assert sent["bearing"] == pytest.approx(np.arctan2(0.1, 0.8))
+
+
+def test_an_object_that_is_in_no_model_set_is_refused(models) -> None:
+    with pytest.raises(HriError, match=r'has no "kee" - did you mean "key"'):
+        ObjRecRecognizer("see", modelset=models, only="kee").check()

@@ -62,3 +62,30 @@ def test_the_distance_is_that_at_which_a_length_takes_so_many_pixels(distance, b
 def test_a_field_of_view_that_no_lens_has_is_refused(angle):
     with pytest.raises(HriError, match="field of view"):
         CameraView(angle)
+
+
+def test_a_pixel_of_the_floor_is_a_place_before_the_robot() -> None:
+    view = CameraView(math.pi / 2, Pose3D(x=0.1, z=0.4))
+    ahead, left = view.on_floor(320, 240 + 128, SIZE)  # 0.4 m below at 1 m: 320 * 0.4 pixels down
+    assert (ahead, left) == pytest.approx((1.1, 0.0))
+    assert view.on_floor(320 + 160, 240 + 128, SIZE) == pytest.approx((1.1, -0.5))
+
+
+def test_a_camera_that_looks_down_or_is_turned_sees_the_floor_elsewhere() -> None:
+    down = CameraView(math.pi / 2, Pose3D(z=0.5, pitch=math.pi / 4))
+    assert down.on_floor(320, 240, SIZE) == pytest.approx((0.5, 0.0))
+    assert down.on_floor(320, 240, SIZE, pan=math.pi / 2) == pytest.approx((0.0, 0.5))
+
+
+@pytest.mark.parametrize(
+    ("view", "pixel", "message"),
+    [
+        (CameraView(1.0, Pose3D(z=0.4)), (320, 100), "shows no floor within 10 m - point at"),
+        (CameraView(1.0, Pose3D(z=0.4)), (320, 241), "shows no floor within 10 m - point at"),
+        (CameraView(1.0, Pose3D(z=0.4)), (700, 400), "outside of a picture of 640 x 480"),
+        (CameraView(1.0), (320, 400), "height of the camera is not in the configuration"),
+    ],
+)
+def test_a_pixel_that_is_no_place_is_refused(view, pixel, message) -> None:
+    with pytest.raises(HriError, match=message):
+        view.on_floor(*pixel, SIZE)
