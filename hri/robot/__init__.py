@@ -164,7 +164,8 @@ class Robot:
     def live_until_over(self, *jobs: Job) -> None:
         """`live` for code that is not async; an error of ours comes out alone, in no group."""
         try:
-            trio.run(partial(self.live, *jobs))
+            with script.robot_lives():
+                trio.run(partial(self.live, *jobs))
         except BaseExceptionGroup as group:
             ours = group.subgroup(HriError)
             if ours is None:

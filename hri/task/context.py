@@ -7,16 +7,15 @@ from contextlib import AbstractAsyncContextManager, contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
-import trio
-
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.networks import Networks
-from hri.core.clock import Clock, FakeClock
+from hri.core.clock import Clock
 from hri.core.errors import HriError
 from hri.core.events import EventBus
 from hri.core.latest import Board
 from hri.core.signals import Event
 from hri.hal.manager import ResourceManager
+from hri.task.aside import Aside
 from hri.task.queue import EventQueue
 
 if TYPE_CHECKING:
@@ -114,17 +113,13 @@ class TaskContext:
     async def blocking(self, function: Callable[..., T], *arguments: Any) -> T:
         """Run a function that waits or computes for long in a thread; what it returns or raises.
 
-        Networks and other tasks go on meanwhile; fake time stands still. A task that is cancelled
-        does not wait for the function, which goes on to its end.
+        Networks and other tasks go on meanwhile; fake time stands still. The function may call
+        tasks as a plain script does, without a context: they run in this loop, and it waits for
+        them. A task that is cancelled ends those and does not wait for the function, which goes on
+        to its end.
         """
-        held = self.clock if isinstance(self.clock, FakeClock) else None
-        if held is not None:
-            held.hold()
-        try:
-            return await trio.to_thread.run_sync(function, *arguments, abandon_on_cancel=True)
-        finally:
-            if held is not None:
-                held.release()
+        found: T = await Aside(self.manager).run(function, *arguments)
+        return found
 
     @property
     def termination_requested(self) -> Answer:

@@ -10,6 +10,7 @@ import trio
 
 from hri.behavior.behavior import Behavior, Context
 from hri.core.signals import Event
+from hri.task.aside import here
 from hri.task.claims import Claims, forget_claims
 from hri.task.context import TaskContext
 from hri.task.hold_up import HoldUpWatch
@@ -112,12 +113,16 @@ class TaskManager:
 
     def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
         """Call a function in the robot loop, wherever this is called."""
+        if (aside := here()) is not None and aside.manager is self:
+            return aside.call(function, *arguments)
         if self.thread is None:
             return function(*arguments)
         return self.thread.call(function, *arguments)
 
     def await_or_block(self, job: Callable[..., Awaitable[Any]], *arguments: Any) -> Any:
         """In the robot loop, what to await; in a script, run it to its end and give its result."""
+        if (aside := here()) is not None and aside.manager is self:
+            return aside.wait_for(job, *arguments)
         if self.thread is None:
             return job(*arguments)
         return self.thread.run(job, *arguments)

@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import atexit
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 
 import trio
@@ -19,16 +20,19 @@ import trio
 from hri.behavior.behavior import Context
 from hri.behavior.doors import Doors
 from hri.core.clock import Clock, RealClock
+from hri.core.errors import HriError
 from hri.core.events import EventBus
 from hri.core.signals import Event
 from hri.hal.manager import ResourceManager
 from hri.hal.speaker import Speaker
+from hri.task.aside import here
 from hri.task.context import TaskContext
 from hri.task.manager import TaskManager
 from hri.task.thread import LoopThread
 
 _lock = threading.RLock()
 _current: TaskManager | None = None
+_has_robot = False
 _make: Callable[[], TaskManager]
 
 
@@ -105,13 +109,30 @@ def print_what_nobody_hears(context: TaskContext) -> None:
 def get_task_manager() -> TaskManager:
     """The task manager of this process: the running robot's, else one made now.
 
-    Raises HriError when the configuration is wrong.
+    In a function that `TaskContext.blocking` runs, that of the task which runs it. Raises HriError
+    when the configuration is wrong.
     """
+    if (aside := here()) is not None:
+        return aside.manager
     with _lock:
         if _current is None:
+            if _has_robot:
+                what = "a robot lives in this process, and this thread is none of its own"
+                raise HriError(f"{what} - run the function by `await context.blocking(function)`")
             enter(_make())
         assert _current is not None
         return _current
+
+
+@contextmanager
+def robot_lives() -> Iterator[None]:
+    """While the body runs, no thread may start a second task manager beside the robot's."""
+    global _has_robot
+    _has_robot = True
+    try:
+        yield
+    finally:
+        _has_robot = False
 
 
 def enter(manager: TaskManager) -> None:
