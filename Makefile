@@ -11,6 +11,9 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 
+# What was compiled is kept: without that each of the many processes of the tests compiles all anew.
+unexport PYTHONDONTWRITEBYTECODE
+
 .PHONY: run test slow fuzz check wheels docs checklist format clean
 
 # The networks that see faces, once; without them they are found coarsely, and fewer nods.

@@ -4,10 +4,13 @@ from hri import Robot
 from hri.hal.microphone import Microphone
 from hri.hal.resource import Description
 
+SMALL_SCREEN = Description("screen", "Hri.OffscreenScreen", {"width": "160", "height": "120"})
+BLIND = Description("camera", "Hri.BlankCamera")
+"""Seeing costs most of the time of a life; where it is of no concern a robot sees nothing."""
 TYPED = (
     Description("screen", "Hri.OffscreenScreen", {"width": "16", "height": "16"}),
     Description("recognizer", "Hri.Typed"),
-    Description("camera", "Hri.BlankCamera"),
+    BLIND,
     Description("microphone", "Hri.MemoryMicrophone"),
 )
 """Of a robot that hears what is typed, sees nothing, and costs little time."""

@@ -10,14 +10,11 @@ from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, AuthoringErrors, HriError
 from hri.hal.drive import Odometry
 from hri.hal.drivers.memory import OffscreenScreen
-from hri.hal.resource import Description
 from hri.robot import Robot
 from hri.robot.app import load_app
 from hri.simulation.world import SimulatedWorld
 from hri.testing import live_for
-from tests.devices import live_microphone
-
-SMALL_SCREEN = Description("screen", "Hri.OffscreenScreen", {"width": "160", "height": "120"})
+from tests.devices import BLIND, SMALL_SCREEN, live_microphone
 
 
 class KeyedScreen(OffscreenScreen):
@@ -43,10 +40,11 @@ class Visit:
         seed=3,
         config="simulated",
         prepare=lambda robot: None,
+        devices=(SMALL_SCREEN, BLIND),
         **more,
     ):
         clock = FakeClock()
-        self.robot = Robot(config=config, clock=clock, seed=seed, devices=[SMALL_SCREEN], **more)
+        self.robot = Robot(config=config, clock=clock, seed=seed, devices=devices, **more)
         prepare(self.robot)
         world = self.robot.resources.obtain("world", SimulatedWorld)
         self._place_screen(keys)
@@ -100,7 +98,7 @@ def test_while_it_speaks_nothing_but_stop_counts():
 
 
 def test_stop_is_obeyed_while_it_drives():
-    visit = Visit(11, {1.0: "go forward ten meters", 6.5: "stop"})
+    visit = Visit(11, {1.0: "go forward ten meters", 6.5: "stop"}, devices=[SMALL_SCREEN])
     assert visit.heard() == ["move", "stop"]
     stops = {event.properties["reason"] for event in visit.named("drive.stopped")}
     assert stops == {"e-stop", "halt"}
@@ -153,7 +151,7 @@ def test_a_new_way_takes_the_place_of_the_old_one():
 
 
 def test_come_here_brings_it_to_the_person():
-    visit = Visit(24, {1.5: "go back one meter", 9.0: "come to me"})
+    visit = Visit(24, {1.5: "go back one meter", 9.0: "come to me"}, devices=[SMALL_SCREEN])
     assert visit.heard() == ["move", "come"]
     before = visit.pose_at(9.0)
     after = visit.pose_at(23.5)
@@ -190,7 +188,7 @@ def test_a_base_with_a_supervisor_moves_when_it_was_released_and_not_after_stop(
 
 
 def test_who_tells_it_to_shut_its_eyes_turns_the_camera_off_until_they_are_opened():
-    visit = Visit(16, {2.0: "close your eyes", 8.0: "open your eyes"})
+    visit = Visit(16, {2.0: "close your eyes", 8.0: "open your eyes"}, devices=[SMALL_SCREEN])
     assert visit.heard() == ["eyes", "eyes"]
     switched = [event.properties["on"] for event in visit.named("camera.switched")]
     assert switched == [False, True]
@@ -245,7 +243,9 @@ def test_a_new_command_needs_a_grammar_line_and_a_reply_and_no_python(
     with (own_app / "replies.toml").open("a") as file:
         file.write('\n[reply.weather]\nsay = "I do not know, I am inside."\n')
     monkeypatch.setenv("HRI_PATH", str(tmp_path))
-    robot = Robot(app=str(own_app), config="simulated", clock=FakeClock(), devices=[SMALL_SCREEN])
+    robot = Robot(
+        app=str(own_app), config="simulated", clock=FakeClock(), devices=[SMALL_SCREEN, BLIND]
+    )
     world = robot.resources.obtain("world", SimulatedWorld)
     robot.clock.call_at(1.0, lambda: world.say("how is the weather today", 1.0))
     events = live_for(robot, 6, *robot.app.load_tasks())
@@ -298,7 +298,9 @@ def test_every_app_loads_with_its_networks_and_tasks():
 def test_a_job_that_fails_costs_that_job_only(own_app):
     replies = own_app / "replies.toml"
     replies.write_text(replies.read_text().replace('say = "It is {time}."', 'say = "{distance}"'))
-    robot = Robot(app=str(own_app), config="simulated", clock=FakeClock(), devices=[SMALL_SCREEN])
+    robot = Robot(
+        app=str(own_app), config="simulated", clock=FakeClock(), devices=[SMALL_SCREEN, BLIND]
+    )
     world = robot.resources.obtain("world", SimulatedWorld)
     world.say("what time is it", at=1.0)
     world.say("what is your name", at=4.0)

@@ -4,12 +4,10 @@ import pytest
 
 from hri.core.clock import FakeClock
 from hri.emotion.behaviors import EmotionModel
-from hri.hal.resource import Description
 from hri.robot import Robot
 from hri.simulation.world import SimulatedWorld
 from hri.testing import live_for
-
-SMALL_SCREEN = Description("screen", "Hri.OffscreenScreen", {"width": "160", "height": "120"})
+from tests.devices import SMALL_SCREEN
 
 
 class Alone:

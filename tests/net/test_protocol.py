@@ -138,10 +138,10 @@ def test_any_bytes_are_a_message_or_one_error(line):
 def test_the_longest_lines_cost_little_time_and_memory(unit):
     line = b"<a>" + unit * ((LONGEST - 8) // len(unit)) + b"</a>"
     tracemalloc.start()
-    begun = time.perf_counter()
+    begun = time.thread_time()
     with pytest.raises(ProtocolError):
         decode(line + b"<")
-    assert time.perf_counter() - begun < 0.5
+    assert time.thread_time() - begun < 0.5
     assert tracemalloc.get_traced_memory()[1] < 20e6
     tracemalloc.stop()
 

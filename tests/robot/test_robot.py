@@ -15,11 +15,20 @@ from hri.hal.speaker import Speaker
 from hri.robot import load_app, verbs
 from hri.simulation.world import SimulatedWorld
 from hri.task import navigation, speech
+from tests.devices import BLIND, SMALL_SCREEN
 
 
 @pytest.fixture
 def robot():
-    with Robot(config="simulated", clock=FakeClock(), seed=1) as robot:
+    devices = [SMALL_SCREEN, BLIND]
+    with Robot(config="simulated", clock=FakeClock(), seed=1, devices=devices) as robot:
+        yield robot
+
+
+@pytest.fixture
+def seeing_robot():
+    devices = [SMALL_SCREEN]
+    with Robot(config="simulated", clock=FakeClock(), seed=1, devices=devices) as robot:
         yield robot
 
 
@@ -45,7 +54,8 @@ def test_it_drives_as_far_as_it_is_told(robot):
 
 
 @pytest.mark.parametrize(("gesture", "answer"), [("nod", True), ("shake", False)])
-def test_a_nod_is_yes_and_a_shake_is_no(robot, gesture, answer):
+def test_a_nod_is_yes_and_a_shake_is_no(seeing_robot, gesture, answer):
+    robot = seeing_robot
     world = robot.resources.obtain("world", SimulatedWorld)
     robot.wait(2.0)
 

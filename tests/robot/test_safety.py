@@ -7,12 +7,10 @@ from hri.core.signals import Twist
 from hri.drive.behaviors import CommandGate
 from hri.drive.tasks import move
 from hri.hal.drive import DriveSystem, Odometry
-from hri.hal.resource import Description
 from hri.robot import Robot
 from hri.simulation.world import SimulatedWorld
 from hri.testing import live_for
-
-SMALL_SCREEN = Description("screen", "Hri.OffscreenScreen", {"width": "160", "height": "120"})
+from tests.devices import BLIND, SMALL_SCREEN
 
 
 def fail(now, dt):
@@ -23,7 +21,7 @@ class Ride:
     """Drives ahead; after three seconds something happens; poses are noted all the while."""
 
     def __init__(self, happening, distance=10.0):
-        robot = Robot(config="simulated", clock=FakeClock(), devices=[SMALL_SCREEN])
+        robot = Robot(config="simulated", clock=FakeClock(), devices=[SMALL_SCREEN, BLIND])
         odometry = robot.resources.obtain("odometry", Odometry)
         self.way = {}
 
@@ -74,7 +72,7 @@ def test_a_task_that_writes_nonsense_moves_nothing():
 
 
 def test_a_drive_that_gets_nonsense_stands_still():
-    robot = Robot(config="simulated", clock=FakeClock(), devices=[SMALL_SCREEN])
+    robot = Robot(config="simulated", clock=FakeClock(), devices=[SMALL_SCREEN, BLIND])
     drive = robot.resources.obtain("drive", DriveSystem)
     odometry = robot.resources.obtain("odometry", Odometry)
     for twist in (Twist(float("nan"), 0.0), Twist(float("inf"), float("nan"))):

@@ -7,7 +7,7 @@ from collections.abc import Generator, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import islice
 
-from hri.speech.grammar.automaton import FINAL, START
+from hri.speech.grammar.automaton import FINAL, START, Apply, Defer
 from hri.speech.grammar.matching import Matcher, Parse, parses
 from hri.speech.grammar.rules import Grammar
 
@@ -39,6 +39,8 @@ def ambiguities(grammar: Grammar) -> Iterator[Ambiguity]:
     One for each two rules and names of tags, since one example shows where they collide. In a
     grammar that is too large to be walked to its end, some sentences are tried as well.
     """
+    if not _can_differ(grammar):
+        return
     told: set[object] = set()
     for sentence in islice(_tried(grammar), MOST_TRIED):
         found = ambiguity(grammar, sentence)
@@ -48,6 +50,13 @@ def ambiguities(grammar: Grammar) -> Iterator[Ambiguity]:
             if kind not in told:
                 told.add(kind)
                 yield found
+
+
+def _can_differ(grammar: Grammar) -> bool:
+    """Whether there is more than one thing that can be meant: two rules, or tags."""
+    actions = {action for actions in grammar.automaton.actions for action in actions}
+    has_tags = any(isinstance(action, Apply | Defer) for action in actions)
+    return has_tags or len(grammar.public_rules) > 1
 
 
 def _tried(grammar: Grammar) -> Iterator[str]:

@@ -93,10 +93,10 @@ def test_structure_is_kept(write, rules, said, unsaid):
 def test_what_explodes_elsewhere_takes_no_time_here(write):
     grammar = load_grammar(write("public <a> = ((x*)* | (x | x x)+)* y;"))
 
-    start = time.perf_counter()
+    start = time.process_time()
     assert parse(grammar, "x " * 150) is None
     assert len(parses(grammar, "x " * 150 + "y")) == 1
-    assert time.perf_counter() - start < 2.0
+    assert time.process_time() - start < 2.0
 
 
 def test_left_recursion_is_refused_and_does_not_hang(write):
@@ -180,9 +180,9 @@ def plain(tree):
 def test_readings_without_number_are_listed_up_to_a_limit(write):
     grammar = load_grammar(write("public <a> = (x {n+=1} | x {m+=1})+;"))
 
-    start = time.perf_counter()
+    start = time.process_time()
     readings = parses(grammar, "x " * 150, limit=10)
-    assert time.perf_counter() - start < 2.0
+    assert time.process_time() - start < 2.0
     assert 1 < len(readings) <= 10
     assert len({tuple(reading.tags.items()) for reading in readings}) > 1
 
