@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import soundfile
 
+from hri.cli.main import main
 from hri.cli.run import add_options, check_files
 from hri.core import paths
 from hri.core.recording import read_events
@@ -32,10 +33,22 @@ def start(*arguments):
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 
-def two_demos(folder, *more):
+@pytest.fixture(scope="session")
+def small(tmp_path_factory):
+    """Everything simulated, with a screen of few pixels: their number is of no concern here."""
+    screen = '<Device id="screen" type="Hri.OffscreenScreen"'
+    size = '<Parameter name="width" value="160"/><Parameter name="height" value="120"/>'
+    text = paths.find("config", "simulated").read_text()
+    assert f"{screen}/>" in text
+    path = tmp_path_factory.mktemp("config") / "small.xml"
+    path.write_text(text.replace(f"{screen}/>", f"{screen}>{size}</Device>"))
+    return path
+
+
+def two_demos(folder, config, *more):
     """The folders of two runs of the same demo, side by side on two cores."""
     folders = [folder / name for name in ("one", "two")]
-    words = ("companion", "--demo", "--fast", "--seed", 7, "--headless", *more, "--record")
+    words = ("companion", "--demo", "--fast", "--seed", 7, "--config", config, *more, "--record")
     runs = [start(*words, folder) for folder in folders]
     outputs = [run.communicate(timeout=800)[0] for run in runs]
     assert [run.returncode for run in runs] == [0, 0], outputs
@@ -43,9 +56,9 @@ def two_demos(folder, *more):
 
 
 @pytest.fixture(scope="module")
-def demos(tmp_path_factory):
+def demos(tmp_path_factory, small):
     """Two whole ones; what takes them is slow."""
-    return two_demos(tmp_path_factory.mktemp("demo"))
+    return two_demos(tmp_path_factory.mktemp("demo"), small)
 
 
 @pytest.fixture(scope="module")
@@ -71,8 +84,8 @@ def require_equal(one, two):
         assert (one / name).read_bytes() == (two / name).read_bytes(), name
 
 
-def test_two_demos_begin_equal_byte_for_byte(tmp_path):
-    require_equal(*two_demos(tmp_path, "--duration", 12))
+def test_two_demos_begin_equal_byte_for_byte(tmp_path, small):
+    require_equal(*two_demos(tmp_path, small, "--duration", 12))
 
 
 @SLOW
@@ -120,11 +133,11 @@ def test_stop_stops_a_long_way(events):
     assert max(e["x_cm"] for e in later) - min(e["x_cm"] for e in later) < 1.0
 
 
-def test_a_person_who_says_go_forward_ten_meters_is_obeyed(tmp_path):
+def test_a_person_who_says_go_forward_ten_meters_is_obeyed(tmp_path, small):
     out = tmp_path / "out"
     run = hri(
-        "companion", "--audio", speech("goforward"), "--camera", "none", "--fast", "--headless",
-        "--record", out,
+        "companion", "--audio", speech("goforward"), "--camera", "none", "--fast",
+        "--config", small, "--record", out,
     )  # fmt: skip
     assert run.returncode == 0, run.stderr
     events = read_events(out / "events.jsonl")
@@ -177,20 +190,21 @@ BAD = {
 
 
 @pytest.mark.parametrize("case", BAD)
-def test_bad_files_are_refused_before_anything_starts(case, tmp_path):
+def test_bad_files_are_refused_before_anything_starts(case, tmp_path, capfd):
     option, content = BAD[case]
     path = tmp_path / f"bad.{ {'config': 'xml', 'audio': 'wav'}.get(option, 'mp4') }"
     if content is not None:
         path.write_text(content)
     out = tmp_path / "out"
-    run = hri("companion", f"--{option}", path, "--fast", "--headless", "--record", out)
-    assert run.returncode == 2
-    assert "Traceback" not in run.stderr
-    lines = run.stderr.strip().splitlines()
+    words = ["companion", f"--{option}", path, "--fast", "--headless", "--record", out]
+    assert main(list(map(str, words))) == 2
+    told = capfd.readouterr()
+    assert "Traceback" not in told.err
+    lines = told.err.strip().splitlines()
     assert 1 <= len(lines) <= 4
-    assert " - " in run.stderr
-    assert path.name in run.stderr
-    assert run.stdout == ""
+    assert " - " in told.err
+    assert path.name in told.err
+    assert told.out == ""
     assert not out.exists()
 
 
