@@ -24,6 +24,7 @@ from hri.speech.grammar.expressions import (
 from hri.speech.grammar.finding import SEVERITIES, Finding, hint, warning
 from hri.speech.grammar.jsgf import NameListImport
 from hri.speech.grammar.matching import Parse, parse
+from hri.speech.grammar.operators import idle_operators
 from hri.speech.grammar.overwriting import overwritten
 from hri.speech.grammar.phrases import Phrases, Words, phrases, phrases_of_rules
 from hri.speech.grammar.rules import Grammar, Rule
@@ -68,6 +69,7 @@ def _opinions(grammar: Grammar, lexicon: Lexicon | None) -> list[Finding]:
         *_unused(grammar),
         *_idle_imports(grammar),
         *overwritten(grammar, _own_rules(grammar)),
+        *idle_operators(grammar, _own_rules(grammar)),
         *_never_said(grammar),
         *_silent(grammar, said),
         *_said_twice(grammar, said),

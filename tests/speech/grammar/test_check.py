@@ -46,6 +46,30 @@ def own_folders(tmp_path, monkeypatch):
             'the second "number" replaces the first',
             "<numbers.small> {first=$number}",
         ),
+        (
+            "public <a> = make it big {size=big} twice {size*=2};",
+            "3:37",
+            '"size*=" does nothing, for size is a text',
+            "give size a number",
+        ),
+        (
+            "public <a> = go very fast {speed*=2};",
+            "3:22",
+            '"speed*=" does nothing, for nothing gives',
+            "{speed=1}",
+        ),
+        (
+            "public <a> = go on {w=so} more {n=1} here {n*=$w};",
+            "3:38",
+            '"n*=" does nothing, for $w is a text',
+            "give w a number",
+        ),
+        (
+            "public <a> = put on ham {top=ham} and more {top+=2};",
+            "3:39",
+            '"top+=" collects texts, for top is a text, and adds nothing',
+            'in quotes, "2"',
+        ),
         ("public <a> = go forward | no;", "3:27", '"no" is very short', "longer"),
         (
             "public <b> = say no to it;\npublic <a> = no no | no {x=1};",
@@ -383,3 +407,17 @@ def test_long_alternatives_of_large_rules_are_compared_at_once(write):
     start = time.process_time()
     assert not phrases_of_rules(grammar, 3)["a"].is_all
     assert time.process_time() - start < 1.0
+
+
+@pytest.mark.parametrize(
+    "rules",
+    [
+        "public <a> = twenty more {n+=20} times two {n*=2};",
+        "public <a> = give me {k=2} hundred of them {n=$k} {n*=100};",
+        "public <a> = with ham and {t+=ham} three {t+=3} of it;",
+        "public <a> = half way {n*=0.5} | ten ways {n=10};",
+    ],
+)
+def test_operators_that_may_apply_are_not_told(write, rules):
+    findings = check(load_grammar(write(rules)), load_lexicon())
+    assert not [finding for finding in findings if '="' in finding.what]
