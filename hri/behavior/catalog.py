@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from hri.behavior.behavior import Behavior
-from hri.behavior.ports import ANY
+from hri.behavior.ports import ANY, DATATYPES
 from hri.behavior.schema import TYPE_NAME, Port, Schema, load_schema, subclass
 from hri.core import paths, registry
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
@@ -57,6 +57,10 @@ def find_schema(type_name: str) -> Path:
 def _behavior_of(schema: Schema, path: Path) -> type[Behavior]:
     is_file = schema.library.endswith(".py")
     cls = _class_in_file(schema, path) if is_file else _driver(schema)
+    for port in (*schema.inputs, *schema.outputs):
+        if port.datatype not in DATATYPES:
+            remedy = did_you_mean(port.datatype, DATATYPES, "call declare_datatype in the library")
+            raise AuthoringError(port.place, f'the datatype "{port.datatype}"', remedy)
     _check_against(schema, cls)
     return subclass(cls, schema)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import sys
 from collections.abc import Sequence
 from typing import Any, Generic, TypeVar, overload
@@ -47,7 +48,29 @@ DATATYPES: dict[str, type] = {
     "pose": signals.Pose2D,
     "range": signals.RangeReading,
 }
-"""The names that files use for the types of ports."""
+"""The names that files use for the types of ports; `declare_datatype` adds to them."""
+
+
+_OWN_NAME = re.compile(r"[A-Za-z]\w*(\.\w+)+")
+
+
+def declare_datatype(name: str, kind: type) -> type:
+    """Give a class of your own a name that ports and schemas may use: `"My.Track"`; the class.
+
+    Call it before the behaviors that have such ports. Raises TypeError for a name without a
+    namespace, one that names another class already, and for what is not a class.
+    """
+    if not _OWN_NAME.fullmatch(name):
+        raise TypeError(f'"{name}" is no name for a datatype of your own - write Namespace.Name')
+    if not isinstance(kind, type):
+        raise TypeError(f"{name} is {kind!r:.60} - give a class")
+    known = DATATYPES.get(name, kind)
+    # A file that is read again makes its classes anew.
+    if (known.__module__, known.__qualname__) != (kind.__module__, kind.__qualname__):
+        what = f'the datatype "{name}" is {known.__module__}.{known.__qualname__} already'
+        raise TypeError(f"{what} - choose another name")
+    DATATYPES[name] = kind
+    return kind
 
 
 class InputPort(Generic[T]):
