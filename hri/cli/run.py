@@ -6,9 +6,11 @@ import argparse
 import logging
 import math
 from contextlib import suppress
+from functools import partial
 from itertools import chain, count
 from pathlib import Path
 
+from hri.cli.changes import announce_changes
 from hri.cli.doors import add_door_options, doors_of
 from hri.cli.ending import Ending
 from hri.cli.messages import LineFormatter
@@ -226,7 +228,10 @@ class Session:
         jobs: list[Job] = [self.prepare, self.end_when_over, self.watch_window, self.watch_signals]
         if self.options.realtime:
             jobs.append(self.run_ahead)
-        return jobs if self.robot.clock.is_fake else [*jobs, self.narrator.greet]
+        if self.robot.clock.is_fake:
+            return jobs
+        saved = partial(announce_changes, self.robot.app, self.narrator.tell)
+        return [*jobs, self.narrator.greet, saved]
 
     async def run_ahead(self, context: TaskContext) -> None:
         """Ask for real-time priority; networks and devices have started by now."""
