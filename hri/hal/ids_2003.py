@@ -1,7 +1,7 @@
 """The ids that the configuration of 2003 gave its devices, and what ours are called.
 
 So a network or a program of that time finds the devices of a configuration that has none of these
-ids. One that has them goes by its own.
+ids. One that has them goes by its own. Names of types are another thing: see `registry.ALIASES`.
 """
 
 IDS = {
@@ -17,4 +17,5 @@ IDS = {
     "viavoice_asr": "recognizer",
     "win_tts": "voice",
     "winvoice_asr": "recognizer",
+    "winvoice_audio_level": "audio_level",
 }
