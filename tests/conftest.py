@@ -4,13 +4,14 @@ import signal
 from collections.abc import Iterator
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 from tests.checklist import Checklist
 
 # The same examples in every run, and no limit of time for one: a busy machine is not a mistake.
-settings.register_profile("steady", derandomize=True, deadline=None)
-settings.register_profile("random", deadline=None, print_blob=True)
+PATIENT = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
+settings.register_profile("steady", derandomize=True, **PATIENT)
+settings.register_profile("random", print_blob=True, **PATIENT)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "steady"))
 
 

@@ -187,6 +187,7 @@ class _Grid:
         """
         columns, rows = self.costs.shape
         costs = self.costs.tolist()
+        is_beyond = not (0 <= goal[0] < columns and 0 <= goal[1] < rows)
         came: dict[Cell, Cell] = {}
         spent = {start: 0.0}
         edge = [(math.dist(start, goal), start)]
@@ -198,17 +199,18 @@ class _Grid:
             if here in done:
                 continue
             done.add(here)
+            so_far = spent[here]
             for dx, dy, way in _STEPS:
                 column, row = here[0] + dx, here[1] + dy
                 if not (0 <= column < columns and 0 <= row < rows):
                     continue
-                cost = spent[here] + way * (1.0 + costs[column][row])
+                cost = so_far + way * (1.0 + costs[column][row])
                 there = (column, row)
                 if cost < spent.get(there, math.inf):
                     spent[there], came[there] = cost, here
                     heapq.heappush(edge, (cost + math.dist(there, goal), there))
-            if self._is_exit(here, goal):
-                cost = spent[here] + math.dist(here, goal)
+            if is_beyond and self._is_exit(here, goal):
+                cost = so_far + math.dist(here, goal)
                 if cost < spent.get(goal, math.inf):
                     spent[goal], came[goal] = cost, here
                     heapq.heappush(edge, (cost, goal))
