@@ -13,7 +13,7 @@ from hri.emotion.personality import FARTHEST, baseline_of, load_personality
 from tests.recorded import SHARED, needs_shared
 
 TABLES = SHARED / "emotion_tables"
-pytestmark = needs_shared("emotion_tables")
+published_here = needs_shared("emotion_tables")
 
 AXES = {e.name: [e.pleasure, e.arousal, e.dominance] for e in EMOTIONS}
 OUR_WORDS = {
@@ -38,6 +38,7 @@ def ours(name: str) -> str:
     return words.lower().replace("-", "_")
 
 
+@published_here
 def test_octants_are_those_of_alma() -> None:
     table = rows("alma_octants.tsv")
     assert len(table) == len(OCTANTS)
@@ -45,6 +46,7 @@ def test_octants_are_those_of_alma() -> None:
         assert OCTANTS[pleasure == "1", arousal == "1", dominance == "1"] == known_as(name.lower())
 
 
+@published_here
 def test_all_emotions_of_alma_lie_in_their_octant() -> None:
     table = rows("alma_occ_pad.tsv")
     assert len(table) == 24
@@ -54,6 +56,7 @@ def test_all_emotions_of_alma_lie_in_their_octant() -> None:
         )
 
 
+@published_here
 def test_the_basic_emotions_stand_where_russell_and_mehrabian_put_them() -> None:
     table = rows("russell_mehrabian_1977_ekman6.tsv")
     assert len(table) == 6
@@ -61,6 +64,7 @@ def test_the_basic_emotions_stand_where_russell_and_mehrabian_put_them() -> None
         assert AXES[ours(name)] == [float(axis) for axis in axes]
 
 
+@published_here
 def test_all_others_stand_where_alma_puts_them() -> None:
     basic = {ours(row[0]) for row in rows("russell_mehrabian_1977_ekman6.tsv")}
     table = {ours(name): list(map(float, axes)) for name, *axes, _ in rows("alma_occ_pad.tsv")}
@@ -70,6 +74,7 @@ def test_all_others_stand_where_alma_puts_them() -> None:
         assert AXES[name] == table[name]
 
 
+@published_here
 def test_the_five_factors_give_the_baseline_of_the_worked_example() -> None:
     published = json.loads((TABLES / "ocean_to_pad.json").read_text(encoding="utf-8"))
     example = published["worked_example_ALMA_as_printed"]
@@ -82,6 +87,7 @@ def test_the_five_factors_give_the_baseline_of_the_worked_example() -> None:
     assert neurotic == pytest.approx([right[axis] for axis in ("P", "A_out", "D")], abs=1e-9)
 
 
+@published_here
 def test_each_factor_has_its_published_coefficients() -> None:
     published = json.loads((TABLES / "ocean_to_pad.json").read_text(encoding="utf-8"))
     for number, factor in enumerate("OCEAS"):
@@ -130,5 +136,6 @@ def test_goals_are_appraised_as_in_gamygdala(
     assert set(appraise(goal).charges) == felt
 
 
+@published_here
 def test_every_emotion_of_gamygdala_is_one_of_ours() -> None:
     assert {ours(row[0]) for row in rows("gamygdala_occ_pad.tsv")} <= set(AXES)
