@@ -160,7 +160,7 @@ def _spec_path(type: str) -> Path | None:
     """The spec file under the type's own name or today's, in the first folder that has one."""
     for name in (type, canonical(type)):
         for candidate in _spec_candidates(name):
-            if candidate.is_file():
+            if paths.is_file(candidate):
                 return candidate
     return None
 

@@ -172,7 +172,7 @@ def network_path(id: str) -> Path:
     name = f"primitive/{id.replace('.', '/')}.xml"
     folders = [folder for base in paths.search_folders() for folder in (base / "config", base)]
     for folder in folders:
-        if (folder / name).is_file():
+        if paths.is_file(folder / name):
             return folder / name
     looked = ", ".join(str(folder) for folder in folders)
     raise HriError(f'no "{name}" for the primitive {id} - add it (looked in {looked})')

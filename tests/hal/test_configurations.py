@@ -6,6 +6,7 @@ import pytest
 
 from hri.core import paths
 from hri.core.clock import FakeClock
+from hri.core.errors import HriError
 from hri.drive.supervisor.bus import BaseBus
 from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
@@ -24,6 +25,16 @@ def test_it_loads_and_names_all_that_the_companion_needs(name):
     ids = {device.id for device in configuration.devices}
     assert {"microphone", "speaker", "camera", "screen", "recognizer", "voice"} <= ids
     assert {"drive", "odometry", "bumper", "battery", "range_front"} <= ids
+
+
+def test_a_type_longer_than_any_file_name_is_an_unknown_type(tmp_path):
+    file = tmp_path / "long.xml"
+    file.write_text(
+        f'<Resources><Devices><Device id="ears" type="Hri.{"e" * 300}"/></Devices></Resources>'
+    )
+    (device,) = load_configuration(file).devices
+    with pytest.raises(HriError, match=f"{file}:1:"):
+        ResourceManager((device,), FakeClock()).check()
 
 
 @pytest.mark.parametrize("port", ["simulated", "/dev/not-there"])
