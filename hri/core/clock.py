@@ -24,6 +24,7 @@ from typing import Generic, TypeVar
 
 import trio
 
+from hri.core.realtime import join_realtime
 from hri.core.service import InlineService, ProcessService, Service
 
 T = TypeVar("T")
@@ -376,7 +377,7 @@ class FakeClock(Clock):
 class _ThreadWorker(Worker[T]):
     def __init__(self) -> None:
         super().__init__()
-        self._pool = ThreadPoolExecutor(1)
+        self._pool = ThreadPoolExecutor(1, initializer=join_realtime)
         self._future: Future[T] | None = None
 
     def submit(self, job: Callable[[], T]) -> None:

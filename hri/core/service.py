@@ -24,6 +24,7 @@ from typing import Any, BinaryIO, Generic, TypeVar
 
 from hri.core import child
 from hri.core.errors import HriError, NotAvailable
+from hri.core.realtime import join_realtime
 
 Question = TypeVar("Question")
 Answer = TypeVar("Answer")
@@ -77,7 +78,7 @@ class ProcessService(Service[Question, Answer]):
     ) -> None:
         """`factory` must be known by name in a module, `now` gives seconds."""
         self._factory, self._now = factory, now
-        self._pool = ThreadPoolExecutor(1, thread_name_prefix="service")
+        self._pool = ThreadPoolExecutor(1, thread_name_prefix="service", initializer=join_realtime)
         self._child: _Child | None = None
         self._future: Future[list[Answer]] | None = None
         self._failures = 0
