@@ -60,13 +60,17 @@ def _kinds(grammar: Grammar, operations: tuple[str, ...] = ("=", "+=")) -> Kinds
         if entry.operation in operations
     ]
     found: Kinds = defaultdict(set)
-    is_new = True
-    while is_new:  # values go from tag to tag
-        is_new = False
-        for entry in entries:
-            more = _kinds_of(entry, found) - found[entry.name]
+    takers: dict[str, list[TagEntry]] = defaultdict(list)
+    for entry in entries:
+        if isinstance(entry.value, Reference):
+            takers[entry.value.name].append(entry)
+    waiting = entries
+    while waiting:  # values go from tag to tag
+        entry = waiting.pop()
+        more = _kinds_of(entry, found) - found[entry.name]
+        if more:
             found[entry.name] |= more
-            is_new = is_new or bool(more)
+            waiting.extend(takers[entry.name])
     return {name: kinds for name, kinds in found.items() if kinds}
 
 
