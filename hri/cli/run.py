@@ -155,7 +155,13 @@ def recordings_folder(robot: Robot) -> Path:
 
 
 def check_files(options: argparse.Namespace) -> None:
-    """Refuse bad files before anything starts. Raises HriError."""
+    """Refuse bad files, and options that do not go together, before anything starts.
+
+    Raises HriError.
+    """
+    if options.demo and options.keep:
+        what = "--demo --keep: the visitor of a demo is simulated, and is not kept among people"
+        raise HriError(f"{what} - leave out one of the two")
     load_app(options.app)
     if options.audio is not None:
         load_sound(options.audio)

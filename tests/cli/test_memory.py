@@ -41,7 +41,7 @@ def remember_ann(wall=1e9):
     keep(memory_file(), Memory(affect.imprint, 0.0, wall))
 
 
-@pytest.mark.parametrize("words", [[], ["--headless", "--duration", "5"], ["--demo", "--fast"]])
+@pytest.mark.parametrize("words", [[], ["--headless", "--duration", "5"], ["--fast"]])
 def test_nothing_that_is_felt_outlasts_a_run_that_was_not_asked_to_keep_it(words):
     assert memory_of(options(*words)) == ""
     assert memory_of(options(*words, "--keep")) == str(memory_file())
@@ -59,6 +59,15 @@ def test_it_may_ask_whether_to_keep_unless_the_run_is_to_repeat(app, monkeypatch
 
 def run(app, *words):
     return main(["run", app, "--config", "simulated", "--headless", "--duration", "0.2", *words])
+
+
+@pytest.mark.parametrize("words", [(), ("--fast",)])
+def test_the_visitor_of_a_demo_is_not_kept_among_people(app, capsys, words):
+    remember_ann()
+    before = memory_file().read_bytes()
+    assert run(app, "--demo", "--keep", *words) == 2
+    assert "--demo --keep" in capsys.readouterr().err
+    assert memory_file().read_bytes() == before
 
 
 def test_a_run_keeps_what_it_feels_only_when_it_is_told_to(app, tmp_path):
