@@ -7,6 +7,7 @@ where two ways of the same words are merged.
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 from collections import Counter
@@ -73,26 +74,27 @@ class _Reduction:
         seen, pending = {START}, [START]
         while pending:
             node = pending.pop()
-            merged: dict[tuple[str | None, int], Arc] = {}
-            for word, target, weight in self._leaving[node]:
+            alike: dict[tuple[str | None, int], list[Arc]] = {}
+            for arc in self._leaving[node]:
+                word, target, _ = arc
                 is_free = entered[target] == 1 and target not in self._kept
-                key = (word, -1 if is_free else target)
-                if key not in merged:
-                    merged[key] = (word, target, weight)
-                    continue
-                _, kept, before = merged[key]
-                both = _either(before, weight)
-                if is_free:
-                    self._leaving[kept] = [
-                        *_scaled(self._leaving[kept], before - both),
-                        *_scaled(self._leaving[target], weight - both),
-                    ]
-                    self._leaving[target] = []
-                merged[key] = (word, kept, both)
-            self._leaving[node] = list(merged.values())
+                alike.setdefault((word, -1 if is_free else target), []).append(arc)
+            self._leaving[node] = [self._merged(arcs) for arcs in alike.values()]
             further = {target for _, target, _ in self._leaving[node]} - seen
             seen |= further
             pending += sorted(further)
+
+    def _merged(self, arcs: list[Arc]) -> Arc:
+        """One arc for those of one word; what leaves their targets leaves the first of these."""
+        word, kept, _ = arcs[0]
+        share = functools.reduce(_either, (weight for _, _, weight in arcs))
+        if any(target != kept for _, target, _ in arcs):
+            leaving: list[Arc] = []
+            for _, target, weight in arcs:
+                leaving += _scaled(self._leaving[target], weight - share)
+                self._leaving[target] = []
+            self._leaving[kept] = leaving
+        return word, kept, share
 
     def _merge_endings(self, order: list[int]) -> None:
         """Nodes that the same arcs leave are one."""
