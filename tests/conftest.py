@@ -20,8 +20,10 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    # A shell leaves Ctrl-C ignored in what it runs in the background, and some tests press it.
+    # A shell leaves Ctrl-C ignored in what it runs in the background, and `nohup` the end of the
+    # terminal; some tests press the one and play the other.
     signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
     config.pluginmanager.register(Checklist(config.getoption("--checklist")), "checklist")
 
 
