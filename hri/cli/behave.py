@@ -47,7 +47,9 @@ def _parser() -> argparse.ArgumentParser:
     parser = OptionParser(prog="behave", description="Run a behavior network.")
     add = parser.add_argument
     add("network", metavar="NETWORK.xml", help="path, or name over the search folders")
-    add("--debug", nargs="?", const="", metavar="CATEGORY", help="tell more, of a part or of all")
+    add(
+        "--debug", nargs="?", const="", metavar="CATEGORY", help="print more, about one part or all"
+    )
     add("--duration", type=_at_least(SHORTEST), metavar="S", help="end after so many seconds")
     add("--invocation-count", type=_count, metavar="N", help="end after so many ticks")
     add("--invocation-interval", type=_at_least(SHORTEST), metavar="S", help="seconds a tick")

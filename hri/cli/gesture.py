@@ -56,7 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--detector", default="auto", metavar="NAME", help="auto, haar, or the path of a YuNet file"
     )
     add("--list", action="store_true", help="show the gestures of the file of patterns")
-    add("--check", action="store_true", help="read the file of patterns, and tell what is wrong")
+    add("--check", action="store_true", help="read the file of patterns, and report what is wrong")
 
 
 def run(options: argparse.Namespace) -> int:

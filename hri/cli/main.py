@@ -70,7 +70,7 @@ def _overview() -> str:
     lines = [f"  {name:<{width}}  {about}" for name, (_, about) in COMMANDS.items()]
     return "\n".join(
         [
-            "usage: hri COMMAND [options]     (hri COMMAND --help tells the options)",
+            "usage: hri COMMAND [options]     (hri COMMAND --help lists the options)",
             "",
             *lines,
             "",

@@ -36,7 +36,7 @@ FILE_HELP = "grammar file, or the name of one in grammars/"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     width = max(map(len, COMMANDS))
     about = "\n".join(f"  {name:<{width}}  {about}" for name, about in COMMANDS.items())
-    parser.epilog = f"commands:\n{about}\n\nhri grammar COMMAND --help tells the options."
+    parser.epilog = f"commands:\n{about}\n\nhri grammar COMMAND --help lists the options."
     parser.formatter_class = argparse.RawDescriptionHelpFormatter
     parser.add_argument("command", metavar="COMMAND", choices=COMMANDS, help="one of those below")
     parser.add_argument("words", nargs=argparse.REMAINDER, help=argparse.SUPPRESS)

@@ -44,12 +44,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     how.add_argument(
         "--random", type=count, metavar="N", help="draw so many different ones by the weights"
     )
-    how.add_argument("--count", action="store_true", help="tell how many there are")
+    how.add_argument("--count", action="store_true", help="print how many there are")
     parser.add_argument(
         "--seed", type=int, default=0, metavar="S", help="another one draws others (0)"
     )
     parser.add_argument("--rule", metavar="RULE", help="sentences of this rule only")
-    parser.add_argument("--tags", action="store_true", help="tell what each one means, too")
+    parser.add_argument("--tags", action="store_true", help="print what each one means, too")
 
 
 def run(options: argparse.Namespace) -> int:
