@@ -150,6 +150,7 @@ def test_a_new_way_takes_the_place_of_the_old_one():
     assert last.x < 4
 
 
+@pytest.mark.slow
 def test_come_here_brings_it_to_the_person():
     visit = Visit(24, {1.5: "go back one meter", 9.0: "come to me"}, devices=[SMALL_SCREEN])
     assert visit.heard() == ["move", "come"]

@@ -85,7 +85,7 @@ def require_equal(one, two):
 
 
 def test_two_demos_begin_equal_byte_for_byte(tmp_path, small):
-    require_equal(*two_demos(tmp_path, small, "--duration", 12))
+    require_equal(*two_demos(tmp_path, small, "--duration", 8))
 
 
 @SLOW
@@ -133,6 +133,7 @@ def test_stop_stops_a_long_way(events):
     assert max(e["x_cm"] for e in later) - min(e["x_cm"] for e in later) < 1.0
 
 
+@SLOW
 def test_a_person_who_says_go_forward_ten_meters_is_obeyed(tmp_path, small):
     out = tmp_path / "out"
     run = hri(

@@ -7,6 +7,7 @@ from hri.core.events import EventBus
 from hri.testing.soak import Soak
 
 
+@pytest.mark.slow
 def test_two_simulated_minutes_pass(capsys):
     assert main(["soak", "--hours", "0.033", "--behaviors", "50"]) == 0
     out = capsys.readouterr().out
@@ -43,6 +44,7 @@ def test_a_lost_event_and_a_leak_are_found():
     assert "memory grew" in faults
 
 
+@pytest.mark.slow
 def test_bases_drive_and_numbers_cross_bridges_meanwhile():
     verdict = Soak(0.03, 10, lambda line: None).run()
     assert verdict.faults == []
