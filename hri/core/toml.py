@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 import re
 import tomllib
@@ -185,8 +186,10 @@ class Table:
         if name not in self.data:
             if default is REQUIRED:
                 where = f"[{'.'.join(map(str, self.key))}]" if self.key else "this file"
-                near = did_you_mean(name, set(self.data) - self._asked, f"add {name} = ...")
-                raise self.error(None, f'"{name}" is missing in {where}', near)
+                others = set(self.data) - self._asked
+                near = difflib.get_close_matches(name, others, n=1, cutoff=0.6)
+                remedy = f'rename "{near[0]}"' if near else f"add {name} = ..."
+                raise self.error(None, f'"{name}" is missing in {where}', remedy)
             return default
         value = self.data[name]
         if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):

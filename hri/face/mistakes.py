@@ -16,6 +16,7 @@ from hri.face.vocabulary import CORRECTIVE, sides_of
 
 def mistakes(folder: Path) -> list[HriError]:
     """What is wrong in face.toml and in each drawing; empty when the face can be loaded."""
+    folder = folder.resolve()  # as load_face does: no mistake has two places
     found = _Found()
     found.look(partial(load_face, folder))
     if not found.errors:

@@ -23,7 +23,7 @@ from typing import Self
 
 from hri.behavior.network import Network, load_network
 from hri.core import paths
-from hri.core.errors import HriError, did_you_mean
+from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 from hri.core.python_file import load_module
 from hri.core.toml import Table, load_toml
 from hri.robot.starting import start_on
@@ -87,7 +87,7 @@ class App:
     def load_tasks(self) -> list[Job]:
         """What runs from the start: the tasks, and what starts others `[on]` events.
 
-        Raises HriError for a name that no `tasks.py` has, or a task that needs arguments.
+        Raises AuthoringError for a name that no `tasks.py` has, or a task that needs arguments.
         """
         starters = [
             partial(start_on, pattern, self._on_event(pattern, names))
@@ -107,7 +107,7 @@ class App:
                 own: Job = getattr(app.module, name)
                 return own
         where = self.folder / "tasks.py"
-        raise HriError(f'{where}: no task "{name}" - {did_you_mean(name, self.task_names())}')
+        raise HriError(f'no task "{name}" in {where} - {did_you_mean(name, self.task_names())}')
 
     def task_type(self, name: str) -> TaskType:
         """The task as one that takes its arguments by name. Raises HriError as `task` does."""
@@ -120,26 +120,45 @@ class App:
         return sorted({name for module in modules for name in _tasks_of(module)})
 
     def _without_arguments(self, name: str) -> Job:
-        job = self.task(name)
+        try:
+            job = self.task(name)
+        except HriError as error:
+            what, _, remedy = str(error).rpartition(" - ")
+            raise AuthoringError(self._place_of_task(name), what, remedy) from error
         if isinstance(job, TaskType):
             try:
                 job.bound()
             except HriError as error:
                 what = str(error).partition(" - ")[0]
                 remedy = "call it from a task of tasks.py"
-                raise HriError(f"{self.folder / 'app.toml'}: {what} - {remedy}") from error
+                raise AuthoringError(self._place_of_task(name), what, remedy) from error
         return job
 
     def _on_event(self, pattern: str, names: tuple[str, ...]) -> tuple[TaskType, ...]:
-        """What an event starts. Raises HriError for a task that it may lack something for."""
-        jobs = tuple(self.task_type(name) for name in names)
+        """What an event starts. Raises AuthoringError for a task that it may lack something for."""
+        try:
+            jobs = tuple(self.task_type(name) for name in names)
+        except HriError as error:
+            what, _, remedy = str(error).rpartition(" - ")
+            raise AuthoringError(self._place_of_event(pattern), what, remedy) from error
         for job in jobs:
             for name, parameter in job.parameters.items():
                 if parameter.default is inspect.Parameter.empty and name != "event":
                     what = f'[on] "{pattern}": {job.id} needs {name}, which an event may lack'
                     remedy = f"give {name} a default value"
-                    raise HriError(f"{self.folder / 'app.toml'}: {what} - {remedy}")
+                    raise AuthoringError(self._place_of_event(pattern), what, remedy)
         return jobs
+
+    def _place_of_event(self, pattern: str) -> Place:
+        """Where `[on]` of the app, or else of one that it extends, names an event."""
+        tables = (load_toml(app.folder / "app.toml") for app in self.line())
+        reactions = (table.table("on", optional=True) for table in tables)
+        return next(on.place(pattern) for on in reactions if pattern in on)
+
+    def _place_of_task(self, name: str) -> Place:
+        """Where `tasks` of the app, or else of one that it extends, names a task."""
+        tables = (load_toml(app.folder / "app.toml") for app in self.line())
+        return next(table.place("tasks") for table in tables if name in table.strings("tasks", []))
 
     def check(self, context: TaskContext) -> None:
         """Let the apps read their own files, with `check(context)` of the tasks that have one."""

@@ -164,7 +164,18 @@ def test_an_unknown_task_names_only_what_can_be_meant(put):
     with pytest.raises(HriError) as error:
         load_app(str(folder)).load_tasks()
     known = "converse, notice, take_saved_replies, timer, watch_keys, wonder"
-    assert str(error.value) == f'{folder}/tasks.py: no task "sing" - known are: {known}'
+    what = f'no task "sing" in {folder}/tasks.py - known are: {known}'
+    assert str(error.value) == f"{folder}/app.toml:3:1: {what}"
+
+
+def test_an_unknown_task_that_runs_from_the_start_is_named_with_its_place(put):
+    app = 'extends = "companion"\ntasks = ["sing"]\n'
+    folder = put({**TIMER, "app.toml": app})
+    with pytest.raises(AuthoringError) as error:
+        load_app(str(folder)).load_tasks()
+    assert str(error.value).startswith(
+        f'{folder}/app.toml:2:1: no task "sing" in {folder}/tasks.py'
+    )
 
 
 def test_own_words_replace_those_of_the_companion(put):

@@ -114,3 +114,13 @@ def test_everything_that_is_wrong_is_told_at_once(tmp_path, capsys):
     assert len(told) == 5
     wrong = ("browUp", "rate_per_minute", "rol_degrees", "rage.svg", "tear.svg")
     assert all(any(name in line for line in told) for name in wrong)
+
+
+def test_a_mistake_is_told_once_in_the_folder_where_one_is(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    toml = folder / "face.toml"
+    toml.write_text(toml.read_text() + "\n[expressions.hapy]\n")
+    monkeypatch.chdir(folder)
+    assert main(["face", "check", "."]) == 2
+    assert capsys.readouterr().err.count('no expression "hapy"') == 1
