@@ -7,6 +7,9 @@ watch outputs are told what was sent. A tick that ends after its deadline is a m
 is counted, reported with what took longest, and the deadlines that have passed are skipped, never
 run in a burst.
 
+In real time the tick of a faster network that is due does not wait for the end of a slower one's:
+it runs between two behaviors of the slower one. So it is late by a behavior, not by a network.
+
 A behavior that raises an exception rests for a second, sending nothing, and is tried again; the
 others go on. What depends on it sees empty inputs, which for a drive means: stand still.
 """
@@ -17,13 +20,14 @@ import logging
 import math
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.network import Network
 from hri.behavior.ports import InputPort, OutputPort
+from hri.behavior.statistics import Statistics, Timing
 from hri.core.errors import AuthoringError, HriError
 
 log = logging.getLogger("hri.behavior")
@@ -32,44 +36,6 @@ BETWEEN_REPORTS = 5.0
 """Seconds between two reports of missed intervals."""
 REST = 1.0
 """Seconds that a behavior rests after an exception."""
-
-
-@dataclass(slots=True)
-class Timing:
-    """How long something took, over all its times; in seconds."""
-
-    count: int = 0
-    total: float = 0.0
-    longest: float = 0.0
-    last: float = 0.0
-
-    @property
-    def mean(self) -> float:
-        return self.total / self.count if self.count else 0.0
-
-    def add(self, seconds: float) -> None:
-        self.count += 1
-        self.total += seconds
-        self.last = seconds
-        self.longest = max(self.longest, seconds)
-
-
-@dataclass
-class Statistics:
-    """How a network has been doing; times in seconds."""
-
-    behaviors: dict[str, Timing] = field(default_factory=dict)
-    """How long each behavior took, by its id."""
-    lateness: Timing = field(default_factory=Timing)
-    """How long after its deadline each tick began."""
-    ticks: int = 0
-    missed: int = 0
-    slowest: str = ""
-    """What took longest in the last missed interval: a behavior, or "" when the tick began late."""
-    failures: int = 0
-    """Exceptions that behaviors have raised."""
-    recent: deque[float] = field(default_factory=lambda: deque(maxlen=1000))
-    """How long the last ticks took."""
 
 
 @dataclass(eq=False, slots=True)
@@ -109,6 +75,9 @@ class Runner:
         self._started: list[Behavior] = []
         self._is_ticking = False
         self._ends_after_tick = False
+        self._begin, self._slot = 0.0, 0
+        self._due = math.inf
+        """When the next tick is due, while others may run it in between; never for a few ticks."""
 
     def start(self) -> None:
         """Start all behaviors; when one cannot, those before it are stopped again."""
@@ -138,6 +107,7 @@ class Runner:
         if self._is_ticking:
             self._ends_after_tick = True
             return
+        self._due = math.inf
         if self in self.context.runners:
             self.context.runners.remove(self)
         while self._started:
@@ -205,6 +175,7 @@ class Runner:
         injected = self._insert_injected() if self._injected else ()
         self._ran = self._order
         self._is_ticking = True
+        faster = self._faster()
         begun = before = perf_counter()
         try:
             for behavior, timing, carries in self._ran:
@@ -222,6 +193,11 @@ class Runner:
                 if spent > timing.longest:
                     timing.longest = spent
                 before = after
+                if faster:
+                    for runner in faster:
+                        runner.tick_if_due()
+                    before = perf_counter()
+                    begun += before - after
         finally:
             self._is_ticking = False
             for port, source in injected:
@@ -233,26 +209,55 @@ class Runner:
     async def run(self, count: int | None = None, duration: float | None = None) -> None:
         """Tick until cancelled, `count` times, or for `duration` seconds."""
         clock, interval = self.context.clock, self.network.interval
-        begin = clock.now()
-        slot = 0
+        is_endless = count is None and duration is None
+        self._begin, self._slot = clock.now(), 0
         while count is None or self.statistics.ticks < count:
-            if duration is not None and (slot + 0.5) * interval > duration:
+            if duration is not None and (self._slot + 0.5) * interval > duration:
                 break
-            # From the beginning each time: sums of intervals would drift.
-            deadline = begin + slot * interval
+            deadline = self._deadline()
+            if is_endless and not clock.is_fake:
+                self._due = deadline
             await clock.sleep_until(deadline)
-            began = clock.now()
-            now = deadline if clock.is_fake else began
-            self.statistics.lateness.add(now - deadline)
-            took = self.tick(now)
-            log.debug("%s tick at %.3f s took %.1f us", self.network.name, now, took * 1e6)
-            slot += 1
-            ended = clock.now()
-            if (late := ended - (begin + slot * interval)) > 0:
-                skipped = int(late / interval) + 1
-                slot += skipped
-                began_late = began - deadline > ended - began
-                self._report_missed(skipped, deadline if began_late else None)
+            if deadline == self._deadline():  # else it ran amid a slower network
+                self._tick_due()
+
+    def _tick_due(self) -> None:
+        """The tick that is due; those whose time is over after it are missed."""
+        clock, deadline = self.context.clock, self._deadline()
+        began = clock.now()
+        now = deadline if clock.is_fake else began
+        self.statistics.lateness.add(now - deadline)
+        took = self.tick(now)
+        log.debug("%s tick at %.3f s took %.1f us", self.network.name, now, took * 1e6)
+        self._slot += 1
+        ended = clock.now()
+        if (late := ended - self._deadline()) > 0:
+            skipped = int(late / self.network.interval) + 1
+            self._slot += skipped
+            began_late = began - deadline > ended - began
+            self._report_missed(skipped, deadline if began_late else None)
+        if self._due < math.inf:
+            self._due = self._deadline()
+
+    def _deadline(self) -> float:
+        # From the beginning each time: sums of intervals would drift.
+        return self._begin + self._slot * self.network.interval
+
+    def _faster(self) -> list[Runner]:
+        """The networks that may run between two behaviors of this one, should they be due."""
+        interval = self.network.interval
+        runners = self.context.runners
+        return [one for one in runners if one.network.interval < interval and one.may_interleave]
+
+    @property
+    def may_interleave(self) -> bool:
+        """Whether it may be run in between: it ticks in real time, and without an end."""
+        return self._due < math.inf and not self._is_ticking
+
+    def tick_if_due(self) -> None:
+        """Called between two behaviors of a slower network: the tick, if it is due."""
+        if self._due <= self.context.clock.now() and self.may_interleave:
+            self._tick_due()
 
     def _timed(self, behaviors: list[Behavior]) -> list[tuple[Behavior, Timing, bool]]:
         """With each its timing, and whether what it sends may rest on the word of a relay."""

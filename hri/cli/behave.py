@@ -13,7 +13,8 @@ import trio
 
 from hri.behavior.behavior import Context
 from hri.behavior.network import load_network
-from hri.behavior.runner import Runner, Statistics
+from hri.behavior.runner import Runner
+from hri.behavior.statistics import Statistics
 from hri.cli.doors import add_door_options, doors_of
 from hri.cli.ending import Ending
 from hri.cli.messages import LineFormatter, OptionParser

@@ -3,12 +3,13 @@ from time import perf_counter
 
 import pytest
 import trio
+from trio.testing import MockClock
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.network import Network
 from hri.behavior.ports import Input, Output
 from hri.behavior.runner import Runner
-from hri.core.clock import FakeClock
+from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
 from hri.core.events import EventBus
 from hri.hal.manager import ResourceManager
@@ -82,6 +83,40 @@ def test_two_networks_tick_at_their_own_rates():
     assert fast.times == pytest.approx([k * 0.1 for k in range(10)])
     assert slow.times == pytest.approx([0, 0.25, 0.5, 0.75])
     assert fast.steps == pytest.approx([0] + [0.1] * 9)
+
+
+def test_a_faster_network_ticks_between_the_behaviors_of_a_slower_one():
+    time = MockClock(autojump_threshold=0)
+
+    class Working(Behavior):
+        """Takes four milliseconds each time."""
+
+        def compute(self, now, dt):
+            time.jump(0.004)
+
+    clock = RealClock(time.current_time)
+    context = Context(clock, EventBus(clock), ResourceManager((), clock))
+    fast, slow = Network("fast", 0.01), Network("slow", 0.1)
+    fast.add(Metronome("beat"))
+    for number in range(10):
+        slow.add(Working(f"work{number}"))
+    runners = [Runner(network, context) for network in (slow, fast)]
+    for runner in runners:
+        runner.start()
+
+    async def main():
+        async with trio.open_nursery() as nursery:
+            nursery.start_soon(clock.drive)
+            for runner in runners:
+                nursery.start_soon(runner.run)
+            await clock.sleep(0.955)
+            nursery.cancel_scope.cancel()
+
+    trio.run(main, clock=time)
+    slowly, quickly = (runner.statistics for runner in runners)
+    assert quickly.missed == slowly.missed == 0
+    assert quickly.lateness.longest <= 0.004 + 1e-9
+    assert (quickly.ticks, slowly.ticks) == (96, 10)
 
 
 def test_a_count_ends_the_run_and_stop_reaches_every_behavior():
