@@ -132,7 +132,7 @@ class Table:
         value = self._get(name, default, list, "a list of texts")
         if any(not isinstance(item, str) for item in value):
             raise self.error(
-                name, f"{name} holds something that is no text", "put quotes around it"
+                name, f"{name} holds something that is not a text", "put quotes around it"
             )
         return list(value)
 

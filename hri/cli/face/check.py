@@ -1,4 +1,4 @@
-"""`hri face check`: loads a face and tells what is wrong, or likely a slip."""
+"""`hri face check`: loads a face and reports what is wrong, or likely a slip."""
 
 from __future__ import annotations
 
