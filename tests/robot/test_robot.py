@@ -219,7 +219,9 @@ def test_a_task_swaps_stops_watches_and_feeds_networks(robot):
 
 def test_an_app_cannot_name_a_task_that_needs_arguments(tmp_path):
     (tmp_path / "app.toml").write_text('networks = []\ntasks = ["Hri.Say"]\n')
-    with pytest.raises(HriError, match=r"app.toml: Hri.Say: missing a required argument: 'text'"):
+    with pytest.raises(
+        HriError, match=r"app.toml:2:1: Hri.Say: missing a required argument: 'text'"
+    ):
         load_app(str(tmp_path)).load_tasks()
 
 

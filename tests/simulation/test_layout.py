@@ -41,7 +41,7 @@ def test_a_name_works_with_and_without_suffix_and_as_a_path(write: Write) -> Non
         ),
         (START + "[[circle]]\ncenter = [1, 2, 3]\nradius = 1\n", 6, "center has 3 numbers"),
         (START + "[[wall]]\nfrom = [1, 2]\nto = [1, 2]\n", 7, "no length"),
-        (START + "[[wall]]\nfrom = [1, 2]\ntoo = [1, 3]\n", 5, 'did you mean "too"'),
+        (START + "[[wall]]\nfrom = [1, 2]\ntoo = [1, 3]\n", 5, 'rename "too"'),
         (START + "[[circle]]\ncenter = [0.1, 0.3]\nradius = 0.2\n", 2, "inside an obstacle"),
         (START.replace("[1, 1]", "[0.1, 0.2]"), 4, "inside the robot"),
         (START.replace("[0, 0]", "[0, 500]"), 2, "from -100 to 100"),
