@@ -10,7 +10,7 @@ from tests.checklist import Checklist
 
 # The same examples in every run, and no limit of time for one: a busy machine is not a mistake.
 PATIENT = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
-settings.register_profile("steady", derandomize=True, **PATIENT)
+settings.register_profile("steady", derandomize=True, max_examples=50, **PATIENT)
 settings.register_profile("random", print_blob=True, **PATIENT)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "steady"))
 

@@ -16,6 +16,8 @@ from hri.bench.inputs.readers import READERS, bad_input
 from hri.bench.workers import running
 from hri.core.errors import HriError
 
+pytestmark = pytest.mark.slow
+
 SEEDS = [b'[a]\nb = 1.5 # "c"\n', b"<a><b c='d'/></a>"]
 
 

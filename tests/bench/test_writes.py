@@ -9,7 +9,10 @@ from hri.core.errors import HriError
 from hri.core.writing import write_bytes
 from tests.disk import full_disk
 
-pytestmark = pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning"),
+]
 
 
 @pytest.fixture(autouse=True)
@@ -29,7 +32,6 @@ def left_by_kills(of):
     return {of.interrupt(lambda w, at=at: run_interrupted(w, at), is_there=True) for at in stops}
 
 
-@pytest.mark.slow
 def test_a_writer_killed_at_any_system_call_leaves_the_old_or_the_new_file(tmp_path):
     assert left_by_kills(site(tmp_path, write_bytes)) == {"old", "new"}
 
