@@ -95,7 +95,7 @@ def format(network: Network, options: argparse.Namespace) -> int:
 
 ACTIONS: dict[str, tuple[Callable[[Network, argparse.Namespace], int], str]] = {
     "check": (check, "report what is wrong, or looks wrong; exit 1 on warnings"),
-    "show": (show, "tell order, rate, parameters and links"),
+    "show": (show, "print order, rate, parameters and links"),
     "draw": (draw, "draw the network, as SVG or PNG"),
     "format": (format, "rewrite the file in canonical form"),
 }
