@@ -78,6 +78,10 @@ class Behavior:
     is_relay: ClassVar[bool] = False
     """Whether it passes on what somebody outside of the network says, with the time of that. A
     drive that follows such values stops when that somebody falls silent."""
+    keeps_inputs: ClassVar[bool] = True
+    """Whether what it sends may rest on what came in earlier ticks, such as a goal. The word of a
+    relay then ages until the input gets another; a class that forgets, or whose output asks for no
+    motion, says False."""
     may_do: frozenset[Effect]
     """What values at its inputs may do besides what its outputs lead to. Where a class does not say
     it: nothing if it only computes, anything if it has a `start` or an `__init__` of its own."""

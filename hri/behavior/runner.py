@@ -2,10 +2,10 @@
 
 The order of a tick, once and in words: all outputs are emptied; what was injected takes its place
 as links; the behaviors run, sensors first and then in dependency order, and what rests on the word
-of somebody outside carries the time of that word on; the time each one took is kept; those who
-watch outputs are told what was sent. A tick that ends after its deadline is a missed interval: it
-is counted, reported with what took longest, and the deadlines that have passed are skipped, never
-run in a burst.
+of somebody outside carries the time of that word on, also when a behavior kept it from an earlier
+tick; the time each one took is kept; those who watch outputs are told what was sent. A tick that
+ends after its deadline is a missed interval: it is counted, reported with what took longest, and
+the deadlines that have passed are skipped, never run in a burst.
 
 In real time the tick of a faster network that is due does not wait for the end of a slower one's:
 it runs between two behaviors of the slower one. So it is late by a behavior, not by a network.
@@ -65,7 +65,7 @@ class Runner:
             for behavior in network.behaviors
             for name in behavior.outputs
         ]
-        self._carriers = _carriers(network)
+        self._carriers = {behavior: _Carrier(behavior) for behavior in _carriers(network)}
         self._order = self._ran = self._timed(network.behaviors)
         self._injected: deque[tuple[InputPort[Any], OutputPort[Any]]] = deque()
         self._watches: list[Watch] = []
@@ -178,13 +178,13 @@ class Runner:
         faster = self._faster()
         begun = before = perf_counter()
         try:
-            for behavior, timing, carries in self._ran:
+            for behavior, timing, carrier in self._ran:
                 try:
                     behavior.compute(now, dt)
                 except Exception as error:
                     self._rest(behavior, now, error)
-                if carries:
-                    _carry(behavior)
+                if carrier is not None:
+                    carrier.carry()
                 after = perf_counter()
                 # Written out, in place of `timing.add`: this is the inner loop of it all.
                 timing.last = spent = after - before
@@ -259,10 +259,10 @@ class Runner:
         if self._due <= self.context.clock.now() and self.may_interleave:
             self._tick_due()
 
-    def _timed(self, behaviors: list[Behavior]) -> list[tuple[Behavior, Timing, bool]]:
-        """With each its timing, and whether what it sends may rest on the word of a relay."""
+    def _timed(self, behaviors: list[Behavior]) -> list[tuple[Behavior, Timing, _Carrier | None]]:
+        """With each its timing, and its carrier where a relay's word may reach it."""
         timings = self.statistics.behaviors
-        return [(one, timings[one.id], one in self._carriers) for one in behaviors]
+        return [(one, timings[one.id], self._carriers.get(one)) for one in behaviors]
 
     def _name_of(self, behavior: Behavior) -> str:
         return f"{self.network.name}.{behavior.id}"
@@ -346,15 +346,25 @@ def _carriers(network: Network) -> set[Behavior]:
     return {behavior for behavior in reached if not behavior.is_relay}
 
 
-def _carry(behavior: Behavior) -> None:
-    """Give what it has sent the time of the oldest word among what it was sent."""
-    ports: list[InputPort[Any]] = [getattr(behavior, name) for name in behavior.inputs]
-    words = [
-        source.spoken
-        for port in ports
-        for source in port.sources
-        if source.value is not None and source.spoken is not None
-    ]
-    if words:
-        for name in behavior.outputs:
-            behavior.output_port(name).spoken = min(words)
+class _Carrier:
+    """Gives what a behavior sends the time of the oldest word that it rests on."""
+
+    def __init__(self, behavior: Behavior) -> None:
+        self._inputs: list[InputPort[Any]] = [getattr(behavior, name) for name in behavior.inputs]
+        self._outputs = [behavior.output_port(name) for name in behavior.outputs]
+        self._keeps = behavior.keeps_inputs
+        self._words: dict[InputPort[Any], float] = {}
+        """By input, the oldest word among the values that came last."""
+
+    def carry(self) -> None:
+        """Called after the behavior computed."""
+        for port in self._inputs:
+            sent = [source for source in port.sources if source.value is not None]
+            if sent or not self._keeps:
+                self._words.pop(port, None)
+                if words := [one.spoken for one in sent if one.spoken is not None]:
+                    self._words[port] = min(words)
+        if self._words:
+            oldest = min(self._words.values())
+            for output in self._outputs:
+                output.spoken = oldest

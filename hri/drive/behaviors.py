@@ -40,6 +40,7 @@ class CommandGate(Behavior):
     slowing down gently it sends nothing, which brakes the base at once.
     """
 
+    keeps_inputs = False
     category = "drive"
 
     may_do = NOTHING

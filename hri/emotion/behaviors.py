@@ -48,6 +48,7 @@ class EmotionModel(Behavior):
     (person, name) when somebody with a name first does something: it says who took part.
     """
 
+    keeps_inputs = False
     category = "emotion"
 
     personality = Param("neutral", "name of a file in emotions/personalities, or a path")
@@ -249,6 +250,7 @@ class EmotionModel(Behavior):
 class EmotionDisplay(Behavior):
     """What a feeling shows: face, voice, eyes, how fast it drives; and feelings that are put on."""
 
+    keeps_inputs = False
     category = "emotion"
 
     personality = Param("neutral", "whose expressiveness to use; the same as the EmotionModel's")

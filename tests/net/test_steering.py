@@ -16,6 +16,7 @@ from hri.behavior.ports import LINEAR_VELOCITY, Input, Output
 from hri.behavior.runner import Runner
 from hri.core.signals import Twist
 from hri.drive.behaviors import CommandGate
+from hri.drive.going import Beeline
 from hri.hal.drive import PATIENCE, DriveSystem
 from hri.hal.joystick import Joystick
 from hri.hal.resource import Description
@@ -23,6 +24,7 @@ from hri.net.malleable import MalleableBehavior
 from hri.net.protocol import Item, Message, Sender, encode
 from hri.simulation.world import SimulatedWorld
 from hri.testing import context
+from hri.vision.pointing import PointAndGo
 from tests.net.conftest import WITHIN, Taken
 
 TICK = 0.05
@@ -62,8 +64,9 @@ class Commander(Behavior):
 class Stage:
     """A simulated base, and networks that are ticked on the fake clock."""
 
-    def __init__(self, *networks):
+    def __init__(self, *networks, lent=()):
         self.lent = context(
+            *lent,
             Description("world", "Hri.SimulatedWorld"),
             Description("drive", "Hri.SimulatedDrive", bus="world"),
             Description("joystick", "Hri.MemoryJoystick"),
@@ -103,8 +106,8 @@ class Stage:
 def stage():
     stages = []
 
-    def made(*networks):
-        stages.append(Stage(*networks))
+    def made(*networks, lent=()):
+        stages.append(Stage(*networks, lent=lent))
         return stages[-1]
 
     yield made
@@ -300,6 +303,115 @@ def test_a_joystick_that_falls_silent_moves_nothing(stage):
     stick.hold((0.0, -1.0))
     here.tick()
     assert here.goal == pytest.approx(0.3)
+
+
+class Keeper(Behavior):
+    """Sends what it was told last, as one does that drives to a goal."""
+
+    wish = Input[float]("double", "cm/s")
+    other = Input[float]("double", "what comes in every tick")
+    kept = Output[float]("double", "cm/s", LINEAR_VELOCITY)
+    _wish: float | None = None
+
+    def compute(self, now, dt):
+        if self.wish.value is not None:
+            self._wish = self.wish.value
+        if self._wish is not None:
+            self.kept.send(self._wish)
+
+
+class HarmlessKeeper(Keeper):
+    """The same; its author says that its output asks for no motion."""
+
+    keeps_inputs = False
+
+
+def kept_by(keeper):
+    return network(
+        {
+            "peer": Steering(tcp_port=0),
+            "own": Constant(parsed_value="5"),
+            "keeper": keeper,
+            "drive": DriveCommand(),
+        },
+        ("peer.velocity", "keeper.wish"),
+        ("own.value", "keeper.other"),
+        ("keeper.kept", "drive.linear_velocity"),
+    )
+
+
+def say_once(stage, sender, velocity):
+    items = (Item("velocity", str(velocity), 1),)
+    stage.runners[0].network["peer"]._receive(Message("malleable", items, sender))
+
+
+def test_what_a_behavior_keeps_ends_with_the_word_of_the_peer(stage):
+    here, peer = stage(kept_by(Keeper())), Sender()
+    say_once(here, peer, 20)
+    here.tick(4)
+    assert here.goal == pytest.approx(0.2)
+    here.tick(2)
+    assert here.goal == 0
+    say_once(here, peer, 30)
+    here.tick()
+    assert here.goal == pytest.approx(0.3), "a new word counts again"
+    peer.is_gone = True
+    here.tick(6)
+    assert here.goal == 0
+
+
+def test_what_is_kept_goes_on_where_its_author_says_that_it_is_harmless(stage):
+    here = stage(kept_by(HarmlessKeeper()))
+    say_once(here, Sender(), 20)
+    here.tick(20)
+    assert here.goal == pytest.approx(0.2)
+
+
+def test_a_word_of_its_own_takes_the_place_of_a_word_of_the_peer(stage):
+    made = kept_by(Keeper())
+    made.connect("own.value", "keeper.wish")
+    here = stage(made)
+    say_once(here, Sender(), 20)
+    here.tick()
+    assert here.goal == pytest.approx(0.2)
+    here.tick(20)
+    assert here.goal == pytest.approx(0.05)
+
+
+class Pointing(MalleableBehavior):
+    """Takes a pixel from a peer."""
+
+    x = Output[float]("double", "column")
+    y = Output[float]("double", "row")
+
+
+def test_a_place_that_a_peer_points_at_is_driven_to_while_the_peer_repeats_it(stage):
+    """The goal stays in `Hri.PointAndGo`; the wheels stand all the same."""
+    lent = [
+        Description("camera", "Hri.SimulatedCamera", {"z": "40", "pitch": "0.5"}, "world"),
+        Description("odometry", "Hri.SimulatedOdometry", bus="world"),
+    ]
+    made = network(
+        {
+            "peer": Pointing(tcp_port=0),
+            "point": PointAndGo(),
+            "go": Beeline(),
+            "drive": DriveCommand(),
+        },
+        ("peer.x", "point.x"),
+        ("peer.y", "point.y"),
+        ("point.goal", "go.goal"),
+        ("go.linear_velocity", "drive.linear_velocity"),
+    )
+    here, peer = stage(made, lent=lent), Sender()
+    for _ in range(20):
+        items = (Item("x", "160", 1), Item("y", "200", 1))
+        made["peer"]._receive(Message("malleable", items, peer))
+        here.tick()
+    assert here.goal > 0
+    here.tick(6)
+    assert made["point"].goal.value is not None
+    assert here.goal == 0
 
 
 @settings(max_examples=25)

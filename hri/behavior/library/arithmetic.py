@@ -27,6 +27,7 @@ class Addition(Behavior):
 class Subtraction(Behavior):
     """The positive inputs less the negative ones; nothing when nothing positive comes in."""
 
+    keeps_inputs = False
     category = "operators"
     input_positive = Input[float]("double", "numbers to add, any count of links")
     input_negative = Input[float]("double", "numbers to take away, any count of links")
@@ -52,6 +53,7 @@ class Multiplication(Behavior):
 class Division(Behavior):
     """One number divided by another; nothing when one is missing, or the divisor is zero."""
 
+    keeps_inputs = False
     category = "operators"
     dividend = Input[float]("double", "what is divided")
     divisor = Input[float]("double", "what it is divided by")

@@ -28,6 +28,7 @@ class DoubleArrayJoiner(Behavior):
     Nothing is sent while one of them is missing, since the others would change places.
     """
 
+    keeps_inputs = False
     category = "operators"
     first = Input[float]("double", "element 0")
     second = Input[float]("double", "the next element")

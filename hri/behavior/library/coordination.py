@@ -28,6 +28,7 @@ class VelocityMixer(Behavior):
     A sum beyond the limits shrinks as a whole, so that the robot drives the same curve, slower.
     """
 
+    keeps_inputs = False
     category = "operators"
     first_weight = Param(1.0, "factor on the first velocity")
     second_weight = Param(1.0, "factor on the second velocity")
@@ -76,6 +77,7 @@ class Inhibit(Behavior):
     1986): without a replacement the lower wish is inhibited, with one it is suppressed.
     """
 
+    keeps_inputs = False
     category = "operators"
     hold_s = Param(0.5, "seconds it is still held back after the inhibitor ends", minimum=0)
     input = Input[Any]("any", "the lower wish")

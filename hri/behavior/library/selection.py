@@ -11,6 +11,7 @@ from hri.behavior.ports import Input, Output
 class Select(Behavior):
     """Passes one of two values on; nothing without a choice, or when the chosen one is missing."""
 
+    keeps_inputs = False
     category = "operators"
     choice = Input[bool]("boolean", "which one")
     when_true = Input[Any]("any", "sent when the choice is true")

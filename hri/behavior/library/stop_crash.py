@@ -16,6 +16,7 @@ from hri.behavior.ports import LINEAR_VELOCITY, Input, InputPort, Output, Param
 class StopCrash(Behavior):
     """Passes a velocity on, or 0, in both directions, while something is nearer than the limit."""
 
+    keeps_inputs = False
     category = "sample_code"
     stop_limit = Param(60.0, "centimeters; a reading below it stops the robot", minimum=0)
     forward_velocity = Input[float]("double", "cm/s; only the first link counts", LINEAR_VELOCITY)
@@ -30,6 +31,7 @@ class StopCrash(Behavior):
 class StopCrashSelective(Behavior):
     """Stops driving forward before obstacles in front, and backward before those behind."""
 
+    keeps_inputs = False
     category = "sample_code"
     stop_limit = Param(60.0, "centimeters; a reading below it stops the robot", minimum=0)
     forward_velocity = Input[float]("double", "cm/s; only the first link counts", LINEAR_VELOCITY)
