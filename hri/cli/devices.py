@@ -11,7 +11,7 @@ import threading
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 
-from hri.cli.diagnostic import without_stand_ins
+from hri.cli.diagnostics import without_stand_ins
 from hri.cli.probe import Answer, ask_ports
 from hri.core import paths
 from hri.core.clock import RealClock

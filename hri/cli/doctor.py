@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from hri.cli.diagnostic import without_stand_ins
+from hri.cli.diagnostics import without_stand_ins
 from hri.core import paths
 from hri.core.clock import RealClock
 from hri.core.errors import HriError, NotAvailable

@@ -16,6 +16,6 @@ def _program(name: str) -> Callable[..., int]:
 
 
 behave = _program("behave")
-test_camera = _program("test_camera")
-test_drive_system = _program("test_drive_system")
-test_range_sensor = _program("test_range_sensor")
+test_camera = _program("diagnostics.camera")
+test_drive_system = _program("diagnostics.drive_system")
+test_range_sensor = _program("diagnostics.range_sensor")

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import hri.face.renderers.kernel  # noqa: F401 - its code is not compiled into each test's folder
-from hri.cli import test_camera as camera_tool
+from hri.cli.diagnostics import camera as camera_tool
 from hri.cli.main import main
 from hri.core import paths
 from hri.core.clock import FakeClock

@@ -65,7 +65,7 @@ def test_a_full_disk_is_one_line(words, told):
 
 PROGRAMS = {
     "behave": ["{network}", "--without-resources", "--fast", "--invocation-count=1000000"],
-    "test_range_sensor": ["--fast", "--read-count=1000000"],
+    "diagnostics.range_sensor": ["--fast", "--read-count=1000000"],
 }
 
 

@@ -3,14 +3,14 @@
 import sys
 from pathlib import Path
 
-from hri.cli import test_camera
+from hri.cli.diagnostics import camera
 
 CONFIGURATION = Path(__file__).with_name("resource-config.xml")
 
 
 def main(*options: str) -> int:
     """The command test_camera, with the devices of this folder."""
-    return test_camera.main(["--config", str(CONFIGURATION), *options])
+    return camera.main(["--config", str(CONFIGURATION), *options])
 
 
 if __name__ == "__main__":

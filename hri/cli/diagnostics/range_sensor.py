@@ -6,7 +6,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from hri.cli import diagnostic
+from hri.cli import diagnostics
 from hri.core.errors import HriError
 from hri.core.signals import RangeReading
 from hri.hal.range_sensor import RangeSensor
@@ -32,19 +32,19 @@ Exit status: 0, or 1 when a sensor is missing, or 2 when an option or a file is 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Read the sensors. Exit status 0, 1 when one is missing, 2 when an option or file is wrong."""
-    parser = diagnostic.parser("test_range_sensor", HELP)
+    parser = diagnostics.parser("test_range_sensor", HELP)
     parser.add_argument("ids", nargs="*")
-    parser.add_argument("--read-count", type=diagnostic.within(int, 1, 1_000_000), default=3)
-    parser.add_argument("--pause-time", type=diagnostic.within(float, 0, 3600), default=0.1)
-    return diagnostic.run(parser, HELP, _test, arguments)
+    parser.add_argument("--read-count", type=diagnostics.within(int, 1, 1_000_000), default=3)
+    parser.add_argument("--pause-time", type=diagnostics.within(float, 0, 3600), default=0.1)
+    return diagnostics.run(parser, HELP, _test, arguments)
 
 
 def _test(options: argparse.Namespace) -> int:
-    with diagnostic.resources_of(options) as resources:
+    with diagnostics.resources_of(options) as resources:
         ids = sorted(options.ids or resources.ids(RangeSensor))
         if not ids:
             raise HriError(f"{options.config}: no range sensor in it - add one, or name another")
-        sensors, missing = diagnostic.obtained(resources, ids, RangeSensor)
+        sensors, missing = diagnostics.obtained(resources, ids, RangeSensor)
         print("*** test_range_sensor ***")
         print(f"Obtained range sensors: {', '.join(sensor.id for sensor in sensors)}")
         if not sensors:

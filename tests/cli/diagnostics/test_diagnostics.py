@@ -5,7 +5,8 @@ import threading
 
 import pytest
 
-from hri.cli import devices, main, test_drive_system, test_range_sensor
+from hri.cli import devices, main
+from hri.cli.diagnostics import drive_system, range_sensor
 from hri.core.signals import RangeReading
 from hri.hal.configuration import load_configuration
 
@@ -53,7 +54,7 @@ def write(tmp_path):
 
 @pytest.mark.proves("D01")
 def test_the_drive_system_passes_as_in_the_guide(write, capsys):
-    assert test_drive_system.main(["--fast", "--config", write()]) == 0
+    assert drive_system.main(["--fast", "--config", write()]) == 0
     assert capsys.readouterr().out == ALL_PASSED
 
 
@@ -61,7 +62,7 @@ def test_the_drive_system_passes_as_in_the_guide(write, capsys):
 def test_a_base_before_a_wall_fails_and_says_why(write, capsys, tmp_path):
     (tmp_path / "narrow.toml").write_text(NARROW)
     world = f'<Parameter name="file" value="{tmp_path}/narrow.toml"/>'
-    assert test_drive_system.main(["--fast", "--config", write(world=world)]) == 1
+    assert drive_system.main(["--fast", "--config", write(world=world)]) == 1
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == len(ALL_PASSED.splitlines())
     assert lines[2].startswith("Forward 1 second: FAILED (it moved ")
@@ -69,7 +70,7 @@ def test_a_base_before_a_wall_fails_and_says_why(write, capsys, tmp_path):
 
 
 def test_the_help_of_the_drive_test_warns(capsys):
-    assert test_drive_system.main(["--help"]) == 0
+    assert drive_system.main(["--help"]) == 0
     shown = capsys.readouterr().out
     assert shown.startswith("Usage: test_drive_system [OPTIONS] [<drive_id>]\n")
     assert "4 feet (1.2 m) clear all around" in shown
@@ -84,7 +85,7 @@ def test_the_help_of_the_drive_test_warns(capsys):
     ],
 )
 def test_what_is_no_drive_is_one_clear_error(write, capsys, arguments, said):
-    assert test_drive_system.main(["--fast", "--config", write(), *arguments]) == 2
+    assert drive_system.main(["--fast", "--config", write(), *arguments]) == 2
     captured = capsys.readouterr()
     assert captured.out == ""
     assert said in captured.err
@@ -100,7 +101,7 @@ SENSORS = """
 @pytest.mark.proves("D03")
 def test_range_sensors_are_read_as_in_the_guide(write, capsys):
     arguments = ["--fast", "--config", write(SENSORS), "--read-count", "2", "--pause-time", "0.25"]
-    assert test_range_sensor.main(arguments) == 0
+    assert range_sensor.main(arguments) == 0
     assert capsys.readouterr().out == (
         "*** test_range_sensor ***\n"
         "Obtained range sensors: IR_tn, IR_tnw\n"
@@ -122,29 +123,29 @@ def test_range_sensors_are_read_as_in_the_guide(write, capsys):
     ],
 )
 def test_numbers_have_four_digits(distance, raw, shown):
-    assert test_range_sensor.told("IR_tn", RangeReading("IR_tn", distance, 0.0, raw)) == shown
+    assert range_sensor.told("IR_tn", RangeReading("IR_tn", distance, 0.0, raw)) == shown
 
 
 def test_sensors_that_are_all_missing_end_in_a_sentence(write, sonar, capsys):
-    assert test_range_sensor.main(["--fast", "--config", write(sonar), "sonar"]) == 1
+    assert range_sensor.main(["--fast", "--config", write(sonar), "sonar"]) == 1
     assert capsys.readouterr().err.endswith("none of them is there - see the lines above\n")
 
 
 def test_only_the_named_sensors_are_read(write, capsys):
     arguments = ["--fast", "--config", write(SENSORS), "--read-count", "1", "IR_tn"]
-    assert test_range_sensor.main(arguments) == 0
+    assert range_sensor.main(arguments) == 0
     assert len(capsys.readouterr().out.splitlines()) == 3
 
 
 def test_a_configuration_without_range_sensors_is_an_error(write, capsys):
-    assert test_range_sensor.main(["--fast", "--config", write()]) == 2
+    assert range_sensor.main(["--fast", "--config", write()]) == 2
     assert "no range sensor in it" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("wrong", [["--read-count", "0"], ["--pause-time", "nan"]])
 def test_options_have_limits(wrong, capsys):
     with pytest.raises(SystemExit) as end:
-        test_range_sensor.main(wrong)
+        range_sensor.main(wrong)
     assert end.value.code == 2
 
 
@@ -174,7 +175,7 @@ def sonar(tmp_path, monkeypatch):
 @pytest.mark.proves("D04")
 def test_a_sensor_that_is_not_there_costs_the_exit_status_alone(write, sonar, capsys):
     arguments = ["--fast", "--config", write(SENSORS + sonar), "--read-count", "1"]
-    assert test_range_sensor.main(arguments) == 1
+    assert range_sensor.main(arguments) == 1
     captured = capsys.readouterr()
     assert captured.err == "Initializing...sonar: cannot open /dev/sonar0 - check permissions\n"
     assert "Obtained range sensors: IR_tn, IR_tnw\n" in captured.out

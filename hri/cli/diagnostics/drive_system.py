@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Sequence
 from functools import partial
 
-from hri.cli import diagnostic
+from hri.cli import diagnostics
 from hri.core.clock import Clock
 from hri.core.errors import HriError
 from hri.core.geometry import seen_from
@@ -47,17 +47,17 @@ PATIENCE = 15.0
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the test. Exit status 0, 1 when a step failed, 2 when an option or file is wrong."""
-    parser = diagnostic.parser("test_drive_system", HELP)
+    parser = diagnostics.parser("test_drive_system", HELP)
     parser.add_argument("drive_id", nargs="?")
-    return diagnostic.run(parser, HELP, _test, arguments)
+    return diagnostics.run(parser, HELP, _test, arguments)
 
 
 def _test(options: argparse.Namespace) -> int:
-    with diagnostic.resources_of(options) as resources:
+    with diagnostics.resources_of(options) as resources:
         ids = [options.drive_id] if options.drive_id else resources.ids(DriveSystem)[:1]
         if not ids:
             raise HriError(f"{options.config}: no drive system in it - add one, or name another")
-        drives, _ = diagnostic.obtained(resources, ids, DriveSystem)
+        drives, _ = diagnostics.obtained(resources, ids, DriveSystem)
         if not drives:
             return 1
         print("*** test_drive_system ***")

@@ -3,7 +3,7 @@
 import cv2
 import pytest
 
-from hri.cli.test_camera import main
+from hri.cli.diagnostics.camera import main
 
 CONFIGURATION = """\
 <Resources><Devices>

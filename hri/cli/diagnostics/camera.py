@@ -7,7 +7,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from hri.cli import diagnostic
+from hri.cli import diagnostics
 from hri.core.errors import HriError, NotAvailable
 from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE
@@ -34,22 +34,22 @@ Exit status: 0, or 1 when a camera failed, or 2 when an option or a file is wron
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Take the pictures. Exit status 0, 1 when a camera failed, 2 when an option or file is."""
-    parser = diagnostic.parser("test_camera", HELP)
+    parser = diagnostics.parser("test_camera", HELP)
     parser.add_argument("ids", nargs="*")
-    parser.add_argument("--frames", type=diagnostic.within(int, 1, 999), default=5)
-    parser.add_argument("--quality", type=diagnostic.within(float, 0, 1), default=0.8)
-    parser.add_argument("--pause-time", type=diagnostic.within(float, 0, 3600), default=0.1)
+    parser.add_argument("--frames", type=diagnostics.within(int, 1, 999), default=5)
+    parser.add_argument("--quality", type=diagnostics.within(float, 0, 1), default=0.8)
+    parser.add_argument("--pause-time", type=diagnostics.within(float, 0, 3600), default=0.1)
     parser.add_argument("--out", type=Path, default=Path())
-    return diagnostic.run(parser, HELP, _test, arguments)
+    return diagnostics.run(parser, HELP, _test, arguments)
 
 
 def _test(options: argparse.Namespace) -> int:
-    with diagnostic.resources_of(options) as resources:
+    with diagnostics.resources_of(options) as resources:
         ids = options.ids or resources.ids(Camera)
         if not ids:
             raise HriError(f"{options.config}: no camera in it - add one, or name another")
         _make_folder(options.out)
-        cameras, failures = diagnostic.obtained(resources, ids, Camera)
+        cameras, failures = diagnostics.obtained(resources, ids, Camera)
         print("*** test_camera ***")
         print(f"Obtained cameras: {', '.join(camera.id for camera in cameras)}")
         if not cameras:
