@@ -6,10 +6,18 @@ import zlib
 from html import escape
 from itertools import pairwise
 
+from hri.behavior.behavior import Behavior
+from hri.behavior.board import BoardSink, BoardSource
 from hri.behavior.layout import LINE, PADDING, TITLE, Layout, Node, Wire
 
 FONT = 12
-COLORS = {"paper": "#ffffff", "box": "#f4f6f8", "edge": "#5b6770", "sensor": "#e6f2ea"}
+COLORS = {
+    "paper": "#ffffff",
+    "box": "#f4f6f8",
+    "edge": "#5b6770",
+    "sensor": "#e6f2ea",
+    "board": "#fbf3dc",
+}
 INK = "#1d252b"
 FAINT = "#9aa5ad"
 WIRES = ("#2f6fb3", "#b5562b", "#3c8a4e", "#8a4fa3", "#a3343f", "#4a7d86", "#8a7420")
@@ -21,6 +29,13 @@ def wire_color(datatype: str) -> str:
     return WIRES[zlib.crc32(datatype.encode()) % len(WIRES)]
 
 
+def fill_of(behavior: Behavior) -> str:
+    """The color of a box."""
+    if isinstance(behavior, BoardSource | BoardSink):
+        return COLORS["board"]
+    return COLORS["sensor" if behavior.is_sensor else "box"]
+
+
 def curve(points: list[tuple[float, float]]) -> list[tuple[tuple[float, float], ...]]:
     """Cubic Bezier pieces (start, two controls, end) that leave and enter each point level."""
     pieces: list[tuple[tuple[float, float], ...]] = []
@@ -30,19 +45,20 @@ def curve(points: list[tuple[float, float]]) -> list[tuple[tuple[float, float], 
     return pieces
 
 
-def to_svg(layout: Layout, type_names: dict[str, str]) -> str:
-    """The drawing as the text of an SVG file; `type_names` by the ids of the behaviors."""
+def to_svg(layout: Layout) -> str:
+    """The drawing as the text of an SVG file."""
     width, height = f"{layout.width:.0f}", f"{layout.height:.0f}"
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}"'
         f' viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="{FONT}">',
         f'<rect width="{width}" height="{height}" fill="{COLORS["paper"]}"/>',
     ]
+    lines.extend(_text(x, y, name, "start", INK, "bold") for name, x, y in layout.headings)
     lines.extend(_wire(wire) for wire in layout.wires)
-    linked = {(wire.link.source.id, wire.link.output) for wire in layout.wires}
-    linked |= {(wire.link.target.id, wire.link.input) for wire in layout.wires}
+    linked = {(wire.link.source, wire.link.output) for wire in layout.wires}
+    linked |= {(wire.link.target, wire.link.input) for wire in layout.wires}
     for box in layout.boxes:
-        lines.extend(_box(box, type_names, linked))
+        lines.extend(_box(box, linked))
     return "\n".join([*lines, "</svg>", ""])
 
 
@@ -56,15 +72,15 @@ def _wire(wire: Wire) -> str:
     return f'<path d="{path}" fill="none" stroke="{color}" stroke-width="1.8">{title}</path>'
 
 
-def _box(box: Node, type_names: dict[str, str], linked: set[tuple[str, str]]) -> list[str]:
+def _box(box: Node, linked: set[tuple[Behavior, str]]) -> list[str]:
     assert box.behavior is not None, "bends are not drawn"
-    fill = COLORS["sensor" if box.behavior.is_sensor else "box"]
+    fill = fill_of(box.behavior)
     left, top = box.x, box.y
     lines = [
         f'<rect x="{left:.1f}" y="{top:.1f}" width="{box.width:.1f}" height="{box.height:.1f}"'
         f' rx="6" fill="{fill}" stroke="{COLORS["edge"]}"/>',
         _text(left + box.width / 2, top + 18, box.behavior.id, "middle", INK, "bold"),
-        _text(left + box.width / 2, top + 33, type_names[box.behavior.id], "middle", FAINT),
+        _text(left + box.width / 2, top + 33, box.kind, "middle", FAINT),
     ]
     sides = (
         (box.inputs, left, left + PADDING, "start"),
@@ -72,7 +88,7 @@ def _box(box: Node, type_names: dict[str, str], linked: set[tuple[str, str]]) ->
     )
     for names, edge, x, anchor in sides:
         for row, name in enumerate(names):
-            color = INK if (box.behavior.id, name) in linked else FAINT
+            color = INK if (box.behavior, name) in linked else FAINT
             y = top + TITLE + (row + 0.5) * LINE
             lines.append(f'<circle cx="{edge:.1f}" cy="{y:.1f}" r="3" fill="{color}"/>')
             lines.append(_text(x, y + 4, name, anchor, color))

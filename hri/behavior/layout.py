@@ -7,8 +7,8 @@ mean height of its neighbors, to and fro a few times (Sugiyama, Tagawa and Toda 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from statistics import fmean
 
@@ -25,6 +25,8 @@ BETWEEN_BOXES = 26.0
 BEND = 6.0
 """Height that a link takes up where it passes a layer."""
 MARGIN = 24.0
+HEADING = 14.0
+"""Height above a network that its name takes, where there are several."""
 SWEEPS = 8
 MOST_PORTS = 6
 """A side with more ports shows the linked ones alone."""
@@ -36,6 +38,8 @@ class Node:
 
     layer: int
     behavior: Behavior | None = None
+    kind: str = ""
+    """The line below the behavior's id."""
     inputs: list[str] = field(default_factory=list)
     outputs: list[str] = field(default_factory=list)
     width: float = 0.0
@@ -71,14 +75,16 @@ class Layout:
     wires: list[Wire]
     width: float
     height: float
+    headings: list[tuple[str, float, float]] = field(default_factory=list)
+    """Names of networks with the lower left corner of each."""
 
 
-def lay_out(network: Network, type_names: dict[str, str]) -> Layout:
-    """Place all behaviors; `type_names` are the second lines of the boxes by id."""
-    boxes = {behavior.id: _box(behavior, network, type_names) for behavior in network.behaviors}
+def lay_out(network: Network, kind_of: Callable[[Behavior], str]) -> Layout:
+    """Place all behaviors; `kind_of` gives the second line of a box."""
+    boxes = {behavior: _box(behavior, network, kind_of(behavior)) for behavior in network.behaviors}
     for behavior in network.behaviors:
-        feeding = [link.source.id for link in network.links if link.target is behavior]
-        boxes[behavior.id].layer = max((boxes[id].layer + 1 for id in feeding), default=0)
+        feeding = [link.source for link in network.links if link.target is behavior]
+        boxes[behavior].layer = max((boxes[one].layer + 1 for one in feeding), default=0)
     wires = [_wire(link, boxes) for link in network.links]
     count = max((box.layer for box in boxes.values()), default=0) + 1
     layers: list[list[Node]] = [[] for _ in range(count)]
@@ -89,10 +95,31 @@ def lay_out(network: Network, type_names: dict[str, str]) -> Layout:
     for wire in wires:
         wire.points = _points(wire, boxes)
     height = max((node.y + node.height for layer in layers for node in layer), default=0.0)
-    return Layout(list(boxes.values()), wires, width + MARGIN, height + MARGIN)
+    heading = (network.name, MARGIN / 2, MARGIN - 6)
+    return Layout(list(boxes.values()), wires, width + MARGIN, height + MARGIN, [heading])
 
 
-def _box(behavior: Behavior, network: Network, type_names: dict[str, str]) -> Node:
+def stacked(layouts: list[Layout]) -> Layout:
+    """Drawings below each other, each below the name of its network; one alone has no heading."""
+    if len(layouts) == 1:
+        return replace(layouts[0], headings=[])
+    down = 0.0
+    whole = Layout([], [], max((one.width for one in layouts), default=0.0), 0.0)
+    for one in layouts:
+        down += HEADING
+        for node in {*one.boxes, *(bend for wire in one.wires for bend in wire.bends)}:
+            node.y += down
+        for wire in one.wires:
+            wire.points = [(x, y + down) for x, y in wire.points]
+        whole.boxes += one.boxes
+        whole.wires += one.wires
+        whole.headings += [(name, x, y + down) for name, x, y in one.headings]
+        down += one.height
+    whole.height = down
+    return whole
+
+
+def _box(behavior: Behavior, network: Network, kind: str) -> Node:
     outputs = _shown(
         behavior.outputs, {link.output for link in network.links if link.source is behavior}
     )
@@ -100,10 +127,10 @@ def _box(behavior: Behavior, network: Network, type_names: dict[str, str]) -> No
         behavior.inputs, {link.input for link in network.links if link.target is behavior}
     )
     longest = [max(map(len, ports), default=0) for ports in (inputs, outputs)]
-    letters = max(sum(longest) + 4, len(behavior.id) + 2, len(type_names[behavior.id]))
+    letters = max(sum(longest) + 4, len(behavior.id) + 2, len(kind))
     height = TITLE + max(len(inputs), len(outputs)) * LINE + PADDING / 2
     width = letters * LETTER + 2 * PADDING
-    return Node(0, behavior, inputs, outputs, width=width, height=height)
+    return Node(0, behavior, kind, inputs, outputs, width=width, height=height)
 
 
 def _shown(ports: Iterable[str], linked: set[str]) -> list[str]:
@@ -111,8 +138,8 @@ def _shown(ports: Iterable[str], linked: set[str]) -> list[str]:
     return names if len(names) <= MOST_PORTS else [name for name in names if name in linked]
 
 
-def _wire(link: Link, boxes: dict[str, Node]) -> Wire:
-    source, target = boxes[link.source.id], boxes[link.target.id]
+def _wire(link: Link, boxes: dict[Behavior, Node]) -> Wire:
+    source, target = boxes[link.source], boxes[link.target]
     bends = [Node(layer) for layer in range(source.layer + 1, target.layer)]
     path = [source, *bends, target]
     for left, right in pairwise(path):
@@ -161,8 +188,8 @@ def _height(layer: list[Node]) -> float:
     return sum(node.height + BETWEEN_BOXES for node in layer)
 
 
-def _points(wire: Wire, boxes: dict[str, Node]) -> list[tuple[float, float]]:
-    source, target = boxes[wire.link.source.id], boxes[wire.link.target.id]
+def _points(wire: Wire, boxes: dict[Behavior, Node]) -> list[tuple[float, float]]:
+    source, target = boxes[wire.link.source], boxes[wire.link.target]
     return [
         (source.x + source.width, source.port(wire.link.output, source.outputs)),
         *((x, bend.middle) for bend in wire.bends for x in (bend.x, bend.x + bend.width)),

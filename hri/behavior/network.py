@@ -1,34 +1,25 @@
-"""Networks: behaviors and the links between them, read from XML and checked as a whole.
-
-<BehaviorNetwork invocation_interval="0.1">
-  <Behavior id="three" type="Hri.Constant"><Parameter name="parsed_value" value="3"/></Behavior>
-  <Behavior id="show" type="Hri.InputCollector"/>
-  <Link from="three.value" to="show.input"/>
-</BehaviorNetwork>
-"""
+"""Networks: behaviors and the links between them."""
 
 from __future__ import annotations
 
 import heapq
 import logging
-from collections.abc import Iterable
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from hri.behavior.behavior import Behavior
-from hri.behavior.catalog import find_behavior
-from hri.behavior.ports import ANY, GENERIC, Input, Output
-from hri.core import paths
-from hri.core.errors import AuthoringError, HriError, NotAvailable, Place, did_you_mean
-from hri.core.xml import Element, load_xml
+from hri.behavior.board import BOARD, BoardSink, BoardSource
+from hri.behavior.ports import ANY, GENERIC, Input, InputPort, Output, OutputPort
+from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
+from hri.core.xml import Element
 
 log = logging.getLogger("hri.network")
 
 DEFAULT_INTERVAL = 0.10
-SHORTEST_INTERVAL = 0.001
-LONGEST_INTERVAL = 3600
 MOST_BEHAVIORS = 2000
+_SLOT = re.compile(r"\w+([.-]\w+)*")
 
 
 @dataclass(frozen=True)
@@ -43,8 +34,9 @@ class Link:
 
     @property
     def datatype(self) -> str:
-        """The type of what it carries."""
-        return self.source.outputs[self.output].datatype
+        """The type of what it carries: that of its source, where that has one."""
+        sent = self.source.outputs[self.output].datatype
+        return self.target.inputs[self.input].datatype if sent == ANY else sent
 
     def __str__(self) -> str:
         return f"{self.source.id}.{self.output} -> {self.target.id}.{self.input}"
@@ -58,6 +50,7 @@ class Network:
     interval: float = DEFAULT_INTERVAL
     """Seconds between ticks."""
     behaviors: list[Behavior] = field(default_factory=list)
+    """Among them the ends of the board, where links name a slot of it."""
     links: list[Link] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
     path: Path = Path("-")
@@ -65,6 +58,11 @@ class Network:
     """What it was read from: comments, order, and numbers as they were written."""
     types: dict[str, str] = field(default_factory=dict)
     """By id, the types of behaviors as they were written: what messages call them."""
+
+    @property
+    def authored(self) -> list[Behavior]:
+        """The behaviors without the ends of the board."""
+        return [one for one in self.behaviors if not isinstance(one, BoardSource | BoardSink)]
 
     def __getitem__(self, id: str) -> Behavior:
         for behavior in self.behaviors:
@@ -84,14 +82,24 @@ class Network:
         self.behaviors.append(behavior)
         return behavior
 
-    def connect(self, source: str, target: str, place: Place | None = None) -> None:
-        """Wire `behavior.output` to `behavior.input`.
+    def connect(
+        self,
+        source: str | OutputPort[Any],
+        target: str | InputPort[Any],
+        place: Place | None = None,
+    ) -> None:
+        """Wire an output to an input: as ports, or as text `behavior.output`, `board.slot`.
 
-        Raises AuthoringError on a misfit, and when they are linked already.
+        Raises AuthoringError on a misfit, and when they are linked already; HriError for a port of
+        a behavior that is not in the network.
         """
         place = place or Place(self.path)
+        source = source if isinstance(source, str) else self._name_of(source, "outputs")
+        target = target if isinstance(target, str) else self._name_of(target, "inputs")
         sender, output = self._port(source, "outputs", place)
         receiver, input = self._port(target, "inputs", place)
+        if isinstance(sender, BoardSource) and not isinstance(receiver, BoardSink):
+            sender.add(output, receiver.inputs[input].datatype)
         sends: Output[Any] = sender.outputs[output]
         takes: Input[Any] = receiver.inputs[input]
         if sends.datatype != takes.datatype and ANY not in (sends.datatype, takes.datatype):
@@ -101,12 +109,15 @@ class Network:
             self.warnings.append(
                 f"{place}: {source} means {sends.semantic}, {target} wants {takes.semantic}"
             )
-        if sender.output_port(output) in getattr(receiver, input).sources:
+        port = sender.output_port(output)
+        if port in getattr(receiver, input).sources:
             what = f"the link {source} -> {target} is there twice"
             raise AuthoringError(place, what, "take one of them out")
+        if isinstance(receiver, BoardSink):
+            receiver.name_writer(port, f"{self.name}.{source}")
         self.links.append(Link(sender, output, receiver, input, place))
         log.debug("link %s (%s)", self.links[-1], sends.datatype)
-        getattr(receiver, input).sources.append(sender.output_port(output))
+        getattr(receiver, input).sources.append(port)
 
     def place_of(self, behavior: Behavior) -> Place:
         """Where a behavior stands in the file; the file itself where it stands in none."""
@@ -140,44 +151,57 @@ class Network:
         What a behavior depends on runs before it always, sensor or not. Raises AuthoringError that
         names a cycle link by link.
         """
-        waits = dict.fromkeys((behavior.id for behavior in self.behaviors), 0)
-        fed: dict[str, list[str]] = {id: [] for id in waits}
+        waits = dict.fromkeys(self.behaviors, 0)
+        fed: dict[Behavior, list[Behavior]] = {behavior: [] for behavior in waits}
         for link in self.links:
-            waits[link.target.id] += 1
-            fed[link.source.id].append(link.target.id)
-        rank = {b.id: (not b.is_sensor, place, b) for place, b in enumerate(self.behaviors)}
-        ready = [rank[id] for id, count in waits.items() if not count]
+            waits[link.target] += 1
+            fed[link.source].append(link.target)
+        rank = {b: (not b.is_sensor, place, b) for place, b in enumerate(self.behaviors)}
+        ready = [rank[behavior] for behavior, count in waits.items() if not count]
         heapq.heapify(ready)
         order: list[Behavior] = []
         while ready:
             *_, behavior = heapq.heappop(ready)
             order.append(behavior)
-            for id in fed[behavior.id]:
-                waits[id] -= 1
-                if not waits[id]:
-                    heapq.heappush(ready, rank[id])
+            for next_one in fed[behavior]:
+                waits[next_one] -= 1
+                if not waits[next_one]:
+                    heapq.heappush(ready, rank[next_one])
         if len(order) < len(self.behaviors):
-            cycle = self._cycle({id for id, count in waits.items() if count})
+            cycle = self._cycle({behavior for behavior, count in waits.items() if count})
             what = f"these links run in a circle: {', '.join(map(str, cycle))}"
             raise AuthoringError(cycle[0].place, what, "take one of them out")
         self.behaviors = order
 
-    def _cycle(self, stuck: set[str]) -> list[Link]:
+    def _cycle(self, stuck: set[Behavior]) -> list[Link]:
         """One circle among the behaviors that wait for each other."""
-        links = {link.target.id: link for link in self.links if link.source.id in stuck}
-        id = next(behavior.id for behavior in self.behaviors if behavior.id in stuck)
-        walked: list[str] = []
-        while id not in walked:
-            walked.append(id)
-            id = links[id].source.id
-        circle = walked[walked.index(id) :]
-        return [links[id] for id in reversed(circle)]
+        links = {link.target: link for link in self.links if link.source in stuck}
+        behavior = next(one for one in self.behaviors if one in stuck)
+        walked: list[Behavior] = []
+        while behavior not in walked:
+            walked.append(behavior)
+            behavior = links[behavior].source
+        circle = walked[walked.index(behavior) :]
+        return [links[one] for one in reversed(circle)]
+
+    def _name_of(self, port: OutputPort[Any] | InputPort[Any], kind: str) -> str:
+        """`behavior.port` of a port. Raises HriError when none of the behaviors has it."""
+        for behavior in self.behaviors:
+            for name in getattr(behavior, kind):
+                is_input = kind == "inputs"
+                own = getattr(behavior, name) if is_input else behavior.output_port(name)
+                if own is port:
+                    return f"{behavior.id}.{name}"
+        what = f"the {kind[:-1]} belongs to no behavior of the network {self.name}"
+        raise HriError(f"{what} - add its behavior first")
 
     def _port(self, text: str, kind: str, place: Place) -> tuple[Behavior, str]:
         id, _, port = text.partition(".")
-        behavior = next((known for known in self.behaviors if known.id == id), None)
+        behavior = next((known for known in self.authored if known.id == id), None)
+        if behavior is None and id == BOARD:
+            return self._board_end(port, kind, place), port
         if behavior is None:
-            remedy = did_you_mean(id, [known.id for known in self.behaviors])
+            remedy = did_you_mean(id, [known.id for known in self.authored])
             raise AuthoringError(place, f'no behavior "{id}" for the link "{text}"', remedy)
         ports = getattr(behavior, kind)
         if port not in ports:
@@ -186,86 +210,18 @@ class Network:
             raise AuthoringError(place, what, did_you_mean(port, ports))
         return behavior, port
 
-
-def load_network(name: str | Path) -> Network:
-    """Read a network by path or by name over the search folders, checked and in order.
-
-    Raises AuthoringError with the place of the first mistake.
-    """
-    path = name if isinstance(name, Path) else paths.find("config", name)
-    root = load_xml(path, "behavior network")
-    if root.tag != "BehaviorNetwork":
-        raise root.error(f"the root is <{root.tag}>", "write <BehaviorNetwork> around it all")
-    root.check(("Behavior", "Link"), ("invocation_interval", "name"))
-    network = Network(root.get("name", path.stem), _interval(root), path=path, document=root)
-    for element in root:
-        if element.tag == "Behavior":
-            _add(network, element)
-    for element in root:
-        if element.tag == "Link":
-            element.check((), ("from", "to"))
-            network.connect(element.get("from"), element.get("to"), element.place)
-    network.sort()
-    refuse_second_writers([network])
-    return network
-
-
-def refuse_second_writers(networks: Iterable[Network]) -> None:
-    """Raise AuthoringError where two behaviors steer one drive with the same rank."""
-    steering: dict[tuple[str, str], str] = {}
-    for network in networks:
-        for behavior in network.behaviors:
-            if behavior.steers is None:
-                continue
-            place = f'"{behavior.id}" ({network.place_of(behavior)})'
-            other = steering.setdefault(behavior.steers, place)
-            if other != place:
-                drive, rank = behavior.steers
-                what = f'"{behavior.id}" steers "{drive}" with the rank "{rank}", as {other} does'
-                remedy = "take one out, put an Hri.PriorityArbiter before one, or change its rank"
-                raise AuthoringError(network.place_of(behavior), what, remedy)
-
-
-def _interval(root: Element) -> float:
-    interval = root.number("invocation_interval", DEFAULT_INTERVAL)
-    if not SHORTEST_INTERVAL <= interval <= LONGEST_INTERVAL:
-        remedy = f"write seconds from {SHORTEST_INTERVAL} to {LONGEST_INTERVAL}"
-        raise root.error(f"an interval of {interval:g} s", remedy, "invocation_interval")
-    return interval
-
-
-def _find(element: Element) -> type[Behavior]:
-    try:
-        return find_behavior(element.get("type"))
-    except (NotAvailable, AuthoringError):
-        raise
-    except HriError as error:
-        what, _, remedy = str(error).partition(" - ")
-        raise element.error(what, remedy, "type") from error
-
-
-def _add(network: Network, element: Element) -> None:
-    element.check(("Parameter",), ("id", "type"))
-    cls = _find(element)
-    parameters = {}
-    for child in element:
-        child.check((), ("name", "value"))
-        name = child.get("name")
-        if name not in cls.parameters:
-            what = f'{element.get("type")} has no parameter "{name}"'
-            raise child.error(what, did_you_mean(name, cls.parameters))
-        if name in parameters:
-            raise child.error(f'"{name}" is set twice', "take one of them out", "name")
-        try:
-            parameters[name] = cls.parameters[name].parse(child.get("value"))
-        except ValueError as error:
-            what, _, remedy = str(error).partition(" - ")
-            raise child.error(f"{name}: {what}", remedy, "value") from error
-    behavior = cls(**parameters)
-    behavior.id = element.get("id")
-    network.types[behavior.id] = element.get("type")
-    try:
-        network.add(behavior)
-    except HriError as error:
-        what, _, remedy = str(error).partition(" - ")
-        raise element.error(what, remedy, "id") from error
+    def _board_end(self, slot: str, kind: str, place: Place) -> Behavior:
+        """The end of the board that reads or writes a slot, made on first use."""
+        if not _SLOT.fullmatch(slot):
+            what = f'"{BOARD}.{slot}" is not a slot of the board'
+            raise AuthoringError(place, what, f"write {BOARD}.name, such as {BOARD}.speech")
+        wanted = BoardSource if kind == "outputs" else BoardSink
+        end = next((known for known in self.behaviors if isinstance(known, wanted)), None)
+        if end is None:
+            end = wanted()
+            self.behaviors.append(end)
+        if isinstance(end, BoardSource):
+            end.add(slot, ANY)
+        else:
+            end.add(slot)
+        return end

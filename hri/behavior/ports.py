@@ -82,9 +82,17 @@ class InputPort(Generic[T]):
         self.sources: list[OutputPort[T]] = []
 
     @property
+    def source(self) -> OutputPort[T] | None:
+        """The first link that carries a value; None when nothing was sent."""
+        for source in self.sources:
+            if source.value is not None:
+                return source
+        return None
+
+    @property
     def value(self) -> T | None:
         """The value of the first link that carries one; None when nothing was sent."""
-        for source in self.sources:
+        for source in self.sources:  # not by `source`: this is read everywhere, at every tick
             if source.value is not None:
                 return source.value
         return None
@@ -100,15 +108,12 @@ class InputPort(Generic[T]):
 
         See `OutputPort.spoken`.
         """
-        for source in self.sources:
-            if source.value is not None:
-                return source.spoken
-        return None
+        return None if (source := self.source) is None else source.spoken
 
     @property
     def rank(self) -> str:
         """The rank of whoever asks for `value`; see `OutputPort.rank`."""
-        return next((source.rank for source in self.sources if source.value is not None), "")
+        return "" if (source := self.source) is None else source.rank
 
 
 class OutputPort(Generic[T]):
@@ -124,6 +129,10 @@ class OutputPort(Generic[T]):
         self.rank = ""
         """Of a command: the rank of whoever asks for it, as in `hri.hal.helm`; without one, it is
         that of the behavior which passes it on to the drive."""
+        self.restrict(datatype)
+
+    def restrict(self, datatype: str) -> None:
+        """Take values of this datatype alone."""
         self._datatype = datatype
         # Whole numbers are good enough for a double.
         self._kind = (float, int) if datatype == "double" else DATATYPES[datatype]

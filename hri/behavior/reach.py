@@ -12,12 +12,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from hri.behavior.behavior import Behavior
+from hri.behavior.board import BoardSink, BoardSource
 from hri.behavior.effects import ANYTHING, NOTHING, Effect
 from hri.behavior.library.sharing import Share
 from hri.behavior.runner import Runner
 
 Port = tuple[Behavior, str]
-"""A behavior and the name of one of its outputs."""
+"""A behavior and the name of one of its ports."""
 
 
 class Reach:
@@ -27,10 +28,11 @@ class Reach:
         """`has_tasks`: tasks run beside the networks."""
         self._runners = tuple(runners)
         self._behaviors = [one for runner in self._runners for one in runner.network.behaviors]
-        self._targets: dict[Port, list[Behavior]] = {}
+        self._targets: dict[Port, list[Port]] = {}
         for runner in self._runners:
             for link in runner.network.links:
-                self._targets.setdefault((link.source, link.output), []).append(link.target)
+                targets = self._targets.setdefault((link.source, link.output), [])
+                targets.append((link.target, link.input))
         self._watched = {id(port) for runner in self._runners for port in runner.watched}
         self._board_is_read = has_tasks or any(
             _may_do(one) == ANYTHING for one in self._behaviors if not isinstance(one, Share)
@@ -45,25 +47,34 @@ class Reach:
             if port in seen:
                 continue
             seen.add(port)
-            if id(getattr(*port)) in self._watched:
+            if id(port[0].output_port(port[1])) in self._watched:
                 return ANYTHING
-            for target in self._targets.get(port, ()):
-                reached |= self._effects_of(target)
-                ahead += [(one, name) for one in self._fed_by(target) for name in one.outputs]
+            for target, input in self._targets.get(port, ()):
+                if (slot := _written(target, input)) is None:
+                    reached |= _may_do(target)
+                    ahead += [(target, name) for name in target.outputs]
+                else:
+                    reached |= ANYTHING if self._board_is_read else NOTHING
+                    ahead += self._readers(slot)
         return reached
 
-    def _effects_of(self, behavior: Behavior) -> frozenset[Effect]:
-        is_read = isinstance(behavior, Share) and self._board_is_read
-        return ANYTHING if is_read else _may_do(behavior)
+    def _readers(self, slot: str) -> list[Port]:
+        """The outputs that depend on what stands in a slot."""
+        found: list[Port] = []
+        for one in self._behaviors:
+            if isinstance(one, BoardSource):
+                found += [(one, slot)] if slot in one.outputs else []
+            # Whoever else has a parameter `slot` reads it.
+            elif getattr(one, "slot", None) == slot and not isinstance(one, Share):
+                found += [(one, name) for name in one.outputs]
+        return found
 
-    def _fed_by(self, behavior: Behavior) -> list[Behavior]:
-        """Those whose outputs depend on what comes into a behavior."""
-        if not isinstance(behavior, Share):
-            return [behavior]
-        slot = behavior.slot
-        # Whoever else has a parameter `slot` reads it.
-        readers = [one for one in self._behaviors if getattr(one, "slot", None) == slot]
-        return [one for one in readers if not isinstance(one, Share)]
+
+def _written(target: Behavior, input: str) -> str | None:
+    """The slot of the board that an input writes."""
+    if isinstance(target, Share):
+        return target.slot
+    return input if isinstance(target, BoardSink) else None
 
 
 def _may_do(behavior: Behavior) -> frozenset[Effect]:

@@ -34,7 +34,7 @@ def write_network(network: Network, path: Path | None = None) -> str:
     root = network.document or Element("BehaviorNetwork", {})
     behaviors = {element.get("id"): element for element in root if element.tag == "Behavior"}
     links = {_ends(element): element for element in root if element.tag == "Link"}
-    known = {behavior.id: behavior for behavior in network.behaviors}
+    known = {behavior.id: behavior for behavior in network.authored}
     ids = [id for id in behaviors if id in known]
     ids += [id for id in known if id not in behaviors]
     children = [_behavior(known[id], behaviors.get(id)) for id in ids]

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hri.behavior.network import load_network
+from hri.behavior.network_file import load_network
 from hri.behavior.writer import save_network
 from hri.core.archive import unpack
 from hri.core.signals import EmotionState, Image

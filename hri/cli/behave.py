@@ -12,7 +12,7 @@ from typing import TextIO
 import trio
 
 from hri.behavior.behavior import Context
-from hri.behavior.network import load_network
+from hri.behavior.network_file import load_network
 from hri.behavior.runner import Runner
 from hri.behavior.statistics import Statistics
 from hri.cli.doors import add_door_options, doors_of

@@ -1,27 +1,35 @@
-"""`hri network check|show|draw|format FILE`: what authors need to know of a behavior network."""
+"""`hri network check|show|draw|format FILE|APP`: what authors need to know of their networks."""
 
 from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
+from hri.behavior.behavior import Behavior
+from hri.behavior.board import DECLARED, BoardSink, BoardSource
 from hri.behavior.catalog import type_of
 from hri.behavior.drawing import to_svg
-from hri.behavior.layout import lay_out
-from hri.behavior.network import Network, load_network
+from hri.behavior.layout import lay_out, stacked
+from hri.behavior.network import Network
+from hri.behavior.network_check import check_together, slot_table
+from hri.behavior.network_file import load_network
 from hri.behavior.writer import save_network, write_network
 from hri.cli.progress import waiting
-from hri.core.errors import HriError
+from hri.core import paths
+from hri.core.errors import AuthoringError, HriError
 from hri.core.quoting import escaped, message_line
 from hri.core.writing import write_text
+from hri.robot.app import load_app
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     commands = parser.add_subparsers(dest="action", required=True)
     for name, (_, about) in ACTIONS.items():
         command = commands.add_parser(name, help=about, description=about)
-        command.add_argument("network", metavar="FILE", help="path, or name over the folders")
+        what = "a network, or an app with all of its networks: a path, or a name over the folders"
+        command.add_argument("network", metavar="FILE|APP", help=what)
         if name == "draw":
             command.add_argument("--out", type=Path, metavar="FILE", help="*.svg or *.png")
 
@@ -29,16 +37,42 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     action, _ = ACTIONS[options.action]
     with waiting("reading the network"):
-        return action(load_network(options.network), options)
+        networks = _loaded(options.network)
+        return action(networks, options)
 
 
-def check(network: Network, options: argparse.Namespace) -> int:
+def _loaded(name: str) -> list[Network]:
+    """The network of that name or path; else the networks of the app. Raises HriError."""
+    if (Path(name) / "app.toml").is_file():
+        return _of_app(name)
+    try:
+        return [load_network(name)]
+    except AuthoringError:
+        raise
+    except HriError:
+        with suppress(HriError):
+            paths.find("apps", name)
+            return _of_app(name)
+        raise
+
+
+def _of_app(name: str) -> list[Network]:
+    networks = load_app(name).load_networks()
+    check_together(networks)
+    return networks
+
+
+def check(networks: list[Network], options: argparse.Namespace) -> int:
     """Exit status 1 when there is something to warn of; what is wrong raises an error."""
+    return max([_check(network) for network in networks], default=0)
+
+
+def _check(network: Network) -> int:
     network.check()
     warnings = [*network.warnings, *network.loose_ends()]
     for warning in warnings:
         print(message_line(f"warning: {warning}"))
-    counts = f"{len(network.behaviors)} behaviors, {len(network.links)} links"
+    counts = f"{len(network.authored)} behaviors, {len(network.links)} links"
     print(f"{network.path}: {counts}, {_counted(warnings)}")
     return 1 if warnings else 0
 
@@ -47,12 +81,19 @@ def _counted(warnings: list[str]) -> str:
     return {0: "ok", 1: "1 warning"}.get(len(warnings), f"{len(warnings)} warnings")
 
 
-def show(network: Network, options: argparse.Namespace) -> int:
-    """The order in which all runs, with parameters, and the links."""
+def show(networks: list[Network], options: argparse.Namespace) -> int:
+    """The order in which all runs, with parameters, the links, and who uses the board."""
+    for network in networks:
+        _show(network)
+    _show_board(networks)
+    return 0
+
+
+def _show(network: Network) -> None:
     rate = f"every {network.interval:g} s ({1 / network.interval:.4g} Hz)"
     print(f"{network.name}, {rate}; each cycle, in this order:")
-    width = max((len(behavior.id) for behavior in network.behaviors), default=0)
-    for number, behavior in enumerate(network.behaviors, start=1):
+    width = max((len(behavior.id) for behavior in network.authored), default=0)
+    for number, behavior in enumerate(network.authored, start=1):
         mark = "  (sensor)" if behavior.is_sensor else ""
         print(f"{number:4}  {behavior.id:<{width}}  {type_of(behavior)}{mark}")
         for name, declared in behavior.parameters.items():
@@ -62,40 +103,61 @@ def show(network: Network, options: argparse.Namespace) -> int:
     print("links:")
     for link in network.links:
         print(f"      {link}  ({link.datatype})")
-    return 0
 
 
-def draw(network: Network, options: argparse.Namespace) -> int:
+def _show_board(networks: list[Network]) -> None:
+    """Each slot: its type, who writes it, and who reads it."""
+    writers, readers, datatypes = slot_table(networks)
+    if datatypes:
+        print("slots of the board:")
+    for slot, datatype in sorted(datatypes.items()):
+        about = f"  {DECLARED[slot].about}" if slot in DECLARED else ""
+        print(f"      {slot}  ({datatype}){about}")
+        for what, users in (("written by", writers), ("read by", readers)):
+            if slot in users or slot not in DECLARED:
+                print(f"          {what} {', '.join(users.get(slot, ['none of these networks']))}")
+
+
+def draw(networks: list[Network], options: argparse.Namespace) -> int:
     """Write a picture; its name decides which kind."""
-    out = options.out or Path(f"{network.path.stem}.svg")
-    type_names = {behavior.id: type_of(behavior) for behavior in network.behaviors}
-    layout = lay_out(network, type_names)
+    out = options.out or Path(f"{Path(options.network).stem}.svg")
+    layout = stacked([lay_out(network, _second_line) for network in networks])
     if out.suffix == ".svg":
-        write_text(out, to_svg(layout, type_names))
+        write_text(out, to_svg(layout))
     elif out.suffix == ".png":
         from hri.cli.network_picture import write_png
 
-        write_png(layout, type_names, out)
+        write_png(layout, out)
     else:
         raise HriError(f'a picture "{out}" - name it *.svg or *.png')
     print(out)
     return 0
 
 
-def format(network: Network, options: argparse.Namespace) -> int:
+def _second_line(behavior: Behavior) -> str:
+    """The line below the id in a picture."""
+    return "slots" if isinstance(behavior, BoardSource | BoardSink) else type_of(behavior)
+
+
+def format(networks: list[Network], options: argparse.Namespace) -> int:
     """Rewrite the file in canonical form."""
-    before = network.path.read_text(encoding="utf-8", errors="replace")
-    if before == write_network(network):
-        print(f"{network.path}: is canonical")
-        return 0
-    save_network(network, network.path)
-    print(f"{network.path}: rewritten")
+    for network in networks:
+        _format(network)
     return 0
 
 
-ACTIONS: dict[str, tuple[Callable[[Network, argparse.Namespace], int], str]] = {
+def _format(network: Network) -> None:
+    before = network.path.read_text(encoding="utf-8", errors="replace")
+    if before == write_network(network):
+        print(f"{network.path}: is canonical")
+        return
+    save_network(network, network.path)
+    print(f"{network.path}: rewritten")
+
+
+ACTIONS: dict[str, tuple[Callable[[list[Network], argparse.Namespace], int], str]] = {
     "check": (check, "report what is wrong, or looks wrong; exit 1 on warnings"),
-    "show": (show, "print order, rate, parameters and links"),
+    "show": (show, "print order, rate, parameters, links, and who uses the board"),
     "draw": (draw, "draw the network, as SVG or PNG"),
     "format": (format, "rewrite the file in canonical form"),
 }

@@ -7,7 +7,8 @@ from pathlib import Path
 
 from PIL import Image, ImageDraw, ImageFont
 
-from hri.behavior.drawing import COLORS, FAINT, FONT, INK, curve, wire_color
+from hri.behavior.behavior import Behavior
+from hri.behavior.drawing import COLORS, FAINT, FONT, INK, curve, fill_of, wire_color
 from hri.behavior.layout import LINE, PADDING, TITLE, Layout, Node
 from hri.core.writing import write_bytes
 
@@ -20,20 +21,22 @@ STEPS = 24
 """Straight pieces of a curve."""
 
 
-def write_png(layout: Layout, type_names: dict[str, str], out: Path) -> None:
+def write_png(layout: Layout, out: Path) -> None:
     """Write the picture; a very large network is drawn smaller. Raises HriError."""
     area = layout.width * layout.height
     scale = min(FINER * SCALE, (MOST_PIXELS / area) ** 0.5)
     size = (round(layout.width * scale), round(layout.height * scale))
     image = Image.new("RGB", size, COLORS["paper"])
     pen = _Pen(ImageDraw.Draw(image), scale)
+    for name, x, y in layout.headings:
+        pen.text(x, y, name, "ls", INK)
     for wire in layout.wires:
         for piece in curve(wire.points):
             pen.line(strokes(piece), wire_color(wire.link.datatype))
-    linked = {(wire.link.source.id, wire.link.output) for wire in layout.wires}
-    linked |= {(wire.link.target.id, wire.link.input) for wire in layout.wires}
+    linked = {(wire.link.source, wire.link.output) for wire in layout.wires}
+    linked |= {(wire.link.target, wire.link.input) for wire in layout.wires}
     for box in layout.boxes:
-        _draw_box(pen, box, type_names, linked)
+        _draw_box(pen, box, linked)
     picture = io.BytesIO()
     image.reduce(FINER).save(picture, "PNG")
     write_bytes(out, picture.getvalue())
@@ -77,15 +80,12 @@ def strokes(piece: tuple[tuple[float, float], ...]) -> list[tuple[float, float]]
     return points
 
 
-def _draw_box(
-    pen: _Pen, box: Node, type_names: dict[str, str], linked: set[tuple[str, str]]
-) -> None:
+def _draw_box(pen: _Pen, box: Node, linked: set[tuple[Behavior, str]]) -> None:
     assert box.behavior is not None, "bends are not drawn"
-    fill = COLORS["sensor" if box.behavior.is_sensor else "box"]
-    pen.box(box.x, box.y, box.width, box.height, fill)
+    pen.box(box.x, box.y, box.width, box.height, fill_of(box.behavior))
     middle = box.x + box.width / 2
     pen.text(middle, box.y + 14, box.behavior.id, "mm", INK)
-    pen.text(middle, box.y + 30, type_names[box.behavior.id], "mm", FAINT)
+    pen.text(middle, box.y + 30, box.kind, "mm", FAINT)
     right = box.x + box.width
     sides = (
         (box.inputs, box.x, box.x + PADDING, "lm"),
@@ -93,7 +93,7 @@ def _draw_box(
     )
     for names, edge, x, anchor in sides:
         for row, name in enumerate(names):
-            color = INK if (box.behavior.id, name) in linked else FAINT
+            color = INK if (box.behavior, name) in linked else FAINT
             y = box.y + TITLE + (row + 0.5) * LINE
             pen.dot(edge, y, color)
             pen.text(x, y, name, anchor, color)

@@ -16,11 +16,14 @@ class Latest(Generic[T]):
         self._value: T | None = None
         self._time = 0.0
         self._spoken: float | None = None
+        self.writer = ""
+        """Who wrote last: `network.behavior.output`; empty for a task."""
 
-    def set(self, value: T, time: float, spoken: float | None = None) -> None:
+    def set(self, value: T, time: float, spoken: float | None = None, writer: str = "") -> None:
         """Write at `time`, in seconds; `spoken` as in `hri.behavior.ports.OutputPort`."""
         with self._lock:
             self._value, self._time, self._spoken = value, time, spoken
+            self.writer = writer
 
     def get(self) -> tuple[T | None, float]:
         """The value and its time in seconds; (None, 0.0) before the first."""

@@ -2,7 +2,7 @@
 
     goal (pose, odometry frame) -> Hri.ObstacleAvoidance -> Hri.CommandGate -> Hri.DriveSystem
 
-Goals come from `Hri.FollowTarget`, `Hri.Wander`, or from a task by the board and `Hri.Shared`.
+Goals come from `Hri.FollowTarget`, `Hri.Wander`, or from a task by the board.
 """
 
 from __future__ import annotations

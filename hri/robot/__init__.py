@@ -19,7 +19,8 @@ import trio
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.doors import Doors
-from hri.behavior.network import Network, refuse_second_writers
+from hri.behavior.network import Network
+from hri.behavior.network_check import check_together
 from hri.behavior.runner import Runner
 from hri.core import paths
 from hri.core.clock import Clock, RealClock
@@ -96,7 +97,7 @@ class Robot:
         self.resources.check()
         self._authored = self.app.load_networks()
         _override(self._authored, parameters or {})
-        refuse_second_writers(self._authored)
+        check_together(self._authored)
         for network in self._authored:
             network.check()
         self.events = EventBus(self.clock)

@@ -21,7 +21,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Self
 
-from hri.behavior.network import Network, load_network
+from hri.behavior.network import Network
+from hri.behavior.network_file import load_network
 from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 from hri.core.python_file import load_module

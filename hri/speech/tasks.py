@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from typing import Any
 
 from hri.behavior.behavior import Behavior
-from hri.behavior.library.sharing import Shared
 from hri.behavior.network import Network
+from hri.behavior.ports import InputPort
 from hri.core.errors import HriError
 from hri.core.signals import Event, Utterance
 from hri.hal.microphone import Microphone
@@ -121,9 +122,7 @@ def listener_of(context: TaskContext) -> Listener:
         listener = Listener("listener", microphone_id=microphone, recognizer_id=recognizer)
         if (voice := context.find_behavior(Voice)) is not None:
             _let_tell(voice, listener)
-        question = Shared("question", slot=QUESTION)
-        listener.question.sources.append(question.truth)
-        _start(context, listener, question)
+        _start(context, listener, (f"board.{QUESTION}", listener.question))
     return listener
 
 
@@ -135,8 +134,12 @@ def _let_tell(voice: Voice, listener: Listener) -> None:
         listener.position.sources.append(voice.position)
 
 
-def _start(context: TaskContext, behavior: Behavior, *around: Behavior) -> None:
-    context.networks.start(Network(f"own {behavior.id}", OWN_INTERVAL, [*around, behavior]))
+def _start(context: TaskContext, behavior: Behavior, *links: tuple[str, InputPort[Any]]) -> None:
+    network = Network(f"own {behavior.id}", OWN_INTERVAL, [behavior])
+    for source, target in links:
+        network.connect(source, target)
+    network.sort()
+    context.networks.start(network)
 
 
 def _id(context: TaskContext, interface: type[Resource]) -> str:

@@ -25,7 +25,8 @@ from typing import Any, ClassVar
 import trio
 
 from hri.behavior.behavior import Behavior
-from hri.behavior.network import Network, load_network
+from hri.behavior.network import Network
+from hri.behavior.network_file import load_network
 from hri.behavior.runner import Runner
 from hri.core import paths
 from hri.core.errors import HriError

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from hri.behavior.behavior import Context
-from hri.behavior.network import load_network
+from hri.behavior.network_file import load_network
 from hri.behavior.runner import Runner
 from hri.core import paths
 from hri.core.clock import FakeClock

@@ -2,7 +2,7 @@ import pytest
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.catalog import find_behavior, type_of
-from hri.behavior.network import load_network
+from hri.behavior.network_file import load_network
 from hri.behavior.schema import schema_of
 from hri.core import registry
 from hri.core.errors import AuthoringError, HriError

@@ -3,7 +3,7 @@
 import pytest
 
 from hri.behavior.catalog import find_behavior
-from hri.behavior.network import load_network
+from hri.behavior.network_file import load_network
 from hri.behavior.ports import DATATYPES, OutputPort, declare_datatype
 from hri.cli import behave
 from hri.core.errors import AuthoringError

@@ -3,18 +3,14 @@ import xml.etree.ElementTree as ElementTree
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hri.behavior.catalog import type_of
 from hri.behavior.drawing import to_svg
 from hri.behavior.layout import lay_out
 from hri.behavior.library.arithmetic import Addition
-from hri.behavior.network import Network, load_network
+from hri.behavior.network import Network
+from hri.behavior.network_file import load_network
 from hri.core import paths
 
 SVG = "{http://www.w3.org/2000/svg}"
-
-
-def names_of(network):
-    return {behavior.id: type_of(behavior) for behavior in network.behaviors}
 
 
 @st.composite
@@ -31,7 +27,7 @@ def networks(draw):
 
 @given(networks())
 def test_boxes_never_overlap_and_links_run_to_the_right(network):
-    layout = lay_out(network, names_of(network))
+    layout = lay_out(network, lambda behavior: type(behavior).__name__)
     boxes = layout.boxes
     for box in boxes:
         assert box.x >= 0
@@ -54,7 +50,7 @@ def test_boxes_never_overlap_and_links_run_to_the_right(network):
 
 @given(networks())
 def test_a_wire_crosses_no_box_where_it_passes_a_layer(network):
-    layout = lay_out(network, names_of(network))
+    layout = lay_out(network, lambda behavior: type(behavior).__name__)
     for wire in layout.wires:
         for bend in wire.bends:
             for box in layout.boxes:
@@ -64,7 +60,9 @@ def test_a_wire_crosses_no_box_where_it_passes_a_layer(network):
 
 def test_the_drawing_names_every_behavior_and_each_link():
     network = load_network(paths.house() / "apps/companion/face.xml")
-    root = ElementTree.fromstring(to_svg(lay_out(network, names_of(network)), names_of(network)))
+    root = ElementTree.fromstring(
+        to_svg(lay_out(network, lambda behavior: type(behavior).__name__))
+    )
     texts = [text.text for text in root.iter(f"{SVG}text")]
     assert {behavior.id for behavior in network.behaviors} <= set(texts)
     titles = [title.text for title in root.iter(f"{SVG}title")]
@@ -74,5 +72,7 @@ def test_the_drawing_names_every_behavior_and_each_link():
 def test_names_of_authors_cannot_break_the_drawing():
     network = Network("net")
     network.add(Addition("<script>&"))
-    root = ElementTree.fromstring(to_svg(lay_out(network, names_of(network)), names_of(network)))
+    root = ElementTree.fromstring(
+        to_svg(lay_out(network, lambda behavior: type(behavior).__name__))
+    )
     assert "<script>&" in [text.text for text in root.iter(f"{SVG}text")]

@@ -5,7 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hri.behavior.behavior import Behavior
-from hri.behavior.network import Network, load_network
+from hri.behavior.network import Network
+from hri.behavior.network_file import load_network
 from hri.behavior.ports import Input, Output, Param
 from hri.core.errors import AuthoringError, HriError
 

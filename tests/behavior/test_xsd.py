@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hri.behavior.catalog import find_behavior
-from hri.behavior.network import load_network
+from hri.behavior.network_file import load_network
 from hri.behavior.ports import DATATYPES
 from hri.behavior.schema import TYPES, load_schema, schema_of, write_schema
 from hri.core import paths, registry

@@ -88,3 +88,45 @@ def test_format_leaves_the_file_as_it_was_on_a_full_disk(network, capsys):
         assert main(["network", "format", str(network)]) == 2
     assert network.read_text() == NETWORK
     assert "net.xml: cannot be written" in capsys.readouterr().err
+
+
+def test_show_names_who_uses_the_board_of_an_app(capsys):
+    assert main(["network", "show", "companion"]) == 0
+    shown = capsys.readouterr().out
+    assert (
+        """      speech  (speech)
+          written by face.voice.speech
+          read by hearing.listener.speech
+"""
+        in shown
+    )
+    assert (
+        """      drive.command  (twist)  what tasks ask the base for
+          read by moving.gate
+"""
+        in shown
+    )
+
+
+def test_an_app_is_checked_as_a_whole(tmp_path, capsys):
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    (folder / "app.toml").write_text('networks = ["one.xml", "two.xml"]\n')
+    for name, link in (
+        ("one", 'from="sum.sum" to="board.x"'),
+        ("two", 'from="board.x" to="not.input"'),
+    ):
+        behaviors = '<Behavior id="sum" type="Hri.Addition"/><Behavior id="not" type="Hri.Not"/>'
+        (folder / f"{name}.xml").write_text(
+            f"<BehaviorNetwork>{behaviors}\n<Link {link}/></BehaviorNetwork>"
+        )
+    assert main(["network", "check", str(folder)]) == 2
+    assert "two.xml:2:1: board.x is double" in capsys.readouterr().err
+
+
+def test_the_picture_of_an_app_has_all_its_networks(tmp_path, capsys):
+    out = tmp_path / "app.svg"
+    assert main(["network", "draw", "companion", "--out", str(out)]) == 0
+    drawn = out.read_text()
+    for name in ("hearing", "seeing", "feeling", "moving", "voice.speech -&gt; board.speech"):
+        assert name in drawn

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hri.behavior.behavior import Context
-from hri.behavior.network import load_network
+from hri.behavior.network_file import load_network
 from hri.behavior.runner import Runner
 from hri.cli import behave
 from hri.core import paths

@@ -6,7 +6,8 @@ import pytest
 
 from hri.behavior.behavior import Context
 from hri.behavior.catalog import find_behavior, type_of
-from hri.behavior.network import Network, load_network
+from hri.behavior.network import Network
+from hri.behavior.network_file import load_network
 from hri.behavior.runner import Runner
 from hri.behavior.schema import schema_of
 from hri.behavior.writer import save_network

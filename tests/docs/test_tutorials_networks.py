@@ -5,7 +5,7 @@ import threading
 
 import pytest
 
-from hri.behavior.network import load_network
+from hri.behavior.network_file import load_network
 from hri.behavior.runner import Runner
 from hri.behavior.writer import save_network
 from hri.cli import behave

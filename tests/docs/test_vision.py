@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from hri.behavior.catalog import find_behavior
-from hri.behavior.network import load_network
+from hri.behavior.network_file import load_network
 from hri.core import registry
 from hri.core.clock import FakeClock
 from hri.hal.camera import Camera

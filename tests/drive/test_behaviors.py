@@ -3,7 +3,7 @@ from pathlib import Path
 
 import pytest
 
-from hri.behavior.network import load_network
+from hri.behavior.network_file import load_network
 from hri.behavior.ports import OutputPort
 from hri.core.signals import RangeReading, Twist
 from hri.drive.behaviors import COMMAND

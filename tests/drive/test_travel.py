@@ -12,7 +12,8 @@ import trio
 
 from hri.behavior.drive_command import DriveCommand
 from hri.behavior.drivers import BumperSwitch
-from hri.behavior.network import Network, load_network
+from hri.behavior.network import Network
+from hri.behavior.network_file import load_network
 from hri.behavior.ports import OutputPort
 from hri.core import paths
 from hri.core.errors import HriError

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from hri.behavior.behavior import Context
-from hri.behavior.network import Network, load_network
+from hri.behavior.network import Network
+from hri.behavior.network_file import load_network
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError
 from hri.core.events import EventBus

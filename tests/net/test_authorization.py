@@ -541,7 +541,7 @@ def test_another_machine_is_shown_no_token_of_the_file(monkeypatch):
 
 def test_a_network_file_cannot_open_a_door(tmp_path):
     """Trust is said by who starts the program."""
-    from hri.behavior.network import load_network
+    from hri.behavior.network_file import load_network
 
     for name in ("trusted", "allow_remote", "token"):
         file = tmp_path / "network.xml"

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from hri.behavior.network import load_network
+from hri.behavior.network_file import load_network
 from hri.behavior.runner import Runner
 from hri.core import paths
 from hri.net.connection import Connection

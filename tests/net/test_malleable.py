@@ -5,7 +5,8 @@ import pytest
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.catalog import find_behavior
-from hri.behavior.network import Network, load_network
+from hri.behavior.network import Network
+from hri.behavior.network_file import load_network
 from hri.behavior.ports import Input, Output
 from hri.behavior.runner import Runner
 from hri.core import paths

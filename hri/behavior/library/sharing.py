@@ -1,4 +1,4 @@
-"""The slots of the robot's board, where networks and tasks meet."""
+"""Blocks that stood for slots of the board before links could name them; they load as ever."""
 
 from __future__ import annotations
 

@@ -81,7 +81,7 @@ READERS: dict[str, Reader] = {
         calls.by_name("hri.emotion.persistence:recall"), good.memories, "feelings.json"
     ),
     "network": Reader(
-        calls.by_name("hri.behavior.network:load_network"),
+        calls.by_name("hri.behavior.network_file:load_network"),
         _shipped("config/networks/*.xml", "apps/*/*.xml"),
         "network.xml",
     ),

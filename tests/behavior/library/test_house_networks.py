@@ -5,7 +5,7 @@ import re
 import pytest
 
 from hri.behavior.behavior import Context
-from hri.behavior.network import load_network
+from hri.behavior.network_file import load_network
 from hri.behavior.runner import Runner
 from hri.core import paths
 from hri.core.clock import FakeClock

@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from hri.behavior.library import skeleton
-from hri.behavior.network import load_network
+from hri.behavior.network_file import load_network
 from hri.behavior.runner import Runner
 from hri.testing import context
 
