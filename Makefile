@@ -3,6 +3,7 @@
 # make slow    run the tests that take long by nature
 # make fuzz    run the property tests with examples of chance; OPTIONS=--hypothesis-seed=1 repeats a run
 # make check   format, lint, types, import rules
+# make bench   measure what is in benchmarks/ on this machine; OPTIONS="vision --only nods" one part
 # make wheels  resolve the dependencies to wheels for every supported Python and system
 # make docs    the reference of all classes, in build/reference/
 # make checklist    run the tests and write docs/checklist.md
@@ -14,7 +15,7 @@ BIN    := $(VENV)/bin
 # What was compiled is kept: without that each of the many processes of the tests compiles all anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: run test slow fuzz check wheels docs checklist format clean
+.PHONY: run test slow fuzz check bench wheels docs checklist format clean
 
 # The networks that see faces, once; without them they are found coarsely, and fewer nods.
 FETCH_FACES := $(BIN)/hri models fetch face >/dev/null || echo "going on without seeing well"
@@ -43,6 +44,13 @@ check: $(VENV)/.dev
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+
+# Of `hri bench`, all that takes something from benchmarks/.
+COMPARED := behavior drive emotion face inputs people speech vision writes
+
+bench: $(VENV)/.dev
+	@$(FETCH_FACES)
+	@$(if $(OPTIONS),$(BIN)/hri bench $(OPTIONS),for name in $(COMPARED); do $(BIN)/hri bench $$name || exit; done)
 
 wheels: $(VENV)/.dev
 	.ci/wheels

@@ -7,7 +7,6 @@ is a property of a process.
 from __future__ import annotations
 
 import gc
-import importlib.util
 import json
 import os
 import subprocess
@@ -15,6 +14,7 @@ import tempfile
 import time
 from collections.abc import Callable
 from importlib.metadata import version
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +22,7 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.network import Network
 from hri.behavior.ports import Input, Output
 from hri.behavior.runner import Runner
+from hri.bench.checkout import research
 from hri.bench.figures import machine, summary
 from hri.bench.workers import busy_processes
 from hri.core import child
@@ -91,9 +92,7 @@ def cost(count: int = BEHAVIORS, repeats: int = TICKS) -> dict[str, Any]:
     runner = chain(count)
     contenders: dict[str, Callable[[], object]] = {"hri": lambda: runner.tick(0.0)}
     peer = "not installed"
-    if importlib.util.find_spec("py_trees") is not None:
-        from hri.bench import trees
-
+    if find_spec("py_trees") is not None and (trees := research("trees")) is not None:
         peer = version("py_trees")
         contenders |= {"py_trees_sequence": trees.sequence(count)}
         contenders |= {"py_trees_parallel": trees.parallel(count)}

@@ -1,7 +1,7 @@
 """What feeling costs, and that it does not matter how often anyone looks.
 
-All times are CPU times of one thread. The peer in the same run is WASABI (see `wasabi`), whose mood
-depends on the rate at which it is stepped.
+All times are CPU times of one thread. In a checkout the peer in the same run is WASABI (see
+`benchmarks.wasabi`), whose mood depends on the rate at which it is stepped.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from hri.bench.checkout import research
 from hri.bench.figures import machine, summary
-from hri.bench.wasabi import Wasabi
 from hri.emotion.affect import Affect
 from hri.emotion.appraisal import GoalEvent
 from hri.emotion.dynamics import Dynamics
@@ -33,8 +33,6 @@ CALLS = 200
 """Calls that are timed together."""
 TIMES = 50
 FILES = 50
-IMPULSE = 60.0
-"""What WASABI is given, of 100."""
 
 STIMULI = (
     StimulusSpec("praise", "you praised me", {"joy": 0.6, "pride": 0.4}, 0.2, 60, relation=0.02),
@@ -172,13 +170,9 @@ def rates() -> dict[str, Any]:
         for before, after in zip(slow, quick, strict=True)
         for one, other in zip(before, after, strict=True)
     )
-    peaks = {rate: _wasabi_peak(rate) for rate in (10, 50, 1000)}
-    return {
-        "hz": RATES_HZ,
-        "largest_difference": apart,
-        "wasabi_peak_mood": {f"{rate}_hz": round(peak, 2) for rate, peak in peaks.items()},
-        "wasabi_50_hz_over_10_hz": round(peaks[50] / peaks[10], 2),
-    }
+    peer = research("wasabi")
+    compared = peer.peaks(SECONDS) if peer else {}
+    return {"hz": RATES_HZ, "largest_difference": apart, **compared}
 
 
 def _stepped(model: Dynamics, rate: int) -> list[list[float]]:
@@ -194,13 +188,3 @@ def _stepped(model: Dynamics, rate: int) -> list[list[float]]:
             mood = [state.valence, state.arousal, state.dominance]
             seen.append([*state.emotions.values(), *state.drives.values(), *mood])
     return seen
-
-
-def _wasabi_peak(rate: int) -> float:
-    """The highest mood after an impulse."""
-    wasabi, peak = Wasabi(), 0.0
-    wasabi.feel(IMPULSE)
-    for _ in range(SECONDS * rate):
-        wasabi.step(1 / rate)
-        peak = max(peak, wasabi.mood.value)
-    return peak

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, Literal
 
+from hri.bench.checkout import has_research, missing, research
 from hri.bench.figures import machine
 from hri.core.errors import HriError, NotAvailable, did_you_mean
 from hri.core.statistics import wilson
@@ -78,6 +80,8 @@ def attempted(what: str, measure: Callable[[], Iterator[Row]]) -> Iterator[Row]:
 
 def report(bench: str, rows: Sequence[Row], quick: bool) -> dict[str, Any]:
     """What a bench of rows prints: the rows, on what machine, and which missed or were skipped."""
+    if not has_research():
+        print("left out: what `make bench` measures in a checkout of hri", file=sys.stderr)
     return {
         "bench": bench,
         "machine": machine(),
@@ -90,8 +94,15 @@ def report(bench: str, rows: Sequence[Row], quick: bool) -> dict[str, Any]:
 
 
 def measured(bench: str, parts: Parts, quick: bool, only: str | None) -> dict[str, Any]:
-    """The report of all parts of a bench, or of one. Raises HriError for an unknown part."""
+    """The report of all parts of a bench, with those of `benchmarks` in a checkout, or of one.
+
+    Raises HriError for an unknown part.
+    """
+    more = research(bench)
+    parts = {**parts, **(more.PARTS if more else {})}
     if only is not None and only not in parts:
+        if more is None:
+            raise missing(f"{bench} --only '{only}'")
         raise HriError(f'bench {bench} has no part "{only}" - {did_you_mean(only, parts)}')
     chosen = parts if only is None else {only: parts[only]}
     rows = [row for name, part in chosen.items() for row in attempted(name, partial(part, quick))]

@@ -1,4 +1,4 @@
-"""`hri bench NAME`: figures as JSON, and JSON only."""
+"""`hri bench NAME`: figures as JSON, and JSON only; some of them need a checkout."""
 
 from __future__ import annotations
 
@@ -6,15 +6,19 @@ import argparse
 import importlib
 import json
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
+from hri.bench.checkout import missing, research
 from hri.core.errors import HriError
 
 BENCHES = (
     "behavior", "companion", "drive", "emotion", "face", "inputs", "net", "people",
     "speech", "vision", "writes",
 )  # fmt: skip
-"""Each is a module of `hri.bench` with `measure() -> dict`."""
+"""Each is a module of `hri.bench`, or of `benchmarks` in a checkout, with `measure() -> dict`."""
+RESEARCH = ("inputs", "people", "writes")
+"""Those of `benchmarks`."""
 OPTIONS = ("seconds", "quick", "only", "recordings", "draw", "tries", "seed", "keep", "jobs")
 TAKES = {
     "behavior": ("seconds",),
@@ -82,7 +86,7 @@ def _draw(text: str) -> int:
 
 
 def run(options: argparse.Namespace) -> int:
-    module = importlib.import_module(f"hri.bench.{options.name}")
+    module = _module(options.name)
     given: dict[str, Any] = {
         name: value for name in OPTIONS if (value := getattr(options, name)) is not None
     }
@@ -90,3 +94,11 @@ def run(options: argparse.Namespace) -> int:
         raise HriError(f"bench {options.name} takes no --{name} - leave it out")
     print(json.dumps(module.measure(**given), indent=2))
     return 0
+
+
+def _module(name: str) -> ModuleType:
+    if name not in RESEARCH:
+        return importlib.import_module(f"hri.bench.{name}")
+    if (module := research(name)) is None:
+        raise missing(name)
+    return module

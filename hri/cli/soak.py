@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 import math
 
-from hri.testing.companion_soak import CompanionSoak
-from hri.testing.soak import Soak
+from hri.bench.companion_soak import CompanionSoak
+from hri.bench.network_soak import Soak
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -1,10 +1,7 @@
-import sys
-
 import numpy as np
 import pytest
 
-from hri.bench.face import frames, loading, skia
-from hri.core.errors import NotAvailable
+from hri.bench.face import frames, loading
 from hri.face.model import load_face
 
 MODEL = load_face()
@@ -31,16 +28,3 @@ def test_loading_is_measured_with_and_without_what_was_kept(
     baked, raw, first = loading.rows()
     assert baked["value"] < raw["value"]
     assert first["value"] == 0.5
-
-
-def test_without_skia_its_rows_say_why(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "skia", None)
-    with pytest.raises(NotAvailable, match="pip install skia-python"):
-        list(skia.rows(MODEL, frames.talking(MODEL, 1), (160, 120)))
-
-
-def test_skia_draws_the_same_picture() -> None:
-    pytest.importorskip("skia")
-    times, difference = skia.rows(MODEL, frames.talking(MODEL, skia.WARM + 2), (320, 240))
-    assert times["value"] > 0
-    assert difference["value"] < 1.5

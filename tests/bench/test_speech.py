@@ -6,17 +6,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hri.bench.speech import accuracy, clips, flite, speed, text
-from hri.bench.speech.accuracy import MEASURES, ORDERS, ROBOT, Outcome
-from hri.bench.speech.babble import RATE, above, active_power
-from hri.bench.speech.clips import DATA, Clip, Recordings
-from hri.bench.speech.listening import Heard, Hearing, listen
+from hri.bench.speech import clips, flite, outcome, speed, text
+from hri.bench.speech.clips import DATA, ORDERS, ROBOT
+from hri.bench.speech.flite import RATE
+from hri.bench.speech.listening import Hearing, listen
+from hri.bench.speech.outcome import Outcome
 from hri.cli.main import main
 from hri.core.errors import HriError
 from hri.core.statistics import wilson
 from hri.speech.grammar import load_grammar, read_grammar
 from hri.speech.grammar.matching import parse
 from hri.speech.synthesizers.flite import is_there
+from tests.bench.heard import noise, piece
 
 
 @pytest.fixture(scope="module")
@@ -42,15 +43,10 @@ def test_every_command_means_what_its_row_says(robot):
         assert same(found.tags, json.loads(row["tags"])), row["sentence"]
 
 
-def test_no_sentence_from_outside_is_in_the_grammar(robot):
-    assert len(clips.outside()) == 42
-    assert [sentence for sentence in clips.outside() if parse(robot, sentence)] == []
-
-
 def test_an_order_gives_the_slots_that_the_labels_name():
     said = "could i get a small dark roast iced mocha with lots of soy milk and sugar please"
     found = parse(load_grammar(ORDERS), said)
-    assert accuracy.slots(piece(said, found.tags)) == {
+    assert outcome.slots(piece(said, found.tags)) == {
         "size": "small",
         "roast": "dark roast",
         "coffeeDrink": "iced mocha",
@@ -63,37 +59,6 @@ def test_names_are_different_and_always_the_same():
     names = clips.names(10_000)
     assert len(set(names)) == 10_000
     assert names[:1000] == clips.names(1000)
-
-
-@given(st.floats(-5, 30), st.floats(0.05, 1.0), st.integers(0, 100))
-def test_speech_stands_above_babble_by_the_ratio_that_was_asked_for(ratio, loudness, seed):
-    chance = np.random.default_rng(seed)
-    speech = np.zeros(RATE, np.int16)
-    speech[3200:12800] = chance.normal(0, 3000 * loudness, 9600)
-    noise = chance.normal(0, 1, RATE)
-    mixture = above(speech, noise, ratio).astype(np.float64)
-    assert np.abs(mixture).max() <= 32000
-    heard_noise = np.mean(mixture[:3200] ** 2) / np.mean(noise[:3200] ** 2)
-    heard_speech = active_power(mixture[3200:12800]) - heard_noise
-    gain = heard_speech / active_power(speech.astype(np.float64))
-    assert 10 * np.log10(heard_speech / heard_noise) == pytest.approx(ratio, abs=2.0)
-    assert gain <= 1.2
-
-
-def test_each_draw_of_the_babble_is_another_one_and_always_the_same(people):
-    said = [clips.padded(clip) for clip in people.orders]
-
-    def heard(draw):
-        mixed = clips.in_babble(said, people.orders, "12 dB", draw)
-        return np.concatenate([clip.samples for clip in mixed])
-
-    assert np.array_equal(heard(1), heard(1))
-    assert not np.array_equal(heard(0), heard(1))
-    assert not np.array_equal(heard(1), heard(2))
-
-
-def test_silence_has_no_active_power():
-    assert active_power(np.zeros(RATE)) == 0.0
 
 
 @pytest.mark.parametrize(
@@ -110,77 +75,6 @@ def test_the_interval_holds_the_share_and_stays_within_0_and_1(counted):
     low, high = wilson(*counted)
     assert 0.0 <= low <= counted[0] / counted[1] + 1e-12
     assert counted[0] / counted[1] - 1e-12 <= high <= 1.0
-
-
-def piece(words, tags=(), is_accepted=True, rule="", latency_s=0.01):
-    return Heard(is_accepted, words, rule, dict(tags), 0.9, "", latency_s)
-
-
-def noise(name, sentence="", slots=(), seconds=0.2):
-    chance = np.random.default_rng(len(name))
-    samples = chance.normal(0, 1000, round(seconds * RATE)).astype(np.int16)
-    return Clip(name, samples, sentence, dict(slots), "slt" if sentence else "")
-
-
-@pytest.fixture
-def people():
-    """Recordings of nobody."""
-    orders = tuple(noise(f"orders/{n}", slots={"coffeeDrink": "latte"}) for n in range(8))
-    return Recordings(orders, (noise("read/1", "he might"),))
-
-
-@pytest.fixture
-def _silent_flite(monkeypatch):
-    monkeypatch.setattr(flite, "say", lambda sentence, voice: noise(sentence, sentence).samples)
-
-
-def perfect(grammar, said, engine=""):
-    """Hears what is of the grammar, and nothing else."""
-    heard = []
-    for clip in said:
-        is_order = bool(clip.slots) and grammar == ORDERS
-        is_command = clip.sentence in clips.commands()
-        words = piece(clip.sentence, {"coffeeDrink": "latte"} if is_order else {})
-        heard.append([words] if is_order or is_command else [])
-    return Hearing(heard, 0.0)
-
-
-def credulous(grammar, said, engine=""):
-    """Hears the same command in everything."""
-    return Hearing([[piece("stop")] for _ in said], 0.0)
-
-
-@pytest.mark.usefixtures("_silent_flite")
-def test_who_hears_right_passes_every_row(people):
-    told = list(accuracy.rows(people, perfect, step=9, progress=str))
-    assert [row["what"] for row in told] == [measure.name for measure in MEASURES]
-    assert all(row["passed"] for row in told)
-    assert {row["rate"] for row in told} == {0.0, 1.0}
-
-
-@pytest.mark.usefixtures("_silent_flite")
-def test_who_accepts_everything_fails_every_row(people):
-    told = list(accuracy.rows(people, credulous, step=9, progress=str))
-    assert not any(row["passed"] for row in told)
-    made_up = next(row for row in told if row["what"].startswith("sentences outside"))
-    assert made_up["count"] == made_up["of"]
-    assert '"stop" accepted' in made_up["clips"][0]
-
-
-@pytest.mark.usefixtures("_silent_flite")
-def test_rows_without_recordings_say_why_they_are_skipped():
-    told = list(accuracy.rows(None, perfect, step=9, progress=str))
-    measured = [row["what"] for row in told if "skipped" not in row]
-    assert measured == [m.name for m in MEASURES if m.condition == "clean"][:3]
-    assert all("--recordings" in row["skipped"] for row in told if "skipped" in row)
-
-
-def test_rows_without_flite_say_how_to_install_it(people, monkeypatch, tmp_path):
-    monkeypatch.setenv("PATH", str(tmp_path))
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    told = list(accuracy.rows(people, perfect, step=9, progress=str))
-    assert all("apt install flite" in row["skipped"] for row in told[:7])
-    assert all("skipped" not in row for row in told[7:])
 
 
 def test_two_things_understood_in_one_clip_are_a_mistake():
@@ -201,15 +95,6 @@ def test_other_words_of_the_same_meaning_are_a_mistake_that_is_told_apart(robot)
     other = Outcome(said, [piece("get me a blue box", {"thing": "blue_box"}, rule="bring")])
     assert (same.is_mistaken, same.means_the_same(robot)) == (True, True)
     assert (other.is_mistaken, other.means_the_same(robot)) == (True, False)
-
-
-def test_every_clip_keeps_its_own_pieces_though_they_are_heard_in_batches():
-    said = [noise(str(n), str(n), seconds=0.01) for n in range(3 * accuracy.BATCH + 1)]
-
-    def echo(grammar, batch, engine=""):
-        return Hearing([[piece(clip.sentence)] for clip in batch], 0.0)
-
-    assert all(outcome.is_right for outcome in accuracy.hear(ROBOT, said, echo))
 
 
 def test_latency_counts_the_recordings_of_its_length():

@@ -14,7 +14,7 @@ from hri.core.errors import HriError
 from hri.core.signals import Pose2D
 from hri.simulation.room import Circle
 from hri.simulation.rooms import furnished
-from hri.testing.trips import Journey
+from hri.simulation.trips import Journey
 
 
 def run_file(folder: Path, count: int = 30) -> Path:

@@ -50,4 +50,5 @@ def test_a_wheel_has_commands_configuration_data_documents_and_licenses(tmp_path
     assert all(f"\n{command} = hri.cli." in scripts for command in COMMANDS)
     licenses = {name.rpartition("/")[2] for name in names if "/licenses/" in name}
     assert licenses == {"LICENSE", "THIRD_PARTY.md"}
-    assert not [name for name in names if "__pycache__" in name or name.startswith("tests/")]
+    kept_out = ("tests/", "benchmarks/")
+    assert not [name for name in names if "__pycache__" in name or name.startswith(kept_out)]

@@ -26,9 +26,9 @@ from hri.drive.goals import DeadReckoning, FollowTarget
 from hri.drive.going import ObstacleAvoidance
 from hri.simulation.person import RADIUS
 from hri.simulation.rooms import furnished
+from hri.simulation.trips import BODY, SENSORS, Journey, devices
 from hri.simulation.world import SimulatedWorld
 from hri.task.context import TaskContext, TaskFailed
-from hri.testing.trips import BODY, SENSORS, Journey, devices
 from tests.task.stage import Stage
 
 ROOM = """

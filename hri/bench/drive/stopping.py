@@ -1,4 +1,4 @@
-"""How soon a base stands, and what it survives: measured by `hri.bench.stops` and `faults`."""
+"""How soon a base stands when anything ends: measured by `hri.bench.stops` and `chain`."""
 
 from __future__ import annotations
 
@@ -6,15 +6,13 @@ import os
 from collections.abc import Iterator
 
 from hri.bench import chain as links
-from hri.bench import faults as injected
 from hri.bench import stops
-from hri.bench.table import Row, amount, at_least, at_most, compared, share
+from hri.bench.table import Row, amount, at_most
 
 TRIES, QUICK_TRIES = 100, 10
 HAZARD_MS, PROGRAM_MS = 15.0, 250.0
 CHAIN_TRIES, QUICK_CHAIN_TRIES = 20, 1
 CHAIN_MS = 250.0
-DAMAGED = 0.01
 BUSY = 2
 """Busy processes for each core."""
 
@@ -41,20 +39,6 @@ def chain(quick: bool) -> Iterator[Row]:
         if busy:
             what += f", beside {busy} busy processes"
         yield amount(what, worst, "ms", at_most(CHAIN_MS), **figures.pop("all"), **figures)
-
-
-def faults(quick: bool) -> Iterator[Row]:
-    """Each with the base stopped and the cause named; and bases of lines on a damaged line."""
-    figures = injected.figures()
-    what = "faults survived with the base stopped and the cause named"
-    row = share(what, figures["survived"], figures["of"], at_least(1.0))
-    yield row | {"faults": figures["faults"]}
-    tries = QUICK_TRIES if quick else TRIES
-    told = injected.on_damaged_bytes(injected.ARDUINO, DAMAGED, tries)
-    without = injected.on_damaged_bytes(injected.OLD_ARDUINO, DAMAGED, tries)
-    what = "way of an Arduino until it latches, 1 % of the bytes damaged, beside one without checks"
-    row = compared(what, told["median"], without["median"], "m")
-    yield row | {"with_checks": told, "without_checks": without}
 
 
 def _rest(told: dict[str, float], name: str) -> dict[str, float]:

@@ -1,6 +1,6 @@
-"""The face: how fast it is drawn and loaded, how well its lips keep time, whether frames are lost.
+"""The face: how fast it is drawn and loaded, and whether frames are lost while it talks.
 
-All but the last row take the time of the thread or of the process, on one core and without a GPU,
+All rows but that of talking take the time of the thread or the process, on one core without a GPU,
 so that what else the machine does counts as little as possible; the frames are those of a face that
 talks, blinks, sways and changes its expression, in order.
 """
@@ -12,7 +12,8 @@ from collections.abc import Iterator
 from functools import partial
 from typing import Any
 
-from hri.bench.face import frames, judge, lips, live, loading, skia
+from hri.bench.checkout import research
+from hri.bench.face import frames, live, loading
 from hri.bench.table import Row, attempted, report
 from hri.bench.threads import one_thread
 from hri.face.model import load_face
@@ -37,15 +38,9 @@ def rows(count: int, seconds: float) -> Iterator[Row]:
     with one_thread():
         talking = frames.talking(model, count)
         yield from frames.rows(model, talking, SIZE)
-        tell("skia")
-        what = "the same frames by skia-python"
-        yield from attempted(what, lambda: skia.rows(model, talking[: max(count // 2, 60)], SIZE))
     tell("loading")
     yield from loading.rows()
-    tell("lips")
-    yield from attempted("viseme track against phoneme times", lambda: lips.rows(model))
-    tell("judge")
-    what = "expressions that an independent network names"
-    yield from attempted(what, lambda: judge.rows("robot", "person"))
     tell(f"{seconds:g} s of talking")
     yield from attempted("frames dropped while talking", lambda: live.rows(seconds))
+    if (compared := research("face")) is not None:
+        yield from compared.rows(model, talking[: max(count // 2, 60)], SIZE)

@@ -11,7 +11,6 @@ from collections.abc import Iterator
 
 from hri.behavior.network import Network
 from hri.bench.behavior import Relay, Source
-from hri.bench.face.lips import SENTENCES
 from hri.bench.table import Row, amount, at_most
 from hri.core.clock import RealClock
 from hri.face.behaviors import FaceRenderer
@@ -21,6 +20,12 @@ from hri.simulation.script import load_visit
 from hri.simulation.world import SimulatedWorld
 from hri.task.context import TaskContext
 
+SENTENCES = (
+    "Hello, I am happy to see you.",
+    "Four brave fish jump over the mat.",
+    "Please move the big blue box before five.",
+    "My favorite people visit us every Wednesday afternoon.",
+)
 SETTLING = 6.0
 """Seconds until the models are loaded."""
 LOOK_EVERY = 0.002

@@ -1,8 +1,7 @@
-"""Speech: what is understood and what is made up, how soon, and at what cost.
+"""Speech: how soon it is understood, how soon the voice begins, and at what cost.
 
 Every row of recognition is what `hri grammar listen --wav` says with its default engine and
-strictness. The commands and the sentences outside of their grammar are spoken by flite; orders,
-foreign speech and the babble come from recordings of people.
+strictness. The commands are spoken by flite, the orders come from recordings of people.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from hri.bench.speech.accuracy import rows as accuracy_rows
+from hri.bench.checkout import research
 from hri.bench.speech.clips import Clip, Recordings, read_recordings
 from hri.bench.speech.listening import Listen, listen
 from hri.bench.speech.speaking import rows as speaking_rows
@@ -45,12 +44,13 @@ def measure(quick: bool = False, recordings: Path | None = None, draw: int = 0) 
 def rows(people: Recordings | None, hear: Listen, step: int = 1, draw: int = 0) -> Iterator[Row]:
     """All rows in the order of the table; every `step`th sentence and recording is taken."""
     tell = partial(print, file=sys.stderr, flush=True)
-    yield from accuracy_rows(people, hear, step, tell, draw)
     yield from speed_rows(people, hear, step, tell)
     tell("start, text, voice")
     yield from attempted("start and memory of the engine", lambda: start_rows(_longest(people)))
     yield from attempted("parsing and checking", text_rows)
     yield from speaking_rows()
+    if (compared := research("speech")) is not None:
+        yield from compared.rows(people, hear, step, tell, draw)
 
 
 def _longest(people: Recordings | None) -> list[Clip]:

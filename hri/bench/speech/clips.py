@@ -6,22 +6,19 @@ import csv
 import json
 import random
 import wave
-import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from hri.bench.speech import flite
-from hri.bench.speech.babble import RATE, above, babble
+from hri.bench.speech.flite import RATE
 from hri.core.errors import HriError
 from hri.core.signals import Samples
 
 DATA = Path(__file__).parent
-RATIOS: Mapping[str, float | None] = {"clean": None, "12 dB": 12.0, "6 dB": 6.0}
-"""Decibels above the babble, by condition."""
+ROBOT = DATA / "robot.jsgf"
+ORDERS = DATA / "orders.jsgf"
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,12 +52,6 @@ def commands() -> list[str]:
     return [row["sentence"] for row in _rows(DATA / "commands.tsv")]
 
 
-def outside() -> list[str]:
-    """The sentences of `outside.txt`."""
-    lines = (DATA / "outside.txt").read_text(encoding="utf-8").splitlines()
-    return [line for line in lines if line and not line.startswith("#")]
-
-
 def spoken(sentences: Sequence[str], voices: Sequence[str] = flite.VOICES) -> list[Clip]:
     """Each sentence in each voice."""
     return [
@@ -85,31 +76,6 @@ def read_recordings(folder: Path) -> Recordings:
         elif "librivox" in row["source"]:
             read.append(Clip(name, flite.read_wav(folder / name), said))
     return Recordings(tuple(orders), tuple(read))
-
-
-def in_babble(
-    clips: Sequence[Clip], talkers: Sequence[Clip], condition: str, draw: int = 0
-) -> list[Clip]:
-    """The clips over the talk of the others, the same at every run of the same draw."""
-    ratio = RATIOS[condition]
-    if ratio is None:
-        return list(clips)
-    return [_in_babble(clip, talkers, ratio, draw) for clip in clips]
-
-
-def _in_babble(clip: Clip, talkers: Sequence[Clip], ratio: float, draw: int) -> Clip:
-    others = [talker.samples for talker in talkers if talker.name != clip.name]
-    seed = f"{clip.name} {ratio:g}" + (f" {draw}" if draw else "")
-    chance = np.random.default_rng(zlib.crc32(seed.encode()))
-    noise = babble(others, len(clip.samples), chance)
-    samples = above(clip.samples, noise, ratio)
-    return Clip(clip.name, samples, clip.sentence, clip.slots, clip.voice)
-
-
-def padded(clip: Clip) -> Clip:
-    """With the silences of a spoken sentence around it, so that babble has a beginning."""
-    lead, tail = round(flite.LEAD * RATE), round(flite.TAIL * RATE)
-    return Clip(clip.name, np.pad(clip.samples, (lead, tail)), clip.sentence, clip.slots)
 
 
 def write_wav(path: Path, clip: Clip) -> None:

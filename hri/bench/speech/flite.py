@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 
-from hri.bench.speech.babble import RATE
 from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.signals import Samples
@@ -18,6 +17,7 @@ from hri.hal.drivers.resampling import resample
 from hri.hal.drivers.wav_file import write_wav
 from hri.speech.synthesizers.flite import speak
 
+RATE = 16000
 VOICES = ("slt", "rms", "kal16", "awb")
 LEAD, TAIL = 0.4, 0.8
 """Seconds of silence before and after a sentence."""

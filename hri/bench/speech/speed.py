@@ -7,20 +7,19 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
-from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
 
 from hri.bench.speech import clips
-from hri.bench.speech.accuracy import ORDERS, ROBOT, Outcome, Progress, sounds
-from hri.bench.speech.babble import RATE
-from hri.bench.speech.clips import Clip, Recordings
+from hri.bench.speech.clips import ORDERS, ROBOT, Clip, Recordings
+from hri.bench.speech.flite import RATE
 from hri.bench.speech.listening import Hearing, Listen
-from hri.bench.table import Row, amount, at_most, attempted, compared, skipped
+from hri.bench.speech.outcome import Outcome
+from hri.bench.table import Row, amount, at_most, attempted, skipped
 from hri.core.errors import NotAvailable
-from hri.speech.recognizers.vosk import find_model
 
+Progress = Callable[[str], object]
 NAMES = 10_000
 CALLED = 20
 """Names that are said."""
@@ -47,8 +46,6 @@ class Work:
     limit: float
     """Real-time factor: seconds of one core for each second of sound."""
     latency: Latency | None = None
-    peers: tuple[str, ...] = ("pocketsphinx", "vosk")
-    """Engines that do the same work in the same run."""
 
     @property
     def row(self) -> str:
@@ -58,50 +55,37 @@ class Work:
 def rows(
     recordings: Recordings | None, listen: Listen, step: int = 1, progress: Progress = print
 ) -> Iterator[Row]:
-    """Latency and real-time factor by grammar, and the same work by other engines."""
-    short = Latency("commands of 2 to 4 s", (2.0, 4.0), 0.040)
-    long = Latency("orders of 7 to 11 s", (7.0, 11.0), 0.060)
-    commands = partial(sounds, recordings, "commands", "clean", step)
-    orders = partial(sounds, recordings, "orders", "clean", step)
+    """Latency and real-time factor by grammar."""
     with names_grammar() as (names, called):
-        for work in (
-            Work("robot grammar", ROBOT, commands, 0.02, short),
-            Work("order grammar", ORDERS, orders, 0.02, long),
-            Work(f"{NAMES} names", names, called, 0.05, peers=()),
-        ):
+        for work in (*works(recordings, step), Work(f"{NAMES} names", names, called, 0.05)):
             progress(work.row)
             yield from attempted(work.row, partial(_of, work, listen))
-            for engine in work.peers:
-                progress(f"{work.row}, {engine}")
-                against = f"{work.row}, against {engine}"
-                yield from attempted(against, partial(_against, work, engine, listen))
+
+
+def works(recordings: Recordings | None, step: int) -> Iterator[Work]:
+    """Commands that flite says and orders that people gave; every `step`th of either."""
+
+    def commands() -> Sequence[Clip]:
+        return clips.spoken(clips.commands()[::step])
+
+    def orders() -> Sequence[Clip]:
+        if recordings is None:
+            raise NotAvailable("no recordings of people - name their folder with --recordings")
+        return recordings.orders[::step]
+
+    short = Latency("commands of 2 to 4 s", (2.0, 4.0), 0.040)
+    yield Work("robot grammar", ROBOT, commands, 0.02, short)
+    long = Latency("orders of 7 to 11 s", (7.0, 11.0), 0.060)
+    yield Work("order grammar", ORDERS, orders, 0.02, long)
 
 
 def _of(work: Work, listen: Listen) -> Iterator[Row]:
     said = work.said()
     factor, hearing = real_time_factor(work.grammar, said, listen)
-    right = _right(said, hearing)
+    right = count_right(said, hearing)
     yield amount(work.row, factor, "s/s", at_most(work.limit), right=right, of=len(said))
     if work.latency is not None:
         yield latency(work.latency, said, hearing)
-
-
-def _against(work: Work, engine: str, listen: Listen) -> Iterator[Row]:
-    """Both engines, one after the other, so that the machine is alike for both."""
-    _need(engine)
-    said = work.said()
-    own, _ = real_time_factor(work.grammar, said, listen)
-    other, theirs = real_time_factor(work.grammar, said, partial(listen, engine=engine))
-    row = compared(f"{work.row}, against {engine}", own, other, "s/s")
-    yield row | {"right_by_other": _right(said, theirs), "of": len(said)}
-
-
-def _need(engine: str) -> None:
-    """Raises NotAvailable when an engine cannot run here."""
-    if find_spec(engine) is None:
-        raise NotAvailable(f"{engine} is not installed - pip install {engine}")
-    if engine == "vosk" and find_model() is None:
-        raise NotAvailable("no model directory of Vosk - see `hri models`")
 
 
 def real_time_factor(grammar: Path, said: Sequence[Clip], listen: Listen) -> tuple[float, Hearing]:
@@ -113,7 +97,8 @@ def real_time_factor(grammar: Path, said: Sequence[Clip], listen: Listen) -> tup
     return (hearing.cpu_s - start) / sum(clip.seconds for clip in said), hearing
 
 
-def _right(said: Sequence[Clip], hearing: Hearing) -> int:
+def count_right(said: Sequence[Clip], hearing: Hearing) -> int:
+    """Clips of which what was said was understood, and nothing else."""
     pairs = zip(said, hearing.heard, strict=True)
     return sum(Outcome(clip, heard).is_right for clip, heard in pairs)
 

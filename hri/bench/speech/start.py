@@ -10,8 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hri.bench.speech.accuracy import ROBOT
-from hri.bench.speech.clips import Clip, write_wav
+from hri.bench.speech.clips import ROBOT, Clip, write_wav
 from hri.bench.speech.listening import ONE_CORE
 from hri.bench.table import Row, amount, at_most, skipped
 from hri.core import child

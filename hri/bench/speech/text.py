@@ -6,15 +6,14 @@ import random
 import tempfile
 import time
 from collections.abc import Callable, Iterator
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 import numpy as np
 
 from hri.bench.speech import clips
-from hri.bench.speech.accuracy import ROBOT
-from hri.bench.table import Row, amount, at_most, compared, skipped
-from hri.speech.grammar import load_grammar, read_grammar
+from hri.bench.speech.clips import ROBOT
+from hri.bench.table import Row, amount, at_most
+from hri.speech.grammar import Grammar, load_grammar, read_grammar
 from hri.speech.grammar.check import check
 from hri.speech.grammar.expansion import random_sentence
 from hri.speech.grammar.matching import parse
@@ -24,26 +23,20 @@ SENTENCES = 2000
 
 
 def rows() -> Iterator[Row]:
-    """Parsing, against hassil where it is installed, and checking."""
+    """Parsing and checking."""
     grammar = load_grammar(ROBOT)
-    chance = random.Random(0)
-    sentences = list({random_sentence(grammar, chance): None for _ in range(SENTENCES)})
-    own = _median_s(lambda sentence: parse(grammar, sentence), sentences)
+    own = median_s(lambda sentence: parse(grammar, sentence), sentences(grammar))
     yield amount("parse a sentence, median", own * 1e6, "us", at_most(100.0))
-    what = "parse a sentence, median, against hassil"
-    try:
-        named = version("hassil")
-    except PackageNotFoundError:
-        yield skipped(what, "hassil is not installed")
-    else:
-        from hri.bench.speech.hassil import finder
-
-        other = _median_s(finder(grammar), sentences)
-        yield compared(what, own * 1e6, other * 1e6, "us") | {"hassil": named}
     yield amount(f"check a grammar of {RULES} rules", _check_s(), "s", at_most(0.2))
 
 
-def _median_s(find: Callable[[str], object], sentences: list[str]) -> float:
+def sentences(grammar: Grammar) -> list[str]:
+    """Different sentences of a grammar, the same in every run."""
+    chance = random.Random(0)
+    return list({random_sentence(grammar, chance): None for _ in range(SENTENCES)})
+
+
+def median_s(find: Callable[[str], object], sentences: list[str]) -> float:
     """Seconds for one sentence; each is met once, and must be found."""
     find(sentences[0])  # what is made at the first time
     taken = []

@@ -1,25 +1,14 @@
-"""Seeing people: gestures of real heads and in films, what it costs, poses, and who is who."""
+"""Seeing people: what it costs."""
 
 from __future__ import annotations
 
-import os
 from typing import Any
 
 from hri.bench.table import Parts, measured
-from hri.bench.vision import cross_validation, crossing, nods, pose, recordings, speed, videos
+from hri.bench.vision import speed
 
-WORKERS = max(1, os.cpu_count() or 1)
-"""Processes in which films are judged."""
-PARTS: Parts = {
-    "recordings of real heads": lambda quick: recordings.rows(),
-    "cross-validation on them": lambda quick: cross_validation.rows(),
-    "the chain on one core": speed.rows,
-    "pose": pose.rows,
-    "crossing": lambda quick: crossing.rows(quick, WORKERS),
-    "nods": lambda quick: nods.rows(quick, WORKERS),
-    "films": lambda quick: videos.rows(quick, WORKERS),
-}
-"""The parts of the bench in the order of the table."""
+PARTS: Parts = {"the chain on one core": speed.rows}
+"""The parts of the bench; those of `benchmarks.vision` follow."""
 
 
 def measure(quick: bool = False, only: str | None = None) -> dict[str, Any]:

@@ -22,7 +22,7 @@ from hri.core.recording import LARGEST_LOG
 from hri.core.signals import Pose2D
 from hri.simulation.layout import load_layout
 from hri.simulation.rooms import furnished
-from hri.testing.trips import Journey
+from hri.simulation.trips import Journey
 
 EVENTS = "events.jsonl"
 """The file in a robot's recording."""

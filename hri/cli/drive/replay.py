@@ -11,7 +11,7 @@ from hri.cli.drive.recorded import read_run
 from hri.cli.progress import progress, waiting
 from hri.core.errors import HriError
 from hri.hal.drivers.picture_file import write_picture
-from hri.testing.trips import DEFAULT_POLICY, POLICIES
+from hri.simulation.trips import DEFAULT_POLICY, POLICIES
 
 NAME = "replay"
 """What stands in the place of a port."""

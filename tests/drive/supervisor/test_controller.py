@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import pytest
 
-from hri.bench.faults import FAULTS, GO, Chain, survived
+from benchmarks.faults import FAULTS, GO, Chain, survived
 from hri.core.signals import Twist
 from hri.drive.bases.create2 import CLIFFS
 from hri.drive.bases.protocol import Note

@@ -7,7 +7,7 @@ G. Hinton, O. Vinyals, J. Dean, "Distilling the knowledge in a neural network", 
 phones that were said (A. Graves et al., "Connectionist temporal classification", 2006). The change
 of a matrix is the product of two narrow ones (E. Hu et al., "LoRA", 2021), that of anything
 smaller is written out; `adaptation.npz` beside this file holds them as 16-bit floats. How to make
-it again, and from whose speech: docs/adaptation/README.md.
+it again, and from whose speech: benchmarks/adaptation/README.md.
 """
 
 from __future__ import annotations

@@ -1,0 +1,328 @@
+"""How each reader is called with the path of an input.
+
+A reader returns, or raises HriError; one that keeps something checks that a refused input changed
+nothing. What it needs is imported when it is called: a child process loads the modules of one
+reader only. Texts of peers and of options are read from a file, too.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from benchmarks.inputs import good
+from hri.core.errors import HriError
+
+Read = Callable[[Path], object]
+
+
+def named(name: str) -> Any:
+    """The function `module:name`."""
+    module, _, function = name.partition(":")
+    return getattr(importlib.import_module(module), function)
+
+
+def by_name(name: str) -> Read:
+    """The function `module:name`, imported when it is called."""
+    return lambda path: named(name)(path)
+
+
+def _read_text(path: Path) -> str:
+    """A text as it comes from a peer: whatever bytes it has."""
+    return path.read_bytes().decode("utf-8", errors="surrogateescape")
+
+
+def app(path: Path) -> object:
+    """An app, and the networks that it names."""
+    from hri.robot.app import load_app
+
+    return load_app(str(path.parent)).load_networks()
+
+
+def archive(path: Path) -> None:
+    """An archive, which is unpacked whole or not at all."""
+    from shutil import rmtree
+
+    from hri.core.archive import unpack
+
+    target = path.with_name("unpacked")
+    try:
+        unpack(path, target)
+    except HriError:
+        if target.exists():
+            raise AssertionError("a part of the archive is left") from None
+        raise
+    rmtree(target)
+
+
+def choices(path: Path) -> object:
+    """The choice of devices, in the folder of settings."""
+    from hri.hal.choices import load_choices
+
+    return load_choices()
+
+
+def display(path: Path) -> object:
+    """How feelings show."""
+    from hri.emotion.display import load_display
+
+    return load_display(path)
+
+
+def event_form(path: Path) -> None:
+    """An event as people read it, which must survive being written."""
+    from hri.task.events import parse_event, write_event
+
+    event = parse_event(_read_text(path))
+    if parse_event(write_event(event)) != event:
+        raise AssertionError(f"{event} is not read as it was written")
+
+
+def event_query(path: Path) -> None:
+    """An event over the wire, which must survive being written."""
+    from hri.task.events import parse_query, write_query
+
+    event = parse_query(_read_text(path))
+    if parse_query(write_query(event)) != event:
+        raise AssertionError(f"{event} is not read as it was written")
+
+
+def expression(path: Path) -> object:
+    """The value of a parameter."""
+    from hri.core.expression import evaluate
+
+    return _refusing(evaluate, _read_text(path))
+
+
+def face_settings(path: Path) -> object:
+    """The settings of a face with the drawings of `robot`."""
+    from hri.core import paths
+    from hri.face.settings import load_settings
+    from hri.face.vocabulary import sides_of
+
+    drawings = [file.stem for file in (paths.house() / "faces/robot/targets").glob("*.svg")]
+    return load_settings(path, {*drawings, *(side for name in drawings for side in sides_of(name))})
+
+
+def face_weights(path: Path) -> object:
+    """The recording of a face."""
+    from hri.face.model import load_face
+    from hri.face.recording import read_weights
+
+    return read_weights(path, load_face("eyes"))
+
+
+def formula(path: Path) -> object:
+    """How strong a stimulus is."""
+    from hri.emotion.formula import parse_formula
+
+    return _refusing(parse_formula, _read_text(path))
+
+
+def grammar_check(path: Path) -> object:
+    """What `hri grammar check` says."""
+    from hri.speech.grammar import read_grammar
+    from hri.speech.grammar.check import check
+    from hri.speech.pronunciation.lexicon import load_lexicon
+
+    grammar, errors = read_grammar(path)
+    if errors:
+        raise errors[0]
+    findings = check(grammar, load_lexicon())
+    return list(map(str, findings))
+
+
+def grammar_hearing(path: Path) -> object:
+    """What a recognizer does with a grammar, and what is understood of a sentence."""
+    from hri.speech.grammar import load_grammar
+    from hri.speech.grammar.matching import parse
+    from hri.speech.pronunciation.lexicon import load_lexicon
+    from hri.speech.recognizers.ctc.phone_graph import compile
+
+    grammar = load_grammar(path)
+    compile(grammar.graph(), load_lexicon())
+    return parse(grammar, "go forward two meters and stop")
+
+
+@cache
+def _grammar_of_companion() -> Any:
+    from hri.core import paths
+    from hri.speech.grammar import load_grammar
+
+    return load_grammar(paths.house() / "grammars/companion.jsgf")
+
+
+def manifest(path: Path) -> object:
+    """A list of recordings."""
+    return named("hri.cli.grammar.clips:read_manifest")(path, _grammar_of_companion())
+
+
+def names(path: Path) -> object:
+    """A list of names."""
+    from hri.speech.grammar.name_lists import read_names
+
+    return read_names(path, "friend")
+
+
+def people(path: Path) -> object:
+    """Faces by name."""
+    from hri.vision.recognition import Acquaintances
+
+    return Acquaintances.load(path)
+
+
+def picture(path: Path) -> object:
+    """A picture, looked at before it is decoded."""
+    from hri.hal.drivers.picture_file import picture_size
+
+    return picture_size(path)
+
+
+def poses(path: Path) -> object:
+    """The turns of a head."""
+    from hri.vision.pose_file import Remarks, read_poses
+
+    remarks = Remarks(path)
+    return sum(1 for _ in read_poses(path, remarks)), list(remarks)
+
+
+@cache
+def _tensors_of_recognizer() -> Any:
+    from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
+
+    return read_tensors(find_weights())
+
+
+def adaptation(path: Path) -> object:
+    """A change of the recognizer's network."""
+    from hri.speech.recognizers.ctc.adaptation import adapted
+
+    return adapted(_tensors_of_recognizer(), path)
+
+
+def run_of_robot(path: Path) -> object:
+    """A recorded run."""
+    return named("hri.cli.drive.recorded:read_run")(str(path), "go_to")
+
+
+@cache
+def _replies_of_companion() -> tuple[Any, Any]:
+    """The companion's module of replies, and the names that they may use."""
+    from hri.core import paths
+    from hri.emotion.stimulus import load_stimuli
+    from hri.face.gestures import load_gestures
+    from hri.face.model import load_face
+    from hri.robot.app import load_app
+    from hri.speech.grammar import load_grammar
+
+    app = load_app("companion")
+    app.load_tasks()
+    module = importlib.import_module("hri_app_companion.replies")
+    grammar, face = load_grammar(paths.find("grammars", "companion")), load_face("robot")
+    return module, module.Vocabulary(
+        grammar, load_stimuli(), face.expressions, load_gestures(face), app
+    )
+
+
+def replies(path: Path) -> object:
+    """The companion's replies, as those of an app that extends it."""
+    module, vocabulary = _replies_of_companion()
+    app = replace(vocabulary.app, folder=path.parent, base=vocabulary.app)
+    return module.load_replies([path], replace(vocabulary, app=app))
+
+
+@cache
+def _emotions_of_robot() -> Any:
+    return named("hri.emotion.files:EmotionFiles")("neutral")
+
+
+def saved_emotions(path: Path) -> None:
+    """A file that is saved while a robot runs: it feels by the new one, or goes on by the old."""
+    files = _emotions_of_robot()
+    before = files.model
+    try:
+        files.reload()
+    except HriError:
+        if files.model is not before:
+            raise AssertionError("half of a file was taken") from None
+        raise
+
+
+@cache
+def _grammars_of_robot(path: Path) -> tuple[Any, Any]:
+    """A stack with a grammar in force, and its clock."""
+    from hri.core.clock import FakeClock
+    from hri.speech.grammar import load_grammar
+    from hri.speech.grammar_stack import GrammarStack
+
+    def take(layer: Any) -> None:
+        layer.grammar = load_grammar(layer.path)
+
+    clock = FakeClock()
+    stack = GrammarStack(clock.worker(0.0), take)
+    stack.push(path)
+    while stack.in_force is None:
+        stack.update()
+        clock.advance(0.1)
+    return stack, clock
+
+
+def saved_grammar(path: Path) -> None:
+    """A grammar that is saved while a robot listens: it hears by the new one, or on by the old."""
+    stack, clock = _grammars_of_robot(path)
+    before = stack.in_force.grammar
+    stack.reload()
+    while (layer := stack.update()) is None:
+        clock.advance(0.1)
+    if layer.error is not None:
+        if stack.in_force.grammar is not before:
+            raise AssertionError("half of a grammar was taken")
+        raise layer.error
+
+
+def scene(path: Path) -> object:
+    """A scene of a face, spoken by a silent voice."""
+    from hri.face.model import load_face
+    from hri.face.scene import load_scene
+
+    return load_scene(path, load_face("eyes"), good.silent_voice())
+
+
+def stimuli(path: Path) -> object:
+    """The stimuli of the folder that the input lies in."""
+    from hri.emotion.stimulus import load_stimuli
+
+    return load_stimuli()
+
+
+def timeline(path: Path) -> object:
+    """What happens to a robot that feels."""
+    return named("hri.cli.emotion.timeline:read_timeline")(path, ("praise", "scold", "greeting"))
+
+
+def values(path: Path) -> None:
+    """What a ValueRecorder wrote."""
+    from hri.behavior.library.recording import ValuePlayer
+
+    player = ValuePlayer("player")
+    player.file = str(path)
+    player.check()
+
+
+def wire_line(path: Path) -> list[object]:
+    """A line of a peer; what it may not say is a ProtocolError."""
+    from hri.net.protocol import Sender, decode
+
+    return [decode(path.read_bytes(), Sender())]
+
+
+def _refusing(parse: Callable[[str], object], text: str) -> object:
+    """Parsers of parts of a file refuse with a sentence in a ValueError."""
+    try:
+        return parse(text)
+    except ValueError as error:
+        raise HriError(str(error)) from error

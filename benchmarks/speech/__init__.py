@@ -1,0 +1,24 @@
+"""Speech: what is understood and what is made up, and the same work by others.
+
+Every row of recognition is what `hri grammar listen --wav` says with its default engine and
+strictness. The commands and the sentences outside of their grammar are spoken by flite; orders,
+foreign speech and the babble come from recordings of people.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from benchmarks.speech import accuracy, peers
+from hri.bench.speech.clips import Recordings
+from hri.bench.speech.listening import Listen
+from hri.bench.speech.speed import Progress
+from hri.bench.table import Row
+
+
+def rows(
+    people: Recordings | None, hear: Listen, step: int, progress: Progress, draw: int
+) -> Iterator[Row]:
+    """What `hri bench speech` measures in a checkout beside its own."""
+    yield from accuracy.rows(people, hear, step, progress, draw)
+    yield from peers.rows(people, hear, step, progress)

@@ -1,0 +1,62 @@
+"""The same work by PocketSphinx, Vosk and hassil, in the same run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from importlib.metadata import version
+from importlib.util import find_spec
+
+from hri.bench.speech.clips import ROBOT, Recordings
+from hri.bench.speech.listening import Listen
+from hri.bench.speech.speed import Progress, Work, count_right, real_time_factor, works
+from hri.bench.speech.text import median_s, sentences
+from hri.bench.table import Row, attempted, compared
+from hri.core.errors import NotAvailable
+from hri.speech.grammar import load_grammar
+from hri.speech.grammar.matching import parse
+from hri.speech.recognizers.vosk import find_model
+
+ENGINES = ("pocketsphinx", "vosk")
+
+
+def rows(
+    recordings: Recordings | None, listen: Listen, step: int, progress: Progress
+) -> Iterator[Row]:
+    """Real-time factors against other engines, and parsing against hassil."""
+    for work in works(recordings, step):
+        for engine in ENGINES:
+            what = f"{work.row}, against {engine}"
+            progress(what)
+            yield from attempted(what, partial(_against, work, engine, listen))
+    yield from attempted("parse a sentence, median, against hassil", _hassil)
+
+
+def _against(work: Work, engine: str, listen: Listen) -> Iterator[Row]:
+    """Both engines, one after the other, so that the machine is alike for both."""
+    _need(engine)
+    said = work.said()
+    own, _ = real_time_factor(work.grammar, said, listen)
+    other, theirs = real_time_factor(work.grammar, said, partial(listen, engine=engine))
+    row = compared(f"{work.row}, against {engine}", own, other, "s/s")
+    yield row | {"right_by_other": count_right(said, theirs), "of": len(said)}
+
+
+def _need(engine: str) -> None:
+    """Raises NotAvailable when an engine cannot run here."""
+    if find_spec(engine) is None:
+        raise NotAvailable(f"{engine} is not installed - pip install {engine}")
+    if engine == "vosk" and find_model() is None:
+        raise NotAvailable("no model directory of Vosk - see `hri models`")
+
+
+def _hassil() -> Iterator[Row]:
+    if find_spec("hassil") is None:
+        raise NotAvailable("hassil is not installed")
+    from benchmarks.speech.hassil import finder
+
+    grammar = load_grammar(ROBOT)
+    said = sentences(grammar)
+    own, other = median_s(partial(parse, grammar), said), median_s(finder(grammar), said)
+    row = compared("parse a sentence, median, against hassil", own * 1e6, other * 1e6, "us")
+    yield row | {"hassil": version("hassil")}

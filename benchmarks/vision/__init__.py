@@ -1,0 +1,20 @@
+"""Seeing people: gestures of real heads and in films, poses, and who is who."""
+
+from __future__ import annotations
+
+import os
+
+from benchmarks.vision import cross_validation, crossing, nods, pose, recordings, videos
+from hri.bench.table import Parts
+
+WORKERS = max(1, os.cpu_count() or 1)
+"""Processes in which films are judged."""
+PARTS: Parts = {
+    "recordings of real heads": lambda quick: recordings.rows(),
+    "cross-validation on them": lambda quick: cross_validation.rows(),
+    "pose": pose.rows,
+    "crossing": lambda quick: crossing.rows(quick, WORKERS),
+    "nods": lambda quick: nods.rows(quick, WORKERS),
+    "films": lambda quick: videos.rows(quick, WORKERS),
+}
+"""What `hri bench vision` measures in a checkout beside its own, in the order of the table."""
