@@ -84,25 +84,26 @@ class Client(Link):
         self._pause = FIRST_PAUSE
         # Also when this connection is lost at once, the next one is not tried in a rush.
         self._next = time.perf_counter() + FIRST_PAUSE
-        self._add(dialed, self.address)
         self._shown = ""
-        self._introduce()
+        self._add(dialed, self.address, self._introduction())
 
-    def _introduce(self) -> None:
-        """Show the token, unless it was shown on this connection."""
+    def _introduction(self) -> bytes:
+        """The line that shows the token; empty when it was shown on this connection."""
         try:
             token = load_token() if self._shows_token else None
         except HriError as error:
             log.warning("%s: goes without the token: %s", self.address, error)
-            return
-        if token is not None and token != self._shown:
-            self._shown = token
-            self.send(control.introduction(token))
+            return b""
+        if token is None or token == self._shown:
+            return b""
+        self._shown = token
+        return control.introduction(token)
 
     def _obey(self, message: Message, peer: Peer) -> bool:
         if (why := control.why_refused(message)) is not None:
             log.warning("%s: %s", self.address, escaped(why))
-            self._introduce()  # it may have been made only now
+            if line := self._introduction():  # it may have been made only now
+                peer.send(line)
         return False
 
     def _give_up(self, dialed: socket.socket, code: int) -> float:

@@ -143,13 +143,16 @@ class Link(ABC):
         cared = min([self._care(peer, now) for peer in self._peers], default=math.inf)
         return min(cared, self._tend(now))
 
-    def _add(self, connection: socket.socket, name: str) -> None:
+    def _add(self, connection: socket.socket, name: str, first: bytes = b"") -> None:
+        """`first` goes before all that this program sends to everybody."""
         try:
             peer = Peer(connection, name, self._limits, time.perf_counter())
         except OSError as error:
             log.debug("%s: %s was gone at once: %s", self.address, name, error)
             connection.close()
             return
+        if first:
+            peer.send(first)
         with self._changed:
             self._peers = (*self._peers, peer)
             self._changed.notify_all()

@@ -106,6 +106,7 @@ class Server(Link):
         if not peer.is_authorized:
             peer.tell(control.refusal("this is not the token"))
             raise PeerError("it showed a wrong token")
+        peer.refused = frozenset()  # a refusal after the token has changed is told anew
 
     def _turned_away(self, name: str) -> None:
         self._warn(f"turned {name} away: {self._limits.peers} peers")

@@ -190,7 +190,7 @@ def test_a_wrong_token_costs_the_connection(robot, shown):
         peer.read()
 
 
-def test_a_client_that_came_before_the_token_was_made_shows_it_later(robot):
+def test_a_client_that_came_before_the_token_was_made_shows_it_later(robot, caplog):
     """The board is followed only when both networks run; until then nothing needs a token."""
     here, there = robot(), robot()
     here.run(here.bridge, Share("share", slot="wish"), links=[("bridge.velocity", "share.number")])
@@ -206,7 +206,7 @@ def test_a_client_that_came_before_the_token_was_made_shows_it_later(robot):
     there.tick()
     (peer,) = here.bridge._link._peers
     there.wait_until(lambda: peer.is_authorized)
-    assert peer.refused
+    assert "takes no value without the token" in caplog.text
     count = len(here.heard.messages)
     there.tick()
     here.heard.wait_for(count + 1)
@@ -253,6 +253,18 @@ def test_what_was_said_before_the_token_was_replaced_goes_on_no_more(robot):
     new_token()
     here.tick(2)
     assert seen == ["hello", "hello"]
+
+
+def test_a_peer_that_was_refused_before_it_had_the_token_hears_of_a_new_one(robot):
+    here = steered(robot())
+    peer = here.connect()
+    here.send(peer, VELOCITY)
+    assert "without the token" in peer.read()
+    peer.send(introduction(own_token()).decode().strip())
+    here.send(peer, VELOCITY)
+    new_token()
+    here.send(peer, VELOCITY)
+    assert "without the token" in peer.read()
 
 
 def test_a_client_of_ours_shows_the_new_one_by_itself(robot):
