@@ -67,12 +67,8 @@ def told(name: str, trips: Sequence[Trip], before: Before) -> Iterator[Row]:
         each=[_told(trip.seed, c) for trip in trips for c in trip.collisions if c in covered],
     )
     others = Counter(collision.cause for collision in collisions if collision not in covered)
-    yield {
-        "what": f"{name}: all other collisions, by cause",
-        "value": sum(others.values()),
-        "unit": "collisions",
-        "causes": dict(sorted(others.items())),
-    }
+    what, causes = f"{name}: all other collisions, by cause", dict(sorted(others.items()))
+    yield amount(what, sum(others.values()), "collisions", None, causes=causes)
     times = [trip.time for trip in trips if trip.is_there]
     yield amount(
         f"{name}: trips that arrive",

@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from benchmarks.progress import progress
-from hri.bench.table import Limit, Row, amount, at_least, at_most, share
+from hri.bench.table import Row, amount, at_least, at_most, share
 from hri.bench.workers import worker_pool
 from hri.simulation.rooms import furnished
 from hri.simulation.trips import Journey, Trip
@@ -50,7 +50,6 @@ CASES = (
     Case("none"),
 )
 """The first has limits."""
-NO_LIMIT = at_least(0.0)
 
 
 def rows(quick: bool, workers: int) -> Iterator[Row]:
@@ -82,7 +81,12 @@ def told(name: str, trips: Sequence[Trip], is_limited: bool) -> Iterator[Row]:
     way = sum(trip.way for trip in trips)
     hits = sum(trip.hits for trip in trips)
     times = [trip.time for trip in trips if trip.is_there]
-    row = _share(f"{name}: goal reached without collision", clean, len(trips), is_limited)
+    row = share(
+        f"{name}: goal reached without collision",
+        clean,
+        len(trips),
+        at_least(CLEAN) if is_limited else None,
+    )
     yield row | {
         "reached": sum(trip.is_there for trip in trips),
         "seconds_median": round(float(np.median(times)), 1) if times else None,
@@ -99,21 +103,8 @@ def told(name: str, trips: Sequence[Trip], is_limited: bool) -> Iterator[Row]:
     }
     what = f"{name}: collisions with people while it moved"
     count = sum(trip.people_hit for trip in trips)
-    if is_limited:
-        yield amount(what, count, "collisions", at_most(0))
-    else:
-        yield {"what": what, "value": count, "unit": "collisions"}
+    yield amount(what, count, "collisions", at_most(0) if is_limited else None)
 
 
 def _finite(value: float) -> float | None:
     return round(value, 3) if math.isfinite(value) else None
-
-
-def _share(what: str, count: int, total: int, is_limited: bool) -> Row:
-    limit: Limit = at_least(CLEAN) if is_limited else NO_LIMIT
-    row = share(what, count, total, limit)
-    return (
-        row
-        if is_limited
-        else {k: v for k, v in row.items() if k not in ("limit", "side", "passed")}
-    )

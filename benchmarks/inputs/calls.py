@@ -66,28 +66,21 @@ def choices(path: Path) -> object:
     return load_choices()
 
 
-def display(path: Path) -> object:
-    """How feelings show."""
-    from hri.emotion.display import load_display
-
-    return load_display(path)
-
-
 def event_form(path: Path) -> None:
-    """An event as people read it, which must survive being written."""
-    from hri.task.events import parse_event, write_event
-
-    event = parse_event(_read_text(path))
-    if parse_event(write_event(event)) != event:
-        raise AssertionError(f"{event} is not read as it was written")
+    """An event as people read it."""
+    _survives("event", _read_text(path))
 
 
 def event_query(path: Path) -> None:
-    """An event over the wire, which must survive being written."""
-    from hri.task.events import parse_query, write_query
+    """An event over the wire."""
+    _survives("query", _read_text(path))
 
-    event = parse_query(_read_text(path))
-    if parse_query(write_query(event)) != event:
+
+def _survives(kind: str, text: str) -> None:
+    """What is read must survive being written."""
+    parse, write = (named(f"hri.task.events:{verb}_{kind}") for verb in ("parse", "write"))
+    event = parse(text)
+    if parse(write(event)) != event:
         raise AssertionError(f"{event} is not read as it was written")
 
 
@@ -173,13 +166,6 @@ def people(path: Path) -> object:
     from hri.vision.recognition import Acquaintances
 
     return Acquaintances.load(path)
-
-
-def picture(path: Path) -> object:
-    """A picture, looked at before it is decoded."""
-    from hri.hal.drivers.picture_file import picture_size
-
-    return picture_size(path)
 
 
 def poses(path: Path) -> object:

@@ -27,32 +27,37 @@ def _shipped(*patterns: str) -> Callable[[], list[bytes]]:
     return partial(good.shipped, patterns)
 
 
+def _named(name: str, seeds: Callable[[], list[bytes]], file: str, is_text: bool = True) -> Reader:
+    """A function `module:name` that takes the path of an input."""
+    return Reader(calls.by_name(name), seeds, file, is_text)
+
+
 READERS: dict[str, Reader] = {
     "adaptation": Reader(calls.adaptation, good.adaptation, "a.npz", is_text=False),
     "app": Reader(calls.app, good.apps, "app/app.toml"),
     "archive": Reader(calls.archive, good.archives, "a.zip", is_text=False),
     "choice of devices": Reader(calls.choices, good.choices, "home/hri/devices.toml"),
-    "emotion display": Reader(calls.display, _shipped("emotions/display.toml"), "display.toml"),
+    "emotion display": _named(
+        "hri.emotion.display:load_display", _shipped("emotions/display.toml"), "display.toml"
+    ),
     "emotion timeline": Reader(calls.timeline, good.timelines, "timeline.txt"),
     "event form": Reader(calls.event_form, good.event_forms, "event.txt"),
     "event query": Reader(calls.event_query, good.event_queries, "event.txt"),
-    "expectations": Reader(
-        calls.by_name("hri.speech.grammar.expectations:read_expectations"),
-        good.expectations,
-        "a.txt",
+    "expectations": _named(
+        "hri.speech.grammar.expectations:read_expectations", good.expectations, "a.txt"
     ),
     "expression": Reader(calls.expression, good.expressions, "expression.txt"),
-    "face drawing": Reader(
-        calls.by_name("hri.face.drawing:load_drawing"), _shipped("faces/*/targets/*.svg"), "a.svg"
+    "face drawing": _named(
+        "hri.face.drawing:load_drawing", _shipped("faces/*/targets/*.svg"), "a.svg"
     ),
-    "face gestures": Reader(
-        calls.by_name("hri.face.gestures:read_gestures"), _shipped("faces/gestures.toml"), "g.toml"
+    "face gestures": _named(
+        "hri.face.gestures:read_gestures", _shipped("faces/gestures.toml"), "g.toml"
     ),
     "face settings": Reader(calls.face_settings, _shipped("faces/robot/face.toml"), "face.toml"),
     "face weights": Reader(calls.face_weights, good.weights, "weights.csv"),
     "formula": Reader(calls.formula, good.formulas, "formula.txt"),
-    "grammar": Reader(
-        calls.by_name("hri.speech.grammar:load_grammar"),
+    "grammar": _named(
+        "hri.speech.grammar:load_grammar",
         _shipped("grammars/*.jsgf", "benchmarks/adaptation/calibration/*.jsgf"),
         "grammars/a.jsgf",
     ),
@@ -66,40 +71,36 @@ READERS: dict[str, Reader] = {
         _shipped("grammars/companion.jsgf", "docs/*/*/*.jsgf"),
         "grammars/a.jsgf",
     ),
-    "head gestures": Reader(
-        calls.by_name("hri.vision.patterns:load_patterns"),
-        _shipped("config/gestures.toml"),
-        "g.toml",
+    "head gestures": _named(
+        "hri.vision.patterns:load_patterns", _shipped("config/gestures.toml"), "g.toml"
     ),
     "head poses": Reader(calls.poses, good.poses, "poses.csv"),
-    "lexicon": Reader(
-        calls.by_name("hri.speech.pronunciation.lexicon:read_lexicon"), good.lexicons, "lexicon.txt"
+    "lexicon": _named(
+        "hri.speech.pronunciation.lexicon:read_lexicon", good.lexicons, "lexicon.txt"
     ),
     "list of names": Reader(calls.names, good.names, "names.txt"),
     "manifest": Reader(calls.manifest, good.manifests, "manifest.tsv"),
-    "memory of feelings": Reader(
-        calls.by_name("hri.emotion.persistence:recall"), good.memories, "feelings.json"
-    ),
-    "network": Reader(
-        calls.by_name("hri.behavior.network_file:load_network"),
+    "memory of feelings": _named("hri.emotion.persistence:recall", good.memories, "feelings.json"),
+    "network": _named(
+        "hri.behavior.network_file:load_network",
         _shipped("config/networks/*.xml", "apps/*/*.xml"),
         "network.xml",
     ),
     "people": Reader(calls.people, good.people, "faces.json"),
-    "personality": Reader(
-        calls.by_name("benchmarks.inputs.good:load_personality_file"),
+    "personality": _named(
+        "benchmarks.inputs.good:load_personality_file",
         _shipped("emotions/personalities/*.toml"),
         "personality.toml",
     ),
-    "picture": Reader(calls.picture, good.pictures, "a.png", is_text=False),
-    "recorded events": Reader(
-        calls.by_name("hri.core.recording:read_events"), good.event_logs, "events.jsonl"
+    "picture": _named(
+        "hri.hal.drivers.picture_file:picture_size", good.pictures, "a.png", is_text=False
     ),
+    "recorded events": _named("hri.core.recording:read_events", good.event_logs, "events.jsonl"),
     "recorded run": Reader(calls.run_of_robot, good.runs, "events.jsonl"),
     "recorded values": Reader(calls.values, good.value_logs, "values.jsonl"),
     "replies": Reader(calls.replies, _shipped("apps/companion/replies.toml"), "replies.toml"),
-    "resource configuration": Reader(
-        calls.by_name("hri.hal.configuration:load_configuration"), _shipped("config/*.xml"), "c.xml"
+    "resource configuration": _named(
+        "hri.hal.configuration:load_configuration", _shipped("config/*.xml"), "c.xml"
     ),
     "saved emotions": Reader(
         calls.saved_emotions,
@@ -108,41 +109,28 @@ READERS: dict[str, Reader] = {
     ),
     "saved grammar": Reader(calls.saved_grammar, _shipped("grammars/*.jsgf"), "grammars/a.jsgf"),
     "scene": Reader(calls.scene, _shipped("docs/samples/face/*.toml"), "scene.toml"),
-    "schema": Reader(
-        calls.by_name("hri.behavior.schema:load_schema"),
+    "schema": _named(
+        "hri.behavior.schema:load_schema",
         _shipped("config/behavior/*/*.xml", "docs/tutorials/*/behavior/*/*.xml"),
         "behavior/A/a.xml",
     ),
-    "sound, MP3 and others": Reader(
-        calls.by_name("hri.hal.drivers.wav_file:load_sound"), good.sounds, "a.ogg", is_text=False
+    "sound, MP3 and others": _named(
+        "hri.hal.drivers.wav_file:load_sound", good.sounds, "a.ogg", is_text=False
     ),
-    "sound, WAV": Reader(
-        calls.by_name("hri.hal.drivers.wav_file:load_sound"), good.wavs, "a.wav", is_text=False
-    ),
+    "sound, WAV": _named("hri.hal.drivers.wav_file:load_sound", good.wavs, "a.wav", is_text=False),
     "stimuli": Reader(
         calls.stimuli,
         _shipped("emotions/stimuli/*.toml"),
         f"emotions/stimuli/{good.stimulus_file()}",
     ),
-    "video": Reader(
-        calls.by_name("hri.hal.drivers.video_file:check_video"), good.videos, "a.avi", is_text=False
-    ),
-    "visit": Reader(
-        calls.by_name("hri.simulation.script:load_visit"),
-        _shipped("apps/*/demo.toml"),
-        "visit.toml",
-    ),
-    "weights of the recognizer": Reader(
-        calls.by_name("hri.speech.recognizers.ctc.weights:read_tensors"),
-        good.tensors,
-        "a.hama",
-        is_text=False,
+    "video": _named("hri.hal.drivers.video_file:check_video", good.videos, "a.avi", is_text=False),
+    "visit": _named("hri.simulation.script:load_visit", _shipped("apps/*/demo.toml"), "visit.toml"),
+    "weights of the recognizer": _named(
+        "hri.speech.recognizers.ctc.weights:read_tensors", good.tensors, "a.hama", is_text=False
     ),
     "wire line": Reader(calls.wire_line, good.wire_lines, "line.txt"),
-    "world": Reader(
-        calls.by_name("hri.simulation.layout:load_layout"),
-        _shipped("config/worlds/*.toml"),
-        "w.toml",
+    "world": _named(
+        "hri.simulation.layout:load_layout", _shipped("config/worlds/*.toml"), "w.toml"
     ),
 }
 """By what is read."""

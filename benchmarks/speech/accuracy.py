@@ -115,9 +115,9 @@ def sounds(
     if kind == "orders":
         orders = recordings.orders[::step]
         said = list(orders) if condition == "clean" else [padded(clip) for clip in orders]
-        return in_babble(said, recordings.orders, condition, draw)
+        return list(in_babble(said, recordings.orders, condition, draw))
     sentences = clips.commands() if kind == "commands" else outside()
-    return in_babble(clips.spoken(sentences[::step]), people, condition, draw)
+    return list(in_babble(clips.spoken(sentences[::step]), people, condition, draw))
 
 
 def hear(grammar: Path, said: Sequence[Clip], listen: Listen) -> list[Outcome]:

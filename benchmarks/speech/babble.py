@@ -7,7 +7,8 @@ make it louder than it is: frames within `ACTIVE_DB` of the loudest one are acti
 from __future__ import annotations
 
 import zlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,21 +72,17 @@ def above(speech: Samples, noise: Sound, ratio_db: float) -> Samples:
 
 def in_babble(
     clips: Sequence[Clip], talkers: Sequence[Clip], condition: str, draw: int = 0
-) -> list[Clip]:
+) -> Iterator[Clip]:
     """The clips over the talk of the others, the same at every run of the same draw."""
     ratio = RATIOS[condition]
-    if ratio is None:
-        return list(clips)
-    return [_in_babble(clip, talkers, ratio, draw) for clip in clips]
-
-
-def _in_babble(clip: Clip, talkers: Sequence[Clip], ratio: float, draw: int) -> Clip:
-    others = [talker.samples for talker in talkers if talker.name != clip.name]
-    seed = f"{clip.name} {ratio:g}" + (f" {draw}" if draw else "")
-    chance = np.random.default_rng(zlib.crc32(seed.encode()))
-    noise = babble(others, len(clip.samples), chance)
-    samples = above(clip.samples, noise, ratio)
-    return Clip(clip.name, samples, clip.sentence, clip.slots, clip.voice)
+    for clip in clips:
+        if ratio is None:
+            yield clip
+            continue
+        others = [talker.samples for talker in talkers if talker.name != clip.name]
+        seed = f"{clip.name} {ratio:g}" + (f" {draw}" if draw else "")
+        noise = babble(others, len(clip.samples), np.random.default_rng(zlib.crc32(seed.encode())))
+        yield replace(clip, samples=above(clip.samples, noise, ratio))
 
 
 def padded(clip: Clip) -> Clip:

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from hri.behavior.behavior import Behavior, Context
-from hri.behavior.network import Network
+from hri.behavior.network import DEFAULT_INTERVAL, Network
 from hri.behavior.ports import Input, Output
 from hri.behavior.runner import Runner
 from hri.bench.checkout import research
@@ -72,16 +72,21 @@ def measure(seconds: float = SECONDS) -> dict[str, Any]:
     }
 
 
-def chain(count: int) -> Runner:
+def relays(count: int, interval: float = DEFAULT_INTERVAL) -> Network:
     """A source and relays, each linked to the one before."""
-    network = Network("chain")
+    network = Network("chain", interval)
     network.add(Source("0"))
     for number in range(1, count):
         network.add(Relay(str(number)))
         network.connect(f"{number - 1}.output", f"{number}.input")
     network.sort()
+    return network
+
+
+def chain(count: int) -> Runner:
+    """Those, ready to run."""
     clock = FakeClock()
-    return Runner(network, Context(clock, EventBus(clock), ResourceManager((), clock)))
+    return Runner(relays(count), Context(clock, EventBus(clock), ResourceManager((), clock)))
 
 
 def cost(count: int = BEHAVIORS, repeats: int = TICKS) -> dict[str, Any]:

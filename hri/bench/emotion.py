@@ -9,13 +9,13 @@ from __future__ import annotations
 import os
 import tempfile
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from hri.bench.checkout import research
 from hri.bench.figures import machine, summary
+from hri.bench.workers import variables
 from hri.emotion.affect import Affect
 from hri.emotion.appraisal import GoalEvent
 from hri.emotion.dynamics import Dynamics
@@ -126,7 +126,7 @@ def _us(do: Callable[[float], object]) -> dict[str, float]:
 
 def reload_ms() -> dict[str, float]:
     """CPU milliseconds from a saved file to the model that goes on with it, all files read."""
-    with tempfile.TemporaryDirectory() as name, _searched(Path(name)):
+    with tempfile.TemporaryDirectory() as name, variables(HRI_PATH=name):
         folder = Path(name) / "emotions" / "stimuli"
         folder.mkdir(parents=True)
         others = 2  # The personality and the display.
@@ -146,19 +146,6 @@ def reload_ms() -> dict[str, float]:
             files.model.dynamics().resume(affect.imprint, 0.0)
             blocks.append((time.thread_time() - begun) * 1e3)
     return summary(blocks, 1)
-
-
-@contextmanager
-def _searched(folder: Path) -> Iterator[None]:
-    """A folder of files before those of the house."""
-    before = os.environ.get("HRI_PATH")
-    os.environ["HRI_PATH"] = str(folder)
-    try:
-        yield
-    finally:
-        del os.environ["HRI_PATH"]
-        if before is not None:
-            os.environ["HRI_PATH"] = before
 
 
 def rates() -> dict[str, Any]:

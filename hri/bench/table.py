@@ -43,17 +43,18 @@ def at_most(value: float) -> Limit:
     return Limit(value, "at most")
 
 
-def share(what: str, count: int, total: int, limit: Limit) -> Row:
+def share(what: str, count: int, total: int, limit: Limit | None) -> Row:
     """A row that counts: `count` of `total`, and the interval of the true share."""
     rate = count / total
     interval = [round(bound, 4) for bound in wilson(count, total)]
     told = {"count": count, "of": total, "rate": round(rate, 4), "interval_95": interval}
-    return {"what": what} | told | limit.told(rate)
+    return {"what": what} | told | (limit.told(rate) if limit else {})
 
 
-def amount(what: str, value: float, unit: str, limit: Limit, **more: Any) -> Row:
+def amount(what: str, value: float, unit: str, limit: Limit | None, **more: Any) -> Row:
     """A row that measures one figure."""
-    return {"what": what, "value": round(value, 5), "unit": unit} | limit.told(value) | more
+    verdict = limit.told(value) if limit else {}
+    return {"what": what, "value": round(value, 5), "unit": unit} | verdict | more
 
 
 def compared(what: str, own: float, other: float, unit: str) -> Row:

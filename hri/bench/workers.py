@@ -14,17 +14,26 @@ from hri.core import child
 
 
 @contextmanager
-def safe_start() -> Iterator[None]:
-    """While the body runs, `multiprocessing` starts its children as `hri.core.child` does."""
-    folders, variables = sys.path[:], dict(os.environ)
-    sys.path[:] = child.folders()
-    os.environ.update(child.environment())
+def variables(**values: str) -> Iterator[None]:
+    """While the body runs, the environment has these values."""
+    before = dict(os.environ)
+    os.environ.update(values)
     try:
         yield
     finally:
-        sys.path[:] = folders
         os.environ.clear()
-        os.environ.update(variables)
+        os.environ.update(before)
+
+
+@contextmanager
+def safe_start() -> Iterator[None]:
+    """While the body runs, `multiprocessing` starts its children as `hri.core.child` does."""
+    folders, sys.path[:] = sys.path[:], child.folders()
+    try:
+        with variables(**child.environment()):
+            yield
+    finally:
+        sys.path[:] = folders
 
 
 @contextmanager

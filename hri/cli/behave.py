@@ -17,7 +17,7 @@ from hri.behavior.runner import Runner
 from hri.behavior.statistics import Statistics
 from hri.cli.doors import add_door_options, doors_of
 from hri.cli.ending import Ending
-from hri.cli.messages import LineFormatter, OptionParser
+from hri.cli.messages import LineFormatter, OptionParser, Within
 from hri.cli.outcome import status_of
 from hri.cli.port_plot import PortPlot
 from hri.cli.streams import unfailing_output
@@ -51,9 +51,9 @@ def _parser() -> argparse.ArgumentParser:
     add(
         "--debug", nargs="?", const="", metavar="CATEGORY", help="print more, about one part or all"
     )
-    add("--duration", type=_at_least(SHORTEST), metavar="S", help="end after so many seconds")
-    add("--invocation-count", type=_count, metavar="N", help="end after so many ticks")
-    add("--invocation-interval", type=_at_least(SHORTEST), metavar="S", help="seconds a tick")
+    add("--duration", type=Within(float, SHORTEST), metavar="S", help="end after so many seconds")
+    add("--invocation-count", type=Within(int, 1), metavar="N", help="end after so many ticks")
+    add("--invocation-interval", type=Within(float, SHORTEST), metavar="S", help="seconds a tick")
     add("--without-resources", action="store_true", help="configure no devices at all")
     add("--load-all-resources", action="store_true", help="open every device at the start")
     add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
@@ -69,28 +69,6 @@ CATEGORIES = (
     *("resources", "service", "task", "vision", "whereabouts"),
 )
 """What `--debug` can be told of: the parts of `hri` that write a log."""
-
-
-class _at_least:
-    """Type of an option: a number of seconds not below a limit."""
-
-    def __init__(self, limit: float) -> None:
-        self.limit = limit
-
-    def __call__(self, text: str) -> float:
-        try:
-            value = float(text)
-        except ValueError as error:
-            raise argparse.ArgumentTypeError(f'"{text}" is no number') from error
-        if not self.limit <= value < float("inf"):
-            raise argparse.ArgumentTypeError(f"{text} - write seconds, {self.limit} or more")
-        return value
-
-
-def _count(text: str) -> int:
-    if not text.isdigit() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{text} - write a count, 1 or more")
-    return int(text)
 
 
 class _Lines(logging.StreamHandler[TextIO]):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import logging
+import math
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -30,3 +31,21 @@ class OptionParser(argparse.ArgumentParser):
         if action.type is Path and not arg_string:  # to Python, the current folder
             raise argparse.ArgumentError(action, "an empty name - name a file or a folder")
         return super()._get_value(action, arg_string)
+
+
+class Within:
+    """Type of an option: a finite number within limits."""
+
+    def __init__(self, kind: type[float], lowest: float, highest: float = math.inf) -> None:
+        self.kind, self.lowest, self.highest = kind, lowest, highest
+
+    def __call__(self, text: str) -> float:
+        try:
+            value = self.kind(text)
+        except ValueError:
+            value = math.nan
+        if not self.lowest <= value <= self.highest or value == math.inf:
+            is_open, least = self.highest == math.inf, f"{self.lowest:g}"
+            limits = f", {least} or more" if is_open else f" from {least} to {self.highest:g}"
+            raise argparse.ArgumentTypeError(f"{text} - write a number{limits}")
+        return value

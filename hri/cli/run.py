@@ -13,7 +13,7 @@ from pathlib import Path
 from hri.cli.changes import announce_changes
 from hri.cli.doors import add_door_options, doors_of
 from hri.cli.ending import Ending
-from hri.cli.messages import LineFormatter
+from hri.cli.messages import LineFormatter, Within
 from hri.cli.narrator import Narrator
 from hri.cli.streams import unfailing_output
 from hri.core.clock import FakeClock, RealClock
@@ -60,7 +60,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add("--record-rejected", action="store_true", help="write rejected words there, too")
     add("--keep", action="store_true", help="go on from earlier feelings, and keep what it feels")
     add("--headless", action="store_true", help="draw the face, but show it to nobody")
-    add("--duration", type=_seconds, metavar="S", help="end after so many seconds")
+    add("--duration", type=Within(float, 0.001), metavar="S", help="end after so many seconds")
     add("--seed", type=int, default=None, metavar="N", help="seed of all that is random")
     add("--realtime", action="store_true", help="run ahead of other programs, where allowed")
     add("--fast", action="store_true", help="fake time, as fast as the machine can")
@@ -69,13 +69,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add("--captions", action="store_true", help="write what is said below the face")
     add("--demo", action="store_true", help="a simulated person visits for two minutes")
     add_door_options(parser)
-
-
-def _seconds(text: str) -> float:
-    value = float(text)
-    if not 0 < value < math.inf:
-        raise argparse.ArgumentTypeError(f"{text} - write seconds above 0")
-    return value
 
 
 def run(options: argparse.Namespace) -> int:

@@ -3,31 +3,29 @@
 from __future__ import annotations
 
 import argparse
-import math
 
 from hri.bench.companion_soak import CompanionSoak
 from hri.bench.network_soak import Soak
+from hri.cli.messages import Within
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("--hours", type=_hours, default=1.0, metavar="H", help="of simulated time (%(default)g)")
-    add("--behaviors", type=_count, default=50, metavar="N", help="in the network (%(default)s)")
+    add(
+        "--hours",
+        type=Within(float, 0.01),
+        default=1.0,
+        metavar="H",
+        help="of simulated time (%(default)g)",
+    )
+    add(
+        "--behaviors",
+        type=Within(int, 1, 1000),
+        default=50,
+        metavar="N",
+        help="in the network (%(default)s)",
+    )
     add("--companion", action="store_true", help="run the companion, not a network")
-
-
-def _hours(text: str) -> float:
-    value = float(text)
-    if not 0.01 <= value < math.inf:
-        raise argparse.ArgumentTypeError(f"{text} - write hours, 0.01 or more")
-    return value
-
-
-def _count(text: str) -> int:
-    value = int(text)
-    if not 1 <= value <= 1000:
-        raise argparse.ArgumentTypeError(f"{text} - write a count, 1 to 1000")
-    return value
 
 
 def run(options: argparse.Namespace) -> int:

@@ -12,6 +12,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+from hri.cli.messages import Within
 from hri.core import paths
 from hri.core.clock import Clock
 from hri.core.errors import HriError
@@ -49,8 +50,13 @@ def add_source(parser: argparse.ArgumentParser) -> None:
     add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
     add("--mirror", action="store_true", help="the view is mirrored: set it right")
     add("--rotate", choices=("0", "90", "180", "270"), default="0", help="degrees clockwise")
-    add("--view", type=_degrees, metavar="DEGREES", help="how wide the camera sees, across")
-    add("--seconds", type=_seconds, default=math.inf, metavar="S", help="how long")
+    add(
+        "--view",
+        type=Within(float, *VIEWS),
+        metavar="DEGREES",
+        help="how wide the camera sees, across",
+    )
+    add("--seconds", type=Within(float, 0.001), default=math.inf, metavar="S", help="how long")
 
 
 @contextmanager
@@ -154,25 +160,3 @@ def paced(pictures: Iterable[tuple[float, Image]], rate: float = FILM_RATE) -> I
         last = picture
     if last is not None:
         yield last
-
-
-def _seconds(text: str) -> float:
-    value = _number(text)
-    if not 0 < value < math.inf:
-        raise argparse.ArgumentTypeError(f"{text} - write seconds above 0")
-    return value
-
-
-def _degrees(text: str) -> float:
-    value = _number(text)
-    least, most = VIEWS
-    if not least <= value <= most:
-        raise argparse.ArgumentTypeError(f"{text} - write degrees, {least:g} to {most:g}")
-    return value
-
-
-def _number(text: str) -> float:
-    try:
-        return float(text)
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(f'"{text}" is no number') from error

@@ -58,10 +58,6 @@ class VelocityGate:
     def is_moving(self) -> bool:
         return self.current != REST
 
-    @property
-    def is_going_forward(self) -> bool:
-        return self.current.linear > 0 or self.target.linear > 0
-
     def is_asked(self, now: float) -> bool:
         """Whether somebody asks for motion, or it has not come to rest since."""
         is_fresh = now - self._command_time <= self.limits.timeout_s

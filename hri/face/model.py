@@ -29,7 +29,7 @@ LARGEST_FACE = 4_000_000
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,60}(\+[A-Za-z0-9_+]{0,60})?")
 CORRECTED = "*"
 """Stands in the name of the product of two channels."""
-LEAST_WEIGHT, LARGEST_WEIGHT = -1.5, 1.5
+LARGEST_WEIGHT = 1.5
 """Weights beyond are cut off: no drawing survives them."""
 
 

@@ -181,19 +181,3 @@ def render_people(
         angles = (shown.pitch, shown.yaw, shown.roll)
         paint_head(image, looks, mien, angles, shown.center, shown.height)
     return image
-
-
-def render_head(
-    pitch: float,
-    yaw: float,
-    roll: float,
-    *,
-    center: tuple[float, float],
-    height: float,
-    size: tuple[int, int] = (320, 240),
-    mouth: float = 0.0,
-    lids: float = 1.0,
-) -> Image:
-    """The picture of one person, the first of the actors, at home."""
-    shown = Appearance(DEFAULT_ACTOR, pitch, yaw, roll, center, height, mouth, lids)
-    return render_people([shown], size)

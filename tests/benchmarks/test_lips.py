@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from benchmarks.face.lip_timing import lip_timing
+from benchmarks.face.lips import lip_timing
 from hri.core.signals import Phoneme, Speech
 from hri.face import load_face
 

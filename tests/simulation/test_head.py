@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hri.core.signals import Image
-from hri.simulation.actors import render_head
 from hri.simulation.motion import idle_angles, nod_angles, shake_angles
+from tests.vision.film import render_head
 
 
 def head(

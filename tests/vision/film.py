@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from functools import lru_cache
 
-from hri.core.signals import Frame
+from hri.core.signals import Frame, Image
 from hri.simulation.actors import Appearance, render_people
 from hri.simulation.lens import Lens
 from hri.simulation.looks import DEFAULT_ACTOR
@@ -46,3 +46,19 @@ def film(
         shown = Appearance(actor, pitch, yaw, roll, place(time), height)
         frames.append(Frame(lens.take(render_people([shown], SIZE), index), time, index))
     return tuple(frames)
+
+
+def render_head(
+    pitch: float,
+    yaw: float,
+    roll: float,
+    *,
+    center: tuple[float, float],
+    height: float,
+    size: tuple[int, int] = SIZE,
+    mouth: float = 0.0,
+    lids: float = 1.0,
+) -> Image:
+    """The picture of one person, the first of the actors, at home."""
+    shown = Appearance(DEFAULT_ACTOR, pitch, yaw, roll, center, height, mouth, lids)
+    return render_people([shown], size)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hri.core.archive import Part
 from hri.core.errors import NotAvailable
 from hri.core.signals import FaceBox, Image
-from hri.simulation.actors import ACTORS, Appearance, render_head, render_people
+from hri.simulation.actors import ACTORS, Appearance, render_people
 from hri.vision.detectors import yunet
 from hri.vision.detectors.blazeface import BlazeFace, squares_of
 from hri.vision.detectors.chain import load_detectors
@@ -20,6 +20,7 @@ from hri.vision.detectors.haar import HaarDetector
 from hri.vision.detectors.picture import Gray, evened, gray_picture
 from hri.vision.detectors.yunet import YuNet
 from hri.vision.models import DETECTOR, MESH
+from tests.vision.film import render_head
 
 BOX = FaceBox(120, 90, 80, 80)
 NO_PICTURES = [

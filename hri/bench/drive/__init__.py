@@ -17,8 +17,5 @@ PARTS: Parts = {
 
 
 def measure(quick: bool = False, only: str | None = None) -> dict[str, Any]:
-    """The rows of all parts, or of one of PARTS; progress is written to standard error.
-
-    `quick` takes a tenth of the time. Raises HriError for an unknown part.
-    """
+    """The rows of all parts, or of one, `quick` in a tenth of the time; see `measured`."""
     return measured("drive", PARTS, quick, only)

@@ -23,10 +23,9 @@ def rows(quick: bool) -> Iterator[Row]:
     figures = stops.figures(tries)
     hazard, program = figures["hazard_to_zero_ms"], figures["program_to_zero_ms"]
     what = "hazard input to zero velocity on the port, p99"
-    yield amount(what, hazard["p99"], "ms", at_most(HAZARD_MS), tries=tries, **_rest(hazard, "p99"))
+    yield amount(what, hazard.pop("p99"), "ms", at_most(HAZARD_MS), tries=tries, **hazard)
     what = "program killed or frozen at 0.3 m/s to zero velocity on the port, max"
-    limit = at_most(PROGRAM_MS)
-    yield amount(what, program["max"], "ms", limit, tries=tries, **_rest(program, "max"))
+    yield amount(what, program.pop("max"), "ms", at_most(PROGRAM_MS), tries=tries, **program)
 
 
 def chain(quick: bool) -> Iterator[Row]:
@@ -39,7 +38,3 @@ def chain(quick: bool) -> Iterator[Row]:
         if busy:
             what += f", beside {busy} busy processes"
         yield amount(what, worst, "ms", at_most(CHAIN_MS), **figures.pop("all"), **figures)
-
-
-def _rest(told: dict[str, float], name: str) -> dict[str, float]:
-    return {key: value for key, value in told.items() if key != name}

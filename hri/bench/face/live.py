@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from hri.behavior.network import Network
-from hri.bench.behavior import Relay, Source
+from hri.bench.behavior import relays
 from hri.bench.table import Row, amount, at_most
 from hri.core.clock import RealClock
 from hri.face.behaviors import FaceRenderer
@@ -53,7 +52,7 @@ def rows(seconds: float) -> Iterator[Row]:
     async def count(context: TaskContext) -> None:
         world = robot.resources.obtain("world", SimulatedWorld)
         load_visit(robot.app.folder / "demo.toml").start(world, context.clock, context.events)
-        robot.networks.start(_beside())
+        robot.networks.start(relays(BEHAVIORS, 1 / BESIDE_RATE))
         await context.clock.sleep(SETTLING)
         noted.append(await _next_frame(context))
         await context.clock.sleep(seconds)
@@ -74,14 +73,3 @@ async def _next_frame(context: TaskContext) -> tuple[float, int]:
     while renderer.frames == before:
         await context.clock.sleep(LOOK_EVERY)
     return context.clock.now(), renderer.frames
-
-
-def _beside() -> Network:
-    """A network that passes a number through a hundred behaviors."""
-    network = Network("beside", 1 / BESIDE_RATE)
-    network.add(Source("0"))
-    for number in range(1, BEHAVIORS):
-        network.add(Relay(str(number)))
-        network.connect(f"{number - 1}.output", f"{number}.input")
-    network.sort()
-    return network

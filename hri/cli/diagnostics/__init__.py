@@ -32,23 +32,6 @@ def parser(name: str, help: str) -> argparse.ArgumentParser:
     return made
 
 
-class within:
-    """Type of an option: a number within limits."""
-
-    def __init__(self, kind: type[float], lowest: float, highest: float) -> None:
-        self.kind, self.lowest, self.highest = kind, lowest, highest
-
-    def __call__(self, text: str) -> float:
-        try:
-            value = self.kind(text)
-        except ValueError as error:
-            raise argparse.ArgumentTypeError(f'"{text}" is no such number') from error
-        if not self.lowest <= value <= self.highest:
-            remedy = f"write {self.lowest:g} to {self.highest:g}"
-            raise argparse.ArgumentTypeError(f"{text} - {remedy}")
-        return value
-
-
 def run(
     parser: argparse.ArgumentParser,
     help: str,

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from hri.cli import diagnostics
+from hri.cli.messages import Within
 from hri.core.errors import HriError, NotAvailable
 from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE
@@ -36,9 +37,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Take the pictures. Exit status 0, 1 when a camera failed, 2 when an option or file is."""
     parser = diagnostics.parser("test_camera", HELP)
     parser.add_argument("ids", nargs="*")
-    parser.add_argument("--frames", type=diagnostics.within(int, 1, 999), default=5)
-    parser.add_argument("--quality", type=diagnostics.within(float, 0, 1), default=0.8)
-    parser.add_argument("--pause-time", type=diagnostics.within(float, 0, 3600), default=0.1)
+    parser.add_argument("--frames", type=Within(int, 1, 999), default=5)
+    parser.add_argument("--quality", type=Within(float, 0, 1), default=0.8)
+    parser.add_argument("--pause-time", type=Within(float, 0, 3600), default=0.1)
     parser.add_argument("--out", type=Path, default=Path())
     return diagnostics.run(parser, HELP, _test, arguments)
 

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Sequence
 
 from hri.cli import diagnostics
+from hri.cli.messages import Within
 from hri.core.errors import HriError
 from hri.core.signals import RangeReading
 from hri.hal.range_sensor import RangeSensor
@@ -34,8 +35,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Read the sensors. Exit status 0, 1 when one is missing, 2 when an option or file is wrong."""
     parser = diagnostics.parser("test_range_sensor", HELP)
     parser.add_argument("ids", nargs="*")
-    parser.add_argument("--read-count", type=diagnostics.within(int, 1, 1_000_000), default=3)
-    parser.add_argument("--pause-time", type=diagnostics.within(float, 0, 3600), default=0.1)
+    parser.add_argument("--read-count", type=Within(int, 1, 1_000_000), default=3)
+    parser.add_argument("--pause-time", type=Within(float, 0, 3600), default=0.1)
     return diagnostics.run(parser, HELP, _test, arguments)
 
 

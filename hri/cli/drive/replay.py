@@ -8,6 +8,7 @@ from pathlib import Path
 
 from hri.cli.drive.plan import Plan
 from hri.cli.drive.recorded import read_run
+from hri.cli.messages import Within
 from hri.cli.progress import progress, waiting
 from hri.core.errors import HriError
 from hri.hal.drivers.picture_file import write_picture
@@ -31,7 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     about = "how to go through the room of that number (default: full)"
     add("--policy", choices=tuple(POLICIES), help=about)
     about = f"how much faster than life the film is (default: {SPEED:g})"
-    add("--speed", type=_speed, default=SPEED, metavar="N", help=about)
+    add("--speed", type=Within(float, 0.1, 100), default=SPEED, metavar="N", help=about)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -50,13 +51,6 @@ def run(options: argparse.Namespace) -> int:
             _write_film(out, plan, options.speed)
     print(f"{out}: {plan.run.title or options.run}")
     return 0
-
-
-def _speed(text: str) -> float:
-    value = float(text)
-    if not 0.1 <= value <= 100:
-        raise argparse.ArgumentTypeError(f"{text} - write a factor from 0.1 to 100")
-    return value
 
 
 def _write_film(path: Path, plan: Plan, speed: float) -> None:

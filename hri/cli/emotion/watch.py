@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 from hri.cli.emotion.output import json_line, mood_words
+from hri.cli.messages import Within
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.core.quoting import escaped
@@ -25,7 +26,13 @@ from hri.emotion.reasons import age_words, why_words
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--personality", metavar="NAME", help="another one than the robot's own")
-    add("--every", type=_seconds, default=1.0, metavar="S", help="seconds between two looks")
+    add(
+        "--every",
+        type=Within(float, 0.05, 3600),
+        default=1.0,
+        metavar="S",
+        help="seconds between two looks",
+    )
     add("--once", action="store_true", help="look once, and end")
     add("--json", action="store_true", help="print one JSON object a line")
 
@@ -116,10 +123,3 @@ def _told(model: EmotionModelSpec, dynamics: Dynamics, affect: Affect) -> str:
     why = why_words(model.words(state.label), dynamics.why(affect), words, state.drives)
     drives = " ".join(f"{name} {level:.2f}" for name, level in state.drives.items())
     return escaped(f"{state.label} {state.intensity:.2f}  {mood_words(state)}  {drives}  {why}")
-
-
-def _seconds(text: str) -> float:
-    value = float(text)
-    if not 0.05 <= value <= 3600:
-        raise argparse.ArgumentTypeError(f"{text} - write seconds from 0.05 to 3600")
-    return value

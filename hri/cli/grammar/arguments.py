@@ -1,27 +1,6 @@
-"""Kinds of arguments on the command line: what is none of them is refused before any work."""
+"""Words of the command line as text that can be printed."""
 
 from __future__ import annotations
-
-import argparse
-import math
-
-
-def count(text: str) -> int:
-    """A number of things, 1 or more."""
-    if not text.isdecimal() or not int(text):
-        raise argparse.ArgumentTypeError(f"{text} - write a number, 1 or more")
-    return int(text)
-
-
-def share(text: str) -> float:
-    """A number from 0 to 1."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not 0.0 <= value <= 1.0:
-        raise argparse.ArgumentTypeError(f"{text} - write a number from 0 to 1")
-    return value
 
 
 def legible(text: str) -> str:

@@ -8,9 +8,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from hri.cli.grammar import FILE_HELP
-from hri.cli.grammar.arguments import count, share
 from hri.cli.grammar.clips import read_manifest, spoken, usual_voices
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
+from hri.cli.messages import Within
 from hri.cli.progress import progress
 from hri.core import paths
 from hri.core.errors import HriError
@@ -77,11 +77,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--voices", nargs="+", metavar="VOICE", help="en-gb, flite:slt ...")
     parser.add_argument(
-        "--sentences", type=count, default=MOST_SPOKEN, metavar="N", help=f"({MOST_SPOKEN})"
+        "--sentences",
+        type=Within(int, 1),
+        default=MOST_SPOKEN,
+        metavar="N",
+        help=f"({MOST_SPOKEN})",
     )
     parser.add_argument(
         "--foreign",
-        type=share,
+        type=Within(float, 0, 1),
         default=FOREIGN_SHARE,
         metavar="SHARE",
         help=f"of other talk that may be accepted, 0 to 1 ({FOREIGN_SHARE})",

@@ -6,10 +6,10 @@ import argparse
 import json
 
 from hri.cli.grammar import FILE_HELP
-from hri.cli.grammar.arguments import count, share
 from hri.cli.grammar.clips import spoken, usual_voices
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
 from hri.cli.grammar.expand import in_words
+from hri.cli.messages import Within
 from hri.cli.progress import progress, waiting
 from hri.core import paths
 from hri.core.statistics import told
@@ -39,19 +39,25 @@ MOST_SPOKEN = 60
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help=FILE_HELP)
-    parser.add_argument("-n", type=count, default=25, metavar="N", help="show so many pairs (25)")
+    parser.add_argument(
+        "-n", type=Within(int, 1), default=25, metavar="N", help="show so many pairs (25)"
+    )
     parser.add_argument(
         "--sentences",
-        type=count,
+        type=Within(int, 1),
         metavar="N",
         help=f"how many to look at ({MOST_COMPARED}; with --speak {MOST_SPOKEN})",
     )
     parser.add_argument(
-        "--farthest", type=share, default=FARTHEST, metavar="D", help=f"distance ({FARTHEST})"
+        "--farthest",
+        type=Within(float, 0, 1),
+        default=FARTHEST,
+        metavar="D",
+        help=f"distance ({FARTHEST})",
     )
     parser.add_argument("--speak", action="store_true", help="speak and hear the sentences")
     parser.add_argument("--voices", nargs="+", metavar="VOICE", help="en-gb, flite:slt ...")
-    parser.add_argument("--strictness", type=share, default=STRICTNESS, metavar="X")
+    parser.add_argument("--strictness", type=Within(float, 0, 1), default=STRICTNESS, metavar="X")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     add_engine_arguments(parser)
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from hri.cli.grammar import FILE_HELP
-from hri.cli.grammar.arguments import count
+from hri.cli.messages import Within
 from hri.cli.progress import waiting
 from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
@@ -40,9 +40,12 @@ MOST_DIGITS = 15
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help=FILE_HELP)
     how = parser.add_mutually_exclusive_group()
-    how.add_argument("-n", type=count, default=20, metavar="N", help="list so many (20)")
+    how.add_argument("-n", type=Within(int, 1), default=20, metavar="N", help="list so many (20)")
     how.add_argument(
-        "--random", type=count, metavar="N", help="draw so many different ones by the weights"
+        "--random",
+        type=Within(int, 1),
+        metavar="N",
+        help="draw so many different ones by the weights",
     )
     how.add_argument("--count", action="store_true", help="print how many there are")
     parser.add_argument(

@@ -16,8 +16,8 @@ from typing import Any, TextIO
 import numpy as np
 
 from hri.cli.grammar import FILE_HELP
-from hri.cli.grammar.arguments import share
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
+from hri.cli.messages import Within
 from hri.core import paths, registry
 from hri.core.clock import RealClock
 from hri.core.errors import HriError, NotAvailable
@@ -74,7 +74,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--strictness",
-        type=share,
+        type=Within(float, 0, 1),
         default=STRICTNESS,
         metavar="X",
         help=f"confidence from which words count, 0 to 1 ({STRICTNESS})",

@@ -8,9 +8,9 @@ import sys
 from pathlib import Path
 
 from hri.cli.grammar import explained
-from hri.cli.grammar.arguments import share
 from hri.cli.grammar.clips import read_manifest
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
+from hri.cli.messages import Within
 from hri.cli.progress import progress
 from hri.core import paths
 from hri.core.errors import HriError, Mistakes
@@ -44,7 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("files", nargs="*", type=Path, metavar="FILE", help="sentences to try")
     parser.add_argument("--audio", type=Path, metavar="MANIFEST", help="recordings to try")
     parser.add_argument("--grammar", metavar="GRAMMAR", help="file, or name of one in grammars/")
-    parser.add_argument("--strictness", type=share, default=STRICTNESS, metavar="X")
+    parser.add_argument("--strictness", type=Within(float, 0, 1), default=STRICTNESS, metavar="X")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     add_engine_arguments(parser)
 
