@@ -115,7 +115,7 @@ class Companion:
         if reply.event:
             self.context.events.raise_event(reply.event, text=text, **tags)
         if reply.task is not None:
-            self.context.manager.install(self._perform, reply.task, {"text": text, **tags})
+            self._perform(reply.task, {"text": text, **tags})
         words = objection or self._words(rule, reply, text, tags)
         if reply.show:
             label = str(tags.get("emotion", "neutral")) if reply.show[0] == "{" else reply.show
@@ -147,11 +147,15 @@ class Companion:
         near = difflib.get_close_matches(text, examples.values(), n=1, cutoff=ALIKE)
         return near[0] if near else examples.get("help", next(iter(examples.values()), ""))
 
-    async def _perform(self, context: TaskContext, task: TaskType, tags: dict[str, Any]) -> None:
-        """Run a task of the app with the tags it takes; a text that it returns is said."""
-        words = await task.with_those_it_takes(tags)(context)
-        if isinstance(words, str) and words:
-            self.say(words)
+    def _perform(self, task: TaskType, tags: dict[str, Any]) -> None:
+        """Start a task of the app with the tags it takes; a text that it returns is said."""
+
+        async def performed(context: TaskContext) -> None:
+            words = await task.with_those_it_takes(tags)(context)
+            if isinstance(words, str) and words:
+                self.say(words)
+
+        self.context.manager.install(TaskType(task.id, performed))
 
     def make(self, gesture: str) -> None:
         """Make a gesture, in place of one that is being made."""

@@ -13,7 +13,7 @@ from pathlib import Path
 from hri.core.errors import AuthoringError, HriError, Mistakes, did_you_mean
 from hri.core.events import OWN_SUBJECTS
 from hri.core.toml import Table, load_toml
-from hri.robot.app import App
+from hri.robot.app import GRAMMAR, App
 from hri.speech.grammar import Grammar
 from hri.speech.grammar.giving import sure_tags
 from hri.task.task import TaskType
@@ -115,7 +115,10 @@ def _read(table: Table, vocabulary: Vocabulary, mistakes: Mistakes, is_own: bool
         if rule in rules:
             replies[rule] = mistakes.keep(partial(_reply, rule, entry, vocabulary)) or Reply()
         elif is_own:
-            remedy = did_you_mean(rule, missing, "delete this table, or mend the grammar")
+            mend = "delete this table, or mend the grammar"
+            if not vocabulary.app.files(GRAMMAR):
+                mend = f"add the rule to a {GRAMMAR} in {vocabulary.app.folder}"
+            remedy = did_you_mean(rule, missing, mend)
             mistakes.add(entry.error(None, f'the grammar has no rule "{rule}"', remedy))
     unasked = mistakes.keep(lambda: _unasked(table.table("unasked", optional=True))) or {}
     asked = mistakes.keep(lambda: table.array("question")) or ()
@@ -197,6 +200,9 @@ def _action(rule: str, entry: Table, vocabulary: Vocabulary) -> tuple[str, TaskT
     own = [name for name in vocabulary.app.task_names() if name not in vocabulary.app.tasks]
     if action in ("", *ACTIONS) and action not in own:
         return action, None
+    if vocabulary.app.has_plain_function(action):
+        what = f"{action} in tasks.py is not a coroutine function"
+        raise entry.error("action", what, f"write: async def {action}(context, ...)")
     if action not in own and "." not in action:
         raise entry.error("action", f'action is "{action}"', did_you_mean(action, [*ACTIONS, *own]))
     try:

@@ -61,11 +61,15 @@ class Narrator:
         self.out = out or sys.stdout
         self._counts: Counter[str] = Counter()
         self._label = ""
-        self._pose = (0.0, 0.0)
+        self._pose: tuple[float, float] | None = None
         self._first_frame: float | None = None
         self._is_unread = False
         behaviors = robot.context.behaviors.values()
-        self._can_hear = any(isinstance(b, Listener) for b in behaviors)
+        can_hear = any(isinstance(b, Listener) for b in behaviors)
+        # An app of its own need not know these sentences.
+        self._is_talkative = can_hear and any(
+            one.folder.name == "companion" for one in robot.app.line()
+        )
         self._renderer = next((b for b in behaviors if isinstance(b, FaceRenderer)), None)
         robot.events.subscribe("*", self._hear)
 
@@ -85,7 +89,7 @@ class Narrator:
         while self._renderer is not None and not self._renderer.frames:
             await context.clock.sleep(0.02)
         self._first_frame = context.clock.now()
-        is_new = self._can_hear and not self._counts["speech.heard"]
+        is_new = self._is_talkative and not self._counts["speech.heard"]
         hint = "say hello, or ask what you can say - " if is_new else ""
         self.tell(f"ready: {hint}Ctrl-C ends it")
 
@@ -102,9 +106,9 @@ class Narrator:
         if template is None:
             return
         text = template.format_map(_Known(event.properties, why=_why(event)))
-        x, y = self._pose
-        where = f"x {x:5.2f} m  y {y:5.2f} m"
-        line = f"{event.time:7.1f} s  {text:<58}  {self._label:<12} {where}"
+        # Where no network has odometry, nobody knows.
+        where = "" if self._pose is None else "x {:5.2f} m  y {:5.2f} m".format(*self._pose)
+        line = f"{event.time:7.1f} s  {text:<58}  {self._label:<12} {where}".rstrip()
         self.tell(message_line(line))
 
     def summary(self) -> None:

@@ -89,7 +89,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     kind, name = _kind_of(options), _module_name(options.name)
     if not NAME.fullmatch(name):
-        raise HriError(f'"{options.name}" is no name - write letters, digits and _: wave_hand')
+        remedy = "begin with a letter, go on with letters, digits and _: wave_hand"
+        raise HriError(f'"{options.name}" is not a name - {remedy}')
     if not options.to.is_dir():
         raise HriError(f"{options.to}: no such folder - make it, or check the path")
     folder: Path = options.to / name

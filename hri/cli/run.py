@@ -42,6 +42,8 @@ from hri.task.context import TaskContext
 
 SENSES = ("microphone", "camera", "screen", "speaker")
 CALM_SECONDS = 2.0
+LONGEST_TASK = 600.0
+"""Seconds that the tasks which still run are waited for when nothing more will be heard."""
 """How long all must be calm before a run from files ends."""
 
 
@@ -257,13 +259,20 @@ class Session:
                 person.starts_present = False
 
     async def end_when_over(self, context: TaskContext) -> None:
-        """End after the duration, after the visit, or when what it hears and sees is spent."""
+        """End after the duration, after the visit, or when what it hears and sees is spent.
+
+        Then the tasks that commands or events have started may end, such as a timer.
+        """
         clock = context.clock
         end = self._end_time()
-        calm_since = clock.now()
+        calm_since = spent_since = clock.now()
         while clock.now() < end:
             await clock.sleep(min(0.1, end - clock.now()))
-            if not self._is_spent() or not self._is_calm(context):
+            if not self._is_spent():
+                calm_since = spent_since = clock.now()
+                continue
+            waits = bool(context.manager.installed) and clock.now() - spent_since < LONGEST_TASK
+            if waits or not self._is_calm(context):
                 calm_since = clock.now()
             elif clock.now() - calm_since >= CALM_SECONDS:
                 break

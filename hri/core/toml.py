@@ -187,6 +187,11 @@ class Table:
             if default is REQUIRED:
                 where = f"[{'.'.join(map(str, self.key))}]" if self.key else "this file"
                 others = set(self.data) - self._asked
+                for other in others:  # a key that is misspelled may be why this one is wanted
+                    meant = difflib.get_close_matches(other, self._asked - {name}, n=1, cutoff=0.8)
+                    if meant and meant[0] not in self.data:
+                        remedy = did_you_mean(other, meant)
+                        raise self.error(other, f'unknown key "{other}"', remedy)
                 near = difflib.get_close_matches(name, others, n=1, cutoff=0.6)
                 remedy = f'rename "{near[0]}"' if near else f"add {name} = ..."
                 raise self.error(None, f'"{name}" is missing in {where}', remedy)

@@ -16,6 +16,7 @@ from hri.core.geometry import wrapped
 from hri.core.signals import Pose2D, Twist
 from hri.drive.behaviors import COMMAND, MOTION
 from hri.drive.gate import REST
+from hri.drive.own_gate import see_to_gate
 from hri.drive.profile import velocity_for
 from hri.drive.progress import Patience
 from hri.hal.drive import DriveSystem, Odometry, longest_move, too_long
@@ -241,7 +242,8 @@ class Motion:
 
 @contextmanager
 def motion_of(context: TaskContext) -> Iterator[Motion]:
-    """A motion, with the odometry for as long as it lasts."""
+    """A motion, with the odometry for as long as it lasts; a gate of its own where none runs."""
+    see_to_gate(context)
     odometry = context.resources.obtain("odometry", Odometry)
     try:
         yield Motion(context, odometry)

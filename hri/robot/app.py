@@ -120,6 +120,16 @@ class App:
         modules = [app.module for app in self.line() if app.module is not None]
         return sorted({name for module in modules for name in _tasks_of(module)})
 
+    def has_plain_function(self, name: str) -> bool:
+        """Whether a `tasks.py` of its line has a function of that name that is not a task."""
+        modules = [app.module for app in self.line() if app.module is not None]
+        return any(
+            inspect.isfunction(found := getattr(module, name, None))
+            and not inspect.iscoroutinefunction(found)
+            and found.__module__ == module.__name__
+            for module in modules
+        )
+
     def _without_arguments(self, name: str) -> Job:
         try:
             job = self.task(name)
@@ -199,7 +209,10 @@ def load_app(name: str) -> App:
 
 
 def _load(folder: Path, above: tuple[str, ...]) -> App:
-    table = load_toml(folder / "app.toml", "app")
+    file = folder / "app.toml"
+    if folder.is_dir() and not paths.exists(file):
+        raise HriError(f"{folder} has no app.toml, which makes a folder an app - add one")
+    table = load_toml(file, "app")
     extends = table.string("extends", "")
     base = _base(table, folder, extends, (*above, folder.resolve().name)) if extends else None
     own = table.strings("networks", *([[]] if base else []))

@@ -52,6 +52,11 @@ class TaskManager:
         )
         """What tasks are lent; each gets a copy with itself in it."""
 
+    @property
+    def installed(self) -> tuple[Task, ...]:
+        """The installed tasks that are not over."""
+        return tuple(self._installed)
+
     def live_in(self, nursery: trio.Nursery) -> None:
         """Let installed tasks run in a nursery; it must end with the robot loop.
 

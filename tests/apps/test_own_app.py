@@ -152,6 +152,39 @@ def test_what_does_not_fit_is_refused_before_anything_starts(put, old, new, mess
     assert "replies.toml:3:1" in str(error.value)
 
 
+def test_a_reply_to_a_rule_names_the_grammar_that_is_missing(put):
+    folder = put({name: text for name, text in JOKE.items() if name != "grammar.jsgf"})
+    with pytest.raises(AuthoringError) as error:
+        robot_of(folder)
+    assert f"- add the rule to a grammar.jsgf in {folder}" in str(error.value)
+
+
+def test_a_function_that_is_not_a_task_is_named(put):
+    files = {**TIMER, "tasks.py": "def timer(context, seconds: float):\n    pass\n"}
+    message = r"timer in tasks.py is not a coroutine function - write: async def timer\(context,"
+    with pytest.raises(AuthoringError, match=message):
+        robot_of(put(files))
+
+
+def test_a_misspelled_extends_is_named(put):
+    folder = put({**JOKE, "app.toml": 'extend = "companion"\n'})
+    message = r'app.toml:1:1: unknown key "extend" - did you mean "extends"\?'
+    with pytest.raises(AuthoringError, match=message):
+        load_app(str(folder))
+
+
+def test_a_folder_without_app_toml_is_named(put):
+    folder = put({"replies.toml": JOKE["replies.toml"]})
+    with pytest.raises(HriError, match=r"mine has no app\.toml, which makes a folder an app - add"):
+        load_app(str(folder))
+
+
+def test_a_task_that_fails_is_named(put):
+    files = {**TIMER, "tasks.py": "async def timer(context, seconds: float):\n    return 1 / 0\n"}
+    events = live(robot_of(put(files)), 3, {1.0: "set a timer for four seconds"})
+    assert [event.properties["task"] for event in named(events, "task.failed")] == ["timer"]
+
+
 def test_a_task_that_an_event_may_lack_something_for_is_refused(put):
     app = 'extends = "companion"\n[on]\n"door.rung" = "timer"\n'
     with pytest.raises(HriError, match="timer needs seconds, which an event may lack - give"):

@@ -164,6 +164,23 @@ def test_what_is_typed_is_told_in_whole_lines_and_its_end_is_the_end(tmp_path):
     assert re.search(r"said +You can say, for instance: .*, stop\.", run.stdout)
 
 
+def test_a_timer_that_runs_is_waited_for_when_nothing_more_is_typed(tmp_path):
+    (tmp_path / "app.toml").write_text('extends = "companion"\n')
+    (tmp_path / "grammar.jsgf").write_text(
+        "#JSGF V1.0; /** @extends companion */ grammar t; public <tea> = make some tea;\n"
+    )
+    (tmp_path / "replies.toml").write_text('[reply.tea]\nsay = "Okay."\naction = "tea"\n')
+    (tmp_path / "tasks.py").write_text(
+        "async def tea(context):\n    await context.clock.sleep(30)\n    return 'Tea is ready.'\n"
+    )
+    run = hri(
+        "run", tmp_path, "--config", "typed", "--camera", "none", "--fast", "--headless",
+        typed="make some tea\n",
+    )  # fmt: skip
+    assert run.returncode == 0, run.stderr
+    assert re.search(r"said +Tea is ready\.", run.stdout)
+
+
 @pytest.mark.parametrize("suffix", ["wav", "mp3", "flac", "ogg"])
 def test_it_takes_sound_files_of_every_format(suffix, tmp_path):
     path = tmp_path / f"floats.{suffix}"

@@ -40,9 +40,10 @@ def test_motions_give_back_what_they_took() -> None:
             await drive_move_delta(context, 5.0, -1.0)
         with pytest.raises(ValueError, match="cannot go nan"):
             await verbs.move(context, float("nan"))
-        await verbs.move(context, 0.1)
-        await verbs.stop(context)
         assert users(context) == (0, 0)
+        assert await verbs.move(context, 0.1) == pytest.approx(0.1, abs=0.01)
+        await verbs.stop(context)
+        assert users(context) == (1, 0), "the gate that was started for it stays"
 
     drivable().run(drive)
 

@@ -1,16 +1,18 @@
 """What the app does: each task named in `app.toml` runs from its start to its end."""
 
-from hri.robot.verbs import gesture, say
+from hri.robot.verbs import ask, gesture, move, say
 from hri.task.context import TaskContext
 
 
 async def converse(context: TaskContext) -> None:
-    """Do what is asked: the name of the rule in grammar.jsgf says which of these it is."""
-    deeds = {"greet": greet, "count": count, "leave": leave}
+    """Do what is asked: DEEDS says what, by the name of the rule in grammar.jsgf."""
     with context.queue("speech.heard") as queue:
         while True:
-            heard = await queue.get()
-            await deeds[heard.properties["rule"]](context, **heard.properties["tags"])
+            heard = (await queue.get()).properties
+            if heard["rule"] in DEEDS:
+                await DEEDS[heard["rule"]](context, **heard["tags"])
+            elif heard["rule"] not in ANSWERS:
+                await say(context, f"I do not know what to do for {heard['rule']}.")
 
 
 async def greet(context: TaskContext) -> None:
@@ -26,4 +28,11 @@ async def count(context: TaskContext, last: float) -> None:
 
 
 async def leave(context: TaskContext) -> None:
+    if await ask(context, "Shall I back off?"):
+        await move(context, -0.2)
     await say(context, "Goodbye.")
+
+
+DEEDS = {"greet": greet, "count": count, "leave": leave}
+ANSWERS = {"yes", "no"}
+"""What `ask` waits for."""
