@@ -32,7 +32,8 @@ RESEARCH = ("inputs", "people", "writes")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("name", choices=BENCHES, help="what to measure")
+    about = f"what to measure; {', '.join(RESEARCH)} need a checkout"
+    parser.add_argument("name", choices=BENCHES, help=about)
     about = "how long each case runs (behavior, companion)"
     parser.add_argument("--seconds", type=Within(float, 1, 3600), metavar="S", help=about)
     about = "take every sixth sentence (speech), a tenth (drive, face, people, vision, writes)"
