@@ -8,36 +8,29 @@
         if robot.ask("Shall I come closer?"):
             robot.move(0.5)
 
-The map, from what you hold in your hand down to what everything stands on:
+The map, from what you hold in your hand down to what everything stands on. Each package has a front
+door: `from hri.behavior import Behavior, Input, Output`.
 
-    Robot                       opens resources, runs networks and tasks
-    hri.face.render_face        a picture of the face as a numpy array
-    hri.behavior.behavior       Behavior, and hri.behavior.ports: Input, Output, Param
-    hri.task.context            what a task may use
-    hri.hal                     one interface a kind of device; drivers in hri.hal.drivers
-    hri.core.signals            the values that travel
-    hri.core.clock              RealClock, FakeClock
+    Robot           opens resources, runs networks and tasks
+    hri.behavior    behaviors, and the networks that they are wired into
+    hri.task        tasks: coroutines that wait for time and events
+    hri.speech      ears, a voice, and grammars
+    hri.emotion     what is felt, and why
+    hri.face        a face that shows it; `render_face` is a picture as a numpy array
+    hri.vision      who is there, and a nod or a shake of the head
+    hri.drive       moving, safely
+    hri.net         messages to and from other programs
+    hri.hal         one interface a kind of device; drivers in hri.hal.drivers
+    hri.core        clocks, events, errors, and the values that travel
 """
 
-from __future__ import annotations
-
 import os
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from hri.robot import Robot
-
-__all__ = ["Robot"]
+import lazy_loader
 
 # Read when numpy is first imported. The matrices here are small: more threads make their products
 # slower (three times, for the phone network), and take the core that the robot loop runs on.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-
-def __getattr__(name: str) -> object:
-    # Robot brings in every subsystem; tools that need only a part start faster without it.
-    if name == "Robot":
-        from hri.robot import Robot
-
-        return Robot
-    raise AttributeError(f"module hri has no attribute {name!r}")
+# What __init__.pyi names comes in when it is used: a tool that needs only a part starts faster.
+__getattr__, __dir__, _ = lazy_loader.attach_stub(__name__, __file__)

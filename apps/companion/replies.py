@@ -116,7 +116,7 @@ def _read(table: Table, vocabulary: Vocabulary, mistakes: Mistakes, is_own: bool
             replies[rule] = mistakes.keep(partial(_reply, rule, entry, vocabulary)) or Reply()
         elif is_own:
             mend = "delete this table, or mend the grammar"
-            if not vocabulary.app.files(GRAMMAR):
+            if vocabulary.app.base is not None and not vocabulary.app.files(GRAMMAR):
                 mend = f"add the rule to a {GRAMMAR} in {vocabulary.app.folder}"
             remedy = did_you_mean(rule, missing, mend)
             mistakes.add(entry.error(None, f'the grammar has no rule "{rule}"', remedy))

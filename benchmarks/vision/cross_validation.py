@@ -25,8 +25,7 @@ from benchmarks.vision.recordings import (
     Recording,
     read_recordings,
 )
-from hri.bench.table import Row as Figure
-from hri.bench.table import amount, at_least, at_most, share
+from hri.bench.table import Row as Figure, amount, at_least, at_most, share
 from hri.vision.gesture import Movement
 from hri.vision.noise import Noise
 from hri.vision.patterns import ANSWERS, Pattern, Row, answer_patterns

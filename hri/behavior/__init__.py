@@ -1,1 +1,9 @@
-"""Behaviors wired into networks that tick at a fixed rate."""
+"""Behaviors wired into networks that tick at a fixed rate.
+
+from hri.behavior import Behavior, Input, Network, Output, Param
+"""
+
+import lazy_loader
+
+# What __init__.pyi names comes in when it is used: a tool that needs only a part starts faster.
+__getattr__, __dir__, _ = lazy_loader.attach_stub(__name__, __file__)

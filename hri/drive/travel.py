@@ -20,13 +20,13 @@ from hri.drive.avoidance import PERSON_RADIUS, Avoidance, Manner, turn_to
 from hri.drive.following import (
     Ending,
     Following,
+    Manner as FollowingManner,
     Pursuit,
     Reason,
     sight_of,
     tell,
     tell_ending,
 )
-from hri.drive.following import Manner as FollowingManner
 from hri.drive.gate import REST
 from hri.drive.going import PEOPLE
 from hri.drive.mechanics import mechanics_of, range_sensors

@@ -18,7 +18,7 @@ renderers                 weights become a picture; captions, sheets, movies, sm
 behaviors                 Face and FaceRenderer, for networks
 """
 
-from hri.face.model import FaceModel, load_face
-from hri.face.still import render_face
+import lazy_loader
 
-__all__ = ["FaceModel", "load_face", "render_face"]
+# What __init__.pyi names comes in when it is used: a tool that needs only a part starts faster.
+__getattr__, __dir__, _ = lazy_loader.attach_stub(__name__, __file__)

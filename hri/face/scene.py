@@ -36,8 +36,7 @@ from hri.core.toml import Table, load_toml
 from hri.face import idle
 from hri.face.animator import Animator
 from hri.face.baking import Vector
-from hri.face.gestures import LONGEST as LONGEST_GESTURE
-from hri.face.gestures import STRONGEST, Track, load_gestures
+from hri.face.gestures import LONGEST as LONGEST_GESTURE, STRONGEST, Track, load_gestures
 from hri.face.model import FaceModel
 from hri.face.recording import read_weights
 from hri.hal.drivers.wav_file import load_sound

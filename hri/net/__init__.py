@@ -8,3 +8,8 @@ malleable                  the behavior whose ports a schema defines
 connection                 for scripts and programs without a robot
 event_server               the task that carries events
 """
+
+import lazy_loader
+
+# What __init__.pyi names comes in when it is used: a tool that needs only a part starts faster.
+__getattr__, __dir__, _ = lazy_loader.attach_stub(__name__, __file__)

@@ -17,8 +17,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from hri.simulation.person import RADIUS as PERSON
-from hri.simulation.person import Person
+from hri.simulation.person import RADIUS as PERSON, Person
 from hri.simulation.room import Box, Circle, Obstacle, Room, Segment
 from hri.simulation.world import SimulatedWorld
 

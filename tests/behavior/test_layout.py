@@ -1,7 +1,6 @@
 import xml.etree.ElementTree as ElementTree
 
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.behavior.drawing import to_svg
 from hri.behavior.layout import lay_out

@@ -1,8 +1,7 @@
 """What a port can reach, found over links, networks and the board."""
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.drive_command import DriveCommand

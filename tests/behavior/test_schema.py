@@ -2,8 +2,7 @@ import contextlib
 import string
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.catalog import find_behavior

@@ -6,8 +6,7 @@ from xml.etree import ElementTree
 
 import pytest
 import xmlschema
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.behavior.catalog import find_behavior
 from hri.behavior.network_file import load_network

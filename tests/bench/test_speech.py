@@ -3,8 +3,7 @@ import json
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.bench.speech import clips, flite, outcome, speed, text
 from hri.bench.speech.clips import DATA, ORDERS, ROBOT

@@ -8,8 +8,7 @@ import termios
 import tty
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.cli.drive import add_arguments, base_of, keys, opened, run
 from hri.cli.drive.keys import DEAD_MAN, KeyReader, Steering

@@ -4,8 +4,7 @@ from pathlib import Path
 
 import cv2
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.cli.drive.plan import PAPER, ROW, Moment, Plan, Run, legend
 from hri.cli.drive.recorded import read_run

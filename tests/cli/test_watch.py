@@ -9,8 +9,7 @@ from itertools import pairwise
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.cli.main import main
 from hri.cli.watch import Watcher, show, write

@@ -2,8 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.core.geometry import ROBOT_FROM_CAMERA, Pose3D, after_move, along_arc, placed, seen_from
 from hri.core.signals import Pose2D

@@ -1,8 +1,7 @@
 import os
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError

@@ -13,8 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from hri.cli import main
-from hri.cli import models as command
+from hri.cli import main, models as command
 from hri.core import archive as archives
 from hri.core.archive import Part, unpack
 from hri.core.errors import HriError, NotAvailable

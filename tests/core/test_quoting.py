@@ -3,8 +3,7 @@ import unicodedata
 from pathlib import Path
 
 import pytest
-from hypothesis import example, given
-from hypothesis import strategies as st
+from hypothesis import example, given, strategies as st
 
 from hri.behavior.library.printing import labeled
 from hri.cli.main import main

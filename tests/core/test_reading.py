@@ -3,8 +3,7 @@ import os
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError

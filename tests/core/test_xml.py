@@ -3,8 +3,7 @@ import time
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.core.errors import AuthoringError, HriError
 from hri.core.xml import Element, format_xml, load_xml

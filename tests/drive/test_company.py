@@ -1,8 +1,7 @@
 import math
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.core.geometry import seen_from
 from hri.core.signals import HeadPose, People, Person, Pose2D

@@ -2,13 +2,11 @@ import itertools
 import math
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.core.geometry import along_arc, seen_from
 from hri.core.signals import HeadPose, People, Person, Pose2D
-from hri.drive.avoidance import Manner as Going
-from hri.drive.avoidance import straight_to, turn_to
+from hri.drive.avoidance import Manner as Going, straight_to, turn_to
 from hri.drive.following import Following, Manner, Pursuit, sight_of
 from hri.drive.wandering import Wandering
 

@@ -2,8 +2,7 @@ import math
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.emotion.formula import DEEPEST, LONGEST, parse_formula
 

@@ -2,8 +2,7 @@ import math
 from itertools import pairwise
 
 import pytest
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import assume, given, settings, strategies as st
 
 from hri.emotion.emotions import EMOTIONS, NAMES
 from hri.emotion.label import (

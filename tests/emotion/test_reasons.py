@@ -1,6 +1,5 @@
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.emotion.ledger import Cause
 from hri.emotion.reasons import age_words, why_words

@@ -4,8 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.core.signals import Phoneme, Samples, Speech
 from hri.face.envelope import VOWELS, EnvelopeTrack

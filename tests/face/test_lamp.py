@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.face.renderers.lamp import RECORDING, WATCHING, Lamp, add_lamp
 from hri.face.renderers.small_screens import one_bit

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 import soundfile
 import trio
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.core.errors import AuthoringError, HriError, NotAvailable
 from hri.hal.audio_file import AudioFilePlayer, AudioFileRecorder

@@ -6,8 +6,7 @@ from itertools import islice, pairwise
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.behavior.drivers import CameraFrames
 from hri.core.clock import FakeClock

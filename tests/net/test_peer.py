@@ -4,8 +4,7 @@ import socket
 from contextlib import closing, contextmanager
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.net.peer import Limits, Peer, PeerError
 from tests.net.conftest import WITHIN

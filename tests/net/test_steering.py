@@ -1,8 +1,7 @@
 """A peer that steers a base over the bridge: the base stops when the peer falls silent."""
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.doors import Doors

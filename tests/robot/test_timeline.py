@@ -2,8 +2,7 @@
 
 from itertools import combinations
 
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.robot.feeling_plot import MOOD_COLORS
 from hri.robot.labels import placed

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 import pytest
 import trio
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError

@@ -1,8 +1,7 @@
 from itertools import pairwise
 
 import numpy as np
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.core.signals import Samples
 from hri.simulation.sound import RATE, Sound

@@ -2,8 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.hal.drivers.wav_file import read_wav
 from hri.speech.endpoint import FRAME, LONGEST, PAUSE, PRE_ROLL, TRAILING, Endpointer, NoiseLevel

@@ -5,8 +5,7 @@ import threading
 import numpy as np
 import pytest
 import trio
-from hypothesis import settings
-from hypothesis import strategies as st
+from hypothesis import settings, strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
 from hri.behavior.behavior import Context

@@ -1,7 +1,6 @@
 import pytest
 import trio
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.task.claims import Interrupted
 from hri.task.parallel import Parallel

@@ -3,8 +3,7 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.core.signals import HeadGesture, HeadPose
 from hri.vision.gesture import GestureRecognizer

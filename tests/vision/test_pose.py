@@ -2,8 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.core.signals import Landmarks
 from hri.vision.pose import FACE, NUMBERS, PITCH_GAIN, head_pose

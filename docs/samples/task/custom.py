@@ -1,8 +1,7 @@
 """A task of one's own, with arguments that are checked and a way to fail; called as a function."""
 
-from hri.core.errors import HriError
-from hri.task import find_task, get_task_manager
-from hri.task.context import TaskContext
+from hri.core import HriError
+from hri.task import TaskContext, find_task, get_task_manager
 from hri.task.speech import Speak
 from hri.task.task import task
 

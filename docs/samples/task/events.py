@@ -1,7 +1,6 @@
 """Two tasks that talk by events: one asks for the time of day, the other answers, until the end."""
 
-from hri.task import Parallel, get_task_manager
-from hri.task.context import TaskContext
+from hri.task import Parallel, TaskContext, get_task_manager
 from hri.task.events import event, write_event
 from hri.task.task import task
 

@@ -2,8 +2,7 @@
 
 import math
 
-from hri.task import Parallel, TaskStatus, get_task_manager
-from hri.task.context import TaskContext
+from hri.task import Parallel, TaskContext, TaskStatus, get_task_manager
 from hri.task.navigation import MoveRelative, TurnRelative
 from hri.task.task import task
 from hri.task.util import Wait

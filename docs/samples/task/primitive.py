@@ -2,10 +2,9 @@
 
 import math
 
-from hri.core.signals import Pose2D
-from hri.task import get_task_manager
+from hri.core import Pose2D
+from hri.task import TaskStatus, get_task_manager
 from hri.task.primitive import Primitive, primitive
-from hri.task.task import TaskStatus
 
 WAY = 0.3  # meters
 NEAR = 30.0  # cm, the stop limit of the network

@@ -1,6 +1,6 @@
 """A behavior of one's own: stops the robot before it runs into something."""
 
-from hri.behavior.behavior import Behavior
+from hri.behavior import Behavior
 from hri.behavior.ports import LINEAR_VELOCITY, Input, Output, Param
 
 

@@ -1,6 +1,6 @@
 """The exercise: obstacles in front and behind are told apart."""
 
-from hri.behavior.behavior import Behavior
+from hri.behavior import Behavior
 from hri.behavior.ports import LINEAR_VELOCITY, Input, Output, Param
 
 

@@ -1,6 +1,6 @@
 """A program of our own in the place of client.xml: takes one message, and answers with one."""
 
-from hri.net.connection import Connection
+from hri.net import Connection
 
 
 def main(host: str = "127.0.0.1", port: int = 25000) -> None:

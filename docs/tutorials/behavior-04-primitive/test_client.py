@@ -1,6 +1,6 @@
 """Order five photos from test_event.py, and end it when they are there."""
 
-from hri.net.connection import Connection
+from hri.net import Connection
 
 SHOOT = "Examples.PhotoEvent.Shoot?count=5&amp;delay=1&amp;name=b_"
 END = "Examples.PhotoEvent.End"

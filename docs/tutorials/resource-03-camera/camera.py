@@ -1,8 +1,7 @@
 """Takes one picture and writes it to a file: the use of a resource, from beginning to end."""
 
-from hri.core.clock import Clock, RealClock
-from hri.hal.camera import Camera
-from hri.hal.manager import ResourceManager
+from hri.core import Clock, RealClock
+from hri.hal import Camera, ResourceManager
 
 FILE = "camera_image.jpg"
 QUALITY = 0.9

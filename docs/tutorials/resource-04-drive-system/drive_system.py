@@ -1,9 +1,8 @@
 """Drives about with each command of a drive system. Keep a meter free around the robot."""
 
-from hri.core.clock import Clock, RealClock
+from hri.core import Clock, RealClock
 from hri.core.units import cm, degree
-from hri.hal.drive import DriveSystem, Stop
-from hri.hal.manager import ResourceManager
+from hri.hal import DriveSystem, ResourceManager, Stop
 
 SPEED, ACCELERATION = 20 * cm, 40 * cm
 TURN_SPEED, TURN_ACCELERATION = 30 * degree, 60 * degree

@@ -3,7 +3,7 @@
 from abc import abstractmethod
 from enum import Enum
 
-from hri.hal.resource import Resource
+from hri.hal import Resource
 
 
 class Seek(Enum):

@@ -5,8 +5,8 @@ from pathlib import Path
 
 from stream import Stream
 
-from hri.core.clock import Clock, RealClock
-from hri.hal.manager import ResourceManager
+from hri.core import Clock, RealClock
+from hri.hal import ResourceManager
 
 FOLDER = Path(__file__).parent
 

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from hri.speech.grammar import load_grammar
+from hri.speech import load_grammar
 from hri.speech.grammar.matching import parse
 
 SENTENCES = (

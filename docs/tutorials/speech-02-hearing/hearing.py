@@ -2,12 +2,9 @@
 
 from pathlib import Path
 
-from hri.core.clock import Clock, RealClock
-from hri.core.signals import Utterance
-from hri.hal.manager import ResourceManager
-from hri.hal.recognizer import Recognizer
-from hri.hal.synthesizer import Synthesizer
-from hri.speech.grammar import load_grammar
+from hri.core import Clock, RealClock, Utterance
+from hri.hal import Recognizer, ResourceManager, Synthesizer
+from hri.speech import load_grammar
 from hri.speech.hearing import hear
 
 LAMP = Path(__file__).parents[1] / "speech-01-grammar" / "lamp.jsgf"

@@ -1,13 +1,10 @@
 """Says a sentence, is interrupted, and says it again with other feelings."""
 
-from hri.behavior.behavior import Context
-from hri.core.clock import Clock, RealClock
-from hri.core.events import EventBus
-from hri.core.signals import EmotionState
+from hri.behavior import Context
+from hri.core import Clock, EmotionState, EventBus, RealClock
 from hri.emotion.display import felt_now, load_display
-from hri.hal.manager import ResourceManager
-from hri.hal.synthesizer import Synthesizer
-from hri.speech.voice import Priority, Voice
+from hri.hal import ResourceManager, Synthesizer
+from hri.speech import Priority, Voice
 
 SENTENCE = "I have found the red ball. Shall I bring it to you?"
 TICK = 0.05

@@ -2,7 +2,7 @@
 
 import math
 
-from hri.task.context import TaskContext
+from hri.task import TaskContext
 from hri.task.task import task
 from hri.task.units import UNIT_TIME, in_si
 from hri.task.vision import GetImage

@@ -12,9 +12,8 @@ It hears                                 and raises
 import math
 from typing import NamedTuple
 
-from hri.core.errors import HriError
-from hri.core.signals import Event
-from hri.task.context import TaskContext
+from hri.core import Event, HriError
+from hri.task import TaskContext
 from hri.task.events import event
 from hri.task.task import task
 from hri.task.units import UNIT_TIME, in_si

@@ -2,8 +2,7 @@
 
 from photo_event import ALL, PhotoEvent
 
-from hri.task import Parallel, get_task_manager
-from hri.task.context import TaskContext
+from hri.task import Parallel, TaskContext, get_task_manager
 from hri.task.events import event, write_event
 from hri.task.task import task
 

@@ -6,8 +6,7 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from PIL import Image as Pictures
-from PIL import ImageDraw, ImageFont
+from PIL import Image as Pictures, ImageDraw, ImageFont
 
 from hri.cli.drive.keys import HELP
 from hri.cli.drive.picture import Trail, rows

@@ -2,8 +2,7 @@ import math
 import sys
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.behavior.library.arithmetic import (
     Absolute,

@@ -3,8 +3,7 @@ import json
 import math
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.behavior.library.recording import ValuePlayer, ValueRecorder
 from hri.core.errors import AuthoringError, HriError

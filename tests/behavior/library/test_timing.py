@@ -1,6 +1,5 @@
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.behavior.library.timing import Counter, Delay, Latch, Threshold, Timer
 from hri.core.errors import HriError

@@ -8,8 +8,7 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 
-from hri.cli.grammar import calibrate, confuse
-from hri.cli.grammar import test as test_command
+from hri.cli.grammar import calibrate, confuse, test as test_command
 from hri.core.clock import FakeClock
 from hri.hal.drivers.wav_file import write_wav
 from hri.hal.manager import ResourceManager

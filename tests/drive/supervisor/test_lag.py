@@ -7,8 +7,7 @@ from collections import deque
 from dataclasses import dataclass, field
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.core.signals import Twist
 from hri.drive.supervisor.lag import MOST_LAG, Lag

@@ -1,8 +1,7 @@
 import math
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.core.signals import Twist
 from hri.drive.supervisor.limiter import QUANTUM, REST, Cap, Limiter, Limits, within

@@ -1,8 +1,7 @@
 import json
 import math
 
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.core.signals import Twist
 from hri.drive.bases.protocol import BaseReport, Note

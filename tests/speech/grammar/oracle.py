@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from unittest.mock import patch
 
-from hypothesis import assume
-from hypothesis import strategies as st
+from hypothesis import assume, strategies as st
 
 from hri.core.errors import AuthoringError
 from hri.speech.grammar import Grammar, Rule, automaton

@@ -3,8 +3,7 @@ from __future__ import annotations
 import time
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.speech.grammar import load_grammar
 from hri.speech.grammar.confusion import differing, sound_alikes

@@ -5,8 +5,7 @@ import random
 import time
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.core.errors import AuthoringError
 from hri.speech.grammar import load_grammar, read_grammar

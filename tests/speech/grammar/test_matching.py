@@ -6,8 +6,7 @@ import time
 from itertools import product
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 
 from hri.core.errors import AuthoringError
 from hri.speech.grammar import load_grammar, matching, read_grammar

@@ -7,8 +7,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from hypothesis import example, given, settings
-from hypothesis import strategies as st
+from hypothesis import example, given, settings, strategies as st
 
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.dates import WEEKDAYS, resolve

@@ -4,8 +4,7 @@ import os
 import stat
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.core.errors import AuthoringError, HriError
 from hri.speech.pronunciation import guesses

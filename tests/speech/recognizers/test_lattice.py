@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.speech.recognizers.ctc.lattice import Path, Walk
 from hri.speech.recognizers.ctc.phone_graph import compile

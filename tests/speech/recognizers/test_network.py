@@ -7,8 +7,7 @@ import sys
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.core.errors import HriError
 from hri.speech.recognizers.ctc.classes import CLASSES, TOKENS, folding

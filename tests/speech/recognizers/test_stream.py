@@ -2,8 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.speech.recognizers.ctc.network import FARTHEST, load_network
 from hri.speech.recognizers.ctc.stream import AHEAD, CHUNK, Stream

@@ -7,8 +7,7 @@ from importlib.metadata import distribution
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from hri.core.errors import HriError, NotAvailable
 from hri.speech.recognizers.ctc import weights

@@ -1,7 +1,7 @@
 """What happens to the face, and what it says about that."""
 
-from hri.emotion.behaviors import EmotionModel
-from hri.task.context import TaskContext
+from hri.emotion import EmotionModel
+from hri.task import TaskContext
 
 STIMULI = ("person_seen", "praise", "bump", "scold", "ignored")
 PAUSE = 4.0

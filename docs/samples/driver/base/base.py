@@ -1,12 +1,8 @@
 """Shows what the base measures, drives 20 cm ahead and back, and shows it again."""
 
-from hri.core.clock import Clock, RealClock
+from hri.core import Clock, RealClock
 from hri.core.units import cm
-from hri.hal.battery import Battery
-from hri.hal.bumper import Bumper
-from hri.hal.drive import DriveSystem, Odometry
-from hri.hal.manager import ResourceManager
-from hri.hal.range_sensor import RangeSensor
+from hri.hal import Battery, Bumper, DriveSystem, Odometry, RangeSensor, ResourceManager
 
 SPEED, ACCELERATION = 20 * cm, 40 * cm
 

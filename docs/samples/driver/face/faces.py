@@ -1,10 +1,8 @@
 """Shows each expression of the face on the screen for a second."""
 
-from hri.core.clock import Clock, RealClock
-from hri.face.model import load_face
-from hri.face.still import render_face
-from hri.hal.manager import ResourceManager
-from hri.hal.screen import Screen
+from hri.core import Clock, RealClock
+from hri.face import load_face, render_face
+from hri.hal import ResourceManager, Screen
 
 
 def main(clock: Clock) -> None:

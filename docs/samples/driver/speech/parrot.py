@@ -1,12 +1,9 @@
 """Speaks sentences, and lets the recognizer hear what the voice said: no air in between."""
 
-from hri.core import paths
-from hri.core.clock import Clock, RealClock
+from hri.core import Clock, RealClock, paths
+from hri.hal import Recognizer, ResourceManager, Synthesizer
 from hri.hal.drivers.resampling import resample
-from hri.hal.manager import ResourceManager
-from hri.hal.recognizer import Recognizer
-from hri.hal.synthesizer import Synthesizer
-from hri.speech.grammar import load_grammar
+from hri.speech import load_grammar
 
 SENTENCES = ("hello robot", "go forward two meters", "how are you")
 

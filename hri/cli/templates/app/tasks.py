@@ -1,7 +1,7 @@
 """What the app does: each task named in `app.toml` runs from its start to its end."""
 
 from hri.robot.verbs import ask, gesture, move, say
-from hri.task.context import TaskContext
+from hri.task import TaskContext
 
 
 async def converse(context: TaskContext) -> None:

@@ -1,7 +1,6 @@
 """A behavior of your own."""
 
-from hri.behavior.behavior import Behavior
-from hri.behavior.ports import Input, Output, Param
+from hri.behavior import Behavior, Input, Output, Param
 
 
 class Thing(Behavior):

@@ -1,7 +1,7 @@
 """What the app does itself: tasks named by `action` in replies.toml, with the tags of the words."""
 
 from hri.robot.verbs import gesture
-from hri.task.context import TaskContext
+from hri.task import TaskContext
 
 
 async def timer(context: TaskContext, seconds: float) -> str:

@@ -1,7 +1,7 @@
 from pathlib import Path
 
-from hri.core.clock import FakeClock
-from hri.hal.resource import Description
+from hri.core import FakeClock
+from hri.hal import Description
 from hri.robot import Robot
 from hri.speech.recognizers.typed import TypedRecognizer
 from hri.testing import live_for

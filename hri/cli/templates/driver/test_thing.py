@@ -2,10 +2,8 @@ from pathlib import Path
 
 import pytest
 
-from hri.core.clock import FakeClock
-from hri.hal.configuration import load_configuration
-from hri.hal.manager import ResourceManager
-from hri.hal.range_sensor import RangeSensor
+from hri.core import FakeClock
+from hri.hal import RangeSensor, ResourceManager, load_configuration
 
 FOLDER = Path(__file__).parent
 

@@ -1,7 +1,7 @@
 """A range sensor of your own."""
 
-from hri.core.signals import RangeReading
-from hri.hal.range_sensor import RangeSensor
+from hri.core import RangeReading
+from hri.hal import RangeSensor
 
 
 class Thing(RangeSensor):

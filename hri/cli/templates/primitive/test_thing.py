@@ -1,9 +1,9 @@
 import pytest
 from thing import Thing
 
-from hri.core.clock import FakeClock
+from hri.core import FakeClock
 from hri.simulation.world import SimulatedWorld
-from hri.task.script import get_task_manager, use
+from hri.task import get_task_manager, use
 
 
 @pytest.fixture

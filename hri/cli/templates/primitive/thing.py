@@ -3,9 +3,8 @@
 import os
 from pathlib import Path
 
-from hri.task.context import TaskContext
+from hri.task import TaskContext, TaskStatus
 from hri.task.primitive import Primitive, primitive
-from hri.task.task import TaskStatus
 
 # The network lies beside this file, in primitive/My/Thing.xml.
 HERE = str(Path(__file__).parent)

@@ -1,8 +1,8 @@
 import pytest
 from thing import thing
 
-from hri.core.clock import FakeClock
-from hri.task.script import get_task_manager, use
+from hri.core import FakeClock
+from hri.task import get_task_manager, use
 
 
 @pytest.fixture

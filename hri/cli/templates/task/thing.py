@@ -1,6 +1,6 @@
 """A task of your own: run it with `python thing.py`."""
 
-from hri.task.context import TaskContext
+from hri.task import TaskContext
 from hri.task.task import task
 
 

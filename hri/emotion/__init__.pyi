@@ -1,0 +1,10 @@
+from .appraisal import (
+    ActionEvent as ActionEvent,
+    GoalEvent as GoalEvent,
+    ObjectEvent as ObjectEvent,
+)
+from .behaviors import EmotionDisplay as EmotionDisplay, EmotionModel as EmotionModel
+from .dynamics import Dynamics as Dynamics
+from .model import EmotionModelSpec as EmotionModelSpec, load_emotions as load_emotions
+from .personality import Personality as Personality, load_personality as load_personality
+from .stimulus import StimulusSpec as StimulusSpec, load_stimuli as load_stimuli

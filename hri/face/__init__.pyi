@@ -1,0 +1,4 @@
+from .animator import Animator as Animator
+from .behaviors import Face as Face, FaceRenderer as FaceRenderer
+from .model import FaceModel as FaceModel, load_face as load_face
+from .still import render_face as render_face
