@@ -8,7 +8,7 @@ with Robot() as robot:
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import replace
 from functools import partial
@@ -28,18 +28,18 @@ from hri.core.errors import HriError, first_of
 from hri.core.events import EventBus
 from hri.core.latest import Board
 from hri.core.registry import canonical
-from hri.core.signals import Event, Utterance
+from hri.core.signals import Event
 from hri.drive.behaviors import CommandGate
-from hri.emotion.appraisal import OccEvent
 from hri.hal.choices import apply_choices, load_choices
 from hri.hal.configuration import Configuration, load_configuration
 from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
-from hri.robot import acting, verbs
 from hri.robot.app import App, load_app
+from hri.robot.blocking_verbs import BlockingVerbs
 from hri.robot.recording import Recording
+from hri.simulation.visitor import Visitor
+from hri.simulation.world import SimulatedWorld
 from hri.task import script
-from hri.task.context import TaskContext
 from hri.task.manager import TaskManager
 from hri.task.task import Job
 from hri.task.thread import LoopThread
@@ -47,7 +47,7 @@ from hri.task.thread import LoopThread
 __all__ = ["App", "Job", "Robot", "load_app"]
 
 
-class Robot:
+class Robot(BlockingVerbs):
     """Resources, networks, tasks and the loop that runs them.
 
     As a context manager it lives in a thread of its own, and its verbs wait until they are done.
@@ -226,102 +226,22 @@ class Robot:
         if kind is None and thread.failure is not None:
             raise thread.failure
 
+    @property
+    def visitor(self) -> Visitor:
+        """The simulated person, who does what you ask of them.
+
+        Raises HriError where no world is simulated.
+        """
+        ids = self.resources.ids(SimulatedWorld)
+        if not ids:
+            raise HriError('nobody is simulated here - use Robot(config="simulated")')
+        return Visitor(self.resources.obtain(ids[0], SimulatedWorld), self.clock)
+
     def run(self, job: Job, *arguments: Any) -> Any:
         """Run a coroutine function with the robot's TaskContext and wait for what it returns."""
         if self.tasks.thread is None:
             raise RuntimeError("the robot is not running - use it as `with Robot() as robot:`")
         return self.tasks.run(job, *arguments)
-
-    def say(self, text: str) -> None:
-        """Say something and wait until it is said."""
-        self.run(verbs.say, text)
-
-    def ask(
-        self, question: str, timeout: float = 6.0, grammar: str = "", retries: int = 0
-    ) -> bool | Utterance | None:
-        """Ask a yes/no question; yes, no, a nod and a shake count. None without an answer.
-
-        With a `grammar`, what is heard by it is the answer. Asked again up to `retries` times.
-        """
-        answer: bool | Utterance | None = self.run(verbs.ask, question, timeout, grammar, retries)
-        return answer
-
-    def listen(self, timeout: float = float("inf")) -> Utterance | None:
-        """The next thing heard."""
-        heard: Utterance | None = self.run(verbs.listen, timeout)
-        return heard
-
-    def show(self, expression: str, seconds: float = 4.0) -> None:
-        """Show an expression for some seconds; 0 is as long as the face holds it by itself."""
-        self.run(verbs.show, expression, seconds)
-
-    def gesture(self, name: str, strength: float = 1.0, seconds: float = 0.0) -> None:
-        """Make a gesture such as "nod" with the face and wait until it is made.
-
-        `strength` is 0 to 1.5; 0 `seconds` is the gesture's own duration.
-        """
-        self.run(verbs.gesture, name, strength, seconds)
-
-    def feel(self, stimulus: str, intensity: float = 1.0, person: str | None = None) -> None:
-        """Let a stimulus such as "praise", perhaps by a person, move the emotions."""
-        self.run(verbs.feel, stimulus, intensity, person)
-
-    def appraise(self, event: OccEvent) -> None:
-        """Let a goal that became likelier, a deed or a thing move the emotions.
-
-        `robot.appraise(GoalEvent("charger", utility=1.0, likelihood_after=0.8))` gives hope.
-        """
-        self.run(verbs.appraise, event)
-
-    def why(self, about: str = "") -> str:
-        """What it feels and why, in a sentence; `about` is a feeling such as "sad"."""
-        words: str = self.run(verbs.why, about)
-        return words
-
-    def action(self, name: str) -> None:
-        """Play an animation of the face, such as "nod"; does not wait for its end."""
-        self.run(acting.action, name)
-
-    def set_emotion_value(self, duration: float, emotion: str, value: float) -> None:
-        """Show an emotion at a value, 0 to 1, for some seconds, whatever is felt."""
-        self.run(acting.set_emotion_value, duration, emotion, value)
-
-    def set_emotion_increment(self, duration: float, emotion: str, value: float) -> None:
-        """Show an emotion by so much more than now, -1 to 1, for some seconds."""
-        self.run(acting.set_emotion_increment, duration, emotion, value)
-
-    def set_emotion_vector(
-        self, duration: float, emotions: Mapping[str, float] | Sequence[float]
-    ) -> None:
-        """Show nothing but these emotions for some seconds; see `hri.robot.acting`."""
-        self.run(acting.set_emotion_vector, duration, emotions)
-
-    def speak(self, phonemes: str | Sequence[str]) -> None:
-        """Move the lips to phonemes such as "h @ l oU", without a sound, and wait for the end."""
-        self.run(acting.speak, phonemes)
-
-    def wait_for_emotional_change(self, timeout: float = float("inf")) -> bool:
-        """Wait until emotions that were set are over; whether they are within `timeout` seconds."""
-        is_over: bool = self.run(acting.wait_for_emotional_change, timeout)
-        return is_over
-
-    def move(self, distance: float) -> float:
-        """Drive straight on by metres, back when negative; the metres really travelled."""
-        moved: float = self.run(verbs.move, distance)
-        return moved
-
-    def turn(self, angle: float) -> float:
-        """Turn by radians, left when positive; the radians really turned."""
-        turned: float = self.run(verbs.turn, angle)
-        return turned
-
-    def wait(self, seconds: float) -> None:
-        """Live on for some seconds."""
-
-        async def wait(context: TaskContext) -> None:
-            await context.clock.sleep(seconds)
-
-        self.run(wait)
 
 
 def _find_configuration(name: str) -> Configuration:

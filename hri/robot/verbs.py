@@ -8,7 +8,7 @@ from typing import TypeVar
 from hri.behavior.behavior import Behavior
 from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import Event, Expression, Utterance
-from hri.drive.tasks import move, turn
+from hri.drive.tasks import move, stop, turn
 from hri.emotion.appraisal import OccEvent
 from hri.emotion.behaviors import EmotionModel
 from hri.face.behaviors import Face
@@ -28,6 +28,7 @@ __all__ = [
     "move",
     "say",
     "show",
+    "stop",
     "turn",
     "wait_for_speech",
     "why",

@@ -241,3 +241,72 @@ def test_what_a_script_catches_of_ctrl_c_has_stopped_the_base(robot):
     robot.wait(3.0)
     assert odometry.pose(robot.clock.now()).x == pytest.approx(before, abs=0.001)
     assert 0.1 < before < 1.5
+
+
+def test_the_visitor_answers_when_asked_to(robot):
+    robot.events.subscribe("question.asked", lambda event: robot.visitor.say("yes", after=0.5))
+    assert robot.ask("Do you like me?") is True
+
+
+def test_who_is_not_simulated_cannot_be_told_what_to_do(tmp_path):
+    config = tmp_path / "bare.xml"
+    config.write_text("<Resources/>")
+    app = tmp_path / "app"
+    app.mkdir()
+    (app / "app.toml").write_text("networks = []\n")
+    robot = Robot(str(app), str(config), clock=FakeClock())
+    with pytest.raises(
+        HriError, match=r'nobody is simulated here - use Robot\(config="simulated"\)'
+    ):
+        robot.visitor.say("hello")
+
+
+def test_a_function_of_the_script_is_called_with_the_tags_of_what_is_heard(robot):
+    asked = []
+
+    def come(distance=None, **tags):
+        asked.append(tags)
+        robot.say("As you wish.")
+
+    task = robot.when_heard("turn", come)
+    said = []
+    robot.events.subscribe("speech.said", lambda event: said.append(event.properties["text"]))
+    robot.visitor.say("turn left", after=0.5)
+    robot.wait(5.0)
+    assert len(asked) == 1
+    assert "As you wish." in said
+    task.cancel()
+    robot.visitor.say("turn left", after=0.5)
+    robot.wait(5.0)
+    assert len(asked) == 1
+
+
+def test_a_function_of_the_script_is_called_at_each_event_and_again_after_it_failed(robot, caplog):
+    numbers = []
+
+    def note(event):
+        numbers.append(event.properties["number"])
+        if event.properties["number"] == 1:
+            raise ZeroDivisionError("first")
+
+    robot.on("door.*", note)
+    robot.wait(0.1)
+    for number in (1, 2):
+        robot.events.raise_event("door.rung", number=number)
+        robot.wait(0.1)
+    assert numbers == [1, 2]
+    assert "what was to be done at door.* failed: first" in caplog.text
+
+
+def test_a_script_says_how_fast_and_stops(robot):
+    odometry = robot.resources.obtain("odometry", Odometry)
+    before = robot.clock.now()
+    assert robot.move(0.4, speed=0.1) == pytest.approx(0.4, abs=0.02)
+    assert robot.clock.now() - before > 4.0
+    going = robot.tasks.install(verbs.move, 5.0)
+    robot.wait(2.0)
+    assert odometry.velocity(robot.clock.now()).linear > 0.2
+    robot.stop()
+    assert abs(odometry.velocity(robot.clock.now()).linear) < 0.01
+    robot.wait(0.5)
+    assert going.is_over

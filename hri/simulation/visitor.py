@@ -1,0 +1,41 @@
+"""The simulated person as a script speaks of them: `robot.visitor.say("yes", after=2)`."""
+
+from __future__ import annotations
+
+from hri.core.clock import Clock
+from hri.simulation.world import SimulatedWorld
+
+
+class Visitor:
+    """The first person of a simulated world; `after` counts seconds from now.
+
+    Raises HriError where the world is a bare room.
+    """
+
+    def __init__(self, world: SimulatedWorld, clock: Clock) -> None:
+        self._world, self._clock = world, clock
+        self._person = world.person
+
+    def say(self, text: str, after: float = 0.0) -> None:
+        """Say something; it gets quieter with the distance to the robot."""
+        self._world.say(text, self._clock.now() + after)
+
+    def nod(self, after: float = 0.0) -> None:
+        """Nod the head."""
+        self._person.nod(self._clock.now() + after)
+
+    def shake(self, after: float = 0.0) -> None:
+        """Shake the head."""
+        self._person.shake(self._clock.now() + after)
+
+    def go(self, x: float, y: float, after: float = 0.0) -> None:
+        """Walk to a place of the room, in meters."""
+        self._person.go(x, y, self._clock.now() + after)
+
+    def enter(self, after: float = 0.0) -> None:
+        """Come in."""
+        self._person.enter(self._clock.now() + after)
+
+    def leave(self, after: float = 0.0) -> None:
+        """Go out of the room."""
+        self._person.leave(self._clock.now() + after)
