@@ -6,14 +6,14 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from hri.core.errors import HriError
-from hri.core.signals import Image
 from hri.core.writing import write_bytes
 
 
 def write_picture(
-    path: str | Path, image: Image, quality: float = 0.8, mode: int | None = None
+    path: str | Path, image: NDArray[np.uint8], quality: float = 0.8, mode: int | None = None
 ) -> None:
     """Write a picture as its suffix says: .jpg, .jpeg or .png.
 

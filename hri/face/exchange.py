@@ -8,37 +8,18 @@ each shape its opacity and the width of its stroke.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from hri.face.baking import DisplayList, Item, Opening, Shape, Vector
 from hri.face.paint import Gradient, Paint, Solid, Stop
-from hri.face.vocabulary import MOTIONS
-
-if TYPE_CHECKING:
-    from hri.face.model import FaceModel
 
 UNIT = 0.01
 """What 1 means in exported numbers."""
 
 Plain = dict[str, Any]
 """Names with texts, numbers, true, false, lists and further such dictionaries."""
-
-
-def exported_face(model: FaceModel) -> Plain:
-    """All it takes to draw a face from the weights of its channels, and to name them."""
-    settings = model.settings
-    return {
-        "name": model.name,
-        "about": settings.about,
-        "background": [list(color) for color in settings.background],
-        "motions": {"names": list(MOTIONS), **asdict(settings.motion)},
-        "expressions": {label: dict(weights) for label, weights in model.expressions.items()},
-        "visemes": {name: dict(weights) for name, weights in model.visemes.items()},
-        "display": exported(model.display),
-    }
 
 
 def exported(display: DisplayList) -> Plain:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import argparse
 import json
+from dataclasses import asdict
 from pathlib import Path
 
 from hri.core.writing import write_text
-from hri.face import load_face
-from hri.face.exchange import exported_face
+from hri.face import FaceModel, load_face
+from hri.face.exchange import Plain, exported
+from hri.face.vocabulary import MOTIONS
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -23,3 +25,17 @@ def run(options: argparse.Namespace) -> int:
     write_text(options.out, text + "\n")
     print(f"{options.out}: {len(text) / 1000:.0f} kB")
     return 0
+
+
+def exported_face(model: FaceModel) -> Plain:
+    """All it takes to draw a face from the weights of its channels, and to name them."""
+    settings = model.settings
+    return {
+        "name": model.name,
+        "about": settings.about,
+        "background": [list(color) for color in settings.background],
+        "motions": {"names": list(MOTIONS), **asdict(settings.motion)},
+        "expressions": {label: dict(weights) for label, weights in model.expressions.items()},
+        "visemes": {name: dict(weights) for name, weights in model.visemes.items()},
+        "display": exported(model.display),
+    }

@@ -12,15 +12,12 @@ out of date.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hri.face.renderers.compiling import compiled, inlined
-
-if TYPE_CHECKING:
-    from hri.face.renderers.program import Program, Scratch
 
 Picture = NDArray[np.uint32]
 """Shape [height, width]."""
@@ -60,6 +57,36 @@ _HALF = 1 << (_SHIFT - 1)
 _LOW, _GREEN = uint32(0xFF), uint32(0xFF00)
 _RED_BLUE, _HALVES = uint32(0x00FF00FF), uint32(0x00800080)
 _BYTE, _HALF_BYTE = uint32(8), uint32(0x80)
+
+
+class Program(NamedTuple):
+    """What is painted, step by step."""
+
+    steps: NDArray[np.void]
+    """A record for each shape, and one where what is seen through an opening ends."""
+    contours: Contours
+    """Of all shapes, those of each behind each other."""
+    ramps: NDArray[np.uint32]
+    """Shape [n, SHADES]: colors from the start of a gradient to its end, 0xAABBGGRR."""
+
+
+class Scratch(NamedTuple):
+    """Room to paint in."""
+
+    sums: Whole
+    """Shape [height, width + 1]: changes of coverage along a row."""
+    touched: NDArray[np.bool_]
+    """Whether there are any in a block of a row."""
+    alphas: NDArray[np.uint8]
+    """Coverage times opacity, [height, width]."""
+    spans: Whole
+    """Of a shape, [n, 4]: row, begin, end, and alpha, or -1 when it varies."""
+    shades: NDArray[np.uint32]
+    """Colors of a row."""
+    masks: NDArray[np.uint8]
+    """Shape [openings in each other, height, width]."""
+    below: NDArray[np.uint32]
+    """The same."""
 
 
 @compiled

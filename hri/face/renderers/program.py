@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,8 +18,8 @@ from hri.face.renderers.kernel import (
     RADIAL,
     SHADES,
     SOLID,
-    Contours,
-    Whole,
+    Program,
+    Scratch,
 )
 from hri.face.renderers.strokes import Strokes
 
@@ -39,36 +38,6 @@ STEP = np.dtype(
         ("ramp", np.int64),  # row
     ]
 )
-
-
-class Program(NamedTuple):
-    """What is painted, step by step."""
-
-    steps: NDArray[np.void]
-    """A record for each shape, and one where what is seen through an opening ends."""
-    contours: Contours
-    """Of all shapes, those of each behind each other."""
-    ramps: NDArray[np.uint32]
-    """Shape [n, SHADES]: colors from the start of a gradient to its end, 0xAABBGGRR."""
-
-
-class Scratch(NamedTuple):
-    """Room to paint in."""
-
-    sums: Whole
-    """Shape [height, width + 1]: changes of coverage along a row."""
-    touched: NDArray[np.bool_]
-    """Whether there are any in a block of a row."""
-    alphas: NDArray[np.uint8]
-    """Coverage times opacity, [height, width]."""
-    spans: Whole
-    """Of a shape, [n, 4]: row, begin, end, and alpha, or -1 when it varies."""
-    shades: NDArray[np.uint32]
-    """Colors of a row."""
-    masks: NDArray[np.uint8]
-    """Shape [openings in each other, height, width]."""
-    below: NDArray[np.uint32]
-    """The same."""
 
 
 def program_of(items: Sequence[Item], strokes: Strokes) -> Program:

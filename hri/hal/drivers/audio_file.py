@@ -11,8 +11,7 @@ from hri.core.signals import Samples
 from hri.hal.audio_file import LONGEST_RECORDING, AudioFilePlayer, AudioFileRecorder
 from hri.hal.drivers.partner import use_partner
 from hri.hal.drivers.wav_file import GrowingWav, load_sound
-from hri.hal.ear import Ear
-from hri.hal.microphone import Microphone
+from hri.hal.microphone import Ear, Microphone
 from hri.hal.pending import Pending
 from hri.hal.speaker import Speaker
 
