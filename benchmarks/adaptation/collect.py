@@ -1,7 +1,7 @@
 """Collects clean speech of many voices for the adaptation: `python collect.py speech.npz`.
 
 With the texts of what synthesizers were given to say; of recordings there are none, and what the
-network itself hears in them has to do. Which voices, and under which licences: README.md beside
+network itself hears in them has to do. Which voices, and under which licenses: README.md beside
 this file. Kept out, since they measure what was learned: the voices slt and awb, the recordings of
 orders, and whatever the grammars of `hri bench speech` accept.
 """

@@ -15,7 +15,7 @@ from hri.hal.wheels import WheelPair
 ENCODERS = Encoders(math.pi * 0.072 / 508.8, track=0.235, bits=16, fastest=0.5)
 """Those of the Create 2's Open Interface: counts of a turn, wheels of 72 mm."""
 ARCS = ((5.0, 0.6), (5.0, -0.9), (4.0, 1.5), (6.0, -0.25))
-"""Metres, and the curvature, 1/m: 20 m in all."""
+"""Meters, and the curvature, 1/m: 20 m in all."""
 SPEED = 0.3
 PERIOD = 0.015
 """Seconds between two reports."""

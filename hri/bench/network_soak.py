@@ -50,7 +50,7 @@ CROSSING_PATIENCE = 10.0
 NAP = 0.001
 """Seconds of real time between two looks whether it has arrived."""
 STRETCH = 20.0
-"""Centimetres that the base drives to and fro."""
+"""Centimeters that the base drives to and fro."""
 MOST_GROWTH = 150_000
 """Bytes; queues and tables reach their size in the warm-up."""
 MOST_DRIFT = 1e-6

@@ -1,7 +1,7 @@
 """Frames and poses: where things are, seen from the robot or from its camera.
 
 The robot's frame is right-handed: x points ahead, y to the left, z up; positive yaw turns to the
-left. The camera's frame has z ahead, x to the right, y down. Metres and radians.
+left. The camera's frame has z ahead, x to the right, y down. Meters and radians.
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ def wrapped(angle: float) -> float:
 
 
 def along_arc(pose: Pose2D, linear: float, angular: float) -> Pose2D:
-    """Where a short arc of `linear` metres that turns by `angular` radians leads."""
+    """Where a short arc of `linear` meters that turns by `angular` radians leads."""
     middle = pose.heading + angular / 2
     return Pose2D(
         pose.x + linear * math.cos(middle),

@@ -217,7 +217,7 @@ class Gaze:
     x: float = 0.0
     y: float = 0.0
     point: tuple[float, float, float] | None = None
-    """What to look at in place of x and y: metres from between the eyes in the robot's axes, x
+    """What to look at in place of x and y: meters from between the eyes in the robot's axes, x
     ahead, y left, z up."""
 
 
@@ -357,7 +357,7 @@ class Frame:
 
 @dataclass(frozen=True, slots=True)
 class Twist:
-    """A velocity of the base: metres a second forward, radians a second to the left."""
+    """A velocity of the base: meters a second forward, radians a second to the left."""
 
     linear: float = 0.0
     angular: float = 0.0
@@ -365,7 +365,7 @@ class Twist:
 
 @dataclass(frozen=True, slots=True)
 class Pose2D:
-    """Where the base is: metres and radians in the frame it started in, x ahead, y left."""
+    """Where the base is: meters and radians in the frame it started in, x ahead, y left."""
 
     x: float = 0.0
     y: float = 0.0
@@ -378,7 +378,7 @@ class RangeReading:
 
     sensor: str
     distance: float
-    """Metres; infinity when nothing is in range."""
+    """Meters; infinity when nothing is in range."""
     time: float
     raw: int | None = None
     """What the sensor counted, 0 when nothing is in range; None for a sensor that counts not."""

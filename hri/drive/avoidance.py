@@ -37,13 +37,13 @@ from hri.drive.route import Route, find_route, narrow_way
 from hri.drive.supervisor.governor import safe_speed
 
 PERSON_RADIUS = 0.25
-"""Metres that a standing person takes."""
+"""Meters that a standing person takes."""
 TURN_GAIN = 1.8
 """Radians a second for each radian off the direction."""
 ON_THE_SPOT = 0.7
 """Radians off the direction from which the robot turns without going."""
 BLOCKED_BELOW, FREE_ABOVE = 0.25, 0.4
-"""Metres of free way below which a direction becomes blocked, and above which free."""
+"""Meters of free way below which a direction becomes blocked, and above which free."""
 TARGET_COST, HEADING_COST, LAST_COST = 5.0, 2.0, 2.0
 """What each radian off the goal, off the heading and off the last choice costs, as in VFH+."""
 FACING = 0.05
@@ -51,9 +51,9 @@ FACING = 0.05
 AHEAD_ANGLES: Array = np.radians((0.0, 6.0, -6.0, 12.0, -12.0))
 """Directions that the governor looks at, radians from straight ahead, that one first."""
 CLOSEST = 0.2
-"""Metres of a beam that gets shorter at which it only creeps."""
+"""Meters of a beam that gets shorter at which it only creeps."""
 CREEPING = 0.06
-"""Metres a second."""
+"""Meters a second."""
 BACKING_S = 1.5
 """Seconds for which a robot that gets nowhere backs off."""
 STARTLE_S = 0.2
@@ -65,13 +65,13 @@ BLIND_S = 0.5
 ASIDE = 0.2
 """Radians off the straight way at which it counts as going around something."""
 AHEAD = 1.2
-"""Metres along the route that the robot looks ahead at most."""
+"""Meters along the route that the robot looks ahead at most."""
 REPLAN_S = 0.5
 """Seconds until it looks for a route again."""
 WEAVE, WEAVE_S = 0.3, 2.5
 """Radians and seconds of a swing."""
 GAIN = 0.4
-"""Metres that another route must save before the robot leaves the one it is on."""
+"""Meters that another route must save before the robot leaves the one it is on."""
 DOUBT_S = 15.0
 """Seconds after which what was seen may have moved on."""
 FRESH_S = 3.0
@@ -83,26 +83,26 @@ class Manner:
     """How a robot goes."""
 
     speed: float = 0.3
-    """Metres a second, where nothing is near."""
+    """Meters a second, where nothing is near."""
     blind_speed: float = 0.15
     """The same of a robot without range sensors, which finds things with its bumper: it then stands
     after 3 cm (0.1 s until it brakes, with 0.8 m/s²), where 0.3 m/s would take it 9 cm on."""
     turn_rate: float = 1.0
     """Radians a second."""
     deceleration: float = 0.4
-    """Metres a second squared that it counts on before obstacles."""
+    """Meters a second squared that it counts on before obstacles."""
     margin: float = 0.05
-    """Metres kept free beside the body."""
+    """Meters kept free beside the body."""
     person_gap: float = 0.5
-    """Metres kept free to people it knows of, while it moves."""
+    """Meters kept free to people it knows of, while it moves."""
     memory_s: float = 60.0
     """How long it remembers what it saw."""
     near: float = 0.1
-    """Metres from the goal that count as there."""
+    """Meters from the goal that count as there."""
 
 
 def towards(pose: Pose2D, goal: Pose2D) -> tuple[float, float]:
-    """Direction in the odometry frame, and metres, to a goal."""
+    """Direction in the odometry frame, and meters, to a goal."""
     x, y = goal.x - pose.x, goal.y - pose.y
     return math.atan2(y, x), math.hypot(x, y)
 
@@ -262,7 +262,7 @@ class Avoidance:
         return aside if self._histogram.is_free[sector(direction + 2 * aside)] else 0.0
 
     def _lead(self, now: float, pose: Pose2D, goal: Pose2D) -> tuple[float, float]:
-        """Direction to the next point of the route, and metres to there."""
+        """Direction to the next point of the route, and meters to there."""
         if self._route is None or now >= self._replan_at:
             self._replan_at = now + REPLAN_S
             self._route = self._routed(now, pose, goal)
@@ -339,7 +339,7 @@ class Avoidance:
         return min(self._safe(ahead), max(min(self._safe(aside), closing), CREEPING))
 
     def _free(self, pose: Pose2D, angles: Array, reach: float) -> float:
-        """Metres free in the worst of some directions, radians from straight ahead."""
+        """Meters free in the worst of some directions, radians from straight ahead."""
         ways = free_ways(pose, self._seen, reach, self._discs, pose.heading + angles)
         return float(ways.min())
 

@@ -25,7 +25,7 @@ MOTION = "drive.motion"
 _PRUDENCE = 0.7
 """Share of the deceleration that is counted on before an obstacle; the rest covers delays."""
 _SLACK = 0.03
-"""Metres a second by which it may be too fast for who comes and still slows down gently."""
+"""Meters a second by which it may be too fast for who comes and still slows down gently."""
 
 
 class CommandGate(Behavior):
@@ -44,17 +44,17 @@ class CommandGate(Behavior):
     category = "drive"
 
     may_do = NOTHING
-    max_linear = Param(0.4, "metres a second", minimum=0.01, maximum=2)
+    max_linear = Param(0.4, "meters a second", minimum=0.01, maximum=2)
     max_angular = Param(1.2, "radians a second", minimum=0.01, maximum=6)
-    acceleration = Param(0.4, "metres a second squared", minimum=0.05, maximum=5)
-    deceleration = Param(0.5, "metres a second squared", minimum=0.05, maximum=10)
+    acceleration = Param(0.4, "meters a second squared", minimum=0.05, maximum=5)
+    deceleration = Param(0.5, "meters a second squared", minimum=0.05, maximum=10)
     timeout_s = Param(
         0.5,
         "seconds without a command or a sensor's word until it stops",
         minimum=0.05,
         maximum=0.5,
     )
-    clearance = Param(0.25, "metres kept free ahead", minimum=0, maximum=2)
+    clearance = Param(0.25, "meters kept free ahead", minimum=0, maximum=2)
     slot = Param(COMMAND, "board slot with the commands of tasks")
 
     twist = Input[Twist]("twist", "a command of the network; goes before those of tasks")
@@ -182,7 +182,7 @@ class CommandGate(Behavior):
         )
 
     def _distance(self, reading: RangeReading | None, now: float) -> float:
-        """Metres; a sensor that has stopped reporting might look at anything."""
+        """Meters; a sensor that has stopped reporting might look at anything."""
         if reading is not None and now - reading.time <= self.timeout_s:
             return reading.distance
         return 0.0

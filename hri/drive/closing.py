@@ -15,7 +15,7 @@ from hri.core.signals import Pose2D, RangeReading
 WINDOW_S = 0.2
 """Seconds over which a beam is watched."""
 LEAST = 0.1
-"""Metres a second by which a beam must get shorter; less is noise."""
+"""Meters a second by which a beam must get shorter; less is noise."""
 
 
 class Closing:
@@ -36,7 +36,7 @@ class Closing:
 
     @property
     def nearest(self) -> float:
-        """The shortest beam that gets shorter, metres; infinity when none does."""
+        """The shortest beam that gets shorter, meters; infinity when none does."""
         return min(map(_closing, self._history.values()), default=math.inf)
 
 

@@ -2,7 +2,7 @@
 
 A camera sees a sector ahead and tells late what it saw. So each sight is placed by the pose that
 the robot had then, and who has just gone out of the picture is taken to walk on for a while: the
-robot has turned, they are still there. Metres, seconds.
+robot has turned, they are still there. Meters, seconds.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ WATCHED_S = 0.8
 LEAST_SIGHTS = 4
 """From which it can be told."""
 WALKS = 0.35
-"""Metres a second; slower is standing, or an error of the distance."""
+"""Meters a second; slower is standing, or an error of the distance."""
 
 
 @dataclass(slots=True)

@@ -2,7 +2,7 @@
 
 Pure: what is seen comes in with its time, goals in the odometry frame go out. A target that is lost
 is looked for where it was seen last; from there the robot turns once around, first to the side on
-which it went out of sight. Metres, radians, seconds.
+which it went out of sight. Meters, radians, seconds.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ SEARCH_RATE = 0.6
 LOOK_AROUND = math.tau
 """Radians that it turns, searching, before it gives up."""
 SLACK = 0.15
-"""Metres by which the target may come nearer or go before the robot follows again."""
+"""Meters by which the target may come nearer or go before the robot follows again."""
 
 
 class Pursuit(Enum):

@@ -10,10 +10,10 @@ from hri.core.signals import Twist
 REST = Twist()
 
 _ANGULAR_FACTOR = 4.0
-"""Turning may change this many times as fast, in radians, as driving does in metres: on a base with
-wheels half a metre apart both ask the same of the wheels."""
+"""Turning may change this many times as fast, in radians, as driving does in meters: on a base with
+wheels half a meter apart both ask the same of the wheels."""
 _START_GAP = 0.05
-"""Metres beyond the clearance that must be free before a resting base sets off again, so that a
+"""Meters beyond the clearance that must be free before a resting base sets off again, so that a
 noisy sensor does not make it creep."""
 _LEAST_LINEAR = 0.005
 _LEAST_ANGULAR = 0.02
@@ -25,13 +25,13 @@ class Limits:
     """What the base may be asked for."""
 
     max_linear: float = 0.4
-    """Metres a second, forward and backward."""
+    """Meters a second, forward and backward."""
     max_angular: float = 1.2
     """Radians a second."""
     acceleration: float = 0.4
-    """Metres a second squared."""
+    """Meters a second squared."""
     deceleration: float = 0.5
-    """Metres a second squared."""
+    """Meters a second squared."""
     timeout_s: float = 0.5
     """A command that is older counts no more."""
 
@@ -144,7 +144,7 @@ def approach(value: float, target: float, up: float, down: float) -> float:
 
 
 def max_forward(distance: float, clearance: float, deceleration: float, is_moving: bool) -> float:
-    """The speed from which a base can still stop `clearance` metres before an obstacle, in m/s.
+    """The speed from which a base can still stop `clearance` meters before an obstacle, in m/s.
 
     sqrt(2 a d); a distance that is no number counts as an obstacle that touches.
     """

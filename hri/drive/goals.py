@@ -36,14 +36,14 @@ class FollowTarget(_FromPose):
     Raises `target.found` and `target.lost` (`given_up`: whether the search is over).
     """
 
-    distance = Param(1.2, "metres between the middles of both", minimum=0.3, maximum=5)
+    distance = Param(1.2, "meters between the middles of both", minimum=0.3, maximum=5)
     patience_s = Param(20.0, "seconds out of sight until it gives up", minimum=1, maximum=600)
     person = Param("", "id of the person; empty takes who is attended to, or the nearest")
 
     people = Input[People]("people", "everybody who is seen")
     target = Input[Pose2D]("pose", "a place in the frame of the odometry; goes before people")
     bearing = Input[float]("double", "radians to the left of a color or an object that is seen")
-    range = Input[float]("double", "metres to it; both together go before people")
+    range = Input[float]("double", "meters to it; both together go before people")
     goal = Output[Pose2D]("pose", "where to go and what to face; nothing: stay")
     is_following = Output[bool]("boolean", "whether it has the target in sight")
 
@@ -95,10 +95,10 @@ class DeadReckoning(_FromPose):
     """Sends the pose that the wheels tell, and how sure it is."""
 
     is_sensor = True
-    track = Param(Wheels().track, "metres between the wheels", minimum=0.01, maximum=3)
+    track = Param(Wheels().track, "meters between the wheels", minimum=0.01, maximum=3)
     slip = Param(
         Wheels().slip,
-        "standard deviation of a wheel's way after a metre, metres",
+        "standard deviation of a wheel's way after a meter, meters",
         minimum=0,
         maximum=1,
     )
@@ -107,7 +107,7 @@ class DeadReckoning(_FromPose):
     covariance = Output[tuple[float, ...]](
         "doublearray", "of x, y, heading: 9 numbers, row by row; m², m rad, rad²"
     )
-    deviation = Output[float]("double", "standard deviation of the position, metres")
+    deviation = Output[float]("double", "standard deviation of the position, meters")
 
     def start(self, context: Context) -> None:
         super().start(context)

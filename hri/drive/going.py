@@ -31,9 +31,9 @@ class _Going(DeviceBehavior, ABC):
 
     category = "drive"
     odometry_id = Param("odometry", "id of the odometry")
-    max_linear = Param(_MANNER.speed, "metres a second", minimum=0.02, maximum=2)
+    max_linear = Param(_MANNER.speed, "meters a second", minimum=0.02, maximum=2)
     max_angular = Param(_MANNER.turn_rate, "radians a second", minimum=0.05, maximum=6)
-    near = Param(_MANNER.near, "metres from the goal that count as there", minimum=0.02, maximum=1)
+    near = Param(_MANNER.near, "meters from the goal that count as there", minimum=0.02, maximum=1)
     faces = Param(False, "turn to the heading of the goal when it is there")
 
     goal = Input[Pose2D]("pose", "where to go, in the frame of the odometry; nothing: stay")
@@ -94,7 +94,7 @@ class ObstacleAvoidance(_Going):
 
     sensor_ids = Param("", "ids of range sensors with spaces between; empty takes all there are")
 
-    people = Input[People]("people", "who is seen; it keeps half a metre away while it moves")
+    people = Input[People]("people", "who is seen; it keeps half a meter away while it moves")
     bump = Input[bool]("boolean", "switches that something presses; any number")
     side = Output[float]("double", "side on which it goes around something: 1 left, -1 right, 0")
 

@@ -4,7 +4,7 @@ A short memory of points in the odometry frame, so that a few beams fill it as t
 turns, and a polar histogram over it. It follows VFH+ (Ulrich and Borenstein, "VFH+: reliable
 obstacle avoidance for fast mobile robots", ICRA 1998): obstacles are enlarged by the robot, and a
 direction has two thresholds, so that it does not flicker between free and blocked. In place of a
-density each sector holds a way: the metres that a round robot can go there until it touches.
+density each sector holds a way: the meters that a round robot can go there until it touches.
 """
 
 from __future__ import annotations
@@ -28,26 +28,26 @@ DIRECTIONS: Array = np.linspace(0.0, math.tau, SECTORS, endpoint=False)
 MOST_POINTS = 600
 """Points that are remembered at most; of more the oldest are forgotten."""
 GRAIN = 0.03
-"""Metres; a point so near to a known one only tells that that is still there."""
+"""Meters; a point so near to a known one only tells that that is still there."""
 BEAM = 0.05
-"""Metres to the side of a beam within which it shows that an old point is gone."""
+"""Meters to the side of a beam within which it shows that an old point is gone."""
 TOLERANCE = 0.16
-"""Metres before the end of a beam in which nothing is said to be gone: noise, and thin things."""
+"""Meters before the end of a beam in which nothing is said to be gone: noise, and thin things."""
 STAYS_S = 8.0
 """Seconds; what is in the same place for longer stands there for good. People who pass by stay for
 some seconds at most."""
 FELT_S = 15.0
 """Seconds for which something is remembered that the bumper felt."""
 FARTHEST = 10.0
-"""Metres; what is farther away is in nobody's way."""
+"""Meters; what is farther away is in nobody's way."""
 DEPTH = 0.3
-"""Metres that everything is deep, at least."""
+"""Meters that everything is deep, at least."""
 CORE = 0.75
 """Share of a robot's reach that is surely filled by its body."""
 SLACK = 0.002
-"""Metres by which the robot may get nearer to what it stands beside."""
+"""Meters by which the robot may get nearer to what it stands beside."""
 SURE_REACH = 0.6
-"""Metres that a beam without an echo shows free; the reach of the shortest usual sensor, less some
+"""Meters that a beam without an echo shows free; the reach of the shortest usual sensor, less some
 for dark things."""
 
 
@@ -63,7 +63,7 @@ class Memory:
 
     @property
     def points(self) -> Array:
-        """Shape [n, 2], metres in the odometry frame: what was seen, and a point behind each.
+        """Shape [n, 2], meters in the odometry frame: what was seen, and a point behind each.
 
         Things have a depth. Without the points behind, the robot would turn in behind the half of a
         round thing that it has seen, into the half that it has not.
@@ -138,7 +138,7 @@ def free_ways(
     discs: Sequence[tuple[float, float, float]] = (),
     directions: Array = DIRECTIONS,
 ) -> Array:
-    """Metres that a round robot can go straight in each direction until it touches something.
+    """Meters that a round robot can go straight in each direction until it touches something.
 
     `points` are [n, 2]; `discs` are (x, y, radius). Infinite where nothing is in the way. Where it
     is nearer to something already only the ways that lead no nearer are free.
@@ -174,12 +174,12 @@ class Histogram:
     """Which directions are free, with a threshold to become so and a lower one to stay so."""
 
     def __init__(self, blocked_below: float, free_above: float) -> None:
-        """Metres of free way; between the two a direction stays what it was."""
+        """Meters of free way; between the two a direction stays what it was."""
         self._low, self._high = blocked_below, free_above
         self.is_free: NDArray[np.bool_] = np.ones(SECTORS, np.bool_)
 
     def update(self, ways: Array, needed: float = math.inf) -> NDArray[np.bool_]:
-        """Take in the ways of `free_ways`; a way of `needed` metres is enough in any case."""
+        """Take in the ways of `free_ways`; a way of `needed` meters is enough in any case."""
         low, high = min(self._low, needed), min(self._high, needed)
         self.is_free = (ways >= high) | (self.is_free & (ways >= low))
         return self.is_free

@@ -15,7 +15,7 @@ from hri.hal.manager import ResourceManager
 from hri.hal.range_sensor import RangeSensor
 
 UNKNOWN_RADIUS = 0.25
-"""Metres, of a robot whose configuration has no dimensions."""
+"""Meters, of a robot whose configuration has no dimensions."""
 STEEPEST = math.pi / 4
 """Radians; a sensor that looks up or down by more sees the floor or the ceiling."""
 
@@ -25,7 +25,7 @@ class Mechanics:
     """A robot as obstacle avoidance knows it."""
 
     radius: float = UNKNOWN_RADIUS
-    """Metres that turning on the spot sweeps around the middle of the axle."""
+    """Meters that turning on the spot sweeps around the middle of the axle."""
     mounts: Mapping[str, Pose2D] = field(default_factory=dict)
     """Where each beam starts and looks, by the id of its sensor, in the robot's frame."""
 
@@ -42,7 +42,7 @@ def mechanics_of(resources: ResourceManager, sensors: Iterable[str]) -> Mechanic
 
 
 def swept_radius(box: Shape) -> float:
-    """How far the farthest corner of a box lies from the middle of the axle, metres."""
+    """How far the farthest corner of a box lies from the middle of the axle, meters."""
     if box.lx <= 0 or box.ly <= 0:
         return UNKNOWN_RADIUS
     cos, sin = math.cos(box.yaw), math.sin(box.yaw)

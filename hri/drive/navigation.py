@@ -32,7 +32,7 @@ from hri.task.units import (
 T = TypeVar("T")
 
 ACCELERATION = 0.3
-"""Metres a second squared, when nobody says more."""
+"""Meters a second squared, when nobody says more."""
 ANGULAR_ACCELERATION = 1.0
 """Radians a second squared."""
 NEARLY = 0.9

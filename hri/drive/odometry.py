@@ -1,9 +1,9 @@
 """How sure the wheels' own pose is: dead reckoning with its covariance.
 
-The wheels slip a little for each metre. What that does to x, y and heading follows from the
+The wheels slip a little for each meter. What that does to x, y and heading follows from the
 kinematics of two wheels (Chong and Kleeman, "Accurate odometry and error modelling for a mobile
 robot", ICRA 1997; Siegwart and Nourbakhsh, "Introduction to Autonomous Mobile Robots", 5.2.4): the
-variance of each wheel grows with the way it has rolled. Metres and radians.
+variance of each wheel grows with the way it has rolled. Meters and radians.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ class Wheels:
     """What the wheels of a base are like."""
 
     track: float = 0.3
-    """Metres between them."""
+    """Meters between them."""
     slip: float = 0.003
-    """Standard deviation of a wheel's way after one metre, metres."""
+    """Standard deviation of a wheel's way after one meter, meters."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +37,7 @@ class Estimate:
 
     @property
     def position_deviation(self) -> float:
-        """Standard deviation of the position along its worst direction, metres."""
+        """Standard deviation of the position along its worst direction, meters."""
         return math.sqrt(max(0.0, float(np.linalg.eigvalsh(self.covariance[:2, :2])[-1])))
 
     @property
@@ -47,9 +47,9 @@ class Estimate:
 
 
 def rolled_on(before: Estimate, linear: float, angular: float, wheels: Wheels) -> Estimate:
-    """The estimate after an arc of `linear` metres that turns by `angular` radians.
+    """The estimate after an arc of `linear` meters that turns by `angular` radians.
 
-    The arc should be short: some centimetres, as between two readings. Raises ValueError for one
+    The arc should be short: some centimeters, as between two readings. Raises ValueError for one
     that is not finite.
     """
     if not (math.isfinite(linear) and math.isfinite(angular)):
@@ -58,7 +58,7 @@ def rolled_on(before: Estimate, linear: float, angular: float, wheels: Wheels) -
     cos, sin = math.cos(middle), math.sin(middle)
     by_pose = np.array([[1.0, 0.0, -linear * sin], [0.0, 1.0, linear * cos], [0.0, 0.0, 1.0]])
     aside = linear / (2 * wheels.track)
-    # Columns: what a metre more of the right and of the left wheel does.
+    # Columns: what a meter more of the right and of the left wheel does.
     by_wheels = np.array(
         [
             [cos / 2 - aside * sin, cos / 2 + aside * sin],
@@ -73,7 +73,7 @@ def rolled_on(before: Estimate, linear: float, angular: float, wheels: Wheels) -
 
 
 def arc_between(before: Pose2D, after: Pose2D) -> tuple[float, float]:
-    """The short arc from one pose to the next: metres, negative backward, and radians."""
+    """The short arc from one pose to the next: meters, negative backward, and radians."""
     angular = math.remainder(after.heading - before.heading, math.tau)
     middle = before.heading + angular / 2
     x, y = after.x - before.x, after.y - before.y

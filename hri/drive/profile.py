@@ -6,7 +6,7 @@ import math
 
 
 def velocity_for(remaining: float, max_velocity: float, deceleration: float, dt: float) -> float:
-    """The velocity for the next `dt` seconds on the way to a goal, metres or radians a second.
+    """The velocity for the next `dt` seconds on the way to a goal, meters or radians a second.
 
     `remaining` is signed: what is still to go. The velocity depends on where things are now, not on
     a plan made at the start, so a push or a slow base is made up for. Speeding up evenly is the

@@ -9,13 +9,13 @@ from hri.core.signals import Pose2D
 STUCK_S = 4.0
 """Seconds without progress after which it is stuck."""
 LEAST = 0.1
-"""Metres; a robot that got so far from where it was has moved on."""
+"""Meters; a robot that got so far from where it was has moved on."""
 LEAST_TURN = 0.6
 """Radians; the same for turning on the spot, which is how it looks for a way."""
 MOST_TURN = math.tau
 """Radians; more than a whole turn on one spot is no progress."""
 WALKED = 0.5
-"""Metres; somebody who is so far from where they were has walked on."""
+"""Meters; somebody who is so far from where they were has walked on."""
 
 
 class Progress:
@@ -47,7 +47,7 @@ class Patience:
     """Notices that a goal comes no nearer."""
 
     def __init__(self, seconds: float, least: float) -> None:
-        """It is over after `seconds` in which not `least` was gained, metres or radians."""
+        """It is over after `seconds` in which not `least` was gained, meters or radians."""
         self._seconds, self._least = seconds, least
         self._best, self._since = math.inf, math.nan
 
@@ -62,7 +62,7 @@ class Approach:
     """Notices that somebody who stays where they are is not reached."""
 
     def __init__(self, seconds: float, least: float) -> None:
-        """It is over after `seconds` in which not `least` metres were gained."""
+        """It is over after `seconds` in which not `least` meters were gained."""
         self._limits = seconds, least
         self.rest()
 

@@ -3,7 +3,7 @@
 A* is by Hart, Nilsson and Raphael ("A formal basis for the heuristic determination of minimum cost
 paths", 1968). That the unknown counts as free, and the way is sought anew when something turns up,
 is the freespace assumption (Koenig and Likhachev, "D* Lite", AAAI 2002): a robot with a few short
-beams gets out of dead ends that way. Metres in the odometry frame.
+beams gets out of dead ends that way. Meters in the odometry frame.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ MOST_CELLS = 120
 BEYOND = 1e6
 """Cells from the grid; whatever is farther away is only a direction."""
 NARROW = 2.0
-"""What a cell costs in the narrow ring around obstacles, beside the metres."""
+"""What a cell costs in the narrow ring around obstacles, beside the meters."""
 THROUGH = 40.0
 """What a cell costs that an obstacle covers: only where there is no other way."""
 BEGINNING = 4
@@ -37,7 +37,7 @@ DOUBT = 4.0
 """The same of one that something covers which was seen long ago, and may have moved on."""
 NOTHING: Array = np.zeros((0, 2))
 RING = 0.12
-"""Metres of that ring."""
+"""Meters of that ring."""
 SAVED = 0.4
 """Meters by which a way must be shorter to count as another one."""
 
@@ -59,7 +59,7 @@ class Route:
 
     @property
     def length(self) -> float:
-        """Metres."""
+        """Meters."""
         pairs = zip(self.points, self.points[1:], strict=False)
         return sum(math.dist(one, other) for one, other in pairs)
 
@@ -70,7 +70,7 @@ class Route:
         return Route((here, *self.points[nearest + 1 :]), self.is_free)
 
     def is_clear(self, obstacles: Array, reach: float) -> bool:
-        """Whether all of it, without its beginning, keeps `reach` metres to the points."""
+        """Whether all of it, without its beginning, keeps `reach` meters to the points."""
         if not len(obstacles) or len(self.points) < BEGINNING + 1:
             return True
         way = np.array(self.points[BEGINNING:])
@@ -84,7 +84,7 @@ class Route:
         return min(range(len(self.points)), key=lambda number: math.dist(here, self.points[number]))
 
     def ahead(self, pose: Pose2D, obstacles: Array, reach: float, most: float) -> Point:
-        """The farthest point of the way that can be gone to straight on, `most` metres at most.
+        """The farthest point of the way that can be gone to straight on, `most` meters at most.
 
         `obstacles` are points, shape [n, 2], to which the robot's middle keeps `reach`. Corners are
         cut only as far as the ring around obstacles: the robot sees little of what it turns around.
@@ -102,7 +102,7 @@ class Route:
 def find_route(
     start: Point, goal: Point, obstacles: Array, reach: float, doubtful: Array = NOTHING
 ) -> Route:
-    """The cheapest way for a round robot whose middle keeps `reach` metres to the obstacles.
+    """The cheapest way for a round robot whose middle keeps `reach` meters to the obstacles.
 
     Where something `doubtful` was it may lead through, rather than a long way around.
     """
@@ -232,7 +232,7 @@ def _traced(came: dict[Cell, Cell], start: Cell, goal: Cell) -> list[Cell]:
 
 
 def _is_clear(start: Point, end: Point, obstacles: Sequence[Point] | Array, reach: float) -> bool:
-    """Whether the straight way keeps `reach` metres to all points."""
+    """Whether the straight way keeps `reach` meters to all points."""
     if not len(obstacles):
         return True
     points = np.asarray(obstacles)

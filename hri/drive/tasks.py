@@ -25,7 +25,7 @@ from hri.hal.resource import Description
 from hri.task.context import TaskContext
 
 CRUISE = 0.3
-"""Metres a second, when nobody says how fast; an upper limit of what is safe near people."""
+"""Meters a second, when nobody says how fast; an upper limit of what is safe near people."""
 TURN_RATE = 1.0
 """Radians a second."""
 
@@ -91,7 +91,7 @@ def _above_0(value: float | None, default: float, unit: str) -> float:
 
 
 class _Way(ABC):
-    """Where a motion leads: metres or radians from where it begins."""
+    """Where a motion leads: meters or radians from where it begins."""
 
     near: float
     """So close to the goal it is over; the base rolls out a little."""

@@ -44,7 +44,7 @@ from hri.task.units import UNIT_ANGLE, UNIT_DISTANCE, UNIT_TIME, in_si
 PATIENCE_S = 40.0
 """Seconds in which it must get nearer to a goal; else it gives up."""
 NEARER = 0.1
-"""Metres that count as nearer."""
+"""Meters that count as nearer."""
 LEAST_WAY = 0.3
 """Meters; a way that is narrower than this is not one that somebody left for a robot."""
 THINKING_S = 0.1
@@ -84,7 +84,7 @@ async def _why_not_gone_to(context: TaskContext, goal: Pose2D, faces: bool) -> s
 async def follow(
     context: TaskContext, person: str = "", distance: float = 1.2, seconds: float = math.inf
 ) -> bool:
-    """Follow somebody by their id, whoever is attended to without one, `distance` metres apart.
+    """Follow somebody by their id, whoever is attended to without one, `distance` meters apart.
 
     It faces them, looks for them when they are out of sight, and ends when they stay lost, cannot
     be reached, or after so many seconds; whether it had them in sight to the end. It comes no
@@ -140,7 +140,7 @@ async def _followed(context: TaskContext, person: str, distance: float, seconds:
 
 
 async def come_here(context: TaskContext, person: str = "", distance: float = 1.2) -> bool:
-    """Come to whoever is seen, `distance` metres before them, and face them; whether it did.
+    """Come to whoever is seen, `distance` meters before them, and face them; whether it did.
 
     Who calls may be out of sight, and a voice does not tell where it is: then it first looks
     around, once. It comes no nearer than it may while it moves, whatever distance is asked for.

@@ -10,11 +10,11 @@ from hri.core.signals import Pose2D
 LONGEST_S = 15.0
 """Seconds for one place; then it tries another."""
 NEAREST, FARTHEST = 1.0, 2.5
-"""Metres to the next place."""
+"""Meters to the next place."""
 WIDEST = math.radians(100)
 """Radians off straight ahead in which it lies."""
 NEAR = 0.25
-"""Metres from a place that are near enough."""
+"""Meters from a place that are near enough."""
 
 
 class Wandering:

@@ -22,9 +22,9 @@ from hri.face.spring import Follower, Values
 Point = tuple[float, float, float]
 
 EYE_DISTANCE = 0.065
-"""Metres between the eyes of a person."""
+"""Meters between the eyes of a person."""
 NEAREST = 0.1
-"""Metres; what is nearer is looked at as if it were there."""
+"""Meters; what is nearer is looked at as if it were there."""
 HEAD_DELAY = 0.1
 """Seconds from the eyes to the head; people's is 50 to 150 ms."""
 _EYES, _HEAD = 60.0, 8.0
@@ -107,7 +107,7 @@ def direction(point: Point) -> tuple[float, float]:
 
 
 def from_camera(point: Point, mount: Pose3D | None = None) -> Point:
-    """A point of a camera's frame (z ahead, x right, y down) in the frame of the face; metres.
+    """A point of a camera's frame (z ahead, x right, y down) in the frame of the face; meters.
 
     `mount` is where the camera is, seen from between the eyes, in the robot's axes.
     """

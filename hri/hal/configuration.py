@@ -17,7 +17,7 @@ from hri.core.xml import Element, load_xml
 from hri.hal.resource import POSE, Description
 
 SIZES = ("lx", "ly", "lz")
-"""Parameters of a shape beside its pose: its size in centimetres."""
+"""Parameters of a shape beside its pose: its size in centimeters."""
 MOST_DEVICES = 2000
 """Devices, groups and shapes of one configuration."""
 LARGEST_CM = 1000.0
@@ -25,7 +25,7 @@ LARGEST_CM = 1000.0
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A box on the robot: metres and radians in the robot's frame, (x, y, z) its middle."""
+    """A box on the robot: meters and radians in the robot's frame, (x, y, z) its middle."""
 
     lx: float = 0.0
     ly: float = 0.0

@@ -45,11 +45,11 @@ class DriveSystem(Resource):
     """
 
     max_linear: float = 0.5
-    """Metres a second."""
+    """Meters a second."""
     max_angular: float = 1.5
     """Radians a second."""
     max_acceleration: float = 0.5
-    """Metres a second squared; motions are cut to it."""
+    """Meters a second squared; motions are cut to it."""
     max_angular_acceleration: float = 2.0
     """Radians a second squared; motions are cut to it."""
 

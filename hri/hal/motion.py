@@ -17,7 +17,7 @@ REST = Twist()
 STANDING = Twist(0.001, 0.002)
 """What is slower, in m/s and rad/s, stands."""
 _SETTLE = 1.0
-"""Seconds after its planned end that a motion may take for the last millimetre."""
+"""Seconds after its planned end that a motion may take for the last millimeter."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +25,7 @@ class Way:
     """How far the wheels have carried the base."""
 
     linear: float = 0.0
-    """Metres ahead."""
+    """Meters ahead."""
     angular: float = 0.0
     """Radians to the left, whole turns included."""
 
@@ -35,7 +35,7 @@ class Steering:
     """How a base follows what it is told; the defaults are those of one that follows at once."""
 
     gain: float = 8.0
-    """Metres a second for each metre that a motion lags behind."""
+    """Meters a second for each meter that a motion lags behind."""
     lead: float = 0.0075
     """Seconds a base takes to follow a command; the profile is read so much earlier."""
     near: Way = Way(0.0005, math.radians(0.05))
@@ -83,7 +83,7 @@ class _Axis:
 
     name: str
     lag: float
-    """Metres or radians; a base that is so far behind is held up."""
+    """Meters or radians; a base that is so far behind is held up."""
     scale: float
     unit: str
 

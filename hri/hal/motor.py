@@ -9,9 +9,9 @@ class Motor(Resource):
     """Rolls a wheel and counts how far; it must stop by itself when no command comes for 0.5 s."""
 
     max_velocity: float = 0.5
-    """Metres a second, at the rim."""
+    """Meters a second, at the rim."""
     max_acceleration: float = 0.5
-    """Metres a second squared."""
+    """Meters a second squared."""
 
     @abstractmethod
     def set_velocity(self, velocity: float, now: float) -> None:
@@ -27,7 +27,7 @@ class Motor(Resource):
 
     @abstractmethod
     def position(self, now: float) -> float:
-        """Metres rolled ahead since it was switched on."""
+        """Meters rolled ahead since it was switched on."""
 
     @abstractmethod
     def velocity(self, now: float) -> float:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Trapezoid:
-    """A way from rest to rest: metres or radians, seconds.
+    """A way from rest to rest: meters or radians, seconds.
 
     Where the way is too short to reach the velocity, the trapezoid is a triangle.
     """

@@ -1,4 +1,4 @@
-"""The speech recogniser interface: sound in, finished pieces of speech out, words on demand."""
+"""The speech recognizer interface: sound in, finished pieces of speech out, words on demand."""
 
 from __future__ import annotations
 

@@ -50,7 +50,7 @@ class Description:
 
     @property
     def pose(self) -> Pose3D:
-        """Where it is fixed to its link, metres and radians. Raises AuthoringError."""
+        """Where it is fixed to its link, meters and radians. Raises AuthoringError."""
         x, y, z = (self.number(name, 0.0) / 100 for name in ("x", "y", "z"))
         roll, pitch, yaw = (self.number(name, 0.0) for name in ("roll", "pitch", "yaw"))
         return Pose3D(x, y, z, roll, pitch, yaw)

@@ -1,4 +1,4 @@
-"""The speech synthesiser interface."""
+"""The speech synthesizer interface."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The arithmetic of two driven wheels on one axle: metres, radians, seconds."""
+"""The arithmetic of two driven wheels on one axle: meters, radians, seconds."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ class WheelPair:
 
     first: float
     second: float
-    """y of the wheels, metres; never the same."""
+    """y of the wheels, meters; never the same."""
 
     @property
     def track(self) -> float:
-        """Metres between the wheels."""
+        """Meters between the wheels."""
         return abs(self.first - self.second)
 
     def rolling(self, linear: float, angular: float) -> tuple[float, float]:

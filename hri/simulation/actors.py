@@ -119,9 +119,9 @@ class Appearance:
 
 
 HEAD_HEIGHT = 0.24
-"""Metres from chin to crown, of an adult."""
+"""Meters from chin to crown, of an adult."""
 NEAREST = 0.4
-"""Metres; somebody who is nearer leans back."""
+"""Meters; somebody who is nearer leans back."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,7 +142,7 @@ class Optics:
     def show(
         self, actor: str, held: Posture, right: float, distance: float, lids: float = 1.0
     ) -> Appearance:
-        """How somebody appears who stands so many metres ahead and to the right at eye level."""
+        """How somebody appears who stands so many meters ahead and to the right at eye level."""
         focal = self.width / 2 / math.tan(self.field_of_view / 2)
         meter = focal / max(NEAREST, distance - held.nearer)
         return Appearance(

@@ -25,7 +25,7 @@ class Axle:
         return bool(self._powered)
 
     def mount(self, y: float) -> None:
-        """Put a wheel there, metres to the left; the base's limits follow from its wheels."""
+        """Put a wheel there, meters to the left; the base's limits follow from its wheels."""
         self._asked[y] = 0.0
         limits, pair = self._base.limits, self._pair()
         self._base.limits = replace(
@@ -56,7 +56,7 @@ class Axle:
             self._powered.discard(y)
 
     def rolled(self, y: float) -> float:
-        """Metres that a wheel has rolled ahead; the base has to be up to date."""
+        """Meters that a wheel has rolled ahead; the base has to be up to date."""
         return self._base.travelled - y * self._base.odometry.heading
 
     def velocity(self, y: float) -> float:

@@ -20,15 +20,15 @@ STEP = 0.01
 WATCHDOG = 0.5
 """Seconds without a command after which the base brakes (the default of ros2_controllers)."""
 BUMPER_TRAVEL = 0.01
-"""Metres that the ring of the bumper stands out from the body."""
+"""Meters that the ring of the bumper stands out from the body."""
 
 Clearance = Callable[[float, float, float], float]
-"""Metres from the point (x, y) to the nearest surface, at a time."""
+"""Meters from the point (x, y) to the nearest surface, at a time."""
 
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What the base can do: metres, radians, seconds."""
+    """What the base can do: meters, radians, seconds."""
 
     linear: float = 0.5
     angular: float = 1.5
@@ -59,7 +59,7 @@ class Base:
         slip: float = 0.0,
         seed: int = 0,
     ) -> None:
-        """`slip`: standard deviation of a wheel's slip after one metre, as a part of the way.
+        """`slip`: standard deviation of a wheel's slip after one meter, as a part of the way.
 
         Its variance grows with the way driven, the usual model of what odometry cannot know
         (Chong and Kleeman, "Accurate odometry and error modelling for a mobile robot", 1997).
@@ -69,9 +69,9 @@ class Base:
         self.odometry = Pose2D()
         self.velocity = Twist()
         self.travelled = 0.0
-        """Metres the wheels have rolled ahead, less those rolled back."""
+        """Meters the wheels have rolled ahead, less those rolled back."""
         self.way = 0.0
-        """Metres the wheels have turned, for the battery."""
+        """Meters the wheels have turned, for the battery."""
         self._clearance = clearance
         self._slip = slip
         self._random = random.Random(seed)
@@ -101,7 +101,7 @@ class Base:
         self._goal, self._is_braking = Twist(), True
 
     def push(self, way: float, now: float) -> None:
-        """Roll a base that stands and that nothing holds, metres ahead."""
+        """Roll a base that stands and that nothing holds, meters ahead."""
         self.advance(now)
         moved = along_arc(self.pose, way, 0.0)
         if self.velocity == Twist() and self._is_free(moved):

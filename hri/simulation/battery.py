@@ -7,7 +7,7 @@ from dataclasses import dataclass
 IDLE_LIFE = 4 * 3600.0
 """Seconds a full battery lasts when the robot only listens."""
 RANGE = 3000.0
-"""Metres the wheels turn on a full battery."""
+"""Meters the wheels turn on a full battery."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,7 +19,7 @@ class Charge:
     time: float = 0.0
     """Seconds."""
     way: float = 0.0
-    """Metres the wheels had turned by then."""
+    """Meters the wheels had turned by then."""
 
     def level_at(self, time: float, way: float) -> float:
         """0 to 1, after standing and driving until then."""

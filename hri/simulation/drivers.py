@@ -47,7 +47,7 @@ LENS = {
 }
 """The same of its faults; see `lens.Lens`."""
 MAX_RANGE = (0.8, 0.1, 30.0)
-"""Default, least and most of a range sensor's reach, metres; infrared ones see 80 cm."""
+"""Default, least and most of a range sensor's reach, meters; infrared ones see 80 cm."""
 RANGE_NOISE = (0.01, 0.0, 0.5)
 """Default, least and most of its noise: standard deviation as a part of the distance."""
 COUNTS_AT_1_CM = 7000.0

@@ -20,9 +20,9 @@ class Role:
     """What they do at a time, over the sway of rest; None while they are not there."""
     actor: str = DEFAULT_ACTOR
     distance: float = 1.3
-    """Metres from the camera."""
+    """Meters from the camera."""
     right: float = 0.0
-    """Metres to the right as the camera sees them."""
+    """Meters to the right as the camera sees them."""
     seed: int = 0
 
     def posture(self, time: float) -> Posture | None:

@@ -32,9 +32,9 @@ class RobotStart:
     pose: Pose2D
     """Where it is switched on, in the coordinates of the room."""
     radius: float
-    """Of its round body, metres."""
+    """Of its round body, meters."""
     slip: float
-    """Standard deviation of a wheel's slip after one metre, as a part of the way."""
+    """Standard deviation of a wheel's slip after one meter, as a part of the way."""
 
 
 @dataclass(frozen=True)
@@ -201,7 +201,7 @@ def _point(table: Table, name: str) -> tuple[float, float]:
     x, y = table.numbers(name, count=2)
     if not (abs(x) <= _FARTHEST and abs(y) <= _FARTHEST):  # also refuses nan
         what = f"{name} is {x:g}, {y:g}"
-        raise table.error(name, what, f"write metres from -{_FARTHEST:g} to {_FARTHEST:g}")
+        raise table.error(name, what, f"write meters from -{_FARTHEST:g} to {_FARTHEST:g}")
     return x, y
 
 

@@ -12,7 +12,7 @@ from hri.hal.camera import FIELD_OF_VIEW
 from hri.simulation.world import SimulatedWorld
 
 FARTHEST = 4.0
-"""Metres at which a face is still found."""
+"""Meters at which a face is still found."""
 PICTURE_S = 0.1
 """Seconds between two pictures."""
 DELAY = 1

@@ -35,7 +35,7 @@ SYLLABLES_HZ = 4.3
 STEPS_HZ = 1.8
 """Of walking; the head goes up and down with each step."""
 BOB = 0.02
-"""Metres up and down from the middle (Murray 1967: 5 cm from lowest to highest)."""
+"""Meters up and down from the middle (Murray 1967: 5 cm from lowest to highest)."""
 LAUGH_HZ = 4.8
 """Bursts of a laugh (Bachorowski 2001: 4 to 5 a second)."""
 
@@ -49,11 +49,11 @@ class Posture:
     yaw: float = 0.0
     roll: float = 0.0
     right: float = 0.0
-    """Metres to the right as the camera sees them."""
+    """Meters to the right as the camera sees them."""
     down: float = 0.0
-    """Metres."""
+    """Meters."""
     nearer: float = 0.0
-    """Metres toward the camera."""
+    """Meters toward the camera."""
     mouth: float = 0.0
     """0 shut to 1 open."""
     smile: float = 0.0

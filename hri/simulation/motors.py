@@ -10,7 +10,7 @@ from hri.hal.resource import Description
 from hri.simulation.device import InWorld
 
 POSITION_FACTOR = 1711.0
-"""Counts of the encoder for each centimetre the wheel rolls; negative for a motor that is mounted
+"""Counts of the encoder for each centimeter the wheel rolls; negative for a motor that is mounted
 the other way round."""
 POWER_OUTPUT = (45.0, 0.0, 100.0)
 """Default, least and most, percent."""
@@ -20,7 +20,7 @@ class SimulatedMotor(InWorld, Motor):
     """A wheel motor with an encoder.
 
     Its parameters are those of the motors of 2003. `position_factor` gives the counts for each
-    centimetre; `power_output` is the most power it uses, percent; `address` and `cycle_time` change
+    centimeter; `power_output` is the most power it uses, percent; `address` and `cycle_time` change
     nothing here.
     """
 
@@ -38,7 +38,7 @@ class SimulatedMotor(InWorld, Motor):
         description.number("cycle_time", 0.0)
         if description.number("position_factor", POSITION_FACTOR) == 0:
             what = "position_factor is 0"
-            raise description.error("position_factor", what, "write counts for each centimetre")
+            raise description.error("position_factor", what, "write counts for each centimeter")
         if description.pose.y == 0:
             what = f"{description.id} has no y"
             raise description.error("y", what, "say how far to the left its wheel is, in cm")
@@ -47,7 +47,7 @@ class SimulatedMotor(InWorld, Motor):
         super()._open()
         self._y = self.manager.pose_of(self.id).y
         factor = self.description.number("position_factor", POSITION_FACTOR)
-        self._counts_a_metre = factor * 100
+        self._counts_a_meter = factor * 100
         limits = self.world.base.limits
         self.max_velocity, self.max_acceleration = limits.linear, limits.acceleration
         self.world.axle.mount(self._y)
@@ -71,10 +71,10 @@ class SimulatedMotor(InWorld, Motor):
     def counts(self, now: float) -> int:
         """What the encoder has counted since it was switched on."""
         way = self.world.rolled(self._y, now) - self._start
-        return round(way * self._counts_a_metre)
+        return round(way * self._counts_a_meter)
 
     def position(self, now: float) -> float:
-        return self.counts(now) / self._counts_a_metre
+        return self.counts(now) / self._counts_a_meter
 
     def velocity(self, now: float) -> float:
         return self.world.wheel_velocity(self._y, now)

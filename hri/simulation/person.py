@@ -20,13 +20,13 @@ from hri.simulation.looks import DEFAULT_ACTOR
 from hri.simulation.motion import MOTIONS, Motion, Posture
 
 RADIUS = 0.22
-"""Metres, of the place a standing person takes."""
+"""Meters, of the place a standing person takes."""
 WALK_TIME = 1.5
 """Seconds to come into view or to walk out of it."""
 WALK_WAY = 1.0
-"""Metres between the person's place and where they are out of view."""
+"""Meters between the person's place and where they are out of view."""
 SPEED = 0.7
-"""Metres a second of somebody who comes nearer or steps back."""
+"""Meters a second of somebody who comes nearer or steps back."""
 PAUSE = 0.3
 """Seconds between two sentences that were asked for at the same time."""
 
@@ -152,7 +152,7 @@ class Person:
         self._ways.append(Way(at, self.place(at), (x, y)))
 
     def place(self, time: float) -> tuple[float, float]:
-        """Where they stand, or would if they were there: x and y, metres."""
+        """Where they stand, or would if they were there: x and y, meters."""
         for way in reversed(self._ways):
             if way.start <= time:
                 return way.at(time)
@@ -172,7 +172,7 @@ class Person:
         return comes or time - begin < WALK_TIME
 
     def aside(self, time: float) -> float:
-        """Metres from the person's place, to the right as seen by the robot, while walking."""
+        """Meters from the person's place, to the right as seen by the robot, while walking."""
         begin, comes = self._last_walk(time)
         part = motion.eased((time - begin) / WALK_TIME)
         return WALK_WAY * (1 - part if comes else part)

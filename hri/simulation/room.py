@@ -1,6 +1,6 @@
 """The room: walls and furniture as line segments and circles, and what can be asked of them.
 
-Metres and radians throughout. A solid box is its four sides: nothing that moves ever starts
+Meters and radians throughout. A solid box is its four sides: nothing that moves ever starts
 inside one, so its inside never matters.
 """
 

@@ -6,7 +6,7 @@ they go: somebody who is `heedful` stops for a robot that stands in the next ste
 not stops when they run into it. Nobody looks behind or to the side, so a robot that drives into
 somebody's flank has only itself to blame.
 
-Metres, radians, seconds.
+Meters, radians, seconds.
 """
 
 from __future__ import annotations

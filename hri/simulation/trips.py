@@ -64,7 +64,7 @@ GIVES_UP_S = 30.0
 
 @dataclass
 class Trip:
-    """What happened on the way to one goal; metres and seconds."""
+    """What happened on the way to one goal; meters and seconds."""
 
     seed: int
     policy: str

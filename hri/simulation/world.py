@@ -2,7 +2,7 @@
 
 It is a bus of the configuration; the simulated devices sit on it. Its parameters are `file` (a
 world of `config/worlds`), `seed`, `battery` (0 to 1 at the start) and `voice`, the id of the
-synthesiser that speaks for the people (without it the world brings one of its own).
+synthesizer that speaks for the people (without it the world brings one of its own).
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from hri.simulation.sound import Sound
 BUMP_TIME = 0.3
 """Seconds that somebody who pushes against the base presses the bumper."""
 _NEAREST = 1.0
-"""Metres; somebody who is nearer speaks more softly, so the voice gets no louder."""
+"""Meters; somebody who is nearer speaks more softly, so the voice gets no louder."""
 
 
 class SimulatedWorld(Resource):
@@ -78,7 +78,7 @@ class SimulatedWorld(Resource):
             self.base.brake(now)
 
     def roll_wheel(self, y: float, velocity: float, now: float) -> None:
-        """What a motor asks of its wheel, metres to the left, m/s."""
+        """What a motor asks of its wheel, meters to the left, m/s."""
         with self._lock:
             self.axle.roll(y, velocity, now)
 
@@ -88,7 +88,7 @@ class SimulatedWorld(Resource):
             self.axle.brake(y, now)
 
     def rolled(self, y: float, now: float) -> float:
-        """Metres that a wheel has rolled ahead."""
+        """Meters that a wheel has rolled ahead."""
         self.advance(now)
         return self.axle.rolled(y)
 
@@ -110,7 +110,7 @@ class SimulatedWorld(Resource):
         return bool(self._holders) or self.axle.is_held
 
     def push(self, way: float, now: float) -> None:
-        """Let somebody roll the base by hand, metres ahead; one that is held stays."""
+        """Let somebody roll the base by hand, meters ahead; one that is held stays."""
         with self._lock:
             if not self.is_held:
                 self.base.push(way, now)
@@ -169,7 +169,7 @@ class SimulatedWorld(Resource):
         self._charge = Charge(level, now, self.base.way)
 
     def distance_to(self, person: Person, now: float) -> float:
-        """Metres from the middle of the robot."""
+        """Meters from the middle of the robot."""
         return math.hypot(*seen_from(self.base.pose, *person.place(now)))
 
     def bearing_of(self, person: Person, now: float) -> float:
@@ -178,7 +178,7 @@ class SimulatedWorld(Resource):
         return math.atan2(left, ahead)
 
     def stand_at(self, person: Person, distance: float, now: float) -> None:
-        """Let somebody walk straight until they are so many metres from the robot."""
+        """Let somebody walk straight until they are so many meters from the robot."""
         (x, y), pose = person.place(now), self.base.pose
         part = distance / max(self.distance_to(person, now), RADIUS)
         person.go(pose.x + (x - pose.x) * part, pose.y + (y - pose.y) * part, now)

@@ -1,4 +1,4 @@
-"""Which grammar is in force: the topmost of a stack, once the recogniser has taken it.
+"""Which grammar is in force: the topmost of a stack, once the recognizer has taken it.
 
 A grammar is read and compiled in a worker, and the one before it stays in force meanwhile. One
 that is refused leaves the stack as it was.
@@ -40,10 +40,10 @@ class Layer:
 
 
 class GrammarStack:
-    """Grammars one above the other, and the worker that lets the recogniser take them."""
+    """Grammars one above the other, and the worker that lets the recognizer take them."""
 
     def __init__(self, worker: Worker[Layer], take: Callable[[Layer], None]) -> None:
-        """`take` runs in the worker: it reads the grammar and gives it to the recogniser.
+        """`take` runs in the worker: it reads the grammar and gives it to the recognizer.
 
         It raises HriError for a grammar that cannot be used.
         """

@@ -156,7 +156,7 @@ class Listener(Behavior):
         return in_force is not None and in_force.stands_for(layer)
 
     def _take_grammar(self, layer: Layer) -> None:
-        """Read a grammar and give it to the recogniser; runs in a worker."""
+        """Read a grammar and give it to the recognizer; runs in a worker."""
         grammar = layer.grammar or load_grammar(layer.path)
         self._recognizer.start(grammar)
         layer.grammar = grammar

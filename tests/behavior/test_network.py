@@ -113,12 +113,12 @@ def test_a_meaning_that_does_not_fit_is_a_warning(tmp_path):
     class Distance(Behavior):
         """Sends a distance."""
 
-        out = Output[float]("double", "metres", "Test.Distance")
+        out = Output[float]("double", "meters", "Test.Distance")
 
     class Speed(Behavior):
         """Takes a speed."""
 
-        into = Input[float]("double", "metres a second", "Test.Speed")
+        into = Input[float]("double", "meters a second", "Test.Speed")
 
     network = load(tmp_path, "")
     network.add(Distance("d"))

@@ -17,7 +17,7 @@ from hri.simulation.trips import Journey
 
 
 def run_file(folder: Path, count: int = 30) -> Path:
-    """A run that goes a metre ahead past a box."""
+    """A run that goes a meter ahead past a box."""
     world = (
         "[robot]\nstart = [0, 0]\n[person]\nat = [2, 1]\n"
         "[[box]]\ncenter = [0.5, 0.8]\nlength = 0.5\nwidth = 0.5\n"

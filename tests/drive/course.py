@@ -41,7 +41,7 @@ class BaseOdometry(Odometry):
 
 
 class Course:
-    """A clock, a gate, a base, and a wall across the way at `wall` metres."""
+    """A clock, a gate, a base, and a wall across the way at `wall` meters."""
 
     def __init__(self, wall: float = math.inf, slip: float = 0.0, **parameters: Any) -> None:
         self.clock = FakeClock()

@@ -83,7 +83,7 @@ def test_eyes_turn_inward_to_what_is_near() -> None:
         inward[distance] = look.inward * 25
     assert inward[0.5] == pytest.approx(math.degrees(math.atan(0.0325 / 0.5)), abs=0.05)
     assert inward[0.01] > inward[0.2] > inward[0.5] > inward[5.0]
-    assert inward[0.01] < 20, "no nearer than ten centimetres"
+    assert inward[0.01] < 20, "no nearer than ten centimeters"
 
 
 @given(st.lists(st.tuples(*[st.floats(-5, 5)] * 3), min_size=1, max_size=4))

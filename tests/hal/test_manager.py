@@ -309,7 +309,7 @@ SHAPED = """<Resources>
 
 
 @pytest.mark.proves("H02")
-def test_dimensions_are_metres(tmp_path):
+def test_dimensions_are_meters(tmp_path):
     path = tmp_path / "shaped.xml"
     path.write_text(SHAPED.format(type="rectangular", name="x"))
     manager = ResourceManager((), FakeClock(), shapes=load_configuration(path).shapes)

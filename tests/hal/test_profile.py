@@ -15,7 +15,7 @@ profiles = st.builds(Trapezoid, ways, positive, positive)
 
 
 def test_a_trapezoid() -> None:
-    profile = Trapezoid(0.5, 0.2, 0.4)  # the guide's half metre
+    profile = Trapezoid(0.5, 0.2, 0.4)  # the guide's half meter
     assert profile.duration == pytest.approx(0.2 / 0.4 + 0.5 / 0.2)
     assert profile.position(0.5) == pytest.approx(0.2**2 / 2 / 0.4)
     assert profile.position(1.5) == pytest.approx(0.05 + 0.2)

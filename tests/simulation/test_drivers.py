@@ -30,7 +30,7 @@ from hri.simulation.world import SimulatedWorld
 from .conftest import Build
 
 
-def test_go_forward_ten_metres(build: Build) -> None:
+def test_go_forward_ten_meters(build: Build) -> None:
     manager = build()
     drive, odometry = manager.obtain("drive", DriveSystem), manager.obtain("odometry", Odometry)
     for tick in range(60 * 50):

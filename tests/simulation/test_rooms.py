@@ -37,7 +37,7 @@ def test_a_room_is_a_world_file(tmp_path: Path) -> None:
 
 
 def walked(folder: Path, heedful: bool, seconds: float) -> tuple[float, float, list[float]]:
-    """Metres walked, nearest to things, and gaps to a robot that stands in the way."""
+    """Meters walked, nearest to things, and gaps to a robot that stands in the way."""
     room = furnished(5)
     path = folder / f"room{heedful}.toml"
     path.write_text(room.text)

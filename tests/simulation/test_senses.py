@@ -1,4 +1,4 @@
-"""What the real recognisers make of the simulated person."""
+"""What the real recognizers make of the simulated person."""
 
 from collections.abc import Iterator
 

@@ -19,7 +19,7 @@ class Approach(Behavior):
     """Comes nearer by ten a second from a hundred, and begins anew at zero."""
 
     distance = Output[float]("double", "the distance")
-    reading = Output[RangeReading]("range", "the same in metres")
+    reading = Output[RangeReading]("range", "the same in meters")
     name = Output[str]("string", "a text")
 
     def compute(self, now: float, dt: float) -> None:

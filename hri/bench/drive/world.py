@@ -26,7 +26,7 @@ SECONDS, QUICK_SECONDS = 60.0, 4.0
 TIMES = 5
 OBSTACLES = 25
 RING = 2.5
-"""Metres from the middle to where they stand."""
+"""Meters from the middle to where they stand."""
 
 
 def rows(quick: bool) -> Iterator[Row]:

@@ -36,7 +36,7 @@ SPEED, ACCELERATION = 0.2, 0.4
 TURN_SPEED, TURN_ACCELERATION = math.radians(45), math.radians(90)
 """rad/s and rad/s²."""
 NEAR, NEAR_ANGLE = 0.01, math.radians(3)
-"""Metres and radians that a step may be off."""
+"""Meters and radians that a step may be off."""
 SHARE = 0.25
 """Part of a velocity, or of the way in a second, that may be off."""
 STANDING = 0.01

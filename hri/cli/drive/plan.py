@@ -27,7 +27,7 @@ GOAL: Color = (44, 138, 84)
 SEEN: Color = (176, 48, 72)
 INK: Color = (40, 40, 40)
 MARGIN = 0.3
-"""Metres around all that is shown."""
+"""Meters around all that is shown."""
 FINE = 4
 """Bits behind the point of a pixel, with which OpenCV draws."""
 LARGEST = 1400
@@ -39,7 +39,7 @@ WORDS = cv2.FONT_HERSHEY_SIMPLEX, 0.5, INK, 1, cv2.LINE_AA
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """Where everybody was at a time, seconds; metres and radians in the room."""
+    """Where everybody was at a time, seconds; meters and radians in the room."""
 
     time: float
     robot: Pose2D
@@ -56,7 +56,7 @@ class Run:
     obstacles: Sequence[Obstacle] = ()
     goal: Point | None = None
     radius: float = 0.2
-    """Of the robot, metres."""
+    """Of the robot, meters."""
     title: str = ""
 
 

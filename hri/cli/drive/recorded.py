@@ -2,7 +2,7 @@
 
 A run is a file of JSON lines. The first says where it was: `world` (the text of a world file),
 `goal`, `radius`, `title`; each other one a moment: `t`, `robot` [x, y, heading], `people` [[x, y]],
-`seen` [[x, y]], all of them metres and radians in the room. Of a robot's recording
+`seen` [[x, y]], all of them meters and radians in the room. Of a robot's recording
 (`hri run --record`) the events named `odometry` are read.
 """
 
@@ -28,9 +28,9 @@ EVENTS = "events.jsonl"
 """The file in a robot's recording."""
 MOST_ROOMS = 100_000
 FARTHEST = 1e4
-"""Metres from the origin; nobody drives farther."""
+"""Meters from the origin; nobody drives farther."""
 MOST_RADIUS = 10.0
-"""Metres of a robot."""
+"""Meters of a robot."""
 LONGEST_S = 86_400.0
 """Seconds of a run at most."""
 UNREADABLE = KeyError, TypeError, ValueError, IndexError, OverflowError

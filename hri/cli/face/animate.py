@@ -23,7 +23,7 @@ A step does any of these:
   express = "happy"        intensity = 0 to 1, duration = seconds until it fades
   say = "Hello there."     by espeak-ng; or sound = "hello.wav", with its text in `say` and, when
                            there are any, phonemes = "hello.json" as `hri say` writes them
-  gaze = [0.5, 0.1]        -1 to 1: to the viewer's right, and up; or look_at = [x, y, z], metres
+  gaze = [0.5, 0.1]        -1 to 1: to the viewer's right, and up; or look_at = [x, y, z], meters
   gesture = "nod"          strength = 0 to 1.5, seconds = how long; or play = "take.csv", weights
                            as --csv writes them and as the app Live Link Face records them
   state = "listening"      "" ends it

@@ -1,4 +1,4 @@
-"""The recogniser that a command line asks for."""
+"""The recognizer that a command line asks for."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ ENGINES = {
     "pocketsphinx": "Hri.PocketSphinx",
     "vosk": "Hri.Vosk",
 }
-"""Recognisers that hear sound, by the names of `--engine`."""
+"""Recognizers that hear sound, by the names of `--engine`."""
 
 
 def add_engine_arguments(parser: argparse.ArgumentParser) -> None:
@@ -41,7 +41,7 @@ def _engine_of(options: argparse.Namespace) -> str:
 
 @contextmanager
 def started_engine(options: argparse.Namespace, grammar: Grammar) -> Iterator[Recognizer]:
-    """The recogniser of `options`, listening for a grammar; closed at the end."""
+    """The recognizer of `options`, listening for a grammar; closed at the end."""
     kind = ENGINES[_engine_of(options)]
     parameters = {"model": options.model} if options.model else {}
     complain = lambda what: print(what, file=sys.stderr)  # noqa: E731

@@ -1,4 +1,4 @@
-"""Whether there is floor below: redundant votes of flags, raw light and neighbours.
+"""Whether there is floor below: redundant votes of flags, raw light and neighbors.
 
 An infrared cliff sensor counts the light that its own lamp throws back from the floor. The base
 draws a flag from it by a threshold of its own; the count itself, against what the floor counted
@@ -13,7 +13,7 @@ from enum import Enum
 from hri.drive.bases.protocol import BaseReport
 
 AROUND = ("left", "front_left", "front_right", "right")
-"""Cliff sensors in the order in which they sit; neighbours vote for each other."""
+"""Cliff sensors in the order in which they sit; neighbors vote for each other."""
 DARK = 15
 """Counts of a sensor's 12 bits below which nothing throws its light back."""
 DIM = 0.4
@@ -63,16 +63,16 @@ def edges(flags: Mapping[str, bool], lights: Mapping[str, Light]) -> list[str]:
 def _votes(place: str, flags: Mapping[str, bool], lights: Mapping[str, Light]) -> int:
     doubts = sum(
         flags.get(next_to, False) or lights.get(next_to) in (Light.DIM, Light.DARK)
-        for next_to in _neighbours(place)
+        for next_to in _neighbors(place)
     )
     light = lights.get(place, Light.UNKNOWN)
     own = {Light.DARK: 2, Light.DIM: 1}.get(light, 0)
     if own == 0 and not flags[place]:
-        return 0  # neighbours alone speak for themselves
+        return 0  # neighbors alone speak for themselves
     return 2 * flags[place] + own + min(1, doubts)
 
 
-def _neighbours(place: str) -> tuple[str, ...]:
+def _neighbors(place: str) -> tuple[str, ...]:
     if place not in AROUND:
         return ()
     at = AROUND.index(place)

@@ -27,7 +27,7 @@ log = logging.getLogger("hri.resources")
 POLLING_MS = (50.0, 1.0, 10_000.0)
 """Default, least and most of the odometry's `polling_interval`, milliseconds."""
 NARROWEST = 0.001
-"""Metres; wheels that are closer to each other cannot turn the base."""
+"""Meters; wheels that are closer to each other cannot turn the base."""
 
 
 class TwoMotors(Resource):

@@ -1,4 +1,4 @@
-"""The best recogniser this machine has."""
+"""The best recognizer this machine has."""
 
 from __future__ import annotations
 

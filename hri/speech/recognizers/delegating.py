@@ -1,4 +1,4 @@
-"""A recogniser that leaves the work to another one."""
+"""A recognizer that leaves the work to another one."""
 
 from __future__ import annotations
 

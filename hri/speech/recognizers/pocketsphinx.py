@@ -1,4 +1,4 @@
-"""The recogniser of CMU: its English model comes inside the wheel, so it works at once."""
+"""The recognizer of CMU: its English model comes inside the wheel, so it works at once."""
 
 from __future__ import annotations
 

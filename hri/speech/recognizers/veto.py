@@ -1,4 +1,4 @@
-"""Two recognisers, of which the second must agree: fewer false alarms for twice the work."""
+"""Two recognizers, of which the second must agree: fewer false alarms for twice the work."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from hri.speech.recognizers.delegating import DelegatingRecognizer
 
 
 class VetoRecognizer(DelegatingRecognizer):
-    """Hears what the recogniser `first` hears, as far as the recogniser `second` hears it as well.
+    """Hears what the recognizer `first` hears, as far as the recognizer `second` hears it as well.
 
     Words of the second that mean something else, or none, are an alternative of share 1: nothing
-    is left of the confidence. Both are ids of other recognisers of the configuration.
+    is left of the confidence. Both are ids of other recognizers of the configuration.
     """
 
     parameters = ("first", "second")

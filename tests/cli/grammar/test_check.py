@@ -28,12 +28,12 @@ def test_what_the_default_engine_cannot_hear_is_told(grammar, write, capsys):
 
     assert grammar("check", write(rules)) == 0
     out = capsys.readouterr().out
-    assert "warning: the grammar needs more than 2000000 states of the recogniser - have" in out
+    assert "warning: the grammar needs more than 2000000 states of the recognizer - have" in out
 
     assert grammar("check", write(rules.replace("end;", "zorblax_ <gone>;"))) == 2
     said = capsys.readouterr()
     assert "no rule <gone>" in said.err
-    assert "states of the recogniser" not in said.out + said.err
+    assert "states of the recognizer" not in said.out + said.err
 
 
 def test_few_of_many_errors_are_shown_unless_all_are_wanted(grammar, write, capsys):

@@ -114,7 +114,7 @@ LIT = dict.fromkeys(PLACES, Light.LIT)
     ],
 )
 @pytest.mark.proves("B27")
-def test_flag_light_and_neighbours_vote(flags, lights, seen) -> None:
+def test_flag_light_and_neighbors_vote(flags, lights, seen) -> None:
     assert edges(CLEAR | flags, LIT | lights) == seen
 
 

@@ -231,7 +231,7 @@ def _reach(graph: WordGraph, wanted: set[int]) -> dict[int, dict[int, float]]:
 
 def _too_large() -> HriError:
     return HriError(
-        f"the grammar needs more than {MOST_STATES} states of the recogniser"
+        f"the grammar needs more than {MOST_STATES} states of the recognizer"
         " - have fewer words that may follow each other in fewer places"
     )
 
