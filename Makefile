@@ -44,6 +44,7 @@ check: $(VENV)/.dev
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/codespell hri apps benchmarks tests docs config *.md
 
 # Of `hri bench`, all that takes something from benchmarks/.
 COMPARED := behavior drive emotion face inputs people speech vision writes

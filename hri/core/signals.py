@@ -112,7 +112,7 @@ class Span:
 
 @dataclass(frozen=True, slots=True)
 class Speech:
-    """Synthesised speech: what the speaker plays and the lips follow."""
+    """Synthesized speech: what the speaker plays and the lips follow."""
 
     text: str
     samples: Samples
@@ -250,7 +250,7 @@ class HeadGesture:
     kind: str
     """"nod", "shake", or another pattern of `config/gestures.toml`."""
     time: float
-    """Seconds, when the picture was taken with which it was recognised."""
+    """Seconds, when the picture was taken with which it was recognized."""
     confidence: float = 1.0
     """0 to 1."""
     person: str = ""

@@ -1,7 +1,7 @@
 """How sure the wheels' own pose is: dead reckoning with its covariance.
 
 The wheels slip a little for each meter. What that does to x, y and heading follows from the
-kinematics of two wheels (Chong and Kleeman, "Accurate odometry and error modelling for a mobile
+kinematics of two wheels (Chong and Kleeman, "Accurate odometry and error modeling for a mobile
 robot", ICRA 1997; Siegwart and Nourbakhsh, "Introduction to Autonomous Mobile Robots", 5.2.4): the
 variance of each wheel grows with the way it has rolled. Meters and radians.
 """

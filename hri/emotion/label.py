@@ -17,7 +17,7 @@ RISE = -log(1 - STANDS_OUT)
 FALL = -log(1 - 0.12)
 """Charge at which it loses it again (intensity 0.12)."""
 LEAD = 1.15
-"""How many times the labelled charge another one must be to take over."""
+"""How many times the labeled charge another one must be to take over."""
 
 NOTHING = ""
 """In place of an emotion's name: none stands out."""

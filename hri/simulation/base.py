@@ -62,7 +62,7 @@ class Base:
         """`slip`: standard deviation of a wheel's slip after one meter, as a part of the way.
 
         Its variance grows with the way driven, the usual model of what odometry cannot know
-        (Chong and Kleeman, "Accurate odometry and error modelling for a mobile robot", 1997).
+        (Chong and Kleeman, "Accurate odometry and error modeling for a mobile robot", 1997).
         """
         self.limits = limits
         self.pose = start

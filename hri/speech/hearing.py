@@ -8,8 +8,8 @@ from dataclasses import replace
 from hri.core.signals import Rejection, Samples, Utterance
 from hri.hal.drivers.resampling import resample
 from hri.hal.recognizer import Recognizer, Segment
+from hri.speech.acceptance import STRICTNESS, judge
 from hri.speech.grammar import Grammar
-from hri.speech.judgement import STRICTNESS, judge
 from hri.speech.turn import Turn
 
 STEP = 0.2

@@ -16,11 +16,11 @@ from hri.core.clock import Worker
 from hri.core.signals import Rejection, Samples, Speech, Utterance
 from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer, Segment
+from hri.speech.acceptance import OVER_SPEECH, STRICTNESS
 from hri.speech.echo import EchoCanceller, OwnVoice
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar_stack import GrammarStack, Layer
 from hri.speech.hearing import SILENT_AFTER, STEP, Heard, anticipate, understand
-from hri.speech.judgement import OVER_SPEECH, STRICTNESS
 from hri.speech.turn import FOLLOW_UP, Turn, Wakefulness
 
 MOST_WAITING = 20

@@ -13,8 +13,8 @@ from hri.hal.drivers.resampling import resample
 from hri.hal.manager import ResourceManager
 from hri.hal.recognizer import Hypothesis, Segment
 from hri.hal.resource import Description
+from hri.speech.acceptance import judge
 from hri.speech.grammar import load_grammar
-from hri.speech.judgement import judge
 from hri.speech.recognizers.automatic import AutomaticRecognizer
 from hri.speech.recognizers.ctc.recognizer import CtcRecognizer
 from hri.speech.recognizers.pocketsphinx import PocketSphinxRecognizer

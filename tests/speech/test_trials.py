@@ -6,10 +6,10 @@ from hypothesis import given, strategies as st
 
 from hri.core.statistics import told, wilson
 from hri.hal.resource import Description
+from hri.speech.acceptance import needed
 from hri.speech.grammar import load_grammar
 from hri.speech.grammar.expectations import Meaning
 from hri.speech.grammar.matching import parse
-from hri.speech.judgement import needed
 from hri.speech.trials import (
     QUESTION,
     Attempt,

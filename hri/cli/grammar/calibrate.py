@@ -15,9 +15,9 @@ from hri.cli.progress import progress
 from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.statistics import told
+from hri.speech.acceptance import STRICTNESS
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.matching import parse
-from hri.speech.judgement import STRICTNESS
 from hri.speech.trials import NEARLY, Attempt, Clip, Score, attempt, recommended, score
 
 EXAMPLES = """\

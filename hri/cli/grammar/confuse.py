@@ -13,12 +13,12 @@ from hri.cli.messages import Within
 from hri.cli.progress import progress, waiting
 from hri.core import paths
 from hri.core.statistics import told
+from hri.speech.acceptance import STRICTNESS
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.confusion import FARTHEST, SoundAlike, sound_alikes
 from hri.speech.grammar.expansion import count_ways
 from hri.speech.grammar.expectations import meaning_of
 from hri.speech.grammar.matching import Parse, parse
-from hri.speech.judgement import STRICTNESS
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.trials import Attempt, attempt, confusions, score
 

@@ -29,10 +29,10 @@ from hri.hal.manager import ResourceManager
 from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer, Segment
 from hri.hal.resource import Description
+from hri.speech.acceptance import STRICTNESS
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.tags import spell_tags
 from hri.speech.hearing import Heard, hear, understand
-from hri.speech.judgement import STRICTNESS
 from hri.speech.recognizers.typed import TypedRecognizer
 from hri.speech.turn import Turn
 

@@ -16,9 +16,9 @@ from hri.core import paths
 from hri.core.errors import HriError, Mistakes
 from hri.core.quoting import message_line
 from hri.core.statistics import told
+from hri.speech.acceptance import STRICTNESS
 from hri.speech.grammar import Grammar, analysis, read_grammar
 from hri.speech.grammar.expectations import Failure, failures, meaning_of, read_expectations
-from hri.speech.judgement import STRICTNESS
 from hri.speech.trials import Attempt, attempt, confusions, score
 
 EXAMPLES = """\

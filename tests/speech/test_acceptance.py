@@ -5,8 +5,8 @@ from hypothesis import given, strategies as st
 
 from hri.core.signals import Rejection, Utterance
 from hri.hal.recognizer import Alternative, HeardWord, Hypothesis, Segment
+from hri.speech.acceptance import judge
 from hri.speech.grammar import load_grammar
-from hri.speech.judgement import judge
 from hri.speech.turn import Turn, Wakefulness
 
 PIECE = Segment(10.0, 12.0, quiet=0.5)
