@@ -9,7 +9,7 @@ from functools import partial
 from hri.core.signals import Event
 from hri.task.context import TaskContext
 
-log = logging.getLogger("hri.robot")
+log = logging.getLogger("hri.task")
 
 
 async def at_event(context: TaskContext, name: str, handler: Callable[[Event], object]) -> None:
