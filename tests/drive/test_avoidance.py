@@ -122,7 +122,7 @@ def test_before_a_wall_without_an_end_it_does_not_touch() -> None:
     assert trial.closest > 0.0
 
 
-def test_it_keeps_half_a_metre_to_people_it_knows_of() -> None:
+def test_it_keeps_half_a_meter_to_people_it_knows_of() -> None:
     trial = Trial(Room([Circle(1.5, 0.0, 0.22)]), people=((1.5, 0.0),))
     assert trial.go(Pose2D(3.5, 0.0), 40.0)
     assert trial.closest_person > 0.45

@@ -11,7 +11,7 @@ Write = Callable[[str], Path]
 START = "[robot]\nstart = [0, 0]\n[person]\nat = [1, 1]\n"
 
 
-def test_home_has_twelve_metres_free_ahead_and_the_person_leaves_the_lane_free() -> None:
+def test_home_has_twelve_meters_free_ahead_and_the_person_leaves_the_lane_free() -> None:
     layout = load_layout(find_layout("home"))
     person = Circle(layout.people[0].x, layout.people[0].y, 0.22)
     room = layout.room.with_more([person])

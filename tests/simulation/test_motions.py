@@ -88,7 +88,7 @@ def robot(request: pytest.FixtureRequest) -> Iterator[Robot]:
 
 
 @pytest.mark.proves("H25", "H27")
-def test_half_a_metre_as_in_the_guide(robot: Robot) -> None:
+def test_half_a_meter_as_in_the_guide(robot: Robot) -> None:
     robot.drive.move_delta(0.5, 0.2, 0.4).wait()
     assert robot.clock.now() == pytest.approx(0.5 / 0.2 + 0.2 / 0.4, abs=0.06)
     assert robot.pose().x == pytest.approx(0.5, abs=0.001)

@@ -40,7 +40,7 @@ def voice():
 
 
 @pytest.mark.parametrize("name", ["joy", "sadness", "anger", "fear", "surprise"])
-def test_what_is_said_with_an_emotion_is_recognised(voice, ears, name):
+def test_what_is_said_with_an_emotion_is_recognized(voice, ears, name):
     state = EmotionState(name, 1.0, 0.0, 0.0, 0.0, {name: 1.0})
     prosody = load_display().prosody(felt_now(state))
     heard = []
