@@ -149,6 +149,11 @@ class Behavior:
         declared: Output[Any] = cls._declared(name, cls.outputs, "output")
         return declared
 
+    def input_port(self, name: str) -> InputPort[Any]:
+        """The port of an input. Raises KeyError."""
+        port: InputPort[Any] = self.__dict__[name]
+        return port
+
     def output_port(self, name: str) -> OutputPort[Any]:
         """The port of an output, which an input may share its name with. Raises KeyError."""
         port: OutputPort[Any] = getattr(self, type(self).outputs[name].attribute)

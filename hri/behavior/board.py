@@ -65,6 +65,15 @@ class _BoardEnd(Behavior):
     def __init__(self) -> None:
         super().__init__(BOARD)
         self.inputs, self.outputs = {}, {}  # type: ignore[misc]
+        # Not attributes: a slot may be called "stop" or "id".
+        self._in: dict[str, InputPort[Any]] = {}
+        self._out: dict[str, OutputPort[Any]] = {}
+
+    def input_port(self, name: str) -> InputPort[Any]:
+        return self._in[name]
+
+    def output_port(self, name: str) -> OutputPort[Any]:
+        return self._out[name]
 
     def start(self, context: Context) -> None:
         names = (*self.inputs, *self.outputs)
@@ -80,12 +89,7 @@ class BoardSource(_BoardEnd):
         """Make the output of a slot, for what takes a datatype."""
         if slot not in self.outputs or self.outputs[slot].datatype == ANY:
             self.outputs[slot] = Output(datatype, f"what stands in the slot {slot}")
-            port = self.__dict__.setdefault(slot, OutputPort())
-            port.restrict(datatype)
-
-    def output_port(self, name: str) -> OutputPort[Any]:
-        port: OutputPort[Any] = getattr(self, name)
-        return port
+            self._out.setdefault(slot, OutputPort()).restrict(datatype)
 
     def start(self, context: Context) -> None:
         super().start(context)
@@ -115,7 +119,7 @@ class BoardSink(_BoardEnd):
         """Make the input of a slot."""
         if slot not in self.inputs:
             self.inputs[slot] = Input(ANY, f"what comes to stand in the slot {slot}")
-            self.__dict__[slot] = InputPort()
+            self._in[slot] = InputPort()
 
     def name_writer(self, port: OutputPort[Any], writer: str) -> None:
         """Say who writes by a port: what the slot names with its value."""
@@ -123,8 +127,7 @@ class BoardSink(_BoardEnd):
 
     def compute(self, now: float, dt: float) -> None:
         for name, slot in self._slots.items():
-            port: InputPort[Any] = getattr(self, name)
-            source = port.source
+            source = self.input_port(name).source
             if source is None:
                 slot.clear()
             else:

@@ -110,14 +110,15 @@ class Network:
                 f"{place}: {source} means {sends.semantic}, {target} wants {takes.semantic}"
             )
         port = sender.output_port(output)
-        if port in getattr(receiver, input).sources:
+        fed = receiver.input_port(input).sources
+        if port in fed:
             what = f"the link {source} -> {target} is there twice"
             raise AuthoringError(place, what, "take one of them out")
         if isinstance(receiver, BoardSink):
             receiver.name_writer(port, f"{self.name}.{source}")
         self.links.append(Link(sender, output, receiver, input, place))
         log.debug("link %s (%s)", self.links[-1], sends.datatype)
-        getattr(receiver, input).sources.append(port)
+        fed.append(port)
 
     def place_of(self, behavior: Behavior) -> Place:
         """Where a behavior stands in the file; the file itself where it stands in none."""
@@ -188,9 +189,8 @@ class Network:
         """`behavior.port` of a port. Raises HriError when none of the behaviors has it."""
         for behavior in self.behaviors:
             for name in getattr(behavior, kind):
-                is_input = kind == "inputs"
-                own = getattr(behavior, name) if is_input else behavior.output_port(name)
-                if own is port:
+                port_of = behavior.input_port if kind == "inputs" else behavior.output_port
+                if port_of(name) is port:
                     return f"{behavior.id}.{name}"
         what = f"the {kind[:-1]} belongs to no behavior of the network {self.name}"
         raise HriError(f"{what} - add its behavior first")

@@ -130,7 +130,7 @@ class Runner:
             source: OutputPort[Any] = OutputPort(declared.check(value))
         except ValueError as error:
             raise HriError(f"{behavior}.{input}: {error}") from error
-        self._injected.append((getattr(target, input), source))
+        self._injected.append((target.input_port(input), source))
 
     def watch(self, behavior: str, output: str, callback: Callable[[Any, float], object]) -> Watch:
         """Call `callback(value, now)` after each tick in which the output sent something.
@@ -350,7 +350,7 @@ class _Carrier:
     """Gives what a behavior sends the time of the oldest word that it rests on."""
 
     def __init__(self, behavior: Behavior) -> None:
-        self._inputs: list[InputPort[Any]] = [getattr(behavior, name) for name in behavior.inputs]
+        self._inputs = [behavior.input_port(name) for name in behavior.inputs]
         self._outputs = [behavior.output_port(name) for name in behavior.outputs]
         self._keeps = behavior.keeps_inputs
         self._words: dict[InputPort[Any], float] = {}

@@ -65,11 +65,7 @@ class Narrator:
         self._first_frame: float | None = None
         self._is_unread = False
         behaviors = robot.context.behaviors.values()
-        can_hear = any(isinstance(b, Listener) for b in behaviors)
-        # An app of its own need not know these sentences.
-        self._is_talkative = can_hear and any(
-            one.folder.name == "companion" for one in robot.app.line()
-        )
+        self._listener = next((b for b in behaviors if isinstance(b, Listener)), None)
         self._renderer = next((b for b in behaviors if isinstance(b, FaceRenderer)), None)
         robot.events.subscribe("*", self._hear)
 
@@ -89,9 +85,16 @@ class Narrator:
         while self._renderer is not None and not self._renderer.frames:
             await context.clock.sleep(0.02)
         self._first_frame = context.clock.now()
-        is_new = self._is_talkative and not self._counts["speech.heard"]
+        is_new = not self._counts["speech.heard"] and self._takes_greetings()
         hint = "say hello, or ask what you can say - " if is_new else ""
         self.tell(f"ready: {hint}Ctrl-C ends it")
+
+    def _takes_greetings(self) -> bool:
+        """Whether its grammar has the sentences of the hint; that of another app need not."""
+        if self._listener is None:
+            return False
+        rules = {key.rpartition(".")[2] for key in self._listener.loaded_grammar.public_rules}
+        return {"greet", "help"} <= rules
 
     def _hear(self, event: Event) -> None:
         self._counts[event.name] += 1

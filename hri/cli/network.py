@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
-from contextlib import suppress
 from pathlib import Path
 
 from hri.behavior.behavior import Behavior
@@ -46,14 +45,14 @@ def _loaded(name: str) -> list[Network]:
     if (Path(name) / "app.toml").is_file():
         return _of_app(name)
     try:
-        return [load_network(name)]
-    except AuthoringError:
-        raise
-    except HriError:
-        with suppress(HriError):
+        found = paths.find("config", name)
+    except HriError as error:
+        try:
             paths.find("apps", name)
-            return _of_app(name)
-        raise
+        except HriError:
+            raise error from None
+        return _of_app(name)
+    return [load_network(found)]
 
 
 def _of_app(name: str) -> list[Network]:

@@ -69,7 +69,9 @@ class MalleableBehavior(Behavior):
                 raise HriError(f"{what} - use one of {travels}")
 
     def start(self, context: Context) -> None:
-        self._inputs = [(name, getattr(self, name), p.datatype) for name, p in self.inputs.items()]
+        self._inputs = [
+            (name, self.input_port(name), p.datatype) for name, p in self.inputs.items()
+        ]
         self._told: set[str] = set()
         self._clock = context.clock
         self._inbox = Inbox({name: port.datatype for name, port in self.outputs.items()})

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import replace
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any, Self
 
@@ -226,7 +226,7 @@ class Robot(BlockingVerbs):
         if kind is None and thread.failure is not None:
             raise thread.failure
 
-    @property
+    @cached_property
     def visitor(self) -> Visitor:
         """The simulated person, who does what you ask of them.
 

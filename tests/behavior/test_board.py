@@ -253,3 +253,19 @@ def test_a_network_with_slots_is_written_as_it_was_read(tmp_path):
     path = tmp_path / "net.xml"
     path.write_text(text)
     assert write_network(load_network(path)) == text
+
+
+@pytest.mark.parametrize("slot", ["stop", "id", "start", "inputs", "compute", "_slots"])
+def test_a_slot_may_have_any_name(slot):
+    writing = network("writing", {"now": Now()}, ("now.number", f"board.{slot}"))
+    reading = network("reading", {"kept": Kept()}, (f"board.{slot}", "kept.number"))
+    shared = context()
+    runners = [Runner(one, shared) for one in (writing, reading)]
+    for runner in runners:
+        runner.start()
+    for runner in runners:
+        runner.tick(1.5)
+    assert reading["kept"].seen == 1.5
+    for runner in runners:
+        runner.stop()
+    assert shared.board.slot(slot).value is None

@@ -124,6 +124,16 @@ def test_an_app_is_checked_as_a_whole(tmp_path, capsys):
     assert "two.xml:2:1: board.x is double" in capsys.readouterr().err
 
 
+def test_what_is_wrong_with_an_app_found_by_its_name_is_said(tmp_path, monkeypatch, capsys):
+    folder = tmp_path / "apps" / "mine"
+    folder.mkdir(parents=True)
+    (folder / "app.toml").write_text('networks = ["one.xml"]\n')
+    (folder / "one.xml").write_text("<BehaviorNetwork>\n<Link/></BehaviorNetwork>")
+    monkeypatch.setenv("HRI_PATH", str(tmp_path))
+    assert main(["network", "check", "mine"]) == 2
+    assert "one.xml:2:1" in capsys.readouterr().err
+
+
 def test_the_picture_of_an_app_has_all_its_networks(tmp_path, capsys):
     out = tmp_path / "app.svg"
     assert main(["network", "draw", "companion", "--out", str(out)]) == 0

@@ -246,6 +246,7 @@ def test_what_a_script_catches_of_ctrl_c_has_stopped_the_base(robot):
 def test_the_visitor_answers_when_asked_to(robot):
     robot.events.subscribe("question.asked", lambda event: robot.visitor.say("yes", after=0.5))
     assert robot.ask("Do you like me?") is True
+    assert robot.visitor is robot.visitor
 
 
 def test_who_is_not_simulated_cannot_be_told_what_to_do(tmp_path):

@@ -40,7 +40,7 @@ class Share(_OnBoard):
 
     def start(self, context: Context) -> None:
         self._slot: Latest[Any] = context.board.slot(self.slot)
-        self._inputs = [getattr(self, name) for name in self.inputs]
+        self._inputs = [self.input_port(name) for name in self.inputs]
 
     def compute(self, now: float, dt: float) -> None:
         for port in self._inputs:
