@@ -17,7 +17,7 @@ from hri.behavior.network_file import load_network
 from hri.behavior.writer import save_network, write_network
 from hri.cli.progress import waiting
 from hri.core import paths
-from hri.core.errors import AuthoringError, HriError
+from hri.core.errors import HriError
 from hri.core.quoting import escaped, message_line
 from hri.core.writing import write_text
 from hri.robot.app import load_app
