@@ -166,6 +166,7 @@ def test_come_here_brings_it_to_the_person():
     assert distance(visit.pose_at(22.0)) == pytest.approx(distance(after), abs=0.02)
 
 
+@pytest.mark.slow
 def test_a_base_with_a_supervisor_moves_when_it_was_released_and_not_after_stop():
     lines = {
         1.5: "go forward one meter",

@@ -374,6 +374,7 @@ def test_quiet_is_answered_and_shown_and_ends_with_a_greeting(put):
     assert seen[10.0] != "listening"
 
 
+@pytest.mark.slow
 def test_quiet_is_over_after_a_minute(put):
     robot = robot_of(put(JOKE))
     seen, looks = shown(robot, [50.0, 63.0])

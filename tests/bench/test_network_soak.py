@@ -24,6 +24,7 @@ def test_two_runs_are_equal():
     )
 
 
+@pytest.mark.slow
 def test_a_lost_event_and_a_leak_are_found():
     class Lossy(EventBus):
         """Loses one event, and never forgets any."""
@@ -70,6 +71,7 @@ def test_timers_that_are_kept_until_they_would_be_due_are_found():
     assert [fault.split(" by ")[0] for fault in soak.run().faults] == ["memory grew"]
 
 
+@pytest.mark.slow
 def test_a_bridge_that_is_down_is_found(monkeypatch):
     monkeypatch.setattr(soak_module, "CROSSING_PATIENCE", 0.0)
     verdict = Soak(0.01, 10, lambda line: None).run()

@@ -45,10 +45,10 @@ def small(tmp_path_factory):
     return path
 
 
-def two_demos(folder, config, *more):
+def two_demos(folder, config):
     """The folders of two runs of the same demo, side by side on two cores."""
     folders = [folder / name for name in ("one", "two")]
-    words = ("companion", "--demo", "--fast", "--seed", 7, "--config", config, *more, "--record")
+    words = ("companion", "--demo", "--fast", "--seed", 7, "--config", config, "--record")
     runs = [start(*words, folder) for folder in folders]
     outputs = [run.communicate(timeout=800)[0] for run in runs]
     assert [run.returncode for run in runs] == [0, 0], outputs
@@ -82,10 +82,6 @@ EVENTS = {
 def require_equal(one, two):
     for name in ("events.jsonl", "face.mp4", "robot.wav"):
         assert (one / name).read_bytes() == (two / name).read_bytes(), name
-
-
-def test_two_demos_begin_equal_byte_for_byte(tmp_path, small):
-    require_equal(*two_demos(tmp_path, small, "--duration", 8))
 
 
 @SLOW

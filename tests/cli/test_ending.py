@@ -69,6 +69,7 @@ def test_a_robot_that_is_asked_to_end_as_it_begins_leaves_a_whole_recording(
     assert is_recorded(tmp_path / "out")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("out", ["/dev/full", "closed"])
 def test_a_robot_goes_on_when_nothing_can_be_printed(robot, tmp_path, out):
     words = [*map(str, robot), "--fast", "--duration", "2"]

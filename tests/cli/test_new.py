@@ -26,6 +26,7 @@ def words_for(kind, name):
     return ["new", *made_from.get(kind, [kind, name])]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_tests_of_what_is_new_pass_at_once(kind, folder, capsys):
     (folder / "mine").mkdir()

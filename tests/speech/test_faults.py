@@ -136,6 +136,7 @@ def test_a_microphone_of_any_rate_is_understood(room, rate):
     assert [event.properties["tags"] for event in here.named_heard] == [{"distance": 10.0}]
 
 
+@pytest.mark.slow
 def test_an_hour_of_silence_is_nothing_and_then_it_hears(room):
     here = room()
     here.run(3600.0, tick=5.0)

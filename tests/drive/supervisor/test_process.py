@@ -321,6 +321,7 @@ def test_supervisor_and_watchdog_that_go_on_after_a_rest_know_that_they_were_awa
     drive_to(bench, driving.connection)
 
 
+@pytest.mark.slow
 def test_one_that_stays_silent_is_killed_and_after_many_deaths_nothing_is_left_behind(
     driving, monkeypatch
 ) -> None:
