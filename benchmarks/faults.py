@@ -26,11 +26,11 @@ from hri.drive.bases.create2 import (
 from hri.drive.bases.protocol import BaseProtocol
 from hri.drive.supervisor.controller import TURN, Controller
 from hri.drive.supervisor.governor import Body
-from hri.drive.supervisor.limiter import Limits
 from hri.drive.supervisor.link import Ask, Order, Release
 from hri.drive.supervisor.multiplexer import Level
 from hri.drive.supervisor.process import rules
 from hri.drive.supervisor.supervisor import Supervisor
+from hri.drive.velocity_limits import BaseLimits
 from hri.simulation.bases.arduino import EmulatedArduino
 from hri.simulation.bases.create2 import EmulatedCreate2
 from hri.simulation.bases.device import AUTO_STOP
@@ -62,7 +62,7 @@ class Chain:
         protocol, emulated = kind
         self.base = emulated()
         self.port = EmulatedPort(Line(self.base, faults, seed))
-        supervisor = Supervisor(rules(protocol(), Limits(), Body(), {}))
+        supervisor = Supervisor(rules(protocol(), BaseLimits(), Body(), {}))
         self.controller = Controller(protocol, self.port, supervisor)
         self.now = 0.0
 

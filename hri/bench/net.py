@@ -25,7 +25,7 @@ from hri.bench.workers import safe_start
 from hri.core.errors import HriError
 from hri.net.client import Client
 from hri.net.inbox import Inbox
-from hri.net.peer import Limits
+from hri.net.peer import PeerLimits
 from hri.net.protocol import Item, Message, Sender, encode
 from hri.net.server import Server
 from hri.net.values import write
@@ -154,7 +154,7 @@ def _bridge(messages: int, rounds: int) -> Measured:
 
 
 def _serve_bridge(pipe: Pipe, messages: int) -> None:
-    server = Server("127.0.0.1", 0, Limits(rate=math.inf))
+    server = Server("127.0.0.1", 0, PeerLimits(rate=math.inf))
     inbox = Inbox({"array": "doublearray", "text": "string"})
     answer = encode(_message("back"))
     count = 0

@@ -20,7 +20,6 @@ from hri.core.geometry import wrapped
 from hri.core.signals import People, Pose2D, RangeReading, Twist
 from hri.drive.closing import Closing
 from hri.drive.company import Company
-from hri.drive.gate import REST
 from hri.drive.histogram import (
     WIDTH,
     Array,
@@ -34,7 +33,8 @@ from hri.drive.leaning import Leaning, back_off
 from hri.drive.mechanics import Mechanics
 from hri.drive.progress import Progress
 from hri.drive.route import Route, find_route, narrow_way
-from hri.drive.supervisor.governor import safe_speed
+from hri.drive.velocity_limits import safe_speed
+from hri.hal.motion import REST
 
 PERSON_RADIUS = 0.25
 """Meters that a standing person takes."""

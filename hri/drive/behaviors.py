@@ -11,9 +11,11 @@ from hri.behavior.effects import NOTHING
 from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
 from hri.core.events import EventBus
 from hri.core.signals import RangeReading, Twist
-from hri.drive.gate import REST, Limits, VelocityGate, max_forward
+from hri.drive.gate import VelocityGate
+from hri.drive.velocity_limits import GateLimits, safe_speed
 from hri.drive.watch import Watch, stopping_time
 from hri.hal.helm import Rank
+from hri.hal.motion import REST
 
 T = TypeVar("T")
 
@@ -22,8 +24,6 @@ COMMAND = "drive.command"
 MOTION = "drive.motion"
 """The board slot that holds the motion that may write commands; empty when there is none."""
 
-_PRUDENCE = 0.7
-"""Share of the deceleration that is counted on before an obstacle; the rest covers delays."""
 _SLACK = 0.03
 """Meters a second by which it may be too fast for who comes and still slows down gently."""
 
@@ -112,8 +112,8 @@ class CommandGate(Behavior):
     def is_moving(self) -> bool:
         return self._gate.is_moving
 
-    def _limits(self) -> Limits:
-        return Limits(
+    def _limits(self) -> GateLimits:
+        return GateLimits(
             self.max_linear, self.max_angular, self.acceleration, self.deceleration, self.timeout_s
         )
 
@@ -171,11 +171,16 @@ class CommandGate(Behavior):
         self._was_bumped = is_bumped
         if is_bumped:
             return 0.0
-        deceleration = self.deceleration * _PRUDENCE
         is_moving = self._gate.current.linear > 0
         return min(
             (
-                max_forward(self._distance(reading, now), self.clearance, deceleration, is_moving)
+                safe_speed(
+                    self._distance(reading, now),
+                    self.clearance,
+                    self.deceleration,
+                    is_moving,
+                    reaction=0.0,
+                )
                 for reading in self._ranges.at(now)
             ),
             default=math.inf,

@@ -3,44 +3,25 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from hri.core.signals import Twist
-
-REST = Twist()
+from hri.drive.velocity_limits import GateLimits
+from hri.hal.motion import REST
+from hri.hal.motion_profile import toward
 
 _ANGULAR_FACTOR = 4.0
 """Turning may change this many times as fast, in radians, as driving does in meters: on a base with
 wheels half a meter apart both ask the same of the wheels."""
-_START_GAP = 0.05
-"""Meters beyond the clearance that must be free before a resting base sets off again, so that a
-noisy sensor does not make it creep."""
 _LEAST_LINEAR = 0.005
 _LEAST_ANGULAR = 0.02
 """Slower than this, wheels only hum: it counts as rest."""
 
 
-@dataclass(frozen=True, slots=True)
-class Limits:
-    """What the base may be asked for."""
-
-    max_linear: float = 0.4
-    """Meters a second, forward and backward."""
-    max_angular: float = 1.2
-    """Radians a second."""
-    acceleration: float = 0.4
-    """Meters a second squared."""
-    deceleration: float = 0.5
-    """Meters a second squared."""
-    timeout_s: float = 0.5
-    """A command that is older counts no more."""
-
-
 class VelocityGate:
     """Follows commands within limits; comes to rest by itself when they stop coming."""
 
-    def __init__(self, limits: Limits | None = None) -> None:
-        self.limits = limits or Limits()
+    def __init__(self, limits: GateLimits | None = None) -> None:
+        self.limits = limits or GateLimits()
         self.refused = 0
         """How many commands were not finite; each was taken for a stop."""
         self.current = REST
@@ -139,17 +120,7 @@ def approach(value: float, target: float, up: float, down: float) -> float:
     """
     if value * target < 0:
         target = 0.0
-    step = up if abs(target) > abs(value) else down
-    return min(max(target, value - step), value + step)
-
-
-def max_forward(distance: float, clearance: float, deceleration: float, is_moving: bool) -> float:
-    """The speed from which a base can still stop `clearance` meters before an obstacle, in m/s.
-
-    sqrt(2 a d); a distance that is no number counts as an obstacle that touches.
-    """
-    room = distance - clearance - (0.0 if is_moving else _START_GAP)
-    return math.sqrt(2 * deceleration * room) if room > 0 else 0.0
+    return toward(value, target, up if abs(target) > abs(value) else down)
 
 
 def _at_least(linear: float, angular: float) -> Twist:

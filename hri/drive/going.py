@@ -16,9 +16,9 @@ from hri.behavior.ports import ANGULAR_VELOCITY, LINEAR_VELOCITY, Input, Output,
 from hri.core.errors import HriError
 from hri.core.signals import People, Pose2D, Twist
 from hri.drive.avoidance import Avoidance, Manner, straight_to, turn_to
-from hri.drive.gate import REST
 from hri.drive.mechanics import mechanics_of, range_sensors
 from hri.hal.drive import Odometry
+from hri.hal.motion import REST
 from hri.hal.range_sensor import RangeSensor
 
 PEOPLE = "people"

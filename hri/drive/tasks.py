@@ -15,11 +15,11 @@ from contextlib import contextmanager
 from hri.core.geometry import wrapped
 from hri.core.signals import Pose2D, Twist
 from hri.drive.behaviors import COMMAND, MOTION
-from hri.drive.gate import REST
 from hri.drive.own_gate import see_to_gate
-from hri.drive.profile import velocity_for
 from hri.drive.progress import Patience
 from hri.hal.drive import DriveSystem, Odometry, longest_move, too_long
+from hri.hal.motion import REST
+from hri.hal.motion_profile import velocity_for
 from hri.hal.pending import Interrupted
 from hri.hal.resource import Description
 from hri.task.context import TaskContext

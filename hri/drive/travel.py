@@ -27,7 +27,6 @@ from hri.drive.following import (
     tell,
     tell_ending,
 )
-from hri.drive.gate import REST
 from hri.drive.going import PEOPLE
 from hri.drive.mechanics import mechanics_of, range_sensors
 from hri.drive.navigation import checked
@@ -36,6 +35,7 @@ from hri.drive.progress import Approach, Patience
 from hri.drive.tasks import motion_of
 from hri.drive.wandering import Wandering
 from hri.hal.drive import Odometry
+from hri.hal.motion import REST
 from hri.hal.range_sensor import RangeSensor
 from hri.task.context import TaskContext
 from hri.task.task import task

@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from hri.core.errors import HriError
 from hri.core.signals import Twist
-from hri.hal.profile import Trapezoid, toward
+from hri.hal.motion_profile import Trapezoid, toward
 
 PERIOD = 0.02
 """Seconds between two commands."""

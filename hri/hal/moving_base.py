@@ -9,8 +9,8 @@ from hri.core.errors import HriError
 from hri.core.signals import Twist
 from hri.hal.drive import Stop, longest_move, too_long
 from hri.hal.motion import Brake, MoveDelta, Ramp, SlowDown, TurnDelta
+from hri.hal.motion_profile import Trapezoid
 from hri.hal.pending import Pending, completed
-from hri.hal.profile import Trapezoid
 from hri.hal.resource import Description
 from hri.hal.steered_base import FULL_POWER, SteeredBase
 

@@ -15,7 +15,7 @@ from hri.core.quoting import escaped
 from hri.core.token import load_token
 from hri.net import control
 from hri.net.link import Link
-from hri.net.peer import Limits, Peer
+from hri.net.peer import Peer, PeerLimits
 from hri.net.protocol import Message
 
 log = logging.getLogger("hri.net")
@@ -30,7 +30,7 @@ class Client(Link):
     """Connects to a server, and again whenever the connection is lost."""
 
     def __init__(
-        self, host: str, port: int, limits: Limits | None = None, *, shows_token: bool = False
+        self, host: str, port: int, limits: PeerLimits | None = None, *, shows_token: bool = False
     ) -> None:
         """`shows_token`: begin each connection with the token of this user, if there is one."""
         super().__init__(host, port, limits)

@@ -21,7 +21,7 @@ from contextlib import suppress
 from functools import partial
 
 from hri.net import control
-from hri.net.peer import Limits, Peer, PeerError
+from hri.net.peer import Peer, PeerError, PeerLimits
 from hri.net.protocol import Message, ProtocolError, Surplus, decode
 
 log = logging.getLogger("hri.net")
@@ -40,10 +40,10 @@ TO_STOP = 2.0
 class Link(ABC):
     """What servers and clients share: peers, subscribers, and the thread that serves them."""
 
-    def __init__(self, host: str, port: int, limits: Limits | None = None) -> None:
+    def __init__(self, host: str, port: int, limits: PeerLimits | None = None) -> None:
         self.host = host
         self.port = port
-        self._limits = limits or Limits()
+        self._limits = limits or PeerLimits()
         self._peers: tuple[Peer, ...] = ()
         self._listeners: dict[str, tuple[Listener, ...]] = {}
         self._warned: deque[float] = deque(maxlen=MOST_WARNINGS)

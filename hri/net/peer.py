@@ -17,7 +17,7 @@ _CHUNK = 65_536
 
 
 @dataclass(frozen=True)
-class Limits:
+class PeerLimits:
     """What a peer may do to us."""
 
     line: int = LONGEST
@@ -43,7 +43,9 @@ class PeerError(HriError):
 class Peer(Sender):
     """A connected socket that never blocks. `send` may be called by any thread."""
 
-    def __init__(self, connection: socket.socket, name: str, limits: Limits, now: float) -> None:
+    def __init__(
+        self, connection: socket.socket, name: str, limits: PeerLimits, now: float
+    ) -> None:
         """`now` in seconds, like all times here, on whatever clock the thread of the port has."""
         connection.setblocking(False)
         connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)

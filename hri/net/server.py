@@ -14,7 +14,7 @@ from hri.core.errors import HriError
 from hri.core.token import Grant
 from hri.net import control
 from hri.net.link import Link
-from hri.net.peer import Limits, Peer, PeerError
+from hri.net.peer import Peer, PeerError, PeerLimits
 from hri.net.protocol import Message
 
 log = logging.getLogger("hri.net")
@@ -28,7 +28,7 @@ REST = 1.0
 class Server(Link):
     """Listens on a port; port 0 takes any free one, `port` tells which."""
 
-    def __init__(self, host: str, port: int, limits: Limits | None = None) -> None:
+    def __init__(self, host: str, port: int, limits: PeerLimits | None = None) -> None:
         """Raises HriError when the port cannot be had."""
         self._socket = _listening(host, port)
         super().__init__(host, self._socket.getsockname()[1], limits)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from hri.core.geometry import along_arc
 from hri.core.signals import Pose2D, Twist
-from hri.hal.profile import toward
+from hri.hal.motion_profile import toward
 
 STEP = 0.01
 """Seconds."""
@@ -27,7 +27,7 @@ Clearance = Callable[[float, float, float], float]
 
 
 @dataclass(frozen=True, slots=True)
-class Limits:
+class HardwareLimits:
     """What the base can do: meters, radians, seconds."""
 
     linear: float = 0.5
@@ -45,7 +45,7 @@ class Limits:
 
 
 ORIGIN = Pose2D()
-ORDINARY = Limits()
+ORDINARY = HardwareLimits()
 
 
 class Base:
@@ -55,7 +55,7 @@ class Base:
         self,
         clearance: Clearance,
         start: Pose2D = ORIGIN,
-        limits: Limits = ORDINARY,
+        limits: HardwareLimits = ORDINARY,
         slip: float = 0.0,
         seed: int = 0,
     ) -> None:
@@ -163,7 +163,7 @@ class Base:
         return self._clearance(pose.x, pose.y, self._step * STEP) - self.limits.radius
 
 
-def reachable(twist: Twist, limits: Limits) -> Twist:
+def reachable(twist: Twist, limits: HardwareLimits) -> Twist:
     """The velocity within all limits that keeps the curve; none for what is not finite."""
     if not (math.isfinite(twist.linear) and math.isfinite(twist.angular)):
         return Twist()

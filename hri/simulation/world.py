@@ -19,7 +19,7 @@ from hri.core.signals import Twist
 from hri.hal.resource import Description, Resource
 from hri.hal.synthesizer import Synthesizer
 from hri.simulation.axle import Axle
-from hri.simulation.base import Base, Limits
+from hri.simulation.base import Base, HardwareLimits
 from hri.simulation.battery import Charge
 from hri.simulation.beams import Beams
 from hri.simulation.layout import Item, Layout, PersonStart, find_layout, load_layout
@@ -208,7 +208,7 @@ class SimulatedWorld(Resource):
         self.room = layout.room
         self._items = {item.name: item for item in layout.items}
         self._peopled: tuple[tuple[Circle, ...], Room] = ((), self.room)
-        limits = Limits(radius=robot.radius)
+        limits = HardwareLimits(radius=robot.radius)
         self.base = Base(self._clearance, robot.pose, limits, robot.slip, self.seed_for("slip"))
         self.axle = Axle(self.base)
         self.beams = Beams()

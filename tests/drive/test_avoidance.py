@@ -10,12 +10,12 @@ from hri.core.geometry import along_arc, seen_from
 from hri.core.signals import HeadPose, People, Person, Pose2D, RangeReading, Twist
 from hri.drive.avoidance import Avoidance, Manner, straight_to, turn_to
 from hri.drive.closing import Closing
-from hri.drive.gate import REST
 from hri.drive.leaning import WAITS_S
 from hri.drive.mechanics import Mechanics, mechanics_of, swept_radius
 from hri.drive.progress import Progress
 from hri.hal.configuration import Shape, load_configuration
 from hri.hal.manager import ResourceManager
+from hri.hal.motion import REST
 from hri.simulation.room import Box, Circle, Room, Segment
 
 MECHANICS = Mechanics(

@@ -4,7 +4,10 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from hri.core.signals import Twist
-from hri.drive.gate import REST, Limits, VelocityGate, max_forward
+from hri.drive.gate import VelocityGate
+from hri.drive.velocity_limits import GateLimits
+from hri.hal.motion import REST
+from hri.hal.motion_profile import velocity_for
 
 TICK = 0.02
 anything = st.floats(allow_nan=True, allow_infinity=True, width=32)
@@ -20,7 +23,7 @@ def run(gate: VelocityGate, seconds: float, start: float = 0.0, **inputs: float)
 
 
 def test_a_command_is_reached_with_the_acceleration_limit() -> None:
-    gate = VelocityGate(Limits(acceleration=0.4))
+    gate = VelocityGate(GateLimits(acceleration=0.4))
     gate.velocity(0.0)
     gate.command(Twist(0.3), 0.0)
     assert gate.velocity(0.1).linear == pytest.approx(0.04)
@@ -30,7 +33,7 @@ def test_a_command_is_reached_with_the_acceleration_limit() -> None:
 
 
 def test_without_commands_it_slows_down_after_half_a_second() -> None:
-    gate = VelocityGate(Limits(deceleration=0.5))
+    gate = VelocityGate(GateLimits(deceleration=0.5))
     gate.command(Twist(0.2), 0.0)
     run(gate, 0.5)
     assert gate.current.linear == pytest.approx(0.2)
@@ -61,15 +64,22 @@ def test_what_is_not_finite_is_counted_and_stops(bad: float) -> None:
     assert gate.refused == 1
 
 
+def test_a_way_that_is_not_a_number_is_refused_and_no_arrival() -> None:
+    gate = VelocityGate()
+    gate.command(Twist(velocity_for(math.nan, 0.3, 0.5, TICK)), 0.0)
+    assert gate.velocity(TICK) == REST
+    assert gate.refused == 1
+
+
 def test_a_curve_keeps_its_shape_when_it_is_too_fast() -> None:
-    gate = VelocityGate(Limits(max_linear=0.4, max_angular=1.2))
+    gate = VelocityGate(GateLimits(max_linear=0.4, max_angular=1.2))
     gate.command(Twist(0.8, 0.6), 0.0)
     gate.velocity(0.0)
     assert gate.target == Twist(0.4, 0.3)
 
 
 def test_the_speed_factor_never_breaks_the_limit() -> None:
-    gate = VelocityGate(Limits(max_linear=0.4))
+    gate = VelocityGate(GateLimits(max_linear=0.4))
     gate.command(Twist(0.3), 0.0)
     gate.velocity(0.0, speed=0.6)
     assert gate.target.linear == pytest.approx(0.18)
@@ -88,7 +98,7 @@ def test_before_a_wall_it_may_turn_and_back_off() -> None:
 
 
 def test_reversing_stops_at_zero_first() -> None:
-    gate = VelocityGate(Limits(acceleration=0.4, deceleration=0.4))
+    gate = VelocityGate(GateLimits(acceleration=0.4, deceleration=0.4))
     gate.command(Twist(0.1), 0.0)
     run(gate, 0.4)
     gate.command(Twist(-0.1), 0.42)
@@ -110,7 +120,7 @@ def test_after_a_long_gap_it_starts_from_rest() -> None:
 @settings(deadline=None)
 @given(st.lists(st.tuples(st.floats(0, 0.4), twists, anything), max_size=40))
 def test_no_input_breaks_a_limit(steps: list[tuple[float, Twist, float]]) -> None:
-    limits = Limits()
+    limits = GateLimits()
     gate, now = VelocityGate(limits), 0.0
     before = gate.velocity(now)
     for wait, twist, speed in steps:
@@ -123,11 +133,3 @@ def test_no_input_breaks_a_limit(steps: list[tuple[float, Twist, float]]) -> Non
         assert abs(after.linear - before.linear) <= change
         assert abs(after.angular - before.angular) <= 4 * change
         before = after
-
-
-def test_the_free_way_gives_the_speed_from_which_it_can_stop() -> None:
-    assert max_forward(0.5, 0.25, 0.5, is_moving=True) == pytest.approx(0.5)
-    assert max_forward(math.inf, 0.25, 0.5, is_moving=False) == math.inf
-    assert max_forward(0.25, 0.25, 0.5, is_moving=True) == 0.0
-    assert max_forward(0.28, 0.25, 0.5, is_moving=False) == 0.0
-    assert max_forward(math.nan, 0.25, 0.5, is_moving=True) == 0.0

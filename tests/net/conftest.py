@@ -6,7 +6,7 @@ import pytest
 from hri.core.token import VARIABLE
 from hri.net.client import Client
 from hri.net.malleable import BIND
-from hri.net.peer import Limits
+from hri.net.peer import PeerLimits
 from hri.net.server import Server
 
 WITHIN = 60.0
@@ -45,11 +45,11 @@ def links():
     opened = []
 
     def server(**limits):
-        opened.append(Server("127.0.0.1", 0, Limits(**limits)))
+        opened.append(Server("127.0.0.1", 0, PeerLimits(**limits)))
         return opened[-1]
 
     def client(port, **limits):
-        opened.append(Client("127.0.0.1", port, Limits(**limits)))
+        opened.append(Client("127.0.0.1", port, PeerLimits(**limits)))
         return opened[-1]
 
     yield server, client

@@ -6,7 +6,7 @@ from contextlib import closing, contextmanager
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from hri.net.peer import Limits, Peer, PeerError
+from hri.net.peer import Peer, PeerError, PeerLimits
 from tests.net.conftest import WITHIN
 
 
@@ -15,7 +15,7 @@ def peer_and_end(**limits):
     with socket.create_server(("127.0.0.1", 0)) as listening:
         here = socket.create_connection(listening.getsockname())
         end = listening.accept()[0]
-    with end, closing(Peer(here, "p", Limits(**limits), 0.0)) as peer:
+    with end, closing(Peer(here, "p", PeerLimits(**limits), 0.0)) as peer:
         yield peer, end
 
 

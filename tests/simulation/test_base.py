@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from hri.core.signals import Pose2D, Twist
-from hri.simulation.base import STEP, WATCHDOG, Base, Limits, reachable
+from hri.simulation.base import STEP, WATCHDOG, Base, HardwareLimits, reachable
 from hri.simulation.room import Room, Segment
 
 
@@ -52,7 +52,7 @@ def test_it_stops_when_no_command_comes() -> None:
     last = 2.0 - 1 / 50
     base.advance(last + WATCHDOG)
     assert base.velocity.linear == 0.3
-    base.advance(last + WATCHDOG + 0.3 / Limits().braking + STEP)
+    base.advance(last + WATCHDOG + 0.3 / HardwareLimits().braking + STEP)
     assert base.velocity == Twist()
 
 
@@ -62,7 +62,7 @@ def test_braking_is_faster_than_slowing_down() -> None:
     way = base.odometry.x
     base.brake(2.0)
     base.advance(3.0)
-    assert base.odometry.x - way == pytest.approx(0.3**2 / 2 / Limits().braking, abs=1e-9)
+    assert base.odometry.x - way == pytest.approx(0.3**2 / 2 / HardwareLimits().braking, abs=1e-9)
 
 
 def test_a_wall_stops_it_and_presses_the_bumper() -> None:
@@ -88,12 +88,12 @@ def test_it_can_turn_and_leave_where_it_touches() -> None:
 
 @pytest.mark.parametrize("nonsense", [Twist(math.nan, 0.0), Twist(0.1, math.inf)])
 def test_a_command_that_is_not_finite_means_standing_still(nonsense: Twist) -> None:
-    assert reachable(nonsense, Limits()) == Twist()
+    assert reachable(nonsense, HardwareLimits()) == Twist()
 
 
 @given(st.floats(-5, 5), st.floats(-9, 9))
 def test_the_wheels_never_go_faster_than_they_can(linear: float, angular: float) -> None:
-    limits = Limits()
+    limits = HardwareLimits()
     twist = reachable(Twist(linear, angular), limits)
     assert abs(twist.linear) + abs(twist.angular) * limits.track / 2 <= limits.wheel + 1e-9
 

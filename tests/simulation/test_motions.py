@@ -15,8 +15,8 @@ from hri.core.errors import AuthoringError, HriError
 from hri.core.signals import Pose2D, Twist
 from hri.hal.drive import DriveSystem, Odometry, Stop
 from hri.hal.manager import ResourceManager
+from hri.hal.motion_profile import Trapezoid
 from hri.hal.pending import Interrupted, Pending
-from hri.hal.profile import Trapezoid
 from hri.hal.resource import Description
 from hri.simulation.base import WATCHDOG
 from hri.simulation.drivers import SimulatedDrive

@@ -28,7 +28,6 @@ from hri.drive.supervisor.cause import NO_SUPERVISOR, Cause
 from hri.drive.supervisor.connection import BEAT, Connection, Inline
 from hri.drive.supervisor.controller import Controller
 from hri.drive.supervisor.governor import Body
-from hri.drive.supervisor.limiter import Limits
 from hri.drive.supervisor.line import BaseLine
 from hri.drive.supervisor.link import (
     LONGEST_WORDS,
@@ -47,6 +46,7 @@ from hri.drive.supervisor.multiplexer import Level
 from hri.drive.supervisor.process import Settings, rules
 from hri.drive.supervisor.remote import Remote
 from hri.drive.supervisor.supervisor import Supervisor
+from hri.drive.velocity_limits import BaseLimits
 from hri.hal.emergency_stop import EmergencyStop
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Description
@@ -60,7 +60,7 @@ STALE = 0.5
 """Seconds after which a report tells the program's sensors nothing."""
 UNLATCHING = 5.0
 """Seconds that a release waits for a base that does not report yet."""
-_LIMITS = {limit.name: float(getattr(Limits(), limit.name)) for limit in fields(Limits)}
+_LIMITS = {limit.name: float(getattr(BaseLimits(), limit.name)) for limit in fields(BaseLimits)}
 _BODY = {side.name: float(getattr(Body(), side.name)) for side in fields(Body)}
 _LEAST, _MOST = {"clearance": 0.0}, {"jerk": 100.0, "angular_jerk": 500.0}
 
@@ -70,8 +70,8 @@ Watcher = Callable[[State], object]
 class BaseBus(EmergencyStop):
     """A base on a serial port, with its supervisor; the devices of the base sit on this bus.
 
-    Parameters: `port`, those of the protocol, the fields of `Limits` and of `Body` (SI units and
-    radians; without them the body is the box that the configuration gives as dimensions).
+    Parameters: `port`, those of the protocol, the fields of `BaseLimits` and of `Body` (SI units
+    and radians; without them the body is the box that the configuration gives as dimensions).
 
     After it was opened, after a lost port, and after its supervisor died and another has taken its
     place, the base does not move until `unlatch`.
@@ -180,9 +180,9 @@ class BaseBus(EmergencyStop):
             self._watchers.remove(watcher)
 
     @property
-    def limits(self) -> Limits:
+    def limits(self) -> BaseLimits:
         """What the configuration allows this base."""
-        return Limits(**{n: _number(self.description, n, d) for n, d in _LIMITS.items()})
+        return BaseLimits(**{n: _number(self.description, n, d) for n, d in _LIMITS.items()})
 
     @property
     def fastest(self) -> Twist:

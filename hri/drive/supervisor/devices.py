@@ -14,9 +14,9 @@ from hri.core.errors import did_you_mean
 from hri.core.geometry import along_arc
 from hri.core.signals import Pose2D, RangeReading, Twist
 from hri.drive.supervisor.bus import STALE, BaseBus
-from hri.drive.supervisor.limiter import Cap, within_hardware
 from hri.drive.supervisor.link import State
 from hri.drive.supervisor.multiplexer import Level
+from hri.drive.velocity_limits import Cap, within_hardware
 from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
 from hri.hal.cliff_sensor import CliffSensor

@@ -1,7 +1,7 @@
-"""How fast the base may go with what its range sensors see: pure geometry.
+"""How much room the base has by what its range sensors see: pure geometry.
 
-Each reading is a point in the robot's frame; what lies in the corridor that the body sweeps
-straight ahead, or straight back, bounds the speed from which it can still stop before it.
+Each reading is a point in the robot's frame; what counts lies in the corridor that the body sweeps
+straight ahead, or straight back.
 """
 
 from __future__ import annotations
@@ -11,19 +11,9 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 from hri.core.signals import Pose2D
-from hri.drive.supervisor.braking import stopping_speed
 
 SIDE_ROOM = 0.03
 """Meters left free beside the body."""
-START_GAP = 0.05
-"""Meters beyond the clearance that must be free before a resting base sets off, so that noise
-does not make it creep."""
-REACTION = 0.1
-"""Seconds from an obstacle to brakes: a report, a step, and what a small base takes to follow."""
-LEAST = 0.01
-"""Meters a second; slower is not worth the creeping."""
-PRUDENCE = 0.7
-"""Share of the deceleration that is counted on."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,13 +67,3 @@ def room(
             else:
                 behind = min(behind, max(0.0, -x - body.back))
     return Room(ahead, behind)
-
-
-def safe_speed(free: float, clearance: float, deceleration: float, is_moving: bool) -> float:
-    """The speed, m/s, from which it stops `clearance` before what is `free` meters away.
-
-    It counts on a prudent share of the deceleration.
-    """
-    left = free - clearance - (0.0 if is_moving else START_GAP)
-    speed = stopping_speed(left, REACTION, deceleration * PRUDENCE)
-    return speed if speed >= LEAST else 0.0

@@ -1,72 +1,21 @@
-"""Limits on speed, acceleration and jerk, forward and backward: pure arithmetic on time."""
+"""A velocity that follows targets with limited acceleration and jerk: pure arithmetic on time."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from hri.core.signals import Twist
+from hri.drive.velocity_limits import BaseLimits, Cap, within
 from hri.hal.motion import REST
 
 QUANTUM = 0.005
 """Seconds; velocities are computed in steps of this, however unevenly the limiter is asked."""
 
 
-@dataclass(frozen=True, slots=True)
-class Cap:
-    """The fastest that is allowed just now, all at or above 0."""
-
-    forward: float
-    """Meters a second."""
-    backward: float
-    angular: float
-    """Radians a second, to either side."""
-
-
-@dataclass(frozen=True, slots=True)
-class Limits:
-    """What a base is allowed, whatever asks; its hardware may be slower.
-
-    The defaults are meant for a light base at home, and are no standard: see docs/safety.md.
-    """
-
-    forward: float = 0.5
-    """Meters a second."""
-    backward: float = 0.25
-    """Meters a second; few bases see behind them."""
-    angular: float = 1.5
-    """Radians a second."""
-    near_forward: float = 0.3
-    """Meters a second where somebody is near, or nobody knows."""
-    near_backward: float = 0.15
-    near_angular: float = 1.0
-    acceleration: float = 0.5
-    """Meters a second squared, away from rest."""
-    deceleration: float = 1.0
-    """Toward rest."""
-    jerk: float = 5.0
-    """Meters a second cubed."""
-    angular_acceleration: float = 2.0
-    """Radians a second squared."""
-    angular_deceleration: float = 4.0
-    angular_jerk: float = 20.0
-    """Radians a second cubed."""
-
-    def cap(self, is_near: bool) -> Cap:
-        """The fastest that is allowed with or without people about."""
-        if is_near:
-            return Cap(
-                min(self.near_forward, self.forward),
-                min(self.near_backward, self.backward),
-                min(self.near_angular, self.angular),
-            )
-        return Cap(self.forward, self.backward, self.angular)
-
-
 class Limiter:
     """Follows targets; `velocity` is never beyond the cap but while it brakes down to one."""
 
-    def __init__(self, limits: Limits) -> None:
+    def __init__(self, limits: BaseLimits) -> None:
         self._linear = _Axis(limits.acceleration, limits.deceleration, limits.jerk)
         self._angular = _Axis(
             limits.angular_acceleration, limits.angular_deceleration, limits.angular_jerk
@@ -93,27 +42,6 @@ class Limiter:
             self._linear.step(target.linear, -cap.backward, cap.forward)
             self._angular.step(target.angular, -cap.angular, cap.angular)
         return self.velocity
-
-
-def within_hardware(cap: Cap, fastest: Twist) -> Cap:
-    """The cap, cut to what the hardware can do at all, m/s and rad/s."""
-    return Cap(
-        min(cap.forward, fastest.linear),
-        min(cap.backward, fastest.linear),
-        min(cap.angular, fastest.angular),
-    )
-
-
-def within(twist: Twist, cap: Cap) -> Twist:
-    """The velocity within the cap; both parts shrink alike, so that a curve keeps its shape.
-
-    Where driving is not allowed at all, turning still is.
-    """
-    most = cap.forward if twist.linear > 0 else cap.backward
-    if most <= 0:
-        return Twist(0.0, max(-cap.angular, min(cap.angular, twist.angular)))
-    excess = max(1.0, abs(twist.linear) / most, abs(twist.angular) / max(cap.angular, 1e-9))
-    return Twist(twist.linear / excess, twist.angular / excess)
 
 
 class _Axis:

@@ -13,8 +13,8 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 from hri.core.signals import Pose2D
-from hri.drive.supervisor.braking import stopping_speed
 from hri.hal.motion import Way
+from hri.hal.motion_profile import stopping_speed
 
 WALKING = 1.0
 """Meters a second at which people walk about at home."""

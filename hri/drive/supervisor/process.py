@@ -27,12 +27,12 @@ from hri.drive.bases.protocol import BaseProtocol
 from hri.drive.supervisor.cause import NO_PROGRAM, NO_WATCHDOG, POWER_UP, Cause
 from hri.drive.supervisor.controller import TURN, Controller
 from hri.drive.supervisor.governor import Body
-from hri.drive.supervisor.limiter import Limits
 from hri.drive.supervisor.link import Packets, decoded_order, encoded
 from hri.drive.supervisor.rules import Rules
 from hri.drive.supervisor.standby import Lifeline
 from hri.drive.supervisor.supervisor import Supervisor
 from hri.drive.supervisor.watchdog import Watchdog
+from hri.drive.velocity_limits import BaseLimits
 from hri.hal.drivers.serial_port import SerialPort
 from hri.hal.resource import Description
 
@@ -53,7 +53,7 @@ class Settings:
     id: str = "base"
     parameters: Mapping[str, str] = field(default_factory=dict)
     """What the configuration says of the base."""
-    limits: Limits = field(default_factory=Limits)
+    limits: BaseLimits = field(default_factory=BaseLimits)
     body: Body = field(default_factory=Body)
     mounts: Mapping[str, Pose2D] = field(default_factory=dict)
     cause: Cause = POWER_UP
@@ -68,7 +68,7 @@ class Settings:
     def decoded(cls, text: str) -> Self:
         """Raises ValueError, KeyError or TypeError for what `encoded` did not write."""
         fields: dict[str, Any] = json.loads(text)
-        fields["limits"], fields["body"] = Limits(**fields["limits"]), Body(**fields["body"])
+        fields["limits"], fields["body"] = BaseLimits(**fields["limits"]), Body(**fields["body"])
         fields["cause"] = Cause(**fields["cause"])
         fields["mounts"] = {name: Pose2D(**pose) for name, pose in fields["mounts"].items()}
         return cls(**fields)
@@ -81,7 +81,7 @@ class Settings:
 
 
 def rules(
-    protocol: BaseProtocol, limits: Limits, body: Body, mounts: Mapping[str, Pose2D]
+    protocol: BaseProtocol, limits: BaseLimits, body: Body, mounts: Mapping[str, Pose2D]
 ) -> Rules:
     """The rules for a base that speaks this protocol."""
     return Rules(protocol.limits, protocol.sensors, protocol.period, limits, body, mounts)

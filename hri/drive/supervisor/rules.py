@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from hri.core.signals import Pose2D, Twist
 from hri.drive.bases.protocol import Sensors
 from hri.drive.supervisor.governor import Body
-from hri.drive.supervisor.limiter import Limits
+from hri.drive.velocity_limits import BaseLimits
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +21,7 @@ class Rules:
     """What it promises to report."""
     period: float = 0.015
     """Seconds between its reports."""
-    limits: Limits = field(default_factory=Limits)
+    limits: BaseLimits = field(default_factory=BaseLimits)
     body: Body = field(default_factory=Body)
     mounts: Mapping[str, Pose2D] = field(default_factory=dict)
     """Where its range sensors are in the robot's frame, by the names in reports."""

@@ -27,7 +27,7 @@ from hri.drive.supervisor.cause import (
 )
 from hri.drive.supervisor.cliffs import Floor
 from hri.drive.supervisor.decision import Decision
-from hri.drive.supervisor.governor import Room, room, safe_speed
+from hri.drive.supervisor.governor import Room, room
 from hri.drive.supervisor.hazards import (
     Fault,
     Hazard,
@@ -40,7 +40,7 @@ from hri.drive.supervisor.hazards import (
 )
 from hri.drive.supervisor.lag import Lag
 from hri.drive.supervisor.latch import Latch
-from hri.drive.supervisor.limiter import Cap, Limiter, within_hardware
+from hri.drive.supervisor.limiter import Limiter
 from hri.drive.supervisor.multiplexer import Command, Level, Multiplexer
 from hri.drive.supervisor.nearness import Nearness
 from hri.drive.supervisor.oncoming import Oncoming
@@ -48,6 +48,7 @@ from hri.drive.supervisor.plausibility import Plausibility
 from hri.drive.supervisor.reflex import Reflex
 from hri.drive.supervisor.rules import Rules
 from hri.drive.supervisor.silences import Silences
+from hri.drive.velocity_limits import Cap, safe_speed, within_hardware
 from hri.hal.motion import REST
 
 STALE = 0.1

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 
 from hri.drive.bases.arduino import BUMPER_PRESSED, BUTTON_PRESSED, SHAPE, STOP, Wiring
 from hri.drive.bases.check import checked, has_check, without_check
-from hri.simulation.base import Limits
+from hri.simulation.base import HardwareLimits
 from hri.simulation.bases.body import Body
 from hri.simulation.bases.emulator import Emulator, Wire
 
@@ -25,10 +25,10 @@ BATTERY_COUNTS = (440, 573)
 """What the battery's pin reads when it is empty and full."""
 
 
-def limits(shape: Mapping[str, float]) -> Limits:
+def limits(shape: Mapping[str, float]) -> HardwareLimits:
     """What a base of this shape can do; its radius and its acceleration are guesses."""
     track, fastest = shape["track_cm"] / 100, shape["max_speed"]
-    return Limits(
+    return HardwareLimits(
         linear=fastest,
         angular=2 * fastest / track,
         acceleration=1.5,

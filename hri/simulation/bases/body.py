@@ -7,10 +7,10 @@ import math
 from hri.core.geometry import placed
 from hri.core.signals import Pose2D, Twist
 from hri.hal.wheels import WheelPair
-from hri.simulation.base import BUMPER_TRAVEL, WATCHDOG, Base, Limits
+from hri.simulation.base import BUMPER_TRAVEL, WATCHDOG, Base, HardwareLimits
 from hri.simulation.world import SimulatedWorld
 
-CREATE_2 = Limits(
+CREATE_2 = HardwareLimits(
     linear=0.5,
     angular=4.25,
     acceleration=2.0,
@@ -38,7 +38,7 @@ class Body:
     What happens to it is set by hand, in sets and tables by place.
     """
 
-    def __init__(self, limits: Limits = CREATE_2) -> None:
+    def __init__(self, limits: HardwareLimits = CREATE_2) -> None:
         self.base = Base(lambda x, y, time: math.inf, limits=limits)
         self.pressed: set[str] = set()
         """Sides of the bumper that something presses."""
@@ -111,7 +111,7 @@ class Body:
 class RoomBody(Body):
     """The base of a simulated world; what is set by hand comes on top of what is there."""
 
-    def __init__(self, world: SimulatedWorld, limits: Limits = CREATE_2) -> None:
+    def __init__(self, world: SimulatedWorld, limits: HardwareLimits = CREATE_2) -> None:
         """From now on the base of that world has these limits."""
         super().__init__(limits)
         self._world = world

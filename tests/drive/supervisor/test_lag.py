@@ -11,14 +11,15 @@ from hypothesis import given, settings, strategies as st
 
 from hri.core.signals import Twist
 from hri.drive.supervisor.lag import MOST_LAG, Lag
-from hri.drive.supervisor.limiter import Limiter, Limits
+from hri.drive.supervisor.limiter import Limiter
+from hri.drive.velocity_limits import BaseLimits
 from hri.hal.motion import REST, Way
 
 HALF_TRACK = 0.12
 TURN, PERIOD = 0.01, 0.015
 COUNT = 0.0005
 """Meters for each count of a wheel."""
-CAP = Limits().cap(is_near=False)
+CAP = BaseLimits().cap(is_near=False)
 
 
 @dataclass
@@ -68,7 +69,7 @@ class Base:
 
 def found(base: Base, seed: int = 0, seconds: float = 20.0) -> float | None:
     """The lag that shows while somebody drives about at random; None when none does."""
-    chance, lag, limiter = random.Random(seed), Lag(HALF_TRACK), Limiter(Limits())
+    chance, lag, limiter = random.Random(seed), Lag(HALF_TRACK), Limiter(BaseLimits())
     told, target, until, due, now = REST, REST, 0.0, 0.0, 0.0
     reports: deque[tuple[float, Way]] = deque()
     for _ in range(round(seconds / TURN)):

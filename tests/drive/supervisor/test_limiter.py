@@ -4,9 +4,11 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from hri.core.signals import Twist
-from hri.drive.supervisor.limiter import QUANTUM, REST, Cap, Limiter, Limits, within
+from hri.drive.supervisor.limiter import QUANTUM, Limiter
+from hri.drive.velocity_limits import BaseLimits, Cap, within
+from hri.hal.motion import REST
 
-CAP = Limits().cap(is_near=False)
+CAP = BaseLimits().cap(is_near=False)
 speeds = st.floats(-3, 3, allow_nan=False)
 targets = st.lists(
     st.tuples(st.builds(Twist, speeds, speeds), st.integers(1, 40)), min_size=1, max_size=12
@@ -22,7 +24,7 @@ def trace(limiter: Limiter, target: Twist, seconds: float, cap: Cap = CAP) -> li
 @settings(deadline=None, max_examples=60)
 @given(targets)
 def test_whatever_is_asked_speed_acceleration_and_jerk_stay_within_limits(asked) -> None:
-    limits, limiter = Limits(), Limiter(Limits())
+    limits, limiter = BaseLimits(), Limiter(BaseLimits())
     before, slope = REST, REST
     for target, quanta in asked:
         for _ in range(quanta):
@@ -42,7 +44,7 @@ def test_whatever_is_asked_speed_acceleration_and_jerk_stay_within_limits(asked)
 
 @pytest.mark.parametrize("target", [Twist(0.5), Twist(-0.25), Twist(0.3, 0.5), Twist(0.0, -1.5)])
 def test_a_target_is_reached_exactly_and_never_passed(target) -> None:
-    path = trace(Limiter(Limits()), target, 3.0)
+    path = trace(Limiter(BaseLimits()), target, 3.0)
     assert path[-1].linear == pytest.approx(target.linear, abs=1e-6)
     assert path[-1].angular == pytest.approx(target.angular, abs=1e-6)
     assert max(abs(v.linear) for v in path) <= abs(target.linear) + 1e-9
@@ -50,20 +52,20 @@ def test_a_target_is_reached_exactly_and_never_passed(target) -> None:
 
 
 def test_it_takes_the_time_that_acceleration_and_jerk_ask_for() -> None:
-    path = trace(Limiter(Limits()), Twist(0.4), 3.0)
+    path = trace(Limiter(BaseLimits()), Twist(0.4), 3.0)
     reached = next(number for number, v in enumerate(path) if v.linear > 0.3999) * QUANTUM
     # v / a + a / j, for an acceleration that is reached on the way.
     assert reached == pytest.approx(0.4 / 0.5 + 0.5 / 5.0, abs=0.03)
 
 
 def test_rest_is_reached_and_kept() -> None:
-    limiter = Limiter(Limits())
+    limiter = Limiter(BaseLimits())
     trace(limiter, Twist(0.5, 1.0), 2.0)
     assert trace(limiter, REST, 1.0)[-1] == REST
 
 
 def test_a_cap_that_falls_brakes_at_once_with_the_whole_deceleration() -> None:
-    limiter = Limiter(Limits())
+    limiter = Limiter(BaseLimits())
     trace(limiter, Twist(0.5), 2.0)
     path = trace(limiter, Twist(0.5), 0.1, Cap(0.0, 0.25, 1.5))
     assert path[-1].linear == pytest.approx(0.5 - 1.0 * 0.1)
@@ -73,13 +75,13 @@ def test_a_cap_that_falls_brakes_at_once_with_the_whole_deceleration() -> None:
 
 
 def test_halting_is_abrupt() -> None:
-    limiter = Limiter(Limits())
+    limiter = Limiter(BaseLimits())
     trace(limiter, Twist(0.5, 1.0), 2.0)
     assert limiter.halt() == REST == limiter.velocity
 
 
 def test_how_often_it_is_asked_does_not_matter() -> None:
-    often, seldom = Limiter(Limits()), Limiter(Limits())
+    often, seldom = Limiter(BaseLimits()), Limiter(BaseLimits())
     for _ in range(100):
         often.step(Twist(0.3), CAP, 0.0025)
     for _ in range(10):
@@ -100,8 +102,8 @@ def test_where_it_may_not_drive_it_may_turn() -> None:
 
 
 def test_near_people_all_speeds_are_lower() -> None:
-    near, far = Limits().cap(is_near=True), Limits().cap(is_near=False)
+    near, far = BaseLimits().cap(is_near=True), BaseLimits().cap(is_near=False)
     assert near.forward < far.forward
     assert near.backward < far.backward
     assert near.angular < far.angular
-    assert math.isclose(Limits(forward=0.2).cap(is_near=True).forward, 0.2)
+    assert math.isclose(BaseLimits(forward=0.2).cap(is_near=True).forward, 0.2)

@@ -6,7 +6,6 @@ from hypothesis import given, settings, strategies as st
 from hri.core.signals import Twist
 from hri.drive.bases.protocol import BaseReport, Note
 from hri.drive.supervisor.cause import Cause
-from hri.drive.supervisor.limiter import Cap
 from hri.drive.supervisor.link import (
     LARGEST,
     MOST,
@@ -28,6 +27,7 @@ from hri.drive.supervisor.link import (
     pair,
 )
 from hri.drive.supervisor.multiplexer import Level
+from hri.drive.velocity_limits import Cap
 from hri.hal.motion import Way
 
 ORDERS = (

@@ -8,10 +8,10 @@ from hri.core.signals import Pose2D, Twist
 from hri.drive.bases.protocol import BaseReport, Sensors
 from hri.drive.supervisor.cause import Cause
 from hri.drive.supervisor.governor import Body
-from hri.drive.supervisor.limiter import Limits
 from hri.drive.supervisor.multiplexer import SOURCES, Command, Level
 from hri.drive.supervisor.rules import Rules
 from hri.drive.supervisor.supervisor import Supervisor
+from hri.drive.velocity_limits import BaseLimits
 from hri.hal.motion import REST, Way
 
 from .track import PLACES, STEP, Track
@@ -58,7 +58,7 @@ def test_the_latch_never_opens_by_itself_and_nothing_moves_while_it_is_closed(st
 @given(steps)
 def test_no_report_and_no_command_breaks_it_or_the_limits(story) -> None:
     supervisor = Supervisor(Rules(Twist(0.5, 4.0), mounts={"front": Pose2D(0.17)}))
-    now, limits = 0.0, Limits()
+    now, limits = 0.0, BaseLimits()
     for dt, report, asked in story:
         now += dt
         supervisor.release(now)

@@ -1,11 +1,12 @@
-"""Profiles against the closed form of a trapezoid."""
+"""Profiles against the closed form of a trapezoid, and braking against the way that it takes."""
 
+import itertools
 import math
 
 import pytest
-from hypothesis import given, strategies as st
+from hypothesis import given, settings, strategies as st
 
-from hri.hal.profile import Trapezoid, toward
+from hri.hal.motion_profile import Trapezoid, stopping_speed, toward, velocity_for
 
 pytestmark = pytest.mark.proves("H25")
 
@@ -60,3 +61,56 @@ def test_a_step_never_passes_the_goal(value: float, goal: float, change: float) 
     stepped = toward(value, goal, change)
     assert min(value, goal) <= stepped <= max(value, goal)
     assert abs(stepped - value) <= change + 1e-9
+
+
+@settings(deadline=None)
+@given(
+    goal=st.floats(-20, 20),
+    max_velocity=st.floats(0.05, 1.0),
+    deceleration=st.floats(0.1, 2.0),
+)
+def test_it_arrives_without_going_too_far(
+    goal: float, max_velocity: float, deceleration: float
+) -> None:
+    dt, position, ticks = 0.05, 0.0, 0
+    while abs(goal - position) > 0.005:
+        velocity = velocity_for(goal - position, max_velocity, deceleration, dt)
+        assert abs(velocity) <= max_velocity
+        position += velocity * dt
+        ticks += 1
+    assert abs(position) <= abs(goal) + 1e-9
+    ideal = abs(goal) / max_velocity + max_velocity / deceleration
+    assert ticks * dt <= ideal + 1.0
+
+
+def test_it_slows_down_evenly() -> None:
+    dt, position, passed = 0.01, 0.0, []
+    for _ in range(1000):
+        passed.append(velocity_for(2.0 - position, 0.4, 0.5, dt))
+        position += passed[-1] * dt
+    steps = [before - after for before, after in itertools.pairwise(passed)]
+    assert max(steps) == pytest.approx(0.5 * dt, rel=0.02)
+
+
+def test_it_goes_where_the_goal_is() -> None:
+    assert velocity_for(-3.0, 0.3, 0.5, 0.05) == -0.3
+    assert velocity_for(0.0, 0.3, 0.5, 0.05) == 0.0
+    assert math.isnan(velocity_for(math.nan, 0.3, 0.5, 0.05))
+
+
+@given(st.floats(0.0, 2.0), st.floats(0.0, 0.3), st.floats(0.3, 3.0), st.floats(0.0, 1.5))
+def test_from_the_stopping_speed_it_stands_before_anybody_is_there_and_no_sooner(
+    gap: float, reaction: float, deceleration: float, approach: float
+) -> None:
+    speed = stopping_speed(gap, reaction, deceleration, approach)
+    time = reaction + speed / deceleration
+    way = speed * reaction + speed**2 / (2 * deceleration)
+    if speed > 0.0:
+        assert approach * time + way == pytest.approx(gap)
+    else:
+        assert approach * reaction >= gap - 1e-9
+
+
+def test_nothing_to_stop_for_is_no_limit_and_an_unknown_gap_is_a_stop() -> None:
+    assert stopping_speed(math.inf, 0.1, 1.0) == math.inf
+    assert stopping_speed(math.nan, 0.1, 1.0) == 0.0

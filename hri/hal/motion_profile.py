@@ -1,4 +1,4 @@
-"""Motion profiles as pure arithmetic: speed up evenly, cruise, slow down evenly, stand."""
+"""Motion profiles and braking as pure arithmetic: speed up, cruise and slow down evenly."""
 
 from __future__ import annotations
 
@@ -45,6 +45,38 @@ class Trapezoid:
         else:
             covered = abs(self.distance) - self.acceleration * (self.duration - time) ** 2 / 2
         return math.copysign(covered, self.distance)
+
+
+def stopping_speed(
+    gap: float, reaction: float, deceleration: float, approach: float = 0.0
+) -> float:
+    """The speed, m/s, from which a base stands before what comes has crossed the gap, meters.
+
+    `reaction` is in seconds, `approach` is how fast it comes: 0 for what stands. Solves
+    u (r + v / a) + v r + v² / 2a = gap for v, with approach u, reaction r, and deceleration a. A
+    gap that is NaN counts as none.
+    """
+    left = gap - approach * reaction
+    if left == math.inf:
+        return math.inf
+    if not left > 0:
+        return 0.0
+    half = approach + deceleration * reaction
+    return math.sqrt(half * half + 2 * deceleration * left) - half
+
+
+def velocity_for(remaining: float, max_velocity: float, deceleration: float, dt: float) -> float:
+    """The velocity for the next `dt` seconds on the way to a goal, meters or radians a second.
+
+    `remaining` is signed: what is still to go. The velocity depends on where things are now, not on
+    a plan made at the start, so a push or a slow base is made up for. Speeding up evenly is the
+    command gate's part. NaN gives NaN, which the gate refuses.
+    """
+    if math.isnan(remaining):
+        return remaining
+    # Going on for dt seconds and only then slowing down must still end at the goal.
+    speed = min(stopping_speed(abs(remaining), dt, deceleration), max_velocity)
+    return math.copysign(speed, remaining)
 
 
 def toward(value: float, goal: float, change: float) -> float:
