@@ -120,7 +120,7 @@ class Narrator:
         seen = counts["head.nodded"] + counts["head.shaken"]
         self.tell(
             f"\n{self.robot.lived:.0f} s: heard {counts['speech.heard']},"
-            f" said {counts['speech.said']}, gestures {seen},"
+            f" said {counts['speech.said']}, head gestures {seen},"
             f" ignored {counts['speech.rejected']}"
         )
         if self._first_frame is not None:

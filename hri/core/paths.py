@@ -15,8 +15,9 @@ VARIABLES = ("HRI_PATH", "EVOLUTION_CONFIG_PATH")
 
 SUFFIXES = {"grammars": ".jsgf", "config": ".xml"}
 """What a name without a suffix gets, by kind; else ".toml"."""
-FOLDERS = ("apps", "faces")
-"""Kinds of which each one is a folder."""
+MARKS = {"apps": "app.toml", "faces": "face.toml"}
+"""By kind of which each one is a folder, the file that such a folder has."""
+FOLDERS = tuple(MARKS)
 
 
 def exists(path: Path) -> bool:
@@ -88,7 +89,10 @@ def find(kind: str, name: str) -> Path:
 def _meant(kind: str, name: str) -> str:
     """The remedy for a name that is not found: one like it, also in a folder of its kind."""
     if kind in FOLDERS:
-        return did_you_mean(Path(name).stem, [n for n in names(kind) if not Path(n).suffix])
+        here = [f.parent.name for f in Path().glob(f"*/{MARKS[kind]}")]
+        return did_you_mean(
+            Path(name).stem, [*here, *(n for n in names(kind) if not Path(n).suffix)]
+        )
     suffix = SUFFIXES.get(kind, ".toml")
     # Beside grammars lie lists of names, which are none of their kind.
     fitting = [n for n in names(kind) if kind not in SUFFIXES or Path(n).suffix in ("", suffix)]

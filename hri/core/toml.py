@@ -48,7 +48,8 @@ def load_toml(path: Path, what: str = "TOML file") -> Table:
         line, column = (match.group(1), match.group(2)) if match else (None, None)
         place = Place(path, int(line or text.count("\n") + 1), int(column or 1))
         problem = _POSITION.sub("", str(error))
-        remedy = "mend the TOML syntax here"
+        is_value = problem == "Invalid value"
+        remedy = 'write a value; text goes in "quotes"' if is_value else "fix the TOML syntax here"
         raise AuthoringError(place, problem[:1].lower() + problem[1:], remedy) from error
     except (RecursionError, ValueError) as error:
         raise AuthoringError(

@@ -131,3 +131,11 @@ def test_a_user_without_a_home_is_told_in_one_line(monkeypatch):
         paths.state_folder()
     with pytest.raises(HriError, match="there is no such user"):
         paths.expanded("~nobody-of-this-name/file")
+
+
+def test_an_app_in_this_folder_is_suggested(tmp_path, monkeypatch):
+    (tmp_path / "joke").mkdir()
+    (tmp_path / "joke" / "app.toml").touch()
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(HriError, match='did you mean "joke"'):
+        paths.find("apps", "jokee")

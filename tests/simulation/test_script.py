@@ -137,7 +137,7 @@ def test_who_enters_was_not_there_before(
         (f"[[step]]\nsay = '{'a' * 999}'\n", 2, "999 letters"),
         ("[[step]]\nbattery = 15\n", 2, "from 0 to 1"),
         ("duration = 0\n", 1, "from 1 to"),
-        ("[[step]]\nat = = 1\n", 2, "mend the TOML syntax"),
+        ("[[step]]\nat = = 1\n", 2, 'text goes in "quotes"'),
         ("[[step]]\nat = 1\nnod = true\n" * 2001, 1, "at most 2000"),
     ],
 )
