@@ -20,7 +20,7 @@ from hri.bench.workers import running
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.core.signals import Twist
-from hri.drive.bases.create2 import BUMPS_AND_DROPS, STREAMED, Create2, Stream
+from hri.drive.bases.create2 import BUMPS_AND_DROPS, STREAMED, Create2, PacketParser
 from hri.drive.supervisor.connection import BEAT
 from hri.drive.supervisor.link import Ask, Release
 from hri.drive.supervisor.multiplexer import Level
@@ -49,7 +49,7 @@ class WatchedLine(Line):
         """What came in, with its time."""
         self.hazards: list[float] = []
         """When reports with a bump or a dropped wheel had left."""
-        self._stream = Stream(STREAMED)
+        self._stream = PacketParser(STREAMED)
 
     def feed(self, data: bytes, now: float) -> bytes:
         if data:

@@ -31,7 +31,7 @@ class Way:
 
 
 @dataclass(frozen=True, slots=True)
-class Steering:
+class Response:
     """How a base follows what it is told; the defaults are those of one that follows at once."""
 
     gain: float = 8.0
@@ -42,7 +42,7 @@ class Steering:
     """A motion that ends within this has arrived; not finer than the wheels measure."""
 
 
-PROMPT = Steering()
+PROMPT = Response()
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +52,7 @@ class Reading:
     travelled: Way
     """Since the motion began."""
     velocity: Twist
-    steering: Steering = PROMPT
+    response: Response = PROMPT
 
     @property
     def stands(self) -> bool:
@@ -102,9 +102,9 @@ class MoveDelta(Motion):
         self.profile = profile
 
     def step(self, elapsed: float, reading: Reading) -> Twist | None:
-        done, near = reading.travelled, reading.steering.near
+        done, near = reading.travelled, reading.response.near
         linear = _followed(self.profile, _LINEAR, elapsed, done.linear, near.linear, reading)
-        return None if linear is None else Twist(linear, -reading.steering.gain * done.angular)
+        return None if linear is None else Twist(linear, -reading.response.gain * done.angular)
 
 
 class TurnDelta(Motion):
@@ -114,9 +114,9 @@ class TurnDelta(Motion):
         self.profile = profile
 
     def step(self, elapsed: float, reading: Reading) -> Twist | None:
-        done, near = reading.travelled, reading.steering.near
+        done, near = reading.travelled, reading.response.near
         angular = _followed(self.profile, _ANGULAR, elapsed, done.angular, near.angular, reading)
-        return None if angular is None else Twist(-reading.steering.gain * done.linear, angular)
+        return None if angular is None else Twist(-reading.response.gain * done.linear, angular)
 
 
 def _followed(
@@ -134,9 +134,9 @@ def _followed(
         )
     if elapsed >= profile.duration and abs(lag) <= near:
         return None if reading.stands else 0.0
-    start = elapsed + reading.steering.lead
+    start = elapsed + reading.response.lead
     ahead = profile.position(start + PERIOD) - profile.position(start)
-    velocity = ahead / PERIOD + reading.steering.gain * lag
+    velocity = ahead / PERIOD + reading.response.gain * lag
     return max(-profile.velocity, min(profile.velocity, velocity))
 
 

@@ -31,8 +31,8 @@ from hri.hal.motion import (
     Motion,
     Ramp,
     Reading,
+    Response,
     SlowDown,
-    Steering,
     Way,
 )
 from hri.hal.pending import Interrupted, Pending
@@ -55,7 +55,7 @@ class _Here(threading.local):
 class SteeredBase(DriveSystem, EmergencyStop):
     """Carries out commands over `_send`, `_brake`, `_set_power`, `_rolled` and `_velocity`."""
 
-    steering: Steering = PROMPT
+    response: Response = PROMPT
     """How the base follows what it is told."""
 
     def __init__(self, description: Description, manager: ResourceManager) -> None:
@@ -299,7 +299,7 @@ class SteeredBase(DriveSystem, EmergencyStop):
     def _reading(self, run: Run, now: float) -> Reading:
         rolled, origin = self._rolled(now), run.origin
         way = Way(rolled.linear - origin.linear, rolled.angular - origin.angular)
-        return Reading(way, self._velocity(now), self.steering)
+        return Reading(way, self._velocity(now), self.response)
 
     def _end(self) -> None:
         """Let the base rest, with no motion that runs."""

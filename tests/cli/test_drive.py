@@ -15,7 +15,7 @@ from hri.cli.drive.keys import DEAD_MAN, KeyReader, Steering
 from hri.cli.drive.picture import COLUMNS, ROWS, Picture
 from hri.cli.drive.teleop import Teleop
 from hri.cli.drive.terminal import FORMER_SCREEN, TerminalView
-from hri.cli.drive.view import Moment, View
+from hri.cli.drive.view import Snapshot, View
 from hri.cli.drive.window import ALARM, WindowView
 from hri.core import registry
 from hri.core.clock import FakeClock
@@ -116,7 +116,7 @@ def test_keys_never_ask_for_more_than_is_allowed(pressed, forward, angular, back
 
 
 def standing(pose):
-    return Moment(State(0.0), pose, REST, 0.5, 0.0)
+    return Snapshot(State(0.0), pose, REST, 0.5, 0.0)
 
 
 def test_the_picture_tells_pose_sensors_and_why_it_stands():
@@ -134,7 +134,7 @@ def test_the_picture_tells_pose_sensors_and_why_it_stands():
         mode="safe",
     )
     state = State(1.0, report=report, is_open=True, faults=("my left bumper is stuck",))
-    moment = Moment(state, Pose2D(1.0, -0.5, 0.0), Twist(0.2, 0.0), 0.5, 1.0)
+    moment = Snapshot(state, Pose2D(1.0, -0.5, 0.0), Twist(0.2, 0.0), 0.5, 1.0)
     shown = "\n".join(Picture("A base").lines(moment))
     for words in (
         "A base",
@@ -392,7 +392,7 @@ def test_the_window_shows_what_presses_and_where_the_floor_ends(screen):
 
     def shown(**sensed):
         report = BaseReport(time=0.0, rolled=Way(), velocity=REST, **sensed)
-        view.show(Moment(State(0.0, report=report), Pose2D(), REST, 0.5, screen.count * 1.0))
+        view.show(Snapshot(State(0.0, report=report), Pose2D(), REST, 0.5, screen.count * 1.0))
         return alarms(screen.image)
 
     assert shown(bumps={"left": False}, cliffs={"left": False}) == 0
@@ -409,7 +409,7 @@ def test_the_window_takes_keys_by_the_names_of_the_terminal(screen, monkeypatch)
 def test_pictures_are_drawn_ten_times_a_second_at_most(screen):
     view = WindowView(screen, "A base", 0.17)
     for step in range(100):
-        view.show(Moment(State(0.0), Pose2D(), REST, 0.5, step * 0.01))
+        view.show(Snapshot(State(0.0), Pose2D(), REST, 0.5, step * 0.01))
     assert screen.count <= 11
 
 

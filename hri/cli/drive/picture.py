@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from hri.cli.drive.view import Moment
+from hri.cli.drive.view import Snapshot
 from hri.core.signals import Pose2D, Twist
 from hri.drive.bases.protocol import BaseReport
 from hri.drive.supervisor.link import State
@@ -33,7 +33,7 @@ class Trail:
             del self.poses[:-TRAIL]
 
 
-def rows(moment: Moment) -> list[str]:
+def rows(moment: Snapshot) -> list[str]:
     """What is known of a base, a line for each thing."""
     state = moment.state
     return [
@@ -54,7 +54,7 @@ class Picture:
         self._title = title
         self._trail = Trail()
 
-    def lines(self, moment: Moment, most: int = 200) -> list[str]:
+    def lines(self, moment: Snapshot, most: int = 200) -> list[str]:
         """The picture, in so many lines: the map becomes smaller where they are few."""
         self._trail.add(moment.pose)
         below = rows(moment)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 
 from hri.cli.drive.keys import QUIT, RELEASE, STOP, Steering
-from hri.cli.drive.view import Moment, View
+from hri.cli.drive.view import Snapshot, View
 from hri.core.clock import Clock
 from hri.core.errors import NotAvailable
 from hri.core.signals import Twist
@@ -48,7 +48,7 @@ class Teleop:
             if is_over:  # perhaps because the terminal has gone, which shows nothing any more
                 return
             state, pose = self._bus.state, self._odometry.pose(now)
-            moment = Moment(state, pose, twist, self._steering.share, now)
+            moment = Snapshot(state, pose, twist, self._steering.share, now)
             for view in self._views:
                 view.show(moment)
             clock.advance(PERIOD)

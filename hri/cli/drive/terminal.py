@@ -13,7 +13,7 @@ from typing import Self
 
 from hri.cli.drive.keys import HELP, KeyReader
 from hri.cli.drive.picture import Picture
-from hri.cli.drive.view import Moment, View
+from hri.cli.drive.view import Snapshot, View
 from hri.core.errors import HriError
 
 CLEAR_DOWN, CLEAR_LINE, HOME = "\x1b[J", "\x1b[K", "\x1b[H"
@@ -65,7 +65,7 @@ class TerminalView(View):
             data = b""
         return self._reader.feed(data) if data else ["escape"]
 
-    def show(self, moment: Moment) -> None:
+    def show(self, moment: Snapshot) -> None:
         columns, rows = os.get_terminal_size(self._output)
         below = ["", *HELP]
         lines = [*self._picture.lines(moment, (rows or ENOUGH) - len(below)), *below]

@@ -11,7 +11,7 @@ from hri.drive.supervisor.link import State
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
+class Snapshot:
     """All that there is to see of a base at a time."""
 
     state: State
@@ -31,5 +31,5 @@ class View(ABC):
         """What was pressed since the last call, by the names of `keys`."""
 
     @abstractmethod
-    def show(self, moment: Moment) -> None:
+    def show(self, moment: Snapshot) -> None:
         """Show the base in place of what was shown before."""

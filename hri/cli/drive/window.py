@@ -10,7 +10,7 @@ from PIL import Image as Pictures, ImageDraw, ImageFont
 
 from hri.cli.drive.keys import HELP
 from hri.cli.drive.picture import Trail, rows
-from hri.cli.drive.view import Moment, View
+from hri.cli.drive.view import Snapshot, View
 from hri.core.geometry import placed
 from hri.core.signals import Image, Pose2D
 from hri.drive.bases.protocol import BaseReport
@@ -48,13 +48,13 @@ class WindowView(View):
             return ["escape"]
         return [KEYS.get(key, key) for key in self._screen.pressed_keys()]
 
-    def show(self, moment: Moment) -> None:
+    def show(self, moment: Snapshot) -> None:
         self._trail.add(moment.pose)
         if moment.time - self._shown_at >= PERIOD:
             self._shown_at = moment.time
             self._screen.show(self._drawn(moment), moment.time)
 
-    def _drawn(self, moment: Moment) -> Image:
+    def _drawn(self, moment: Snapshot) -> Image:
         sheet = Pictures.new("RGB", (self._screen.width, self._screen.height), PAPER)
         pen = ImageDraw.Draw(sheet)
         self._draw_grid(pen, moment.pose)

@@ -120,7 +120,7 @@ class Create2(BaseProtocol):
 
     def __init__(self, light_at_10_cm: float = LIGHT_AT_10_CM[0]) -> None:
         self._light_at_10_cm = light_at_10_cm
-        self._stream = Stream(STREAMED)
+        self._stream = PacketParser(STREAMED)
         self._odometer = Odometer(Encoders(METERS_PER_COUNT, TRACK, 16, FASTEST))
 
     @classmethod
@@ -129,7 +129,7 @@ class Create2(BaseProtocol):
 
     @classmethod
     def recognizes(cls, answer: bytes) -> bool:
-        return bool(Stream((MODE,)).feed(answer))
+        return bool(PacketParser((MODE,)).feed(answer))
 
     def greeting(self) -> Sequence[Greeting]:
         request = bytes([STREAM, len(STREAMED), *STREAMED])
@@ -220,7 +220,7 @@ def drive_direct(right: int, left: int) -> bytes:
     return struct.pack(">Bhh", DRIVE_DIRECT, right, left)
 
 
-class Stream:
+class PacketParser:
     """Finds the packets of a sensor stream: [19] [n] [number, data]... [checksum].
 
     The sum of all bytes ends in a zero byte. As we know what we asked for, n and the numbers must

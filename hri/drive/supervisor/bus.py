@@ -35,8 +35,8 @@ from hri.drive.supervisor.link import (
     Brake,
     Dock,
     Lamps,
+    Nearest,
     Order,
-    Person,
     Release,
     Song,
     State,
@@ -138,7 +138,7 @@ class BaseBus(EmergencyStop):
 
         To be repeated every second, otherwise somebody may be near.
         """
-        self._say(Person(distance, self.state.time))
+        self._say(Nearest(distance, self.state.time))
 
     def song(self, notes: Sequence[Note]) -> None:
         """Play a tune, of 16 notes at most on a Create 2.

@@ -21,9 +21,9 @@ from hri.drive.supervisor.link import (
     Dock,
     Extra,
     Lamps,
+    Nearest,
     Numbered,
     Order,
-    Person,
     Release,
     Song,
     State,
@@ -128,7 +128,7 @@ class Controller:
             case Release(echo, cause) if _is_fresh(echo, now):
                 if cause == self.supervisor.latch.cause:
                     self.supervisor.release(now)
-            case Person(distance, echo):
+            case Nearest(distance, echo):
                 self.supervisor.hear_person(distance, echo)
             case Song() | Lamps() | Dock():
                 self._do(order, now)

@@ -21,7 +21,7 @@ from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
 from hri.hal.cliff_sensor import CliffSensor
 from hri.hal.drive import Odometry
-from hri.hal.motion import REST, Steering, Way
+from hri.hal.motion import REST, Response, Way
 from hri.hal.moving_base import MovingBase
 from hri.hal.pending import Pending
 from hri.hal.range_sensor import RangeSensor
@@ -67,7 +67,7 @@ class BaseDrive(OnBase, MovingBase):
 
     # The supervisor limits the jerk, and the line takes its time: what is told shows 75 ms later.
     # The wheels of a Create 2 count 0.44 mm, and turn at whole mm/s.
-    steering = Steering(gain=3.0, lead=0.075, near=Way(0.002, math.radians(0.4)))
+    response = Response(gain=3.0, lead=0.075, near=Way(0.002, math.radians(0.4)))
 
     def _open(self) -> None:
         super()._open()

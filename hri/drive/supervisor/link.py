@@ -32,7 +32,7 @@ LONGEST_WORDS: Final = 200
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class Heartbeat:
     """Asks for nothing but the State: the program's heartbeat."""
 
     echo: float
@@ -70,7 +70,7 @@ class Release:
 
 
 @dataclass(frozen=True, slots=True)
-class Person:
+class Nearest:
     """How far the nearest person is, meters; infinite when surely nobody is about."""
 
     distance: float
@@ -101,7 +101,7 @@ class Dock:
 
 Extra = Song | Lamps | Dock
 """What only some bases can do."""
-Order = Look | Ask | Brake | Trip | Release | Person | Extra
+Order = Heartbeat | Ask | Brake | Trip | Release | Nearest | Extra
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,12 +226,12 @@ def _cause(fields: Fields) -> Cause:
 
 
 _ORDERS: Mapping[str, Callable[[Fields], Order]] = {
-    "Look": lambda f: Look(float(f["echo"])),
+    "Heartbeat": lambda f: Heartbeat(float(f["echo"])),
     "Ask": lambda f: Ask(Level(f["source"]), _twist(f["twist"]), float(f["echo"])),
     "Brake": lambda f: Brake(float(f["echo"])),
     "Trip": lambda f: Trip(_cause(f["cause"])),
     "Release": lambda f: Release(float(f["echo"]), _cause(f["cause"])),
-    "Person": lambda f: Person(float(f["distance"]), float(f["echo"])),
+    "Nearest": lambda f: Nearest(float(f["distance"]), float(f["echo"])),
     "Song": lambda f: Song(tuple(Note(int(n["pitch"]), float(n["duration"])) for n in f["notes"])),
     "Lamps": lambda f: Lamps(float(f["power"]), bool(f["is_dock_lit"])),
     "Dock": lambda f: Dock(float(f["echo"])),

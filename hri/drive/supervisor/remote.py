@@ -19,7 +19,7 @@ from hri.core.errors import NotAvailable
 from hri.drive.supervisor.cause import NO_SUPERVISOR
 from hri.drive.supervisor.connection import BEAT, Connection
 from hri.drive.supervisor.link import (
-    Look,
+    Heartbeat,
     Numbered,
     Order,
     Packets,
@@ -170,7 +170,7 @@ class Remote(Connection):
         self._silence += min(now - self._asked, 2 * BEAT)
         self._asked = now
         echo = self.state.time if self._child.has_spoken else 0.0
-        self._child.packets.send(encoded(Look(echo)))
+        self._child.packets.send(encoded(Heartbeat(echo)))
 
     def _read(self) -> None:
         for packet in reversed(self._child.packets.receive()):

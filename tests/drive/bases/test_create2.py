@@ -13,7 +13,7 @@ from hri.drive.bases.create2 import (
     METERS_PER_COUNT,
     STREAMED,
     Create2,
-    Stream,
+    PacketParser,
 )
 from hri.drive.bases.protocol import Note
 from hri.hal.resource import Description
@@ -42,7 +42,7 @@ def packet(*content):
 
 def test_the_packet_of_the_specification_is_understood():
     example = bytes([19, 5, 29, 2, 25, 13, 0, 163])
-    assert Stream((29, 13)).feed(example) == [{29: 537, 13: 0}]
+    assert PacketParser((29, 13)).feed(example) == [{29: 537, 13: 0}]
 
 
 def test_all_that_it_asks_for_fits_into_a_slot():
@@ -54,7 +54,7 @@ def test_all_that_it_asks_for_fits_into_a_slot():
 def test_a_whole_packet_is_found_among_anything(noise, size):
     """Unless the noise itself began one, which the next packet then cures."""
     data = b"".join(noise) + packet(7, 0, 35, 2) * 2
-    stream = Stream((7, 35))
+    stream = PacketParser((7, 35))
     found = []
     for start in range(0, len(data), size):
         found += stream.feed(data[start : start + size])
@@ -65,7 +65,7 @@ def test_a_whole_packet_is_found_among_anything(noise, size):
 def test_a_damaged_packet_is_none(before, index, change):
     damaged = bytearray(packet(7, 0, 35, 2))
     damaged[index] ^= change
-    assert Stream((7, 35)).feed(bytes(damaged)) == []
+    assert PacketParser((7, 35)).feed(bytes(damaged)) == []
 
 
 def test_a_curve_is_kept_where_the_wheels_are_too_slow():

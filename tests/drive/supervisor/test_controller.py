@@ -12,7 +12,7 @@ from hri.core.signals import Twist
 from hri.drive.bases.create2 import CLIFFS
 from hri.drive.bases.protocol import Note
 from hri.drive.supervisor.cause import POWER_UP, Cause
-from hri.drive.supervisor.link import Ask, Dock, Look, Person, Release, Song, Trip
+from hri.drive.supervisor.link import Ask, Dock, Heartbeat, Nearest, Release, Song, Trip
 from hri.drive.supervisor.multiplexer import Level
 from hri.hal.motion import REST
 from hri.simulation.bases.create2 import PASSIVE
@@ -127,7 +127,7 @@ def test_a_song_that_cannot_be_sung_is_refused_and_the_base_drives_on() -> None:
 def test_a_program_that_only_looks_does_not_keep_the_base_going() -> None:
     chain = Chain().start()
     for _ in range(22):
-        chain.turn(Look(chain.now))
+        chain.turn(Heartbeat(chain.now))
     assert not chain.base.is_rolling
     assert chain.causes == ["timeout"]
 
@@ -266,7 +266,7 @@ def test_on_a_worse_line_it_latches_says_why_and_does_not_drive_in_between(fault
 def test_with_nobody_near_it_may_go_faster() -> None:
     chain = Chain().start()
     for _ in range(150):
-        chain.turn(Person(5.0, chain.now), Ask(Level.TASKS, Twist(0.5), chain.now))
+        chain.turn(Nearest(5.0, chain.now), Ask(Level.TASKS, Twist(0.5), chain.now))
     assert chain.speed == pytest.approx(0.5, abs=0.001)
 
 

@@ -12,11 +12,11 @@ from hri.drive.supervisor.link import (
     Ask,
     Brake,
     Dock,
+    Heartbeat,
     Lamps,
-    Look,
+    Nearest,
     Numbered,
     Packets,
-    Person,
     Release,
     Song,
     State,
@@ -31,7 +31,7 @@ from hri.drive.velocity_limits import Cap
 from hri.hal.motion import Way
 
 ORDERS = (
-    Look(1.0),
+    Heartbeat(1.0),
     Ask(Level.TASKS, Twist(0.1, -0.2), 1.5),
     Ask(Level.TELEOP, None, 1.5),
     Brake(2.0),
@@ -40,7 +40,7 @@ ORDERS = (
     Song((Note(60, 0.5), Note(62, 0.25))),
     Lamps(0.5, True),
     Dock(1.0),
-    Person(math.inf, 1.0),
+    Nearest(math.inf, 1.0),
 )
 JSON = st.recursive(
     st.none() | st.booleans() | st.floats() | st.text(max_size=5),
@@ -48,7 +48,9 @@ JSON = st.recursive(
     max_leaves=8,
 )
 FIELDS = st.sampled_from(("echo", "source", "twist", "cause", "notes"))
-NAMES = st.sampled_from(("Ask", "Look", "Trip", "Person", "Release", "Song", "State", "Other"))
+NAMES = st.sampled_from(
+    ("Ask", "Heartbeat", "Trip", "Nearest", "Release", "Song", "State", "Other")
+)
 
 
 def test_every_order_arrives_as_it_was_given() -> None:
@@ -105,7 +107,7 @@ def test_no_fields_break_the_decoders(name, fields) -> None:
 
 
 def test_deeply_nested_brackets_do_not_break_the_decoders() -> None:
-    assert decoded_order(b'{"Look":' + b"[" * 60000) is None
+    assert decoded_order(b'{"Heartbeat":' + b"[" * 60000) is None
 
 
 def test_a_flood_is_taken_in_portions_and_a_full_line_drops() -> None:
