@@ -12,7 +12,6 @@ import hri.behavior
 import hri.hal
 
 
-@pytest.mark.slow
 @pytest.mark.proves("P05")
 @pytest.mark.parametrize("package", [hri.hal, hri.behavior])
 def test_the_reference_lists_every_class_of_a_layer(package, tmp_path):
