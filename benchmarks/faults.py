@@ -31,10 +31,10 @@ from hri.drive.supervisor.multiplexer import Level
 from hri.drive.supervisor.process import rules
 from hri.drive.supervisor.supervisor import Supervisor
 from hri.drive.velocity_limits import BaseLimits
-from hri.simulation.bases.arduino import EmulatedArduino
-from hri.simulation.bases.create2 import EmulatedCreate2
-from hri.simulation.bases.device import AUTO_STOP
-from hri.simulation.bases.line import EmulatedPort, Faults, Line
+from hri.simulation.bases.emulated_arduino import EmulatedArduino
+from hri.simulation.bases.emulated_base import AUTO_STOP
+from hri.simulation.bases.emulated_create2 import EmulatedCreate2
+from hri.simulation.bases.emulated_line import EmulatedPort, Faults, Line
 
 GO = Twist(0.3)
 TRIES, QUICK_TRIES = 100, 10

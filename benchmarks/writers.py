@@ -15,18 +15,18 @@ import numpy as np
 
 from hri.behavior.network_file import load_network
 from hri.behavior.writer import save_network
-from hri.core.archive import unpack
+from hri.core.fetch.archive import unpack
 from hri.core.signals import EmotionState, Image
-from hri.emotion.model import load_emotions
+from hri.emotion.model_spec import load_emotions
 from hri.emotion.persistence import Memory, keep
 from hri.face.renderers.movie import write_movie
 from hri.hal.choices import save_choices
-from hri.hal.drivers.picture_file import write_picture
+from hri.hal.drivers.image_size import write_picture
 from hri.hal.drivers.wav_file import write_wav
 from hri.robot.feeling_plot import write_feeling_plot
 from hri.robot.timeline import plot_timeline
 from hri.speech.pronunciation.lexicon import add_to_lexicon
-from hri.vision.recognition import Acquaintances
+from hri.vision.tracking.face_recognition import Acquaintances
 
 Writer = Callable[[Path, int], object]
 """Writes an edition, 0 or 1, to a place."""

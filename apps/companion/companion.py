@@ -18,8 +18,8 @@ from hri.drive.guard import BaseGuard
 from hri.emotion.behaviors import EmotionModel
 from hri.emotion.stimulus import load_stimuli
 from hri.face.behaviors import FaceRenderer
-from hri.face.gestures import load_gestures
 from hri.face.model import load_face
+from hri.face.motion.gesture_tracks import load_gestures
 from hri.hal.battery import Battery
 from hri.hal.camera import Camera
 from hri.robot import verbs

@@ -11,7 +11,7 @@ from inspect import Parameter
 from pathlib import Path
 
 from hri.core.errors import AuthoringError, HriError, Mistakes, did_you_mean
-from hri.core.events import OWN_SUBJECTS
+from hri.core.event_bus import OWN_SUBJECTS
 from hri.core.toml import Table, load_toml
 from hri.robot.app import GRAMMAR, App
 from hri.speech.grammar import Grammar

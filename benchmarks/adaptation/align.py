@@ -20,9 +20,9 @@ from hri.core.errors import HriError
 from hri.hal.word_graph import WordGraph
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.confidence import scores_of
+from hri.speech.recognizers.ctc.conformer import Network
 from hri.speech.recognizers.ctc.habits import Habits
 from hri.speech.recognizers.ctc.lattice import Walk
-from hri.speech.recognizers.ctc.network import Network
 from hri.speech.recognizers.ctc.phone_graph import compile
 from hri.speech.recognizers.ctc.search import Search
 from hri.speech.recognizers.ctc.weights import find_weights, read_tensors

@@ -37,7 +37,7 @@ from numpy.typing import NDArray
 from ttspico import TtsEngine
 
 import benchmarks.speech
-from hri.bench.speech.clips import ORDERS, ROBOT
+from hri.bench.speech.samples import ORDERS, ROBOT
 from hri.speech.grammar import load_grammar
 from hri.speech.grammar.expansion import random_sentence
 from hri.speech.grammar.matching import parse

@@ -27,8 +27,8 @@ import soxr
 from numpy.typing import NDArray
 
 from benchmarks.speech.babble import above, babble
-from hri.bench.speech import clips, flite
-from hri.bench.speech.flite import RATE
+from hri.bench.speech import flite_voices, samples
+from hri.bench.speech.flite_voices import RATE
 from hri.core.signals import Samples
 from hri.speech.endpoint import Endpointer
 from hri.speech.grammar import load_grammar
@@ -37,14 +37,14 @@ from hri.speech.grammar.matching import parse
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.adaptation import adapted
 from hri.speech.recognizers.ctc.confidence import Fit, fit_of, scores_of, shares
+from hri.speech.recognizers.ctc.conformer import Network
+from hri.speech.recognizers.ctc.decoder import BEAM, MOST_SENTENCES
 from hri.speech.recognizers.ctc.habits import Habits
 from hri.speech.recognizers.ctc.lattice import Walk
-from hri.speech.recognizers.ctc.network import Network
+from hri.speech.recognizers.ctc.loudness import noise_of, sounding
 from hri.speech.recognizers.ctc.phone_graph import compile
-from hri.speech.recognizers.ctc.recognizer import BEAM, MOST_SENTENCES
 from hri.speech.recognizers.ctc.rivals import Rivals
 from hri.speech.recognizers.ctc.search import Search
-from hri.speech.recognizers.ctc.silence import noise_of, sounding
 from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
 from hri.speech.recognizers.voice_activity import voice_detector
 from hri.speech.synthesizers.espeak_library import Mark, Setting, load_espeak
@@ -71,7 +71,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Fits the confidence of the default engine.")
     parser.add_argument("--recordings", type=Path, required=True, help="see `hri bench speech`")
     options = parser.parse_args()
-    recordings = clips.read_recordings(options.recordings)
+    recordings = samples.read_recordings(options.recordings)
     orders = recordings.orders[::2]
     talkers = [clip.samples for clip in (*orders, *recordings.read)]
     grammars = {path.stem: Decoder(path) for path in sorted(HERE.glob("*.jsgf"))}
@@ -134,7 +134,7 @@ def sentences(grammars: dict[str, Decoder]) -> Iterator[Said]:
     voices = dict(speakers())
     for name, text in [*texts, *(("", line) for line in foreign)]:
         for voice in chance.sample(sorted(voices), VOICES_EACH):
-            quiet = round(flite.LEAD * RATE), round(flite.TAIL * RATE)
+            quiet = round(flite_voices.LEAD * RATE), round(flite_voices.TAIL * RATE)
             yield Said(np.pad(voices[voice](text), quiet), text, name, voice)
 
 
@@ -169,7 +169,7 @@ def _espeak(text: str, setting: Setting) -> Samples:
 
 
 def _flite(text: str, voice: str, size: float) -> Samples:
-    return _resampled(flite.say(text, voice), RATE * size)
+    return _resampled(flite_voices.say(text, voice), RATE * size)
 
 
 def _resampled(samples: Samples, rate: float) -> Samples:

@@ -31,8 +31,8 @@ from sound import LENGTH, RATE, Sound, clean, noisy, tracks
 
 from hri.speech.recognizers.ctc.adaptation import TALL, WIDE
 from hri.speech.recognizers.ctc.classes import folding
+from hri.speech.recognizers.ctc.conformer import BLOCKS, DIMENSION, HEADS, TAPS
 from hri.speech.recognizers.ctc.features import log_mel, padded
-from hri.speech.recognizers.ctc.network import BLOCKS, DIMENSION, HEADS, TAPS
 from hri.speech.recognizers.ctc.weights import Tensor, find_weights, read_tensors
 
 Change = dict[str, Array]
@@ -66,7 +66,7 @@ SPAN = 40
 """Frames that one product of the convolution makes."""
 
 
-# The network, as hri.speech.recognizers.ctc.network runs it.
+# The network, as hri.speech.recognizers.ctc.conformer runs it.
 
 
 class Weights:

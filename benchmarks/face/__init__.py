@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from benchmarks.face import judge, lips, skia
 from hri.bench.table import Row, attempted
 from hri.bench.threads import one_thread
-from hri.face.baking import Vector
+from hri.face.drawing.baking import Vector
 from hri.face.model import FaceModel
 
 

@@ -14,11 +14,11 @@ from hri.bench.table import Row, amount, at_most
 from hri.core.clock import RealClock
 from hri.core.signals import Speech
 from hri.face.animator import Animator
-from hri.face.lipsync import PhonemeTrack, Segment, spoken
+from hri.face.lips.lipsync import PhonemeTrack, Segment, spoken
 from hri.face.model import FaceModel
 from hri.face.regions import region_of
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.speech.synthesizers.espeak import EspeakVoice
 
 Values = NDArray[np.float64]

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from hri.bench.table import Row, amount, at_least, at_most
 from hri.core.errors import NotAvailable
 from hri.core.signals import Image
-from hri.face.baking import Item, Shape, Vector
+from hri.face.drawing.baking import Item, Shape, Vector
+from hri.face.drawing.outline import apply, compose
+from hri.face.drawing.paint import Gradient, Solid
 from hri.face.model import FaceModel
-from hri.face.outline import apply, compose
-from hri.face.paint import Gradient, Solid
 from hri.face.renderers.renderer import Renderer, fit
 
 TIMES = 3.0

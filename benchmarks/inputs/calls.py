@@ -47,7 +47,7 @@ def archive(path: Path) -> None:
     """An archive, which is unpacked whole or not at all."""
     from shutil import rmtree
 
-    from hri.core.archive import unpack
+    from hri.core.fetch.archive import unpack
 
     target = path.with_name("unpacked")
     try:
@@ -103,8 +103,8 @@ def face_settings(path: Path) -> object:
 
 def face_weights(path: Path) -> object:
     """The recording of a face."""
+    from hri.face.live_link import read_weights
     from hri.face.model import load_face
-    from hri.face.recording import read_weights
 
     return read_weights(path, load_face("eyes"))
 
@@ -119,7 +119,7 @@ def formula(path: Path) -> object:
 def grammar_check(path: Path) -> object:
     """What `hri grammar check` says."""
     from hri.speech.grammar import read_grammar
-    from hri.speech.grammar.check import check
+    from hri.speech.grammar.lint.linter import check
     from hri.speech.pronunciation.lexicon import load_lexicon
 
     grammar, errors = read_grammar(path)
@@ -151,7 +151,7 @@ def _grammar_of_companion() -> Any:
 
 def manifest(path: Path) -> object:
     """A list of recordings."""
-    return named("hri.cli.grammar.clips:read_manifest")(path, _grammar_of_companion())
+    return named("hri.cli.grammar.manifest:read_manifest")(path, _grammar_of_companion())
 
 
 def names(path: Path) -> object:
@@ -163,7 +163,7 @@ def names(path: Path) -> object:
 
 def people(path: Path) -> object:
     """Faces by name."""
-    from hri.vision.recognition import Acquaintances
+    from hri.vision.tracking.face_recognition import Acquaintances
 
     return Acquaintances.load(path)
 
@@ -200,8 +200,8 @@ def _replies_of_companion() -> tuple[Any, Any]:
     """The companion's module of replies, and the names that they may use."""
     from hri.core import paths
     from hri.emotion.stimulus import load_stimuli
-    from hri.face.gestures import load_gestures
     from hri.face.model import load_face
+    from hri.face.motion.gesture_tracks import load_gestures
     from hri.robot.app import load_app
     from hri.speech.grammar import load_grammar
 
@@ -287,12 +287,14 @@ def stimuli(path: Path) -> object:
 
 def timeline(path: Path) -> object:
     """What happens to a robot that feels."""
-    return named("hri.cli.emotion.timeline:read_timeline")(path, ("praise", "scold", "greeting"))
+    return named("hri.cli.emotion.stimulus_timeline:read_timeline")(
+        path, ("praise", "scold", "greeting")
+    )
 
 
 def values(path: Path) -> None:
     """What a ValueRecorder wrote."""
-    from hri.behavior.library.recording import ValuePlayer
+    from hri.behavior.library.value_recording import ValuePlayer
 
     player = ValuePlayer("player")
     player.file = str(path)
@@ -301,7 +303,7 @@ def values(path: Path) -> None:
 
 def wire_line(path: Path) -> list[object]:
     """A line of a peer; what it may not say is a ProtocolError."""
-    from hri.net.protocol import Sender, decode
+    from hri.net.malleable_protocol import Sender, decode
 
     return [decode(path.read_bytes(), Sender())]
 

@@ -122,7 +122,7 @@ def manifests() -> list[bytes]:
 
 def memories() -> list[bytes]:
     """What a robot feels between runs."""
-    from hri.emotion.model import load_emotions
+    from hri.emotion.model_spec import load_emotions
     from hri.emotion.persistence import Memory, dump
 
     dynamics = load_emotions("neutral").dynamics()
@@ -296,8 +296,8 @@ def tensors() -> list[bytes]:
 def silent_voice() -> Callable[[str], Speech]:
     """What speaks the texts of a scene without a sound."""
     from hri.core.clock import FakeClock
-    from hri.hal.manager import ResourceManager
     from hri.hal.resource import Description
+    from hri.hal.resource_manager import ResourceManager
     from hri.speech.synthesizers.silent import SilentVoice
 
     description = Description("voice", "Hri.SilentVoice", {})

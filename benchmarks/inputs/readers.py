@@ -44,14 +44,14 @@ READERS: dict[str, Reader] = {
     "event form": Reader(calls.event_form, good.event_forms, "event.txt"),
     "event query": Reader(calls.event_query, good.event_queries, "event.txt"),
     "expectations": _named(
-        "hri.speech.grammar.expectations:read_expectations", good.expectations, "a.txt"
+        "hri.speech.grammar.lint.expectations:read_expectations", good.expectations, "a.txt"
     ),
     "expression": Reader(calls.expression, good.expressions, "expression.txt"),
     "face drawing": _named(
-        "hri.face.drawing:load_drawing", _shipped("faces/*/targets/*.svg"), "a.svg"
+        "hri.face.drawing.svg:load_drawing", _shipped("faces/*/targets/*.svg"), "a.svg"
     ),
     "face gestures": _named(
-        "hri.face.gestures:read_gestures", _shipped("faces/gestures.toml"), "g.toml"
+        "hri.face.motion.gesture_tracks:read_gestures", _shipped("faces/gestures.toml"), "g.toml"
     ),
     "face settings": Reader(calls.face_settings, _shipped("faces/robot/face.toml"), "face.toml"),
     "face weights": Reader(calls.face_weights, good.weights, "weights.csv"),
@@ -72,7 +72,9 @@ READERS: dict[str, Reader] = {
         "grammars/a.jsgf",
     ),
     "head gestures": _named(
-        "hri.vision.patterns:load_patterns", _shipped("config/gestures.toml"), "g.toml"
+        "hri.vision.gestures.gesture_patterns:load_patterns",
+        _shipped("config/gestures.toml"),
+        "g.toml",
     ),
     "head poses": Reader(calls.poses, good.poses, "poses.csv"),
     "lexicon": _named(
@@ -93,9 +95,9 @@ READERS: dict[str, Reader] = {
         "personality.toml",
     ),
     "picture": _named(
-        "hri.hal.drivers.picture_file:picture_size", good.pictures, "a.png", is_text=False
+        "hri.hal.drivers.image_size:picture_size", good.pictures, "a.png", is_text=False
     ),
-    "recorded events": _named("hri.core.recording:read_events", good.event_logs, "events.jsonl"),
+    "recorded events": _named("hri.core.event_log:read_events", good.event_logs, "events.jsonl"),
     "recorded run": Reader(calls.run_of_robot, good.runs, "events.jsonl"),
     "recorded values": Reader(calls.values, good.value_logs, "values.jsonl"),
     "replies": Reader(calls.replies, _shipped("apps/companion/replies.toml"), "replies.toml"),
@@ -124,13 +126,15 @@ READERS: dict[str, Reader] = {
         f"emotions/stimuli/{good.stimulus_file()}",
     ),
     "video": _named("hri.hal.drivers.video_file:check_video", good.videos, "a.avi", is_text=False),
-    "visit": _named("hri.simulation.script:load_visit", _shipped("apps/*/demo.toml"), "visit.toml"),
+    "visit": _named(
+        "hri.simulation.visit_script:load_visit", _shipped("apps/*/demo.toml"), "visit.toml"
+    ),
     "weights of the recognizer": _named(
         "hri.speech.recognizers.ctc.weights:read_tensors", good.tensors, "a.hama", is_text=False
     ),
     "wire line": Reader(calls.wire_line, good.wire_lines, "line.txt"),
     "world": _named(
-        "hri.simulation.layout:load_layout", _shipped("config/worlds/*.toml"), "w.toml"
+        "hri.simulation.world_file:load_layout", _shipped("config/worlds/*.toml"), "w.toml"
     ),
 }
 """By what is read."""

@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from benchmarks.speech import accuracy, peers
-from hri.bench.speech.clips import Recordings
+from hri.bench.speech.latency import Progress
 from hri.bench.speech.listening import Listen
-from hri.bench.speech.speed import Progress
+from hri.bench.speech.samples import Recordings
 from hri.bench.table import Row
 
 

@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import Literal
 
 from benchmarks.speech.babble import in_babble, padded
-from hri.bench.speech import clips
-from hri.bench.speech.clips import ORDERS, ROBOT, Clip, Recordings
+from hri.bench.speech import samples
+from hri.bench.speech.latency import Progress
 from hri.bench.speech.listening import Listen
-from hri.bench.speech.outcome import Outcome
-from hri.bench.speech.speed import Progress
+from hri.bench.speech.samples import ORDERS, ROBOT, Clip, Recordings
+from hri.bench.speech.scoring import Outcome
 from hri.bench.table import Limit, Row, at_least, at_most, attempted, share
 from hri.core.errors import NotAvailable
 from hri.speech.grammar import load_grammar
@@ -116,8 +116,8 @@ def sounds(
         orders = recordings.orders[::step]
         said = list(orders) if condition == "clean" else [padded(clip) for clip in orders]
         return list(in_babble(said, recordings.orders, condition, draw))
-    sentences = clips.commands() if kind == "commands" else outside()
-    return list(in_babble(clips.spoken(sentences[::step]), people, condition, draw))
+    sentences = samples.commands() if kind == "commands" else outside()
+    return list(in_babble(samples.spoken(sentences[::step]), people, condition, draw))
 
 
 def hear(grammar: Path, said: Sequence[Clip], listen: Listen) -> list[Outcome]:

@@ -13,9 +13,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.bench.speech import flite
-from hri.bench.speech.clips import Clip
-from hri.bench.speech.flite import RATE
+from hri.bench.speech import flite_voices
+from hri.bench.speech.flite_voices import RATE
+from hri.bench.speech.samples import Clip
 from hri.core.signals import Samples
 
 Sound = NDArray[np.float64]
@@ -87,5 +87,5 @@ def in_babble(
 
 def padded(clip: Clip) -> Clip:
     """With the silences of a spoken sentence around it, so that babble has a beginning."""
-    lead, tail = round(flite.LEAD * RATE), round(flite.TAIL * RATE)
+    lead, tail = round(flite_voices.LEAD * RATE), round(flite_voices.TAIL * RATE)
     return Clip(clip.name, np.pad(clip.samples, (lead, tail)), clip.sentence, clip.slots)

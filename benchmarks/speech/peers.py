@@ -7,9 +7,9 @@ from functools import partial
 from importlib.metadata import version
 from importlib.util import find_spec
 
-from hri.bench.speech.clips import ROBOT, Recordings
+from hri.bench.speech.latency import Progress, Work, count_right, real_time_factor, works
 from hri.bench.speech.listening import Listen
-from hri.bench.speech.speed import Progress, Work, count_right, real_time_factor, works
+from hri.bench.speech.samples import ROBOT, Recordings
 from hri.bench.speech.text import median_s, sentences
 from hri.bench.table import Row, attempted, compared
 from hri.core.errors import NotAvailable

@@ -26,9 +26,9 @@ from benchmarks.vision.recordings import (
     read_recordings,
 )
 from hri.bench.table import Row as Figure, amount, at_least, at_most, share
-from hri.vision.gesture import Movement
-from hri.vision.noise import Noise
-from hri.vision.patterns import ANSWERS, Pattern, Row, answer_patterns
+from hri.vision.gestures.angle_noise import Noise
+from hri.vision.gestures.gesture_patterns import ANSWERS, Pattern, Row, answer_patterns
+from hri.vision.gestures.gesture_recognizer import Movement
 
 FOLDS, DIVISIONS, SEEDS = 5, 3, 3
 """Parts, ways to divide, and draws of the noise."""

@@ -14,11 +14,11 @@ from hri.bench.threads import one_thread
 from hri.bench.vision.seeing import seen
 from hri.bench.workers import worker_pool
 from hri.core.signals import FaceBox, People
-from hri.simulation.actors import ACTORS, Optics
-from hri.simulation.film import Film, Role
-from hri.simulation.lens import Lens
-from hri.simulation.motion import Posture, eased, steps
-from hri.vision.models import find_face_models
+from hri.simulation.people.actors import ACTORS, Optics
+from hri.simulation.people.body_motion import Posture, eased, steps
+from hri.simulation.people.lens import Lens
+from hri.simulation.people.scripted_film import Film, Role
+from hri.vision.face_models import find_face_models
 
 CASES, QUICK_CASES = 100, 8
 SECONDS = 5.6

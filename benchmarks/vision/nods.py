@@ -18,13 +18,13 @@ from hri.bench.threads import one_thread
 from hri.bench.vision.seeing import seen
 from hri.bench.workers import worker_pool
 from hri.core.signals import HeadGesture
-from hri.simulation.actors import ACTORS, Optics
-from hri.simulation.film import Film, Role
-from hri.simulation.lens import Lens
-from hri.simulation.motion import Posture, eased, nod_angles
-from hri.vision.gesturing import PeopleGestures
-from hri.vision.models import find_face_models
-from hri.vision.patterns import NOD, SHAKE, answer_patterns
+from hri.simulation.people.actors import ACTORS, Optics
+from hri.simulation.people.body_motion import Posture, eased, nod_angles
+from hri.simulation.people.lens import Lens
+from hri.simulation.people.scripted_film import Film, Role
+from hri.vision.face_models import find_face_models
+from hri.vision.gestures.gesture_behaviors import PeopleGestures
+from hri.vision.gestures.gesture_patterns import NOD, SHAKE, answer_patterns
 
 RATES = (30.0, 15.0)
 SEEDS = 5

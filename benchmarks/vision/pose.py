@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from benchmarks.progress import progress
 from hri.bench.table import Row, amount, at_least, at_most
 from hri.bench.vision.seeing import seen
-from hri.simulation.actors import ACTORS, Optics
-from hri.simulation.film import Film, Role
-from hri.simulation.lens import Lens
-from hri.simulation.motion import Posture
+from hri.simulation.people.actors import ACTORS, Optics
+from hri.simulation.people.body_motion import Posture
+from hri.simulation.people.lens import Lens
+from hri.simulation.people.scripted_film import Film, Role
 
 RANGE = math.radians(15)
 """Of a nod, up and down."""

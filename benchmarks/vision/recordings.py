@@ -19,8 +19,8 @@ from hri.bench.table import Row, amount, at_most
 from hri.core import paths
 from hri.core.errors import NotAvailable
 from hri.core.signals import HeadGesture, HeadPose
-from hri.vision.gesture import GestureRecognizer
-from hri.vision.patterns import Pattern, answer_patterns
+from hri.vision.gestures.gesture_patterns import Pattern, answer_patterns
+from hri.vision.gestures.gesture_recognizer import GestureRecognizer
 
 RATE = 30.0
 NOISE = np.radians([0.6, 0.3, 0.3])

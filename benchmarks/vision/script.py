@@ -1,10 +1,10 @@
 """What happens in the films that are judged: gestures and distractors by lot, each at its time.
 
-The gestures are as people make them when asked (see the notes of `hri.vision.gesture`): nods of 3
-to 10 degrees and shakes of 5 to 20 to each side, 1.2 to 2.8 a second, one and a half to three
-times. Before each comes a distractor. Faces, light, noise, blur and a trembling camera are drawn
-by lot, too; the faces are those that nothing was tuned on.
-"""
+The gestures are as people make them when asked (see the notes of
+`hri.vision.gestures.gesture_recognizer`): nods of 3 to 10 degrees and shakes of 5 to 20 to each
+side, 1.2 to 2.8 a second, one and a half to three times. Before each comes a distractor. Faces,
+light, noise, blur and a trembling camera are drawn by lot, too; the faces are those that nothing
+was tuned on."""
 
 from __future__ import annotations
 
@@ -12,10 +12,16 @@ import math
 import random
 from dataclasses import dataclass
 
-from hri.simulation.actors import ACTORS, Optics
-from hri.simulation.film import Film, Role
-from hri.simulation.lens import Lens
-from hri.simulation.motion import DISTRACTORS, MOTIONS, Posture, nod_angles, shake_angles
+from hri.simulation.people.actors import ACTORS, Optics
+from hri.simulation.people.body_motion import (
+    DISTRACTORS,
+    MOTIONS,
+    Posture,
+    nod_angles,
+    shake_angles,
+)
+from hri.simulation.people.lens import Lens
+from hri.simulation.people.scripted_film import Film, Role
 
 SEED = 640_000
 """Of the figures; none of these films was looked at to choose anything."""

@@ -16,11 +16,11 @@ from hri.bench.threads import one_thread
 from hri.bench.vision.seeing import seen
 from hri.bench.workers import worker_pool
 from hri.core.signals import HeadGesture, HeadPose, Person
-from hri.vision.agreement import AgreeingRecognizer
-from hri.vision.detectors.chain import AUTO, HAAR
-from hri.vision.gesture import GestureRecognizer
-from hri.vision.models import find_face_models
-from hri.vision.patterns import answer_patterns
+from hri.vision.detectors.detector_choice import AUTO, HAAR
+from hri.vision.face_models import find_face_models
+from hri.vision.gestures.gesture_fusion import AgreeingRecognizer
+from hri.vision.gestures.gesture_patterns import answer_patterns
+from hri.vision.gestures.gesture_recognizer import GestureRecognizer
 
 GESTURES, QUICK_GESTURES = 200, 20
 RATES = (30.0, 15.0)

@@ -3,7 +3,6 @@ from .board import declare_slot as declare_slot
 from .device import DeviceBehavior as DeviceBehavior
 from .network import Link as Link, Network as Network
 from .network_file import load_network as load_network
-from .networks import Networks as Networks
 from .ports import (
     Input as Input,
     Output as Output,
@@ -11,4 +10,5 @@ from .ports import (
     declare_datatype as declare_datatype,
 )
 from .runner import Runner as Runner
+from .running import Networks as Networks
 from .writer import save_network as save_network, write_network as write_network

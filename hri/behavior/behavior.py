@@ -25,13 +25,13 @@ from hri.behavior.effects import Effect
 from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
 from hri.core.clock import Clock
 from hri.core.errors import HriError, did_you_mean
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.latest import Board
-from hri.hal.manager import ResourceManager
+from hri.hal.resource_manager import ResourceManager
 
 if TYPE_CHECKING:
-    from hri.behavior.networks import Networks
     from hri.behavior.runner import Runner
+    from hri.behavior.running import Networks
     from hri.behavior.schema import Schema
 
 
@@ -57,7 +57,7 @@ class Context:
     @cached_property
     def networks(self) -> Networks:
         """The networks that run."""
-        from hri.behavior.networks import Networks
+        from hri.behavior.running import Networks
 
         return Networks(self)
 

@@ -8,7 +8,7 @@ from string import ascii_uppercase
 from typing import TYPE_CHECKING
 
 from hri.core.errors import did_you_mean
-from hri.core.events import matches
+from hri.core.event_bus import matches
 
 if TYPE_CHECKING:
     from hri.behavior.behavior import Behavior

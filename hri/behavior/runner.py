@@ -27,7 +27,7 @@ from typing import Any
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.network import Network
 from hri.behavior.ports import InputPort, OutputPort
-from hri.behavior.statistics import Statistics, Timing
+from hri.behavior.tick_statistics import Statistics, Timing
 from hri.core.errors import AuthoringError, HriError
 
 log = logging.getLogger("hri.behavior")

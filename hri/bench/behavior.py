@@ -28,8 +28,8 @@ from hri.bench.workers import busy_processes
 from hri.core import child
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
-from hri.core.events import EventBus
-from hri.hal.manager import ResourceManager
+from hri.core.event_bus import EventBus
+from hri.hal.resource_manager import ResourceManager
 
 SECONDS = 60.0
 BEHAVIORS = 100

@@ -17,7 +17,7 @@ import psutil
 from hri.core.clock import FakeClock
 from hri.core.signals import Event
 from hri.robot import Robot
-from hri.simulation.script import load_visit
+from hri.simulation.visit_script import load_visit
 from hri.simulation.world import SimulatedWorld
 from hri.task.context import TaskContext
 

@@ -22,7 +22,7 @@ from hri.emotion.dynamics import Dynamics
 from hri.emotion.emotions import NAMES
 from hri.emotion.files import EmotionFiles
 from hri.emotion.ledger import MOST
-from hri.emotion.model import load_emotions
+from hri.emotion.model_spec import load_emotions
 from hri.emotion.personality import Personality
 from hri.emotion.stimulus import StimulusSpec
 

@@ -25,8 +25,8 @@ from hri.bench.workers import safe_start
 from hri.core.errors import HriError
 from hri.net.client import Client
 from hri.net.inbox import Inbox
+from hri.net.malleable_protocol import Item, Message, Sender, encode
 from hri.net.peer import PeerLimits
-from hri.net.protocol import Item, Message, Sender, encode
 from hri.net.server import Server
 from hri.net.values import write
 

@@ -22,15 +22,15 @@ from hri.behavior.network import Network
 from hri.behavior.ports import Input, Output
 from hri.behavior.schema import Port, Schema, subclass
 from hri.core.clock import FakeClock, RealClock
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Event
 from hri.drive.navigation import drive_move_delta, drive_turn_delta
-from hri.hal.manager import ResourceManager
 from hri.hal.pending import Interrupted
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.task.context import TaskContext
-from hri.task.manager import TaskManager
 from hri.task.task import TaskStatus
+from hri.task.task_manager import TaskManager
 
 INTERVAL = 0.1
 """Seconds between ticks of the large network."""

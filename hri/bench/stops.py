@@ -26,9 +26,9 @@ from hri.drive.supervisor.link import Ask, Release
 from hri.drive.supervisor.multiplexer import Level
 from hri.drive.supervisor.process import Settings
 from hri.drive.supervisor.remote import Remote
-from hri.simulation.bases.create2 import EmulatedCreate2
-from hri.simulation.bases.line import Line
-from hri.simulation.bases.terminal import PseudoTerminal
+from hri.simulation.bases.emulated_create2 import EmulatedCreate2
+from hri.simulation.bases.emulated_line import Line
+from hri.simulation.bases.pseudo_terminal import PseudoTerminal
 
 SPEED = 0.3
 """Meters a second when the program dies."""

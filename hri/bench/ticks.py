@@ -15,12 +15,12 @@ import trio
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.network import Network
 from hri.core.clock import Clock, RealClock
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.realtime import become_realtime
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.robot import Robot
-from hri.simulation.script import load_visit
+from hri.simulation.visit_script import load_visit
 from hri.simulation.world import SimulatedWorld
 from hri.task.context import TaskContext
 

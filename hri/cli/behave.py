@@ -14,19 +14,19 @@ import trio
 from hri.behavior.behavior import Context
 from hri.behavior.network_file import load_network
 from hri.behavior.runner import Runner
-from hri.behavior.statistics import Statistics
-from hri.cli.doors import add_door_options, doors_of
+from hri.behavior.tick_statistics import Statistics
+from hri.cli.door_options import add_door_options, doors_of
 from hri.cli.ending import Ending
+from hri.cli.exit_status import status_of
 from hri.cli.messages import LineFormatter, OptionParser, Within
-from hri.cli.outcome import status_of
 from hri.cli.port_plot import PortPlot
 from hri.cli.streams import unfailing_output
 from hri.core.clock import Clock, FakeClock, RealClock
 from hri.core.errors import HriError, did_you_mean
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.realtime import become_realtime
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Resource
+from hri.hal.resource_manager import ResourceManager
 
 log = logging.getLogger("hri.behave")
 SHORTEST = 0.01

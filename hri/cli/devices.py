@@ -18,8 +18,8 @@ from hri.core.clock import RealClock
 from hri.core.errors import AuthoringError, HriError
 from hri.hal.camera import Camera
 from hri.hal.configuration import Configuration, load_configuration
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description, Resource
+from hri.hal.resource_manager import ResourceManager
 
 PATIENCE = 5.0
 """Seconds after which a device that does not open counts as missing."""

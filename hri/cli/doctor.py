@@ -21,9 +21,9 @@ from hri.hal.camera import Camera
 from hri.hal.choices import load_choices, save_choices
 from hri.hal.configuration import load_configuration
 from hri.hal.drive import DriveSystem, Odometry
-from hri.hal.manager import ResourceManager
 from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer
+from hri.hal.resource_manager import ResourceManager
 from hri.hal.screen import Screen
 from hri.hal.speaker import Speaker
 from hri.hal.synthesizer import Synthesizer
@@ -163,7 +163,7 @@ class Doctor:
         return Finding(True, f"{recognizer.describe()}, its model loads")
 
     def _faces(self) -> Finding:
-        from hri.vision.detectors.chain import load_detectors
+        from hri.vision.detectors.detector_choice import load_detectors
 
         problems = load_detectors().problems
         if problems:

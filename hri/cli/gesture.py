@@ -10,7 +10,7 @@ from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
-from hri.cli.progress import waiting
+from hri.cli.progress_line import waiting
 from hri.cli.watching import (
     FILM_RATE,
     add_source,
@@ -27,8 +27,8 @@ from hri.core.signals import Frame, HeadGesture, Image
 from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE
 from hri.hal.camera import Camera
-from hri.vision.gesture import GestureRecognizer
-from hri.vision.patterns import ANSWERS, FILE, Pattern, chosen, load_patterns
+from hri.vision.gestures.gesture_patterns import ANSWERS, FILE, Pattern, chosen, load_patterns
+from hri.vision.gestures.gesture_recognizer import GestureRecognizer
 from hri.vision.pose_file import Remarks, read_poses
 
 SHOWN = 1.5
@@ -126,11 +126,11 @@ def _seen(
     tell: Teller,
 ) -> Iterator[tuple[float, Image]]:
     """The pictures with their times, with what is seen drawn in when they are asked for."""
-    from hri.vision.detectors.chain import load_detectors
+    from hri.vision.camera_view import CameraView
+    from hri.vision.detectors.detector_choice import load_detectors
     from hri.vision.detectors.overlay import draw
-    from hri.vision.gesturing import PeopleGestures
-    from hri.vision.people import PeopleTracker
-    from hri.vision.view import CameraView
+    from hri.vision.gestures.gesture_behaviors import PeopleGestures
+    from hri.vision.tracking.people import PeopleTracker
 
     detectors = load_detectors(options.detector)
     for problem in detectors.problems:

@@ -6,8 +6,8 @@ import importlib
 import sys
 from collections.abc import Sequence
 
+from hri.cli.exit_status import status_of
 from hri.cli.messages import OptionParser
-from hri.cli.outcome import status_of
 from hri.core.errors import did_you_mean
 from hri.core.quoting import message_line
 

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from hri.core import paths
 from hri.core.models import Catalog, Download, Model, Packaged, bring, fetch, fetched, models_folder
-from hri.speech import models as speech
-from hri.vision import models as vision
+from hri.speech import engine_models as speech
+from hri.vision import face_models as vision
 
 CATALOG = Catalog((*speech.MODELS, *vision.MODELS))
 

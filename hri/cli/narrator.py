@@ -7,7 +7,7 @@ from collections import Counter
 from pathlib import Path
 from typing import TextIO
 
-from hri.behavior.statistics import Statistics
+from hri.behavior.tick_statistics import Statistics
 from hri.cli.streams import let_go
 from hri.core.quoting import message_line
 from hri.core.signals import Event

@@ -9,13 +9,13 @@ from pathlib import Path
 from hri.behavior.behavior import Behavior
 from hri.behavior.board import DECLARED, BoardSink, BoardSource
 from hri.behavior.catalog import type_of
-from hri.behavior.drawing import to_svg
-from hri.behavior.layout import lay_out, stacked
 from hri.behavior.network import Network
 from hri.behavior.network_check import check_together, slot_table
 from hri.behavior.network_file import load_network
+from hri.behavior.network_layout import lay_out, stacked
+from hri.behavior.network_svg import to_svg
 from hri.behavior.writer import save_network, write_network
-from hri.cli.progress import waiting
+from hri.cli.progress_line import waiting
 from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.quoting import escaped, message_line

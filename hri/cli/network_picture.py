@@ -8,8 +8,8 @@ from pathlib import Path
 from PIL import Image, ImageDraw, ImageFont
 
 from hri.behavior.behavior import Behavior
-from hri.behavior.drawing import COLORS, FAINT, FONT, INK, curve, fill_of, wire_color
-from hri.behavior.layout import LINE, PADDING, TITLE, Layout, Node
+from hri.behavior.network_layout import LINE, PADDING, TITLE, Layout, Node
+from hri.behavior.network_svg import COLORS, FAINT, FONT, INK, curve, fill_of, wire_color
 from hri.core.writing import write_bytes
 
 SCALE = 2

@@ -11,7 +11,7 @@ from itertools import chain, count
 from pathlib import Path
 
 from hri.cli.changes import announce_changes
-from hri.cli.doors import add_door_options, doors_of
+from hri.cli.door_options import add_door_options, doors_of
 from hri.cli.ending import Ending
 from hri.cli.messages import LineFormatter, Within
 from hri.cli.narrator import Narrator
@@ -34,7 +34,7 @@ from hri.robot import Job, Robot
 from hri.robot.app import load_app
 from hri.robot.recording import RECORDINGS
 from hri.robot.verbs import is_quiet
-from hri.simulation.script import Visit, load_visit
+from hri.simulation.visit_script import Visit, load_visit
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Voice
 from hri.speech.recognizers.typed import TypedRecognizer

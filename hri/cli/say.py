@@ -12,8 +12,8 @@ from typing import Any
 
 import trio
 
-from hri.cli.film import Film
-from hri.cli.voice import NO_FILE, PLAIN_VOICE, open_voice
+from hri.cli.face_film import Film
+from hri.cli.voice_options import NO_FILE, PLAIN_VOICE, open_voice
 from hri.core.clock import RealClock
 from hri.core.errors import AuthoringError, HriError, did_you_mean
 from hri.core.reading import LARGEST_FILE
@@ -22,11 +22,11 @@ from hri.core.writing import write_text
 from hri.emotion.display import felt_now, load_display
 from hri.emotion.emotions import NAMES
 from hri.face import load_face
-from hri.face.lipsync import ARTICULATORS, PhonemeTrack
+from hri.face.lips.lipsync import ARTICULATORS, PhonemeTrack
 from hri.face.scene import scene_of
 from hri.hal.drivers.wav_file import write_wav
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.speech.synthesizers.espeak import FASTEST, LONGEST_TEXT, SLOWEST
 from hri.speech.synthesizers.espeak_library import Setting
 

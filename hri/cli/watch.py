@@ -27,8 +27,8 @@ from hri.core.signals import Frame, HeadGesture, Image, People
 from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE
 from hri.hal.camera import Camera
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.hal.screen import Screen
 
 SHOWN = 1.5
@@ -85,11 +85,11 @@ class Watcher:
     @classmethod
     def of(cls, camera: Camera, options: argparse.Namespace) -> Watcher:
         """What the options ask for; tells what is lost where models are missing."""
-        from hri.vision.detectors.chain import load_detectors
-        from hri.vision.gesturing import PeopleGestures
-        from hri.vision.patterns import ANSWERS, chosen, load_patterns
-        from hri.vision.people import PeopleTracker
-        from hri.vision.view import CameraView
+        from hri.vision.camera_view import CameraView
+        from hri.vision.detectors.detector_choice import load_detectors
+        from hri.vision.gestures.gesture_behaviors import PeopleGestures
+        from hri.vision.gestures.gesture_patterns import ANSWERS, chosen, load_patterns
+        from hri.vision.tracking.people import PeopleTracker
 
         detectors = load_detectors(options.detector)
         for problem in detectors.problems:

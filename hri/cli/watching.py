@@ -21,8 +21,8 @@ from hri.hal.camera import Camera
 from hri.hal.choices import apply_choices, load_choices
 from hri.hal.configuration import load_configuration
 from hri.hal.drivers.video_file import check_video
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.simulation.world import SimulatedWorld
 
 LOOK = 0.002

@@ -6,7 +6,7 @@ from .errors import (
     NotAvailable as NotAvailable,
     Place as Place,
 )
-from .events import EventBus as EventBus, Subscription as Subscription
+from .event_bus import EventBus as EventBus, Subscription as Subscription
 from .latest import Board as Board, Latest as Latest
 from .signals import (
     EmotionState as EmotionState,

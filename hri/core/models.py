@@ -13,12 +13,12 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from hri.core.archive import Part, check_parts, unpack
-from hri.core.download import Progress, RemoteFile, download
 from hri.core.errors import HriError, NotAvailable, did_you_mean
+from hri.core.fetch.archive import Part, check_parts, unpack
+from hri.core.fetch.download import Progress, RemoteFile, download
+from hri.core.fetch.pypi_wheel import Wheel, download_wheel
 from hri.core.ownership import require_of_user
 from hri.core.paths import data_folder
-from hri.core.wheel import Wheel, download_wheel
 from hri.core.writing import new_folder
 
 

@@ -350,7 +350,7 @@ class Frame:
         `quality` is 0 (small) to 1 (like the original) for a JPEG; a PNG is always exact. Raises
         HriError when it cannot be written, ValueError for a quality out of range.
         """
-        from hri.core.picture_file import write_picture  # OpenCV, only for who writes a file
+        from hri.core.picture_writer import write_picture  # OpenCV, only for who writes a file
 
         write_picture(path, self.image, quality)
 

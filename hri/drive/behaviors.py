@@ -9,7 +9,7 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.drive_command import counts_until
 from hri.behavior.effects import NOTHING
 from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import RangeReading, Twist
 from hri.drive.gate import VelocityGate
 from hri.drive.velocity_limits import GateLimits, safe_speed

@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass
 from enum import Enum
 
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.geometry import placed
 from hri.core.signals import People, Person, Pose2D
 

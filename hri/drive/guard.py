@@ -9,7 +9,7 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.effects import Effect
 from hri.behavior.ports import Input, Output, Param
 from hri.core.errors import HriError, did_you_mean
-from hri.core.events import Subscription
+from hri.core.event_bus import Subscription
 from hri.core.signals import Event, People
 from hri.drive.behaviors import COMMAND, MOTION
 from hri.drive.supervisor.announcement import announce

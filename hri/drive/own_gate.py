@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from hri.behavior.behavior import Behavior
+from hri.behavior.device_behaviors import BumperSwitch, RangeSensorReading
 from hri.behavior.drive_command import DriveCommand
-from hri.behavior.drivers import BumperSwitch, RangeSensorReading
 from hri.behavior.network import Network
 from hri.core.errors import HriError
 from hri.drive.behaviors import CommandGate

@@ -8,9 +8,9 @@ from hri.core.errors import HriError
 from hri.core.signals import Twist
 from hri.drive.mechanics import mechanics_of, range_sensors
 from hri.drive.supervisor.oncoming import Oncoming
-from hri.hal.manager import ResourceManager
 from hri.hal.motion import Way
 from hri.hal.range_sensor import RangeSensor
+from hri.hal.resource_manager import ResourceManager
 
 BRAKES = 1.0
 """Meters a second squared that a small base brakes with at least when it is stopped at once."""

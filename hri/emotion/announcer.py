@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import EmotionState
 from hri.emotion.label import mood_name
 

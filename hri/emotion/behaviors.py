@@ -12,7 +12,7 @@ from hri.behavior.ports import Input, Output, Param
 from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.signals import EmotionState, Expression, Gaze, People, Prosody, Stimulus
-from hri.emotion.acting import NOTHING_ACTED, whole_vector
+from hri.emotion.acted_emotion import NOTHING_ACTED, whole_vector
 from hri.emotion.affect import Affect
 from hri.emotion.announcer import Announcer
 from hri.emotion.appraisal import OccEvent, name_of, people_of
@@ -20,7 +20,7 @@ from hri.emotion.display import HONEST, felt_now, load_display
 from hri.emotion.keeper import Keeper
 from hri.emotion.label import CALM
 from hri.emotion.ledger import Cause
-from hri.emotion.model import load_emotions
+from hri.emotion.model_spec import load_emotions
 from hri.emotion.persistence import traces
 from hri.emotion.personality import load_personality
 from hri.emotion.reasons import labels_called, why_words

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from hri.core.errors import HriError
 from hri.emotion.display import display_path
-from hri.emotion.model import EmotionModelSpec, load_emotions
+from hri.emotion.model_spec import EmotionModelSpec, load_emotions
 from hri.emotion.personality import personality_path
 from hri.emotion.stimulus import stimulus_paths
 

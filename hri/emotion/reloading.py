@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hri.core.clock import Clock, Worker
 from hri.emotion.files import EmotionFiles
-from hri.emotion.model import EmotionModelSpec
+from hri.emotion.model_spec import EmotionModelSpec
 
 LOOK_EVERY_S = 1.0
 """Seconds between looks at the files."""

@@ -13,7 +13,7 @@ from typing import Any
 from hri.behavior.behavior import Context
 from hri.behavior.runner import Runner, Watch
 from hri.core.errors import HriError
-from hri.core.events import Subscription
+from hri.core.event_bus import Subscription
 from hri.core.signals import Event
 from hri.emotion.stimulus import StimulusSpec
 

@@ -7,18 +7,18 @@ from collections.abc import Mapping
 import numpy as np
 
 from hri.core.signals import Expression, FaceWeights, Gaze, Speech
-from hri.face import idle
-from hri.face.baking import Vector
-from hri.face.expressing import Expressing, bounded
-from hri.face.gestures import Gesture, Track
-from hri.face.gesturing import Gestured, Gesturing, Playing
-from hri.face.lids import Lids
-from hri.face.living import Alive, Living, check_state
-from hri.face.looking import Look, Looking
-from hri.face.mixer import Layers, Mixer
+from hri.face.drawing.baking import Vector
+from hri.face.lips.lip_player import PICTURE_LEAD, Speaking
 from hri.face.model import FaceModel
-from hri.face.speaking import PICTURE_LEAD, Speaking
-from hri.face.spring import Follower
+from hri.face.motion import idle
+from hri.face.motion.expression_blender import Expressing, bounded
+from hri.face.motion.gaze import Look, Looking
+from hri.face.motion.gesture_player import Gestured, Gesturing, Playing
+from hri.face.motion.gesture_tracks import Gesture, Track
+from hri.face.motion.idle_state import Alive, Living, check_state
+from hri.face.motion.lids import Lids
+from hri.face.motion.mixer import Layers, Mixer
+from hri.face.motion.spring import Follower
 from hri.face.vocabulary import TURNS
 
 LARGE_SHIFT = 20.0

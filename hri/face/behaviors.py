@@ -12,15 +12,15 @@ from hri.behavior.effects import NOTHING
 from hri.behavior.ports import Input, Output, Param
 from hri.core.clock import Worker
 from hri.core.errors import HriError
-from hri.core.events import EventBus, Subscription
+from hri.core.event_bus import EventBus, Subscription
 from hri.core.signals import Event, Expression, FaceWeights, Gaze, Image, Speech
-from hri.face import idle
 from hri.face.animator import Animator
-from hri.face.gestures import load_gestures
-from hri.face.gesturing import Playing
+from hri.face.lips.lip_player import PICTURE_LEAD
+from hri.face.live_link import WeightWriter, read_weights
 from hri.face.model import load_face
-from hri.face.recording import WeightWriter, read_weights
-from hri.face.speaking import PICTURE_LEAD
+from hri.face.motion import idle
+from hri.face.motion.gesture_player import Playing
+from hri.face.motion.gesture_tracks import load_gestures
 from hri.hal.screen import Screen
 
 T = TypeVar("T")
@@ -140,7 +140,7 @@ class Face(Behavior):
         return self._begin(self._animator.gesture(gesture, strength, seconds))
 
     def replay(self, path: Path | str) -> Playing:
-        """Play recorded weights, in place of all else; see `hri.face.recording`.
+        """Play recorded weights, in place of all else; see `hri.face.live_link`.
 
         Raises AuthoringError or HriError for a file that cannot be used.
         """

@@ -7,8 +7,8 @@ from functools import partial
 from pathlib import Path
 
 from hri.core.errors import AuthoringErrors, HriError
-from hri.face.baking import bake
-from hri.face.drawing import Drawing, load_drawing
+from hri.face.drawing.baking import bake
+from hri.face.drawing.svg import Drawing, load_drawing
 from hri.face.model import load_face
 from hri.face.settings import mistakes_in
 from hri.face.vocabulary import CORRECTIVE, sides_of

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
-from hri.face.baking import DisplayList, Vector, pairs_of
-from hri.face.blending import Blend
-from hri.face.cache import baked
-from hri.face.neck import following
-from hri.face.outline import Matrix
+from hri.face.drawing.baking import DisplayList, Vector, pairs_of
+from hri.face.drawing.blending import Blend
+from hri.face.drawing.cache import baked
+from hri.face.drawing.neck import following
+from hri.face.drawing.outline import Matrix
 from hri.face.settings import Settings, Weights, load_settings
 from hri.face.vocabulary import CORRECTIVE, MOTIONS, RHUBARB, TURNS, VISEMES, sides_of
 

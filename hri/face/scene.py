@@ -33,12 +33,17 @@ from hri.core.errors import HriError, did_you_mean
 from hri.core.reading import parse_json, read_text
 from hri.core.signals import Expression, Gaze, Phoneme, Samples, Speech
 from hri.core.toml import Table, load_toml
-from hri.face import idle
 from hri.face.animator import Animator
-from hri.face.baking import Vector
-from hri.face.gestures import LONGEST as LONGEST_GESTURE, STRONGEST, Track, load_gestures
+from hri.face.drawing.baking import Vector
+from hri.face.live_link import read_weights
 from hri.face.model import FaceModel
-from hri.face.recording import read_weights
+from hri.face.motion import idle
+from hri.face.motion.gesture_tracks import (
+    LONGEST as LONGEST_GESTURE,
+    STRONGEST,
+    Track,
+    load_gestures,
+)
 from hri.hal.drivers.wav_file import load_sound
 
 LONGEST = 600.0

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from hri.core.errors import AuthoringError, Mistakes, did_you_mean
 from hri.core.toml import REQUIRED as NO_DEFAULT, Table, load_toml
-from hri.face.paint import Color, parse_color
+from hri.face.drawing.paint import Color, parse_color
 from hri.face.vocabulary import AFFECT, LABELS, MOTIONS, REQUIRED, TURNS, VISEMES
 
 Weights = Mapping[str, float]

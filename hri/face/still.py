@@ -11,11 +11,11 @@ import numpy as np
 
 from hri.core.errors import HriError
 from hri.core.signals import Gaze, Image
-from hri.face import idle
-from hri.face.affect import affect_weights
-from hri.face.baking import Vector
-from hri.face.mixer import Layers, Mixer
+from hri.face.drawing.baking import Vector
 from hri.face.model import FaceModel, load_face
+from hri.face.motion import idle
+from hri.face.motion.affect_map import affect_weights
+from hri.face.motion.mixer import Layers, Mixer
 from hri.face.vocabulary import TURNS
 
 

@@ -9,13 +9,13 @@ from .drive import DriveSystem as DriveSystem, Odometry as Odometry, Stop as Sto
 from .emergency_stop import EmergencyStop as EmergencyStop
 from .gripper import Gripper as Gripper
 from .joystick import Joystick as Joystick
-from .manager import ResourceManager as ResourceManager
 from .microphone import Microphone as Microphone
 from .motor import Motor as Motor
 from .moving_base import MovingBase as MovingBase
 from .range_sensor import RangeSensor as RangeSensor
 from .recognizer import Hypothesis as Hypothesis, Recognizer as Recognizer, Segment as Segment
 from .resource import Description as Description, Resource as Resource
+from .resource_manager import ResourceManager as ResourceManager
 from .screen import Screen as Screen
 from .speaker import Speaker as Speaker
 from .stream import Stream as Stream

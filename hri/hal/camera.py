@@ -16,7 +16,7 @@ from hri.hal.picture import TURNS, as_picture, oriented
 from hri.hal.resource import Description, Resource
 
 if TYPE_CHECKING:
-    from hri.hal.manager import ResourceManager
+    from hri.hal.resource_manager import ResourceManager
 
 LOOK = 0.01
 """Seconds between looks for the next picture."""

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from hri.core.errors import HriError, did_you_mean
-from hri.core.units import cm
+from hri.core.quantities import cm
 from hri.hal.camera import Camera
 from hri.hal.drive import DriveSystem, Stop, too_long
 from hri.hal.pending import Pending

@@ -13,7 +13,7 @@ from hri.core.signals import Samples
 from hri.hal.resource import Description, Resource
 
 if TYPE_CHECKING:
-    from hri.hal.manager import ResourceManager
+    from hri.hal.resource_manager import ResourceManager
 
 LONGEST_BACKLOG = 10.0
 """Seconds of sound kept for an ear that does not read; older sound is dropped."""

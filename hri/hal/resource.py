@@ -14,7 +14,7 @@ from hri.core.expression import evaluate
 from hri.core.geometry import Pose3D
 
 if TYPE_CHECKING:
-    from hri.hal.manager import ResourceManager
+    from hri.hal.resource_manager import ResourceManager
 
 POSE = ("link", "x", "y", "z", "roll", "pitch", "yaw")
 """Parameters that every device may have: the frame it is fixed to and where (cm, radians)."""

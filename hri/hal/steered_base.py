@@ -39,7 +39,7 @@ from hri.hal.pending import Interrupted, Pending
 from hri.hal.resource import Description
 
 if TYPE_CHECKING:
-    from hri.hal.manager import ResourceManager
+    from hri.hal.resource_manager import ResourceManager
 
 log = logging.getLogger("hri.resources")
 

@@ -14,9 +14,9 @@ from hri.core.errors import HriError
 from hri.core.quoting import escaped
 from hri.core.token import load_token
 from hri.net import control
-from hri.net.link import Link
+from hri.net.malleable_protocol import Message
 from hri.net.peer import Peer, PeerLimits
-from hri.net.protocol import Message
+from hri.net.tcp_port import Link
 
 log = logging.getLogger("hri.net")
 

@@ -23,7 +23,7 @@ from hri.core.errors import HriError
 from hri.core.token import VARIABLE, load_token
 from hri.net import control
 from hri.net.loopback import is_loopback
-from hri.net.protocol import LONGEST
+from hri.net.malleable_protocol import LONGEST
 
 _CHUNK = 65_536
 

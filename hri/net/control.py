@@ -9,7 +9,7 @@ Receivers of 2003 ignore tags that they do not know.
 
 from __future__ import annotations
 
-from hri.net.protocol import Item, Message, encode
+from hri.net.malleable_protocol import Item, Message, encode
 
 TAG = "hri"
 TOKEN, STOP, REFUSED = "token", "stop", "refused"

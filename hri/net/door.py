@@ -17,7 +17,7 @@ from hri.behavior.reach import Reach
 from hri.core.errors import HriError
 from hri.core.token import own_token
 from hri.net.control import refusal
-from hri.net.protocol import Item, Sender
+from hri.net.malleable_protocol import Item, Sender
 
 TELL_EVERY = 10.0
 """Seconds between two words about the same port."""

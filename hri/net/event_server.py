@@ -11,7 +11,7 @@ from __future__ import annotations
 import logging
 
 from hri.core.errors import HriError
-from hri.core.events import check_from_outside
+from hri.core.event_bus import check_from_outside
 from hri.core.quoting import escaped
 from hri.core.signals import Event
 from hri.net.values import unquoted

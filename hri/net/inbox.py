@@ -19,7 +19,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from hri.net import values
-from hri.net.protocol import Item, Sender
+from hri.net.malleable_protocol import Item, Sender
 
 KEPT = {"string": 1000}
 """How many values wait, by datatype; the oldest give way."""

@@ -18,11 +18,11 @@ from hri.net import control, values
 from hri.net.client import Client
 from hri.net.door import Door
 from hri.net.inbox import Inbox
-from hri.net.link import Link
 from hri.net.loopback import is_loopback
-from hri.net.protocol import LONGEST, Item, Message, Sender, checked_name, split
+from hri.net.malleable_protocol import LONGEST, Item, Message, Sender, checked_name, split
+from hri.net.port_pool import borrow, give_back
 from hri.net.server import Server
-from hri.net.sharing import borrow, give_back
+from hri.net.tcp_port import Link
 
 log = logging.getLogger("hri.net")
 

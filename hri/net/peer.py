@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from hri.core.errors import HriError
 from hri.net.loopback import is_from_loopback
-from hri.net.protocol import LONGEST, Sender
+from hri.net.malleable_protocol import LONGEST, Sender
 
 _CHUNK = 65_536
 

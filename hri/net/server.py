@@ -13,9 +13,9 @@ import time
 from hri.core.errors import HriError
 from hri.core.token import Grant
 from hri.net import control
-from hri.net.link import Link
+from hri.net.malleable_protocol import Message
 from hri.net.peer import Peer, PeerError, PeerLimits
-from hri.net.protocol import Message
+from hri.net.tcp_port import Link
 
 log = logging.getLogger("hri.net")
 

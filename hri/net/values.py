@@ -20,7 +20,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from hri.net.protocol import ProtocolError
+from hri.net.malleable_protocol import ProtocolError
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?|[+-]?inf")
 _BETWEEN = re.compile(r"\s*[,;]\s*|\s+")

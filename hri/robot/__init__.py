@@ -25,23 +25,23 @@ from hri.behavior.runner import Runner
 from hri.core import paths
 from hri.core.clock import Clock, RealClock
 from hri.core.errors import HriError, first_of
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.latest import Board
 from hri.core.registry import canonical
 from hri.core.signals import Event
 from hri.drive.behaviors import CommandGate
 from hri.hal.choices import apply_choices, load_choices
 from hri.hal.configuration import Configuration, load_configuration
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.robot.app import App, load_app
 from hri.robot.blocking_verbs import BlockingVerbs
 from hri.robot.recording import Recording
 from hri.simulation.visitor import Visitor
 from hri.simulation.world import SimulatedWorld
 from hri.task import script
-from hri.task.manager import TaskManager
 from hri.task.task import Job
+from hri.task.task_manager import TaskManager
 from hri.task.thread import LoopThread
 
 __all__ = ["App", "Job", "Robot", "load_app"]

@@ -25,7 +25,7 @@ from hri.hal import choices
 from hri.robot.recording import BY_DATE, RECORDINGS, parts
 from hri.speech.pronunciation.guesses import GUESSES
 from hri.speech.pronunciation.lexicon import user_lexicon
-from hri.vision.recognition import Acquaintances
+from hri.vision.tracking.face_recognition import Acquaintances
 
 
 class Kept(ABC):

@@ -9,7 +9,7 @@ from hri.hal.camera import Camera
 from hri.hal.drive import Odometry
 from hri.task.context import TaskContext
 from hri.task.task import task
-from hri.vision.pointing import floor_seen
+from hri.vision.point_and_go import floor_seen
 
 
 @task("Hri.PointAndGo")

@@ -17,15 +17,15 @@ from pathlib import Path
 
 from hri.core.clock import Worker
 from hri.core.errors import HriError
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
+from hri.core.event_log import NOTHING, EventLog, read_events
 from hri.core.privacy import PRIVATE_FOLDER, close_to_others, private_file
-from hri.core.recording import NOTHING, EventLog, read_events
 from hri.core.whereabouts import note
 from hri.core.writing import leftovers, make_folder
 from hri.emotion.behaviors import EmotionModel
 from hri.hal.drivers.wav_file import WavSpeaker
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.hal.screen import Screen
 from hri.hal.speaker import Speaker
 from hri.hal.tee import TeeScreen, TeeSpeaker

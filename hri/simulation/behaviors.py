@@ -16,7 +16,7 @@ from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
 from hri.core.reading import read_text
 from hri.core.signals import Frame
-from hri.simulation.drivers import DrawnFrame
+from hri.simulation.simulated_devices import DrawnFrame
 from hri.simulation.world import SimulatedWorld
 
 log = logging.getLogger(__name__)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from hri.core.geometry import seen_from
 from hri.core.signals import Pose2D
-from hri.simulation.person import RADIUS as PERSON
+from hri.simulation.people.person import RADIUS as PERSON
 
 CONTACT = 0.01
 """Meters between two bodies that touch."""

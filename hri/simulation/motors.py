@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from hri.hal.motor import Motor
 from hri.hal.resource import Description
-from hri.simulation.device import InWorld
+from hri.simulation.in_world import InWorld
 
 POSITION_FACTOR = 1711.0
 """Counts of the encoder for each centimeter the wheel rolls; negative for a motor that is mounted

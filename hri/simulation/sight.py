@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from hri.core.geometry import seen_from
 from hri.core.signals import Pose2D
-from hri.simulation.layout import Item
 from hri.simulation.room import Room
+from hri.simulation.world_file import Item
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,18 +15,18 @@ from hri.behavior.network_file import load_network
 from hri.behavior.runner import Runner
 from hri.core import paths
 from hri.core.clock import FakeClock
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.geometry import placed, seen_from
 from hri.core.signals import Pose2D
 from hri.drive.going import PEOPLE
 from hri.hal.configuration import Shape
-from hri.hal.manager import ResourceManager
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.simulation.collisions import CONTACT, MOVING, Collision, Witness, hit_by
 from hri.simulation.lookout import Lookout
-from hri.simulation.person import RADIUS as PERSON
-from hri.simulation.rooms import ROBOT, Crowd, Furnished, Point
+from hri.simulation.people.person import RADIUS as PERSON
+from hri.simulation.seeded_rooms import ROBOT, Crowd, Furnished, Point
 from hri.simulation.world import SimulatedWorld
 
 POLICIES = {

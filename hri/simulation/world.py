@@ -18,15 +18,15 @@ from hri.core.geometry import seen_from
 from hri.core.signals import Twist
 from hri.hal.resource import Description, Resource
 from hri.hal.synthesizer import Synthesizer
+from hri.simulation.acoustics import Sound
 from hri.simulation.axle import Axle
 from hri.simulation.base import Base, HardwareLimits
 from hri.simulation.battery import Charge
 from hri.simulation.beams import Beams
-from hri.simulation.layout import Item, Layout, PersonStart, find_layout, load_layout
-from hri.simulation.person import RADIUS, Person, Spoken
+from hri.simulation.people.person import RADIUS, Person, Spoken
 from hri.simulation.room import Circle, Room
 from hri.simulation.sight import Sighting, seen
-from hri.simulation.sound import Sound
+from hri.simulation.world_file import Item, Layout, PersonStart, find_layout, load_layout
 
 BUMP_TIME = 0.3
 """Seconds that somebody who pushes against the base presses the bumper."""

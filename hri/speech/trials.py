@@ -10,7 +10,7 @@ from hri.core.signals import Samples
 from hri.hal.recognizer import Recognizer
 from hri.speech.acceptance import needed
 from hri.speech.grammar import Grammar
-from hri.speech.grammar.expectations import Meaning
+from hri.speech.grammar.lint.expectations import Meaning
 from hri.speech.grammar.matching import Parse, parse
 from hri.speech.hearing import hear
 from hri.speech.turn import Turn

@@ -17,10 +17,10 @@ units           the units of the tasks in navigation, net, resource, speech, uti
 """
 
 from hri.task.context import TaskContext
-from hri.task.manager import TaskManager
 from hri.task.parallel import Parallel
 from hri.task.script import get_task_manager, use
 from hri.task.task import TaskStatus, find_task
+from hri.task.task_manager import TaskManager
 from hri.task.units import (
     UNIT_ANGLE,
     UNIT_DISTANCE,

@@ -15,7 +15,7 @@ import trio
 from hri.core.clock import FakeClock
 
 if TYPE_CHECKING:
-    from hri.task.manager import TaskManager
+    from hri.task.task_manager import TaskManager
 
 
 class Aside:

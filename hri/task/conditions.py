@@ -21,7 +21,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from hri.core.events import matches
+from hri.core.event_bus import matches
 from hri.core.signals import Event
 from hri.task.context import TaskContext
 from hri.task.queue import EventQueue

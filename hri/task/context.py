@@ -8,19 +8,19 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from hri.behavior.behavior import Behavior, Context
-from hri.behavior.networks import Networks
+from hri.behavior.running import Networks
 from hri.core.clock import Clock
 from hri.core.errors import HriError
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.latest import Board
 from hri.core.signals import Event
-from hri.hal.manager import ResourceManager
+from hri.hal.resource_manager import ResourceManager
 from hri.task.aside import Aside
 from hri.task.queue import EventQueue
 
 if TYPE_CHECKING:
-    from hri.task.manager import TaskManager
     from hri.task.task import Task
+    from hri.task.task_manager import TaskManager
 
 B = TypeVar("B", bound=Behavior)
 T = TypeVar("T")
@@ -62,7 +62,7 @@ class TaskContext:
     @classmethod
     def of(cls, context: Context, behaviors: Mapping[str, Behavior] | None = None) -> TaskContext:
         """A context with a task manager of its own."""
-        from hri.task.manager import TaskManager
+        from hri.task.task_manager import TaskManager
 
         return TaskManager(context, behaviors).context
 

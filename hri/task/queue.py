@@ -7,7 +7,7 @@ from collections import deque
 import trio
 
 from hri.core.clock import Clock
-from hri.core.events import matches
+from hri.core.event_bus import matches
 from hri.core.signals import Event
 
 LONGEST = 1000

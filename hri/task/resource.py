@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from hri.core.errors import HriError, did_you_mean
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Resource
+from hri.hal.resource_manager import ResourceManager
 from hri.task.context import TaskContext
 from hri.task.task import task
 

@@ -21,13 +21,13 @@ from hri.behavior.behavior import Context
 from hri.behavior.doors import Doors
 from hri.core.clock import Clock, RealClock
 from hri.core.errors import HriError
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Event
-from hri.hal.manager import ResourceManager
+from hri.hal.resource_manager import ResourceManager
 from hri.hal.speaker import Speaker
 from hri.task.aside import here
 from hri.task.context import TaskContext
-from hri.task.manager import TaskManager
+from hri.task.task_manager import TaskManager
 from hri.task.thread import LoopThread
 
 _lock = threading.RLock()

@@ -25,7 +25,7 @@ import trio
 
 from hri.core import registry
 from hri.core.errors import HriError, first_of
-from hri.core.events import Subscription, matches
+from hri.core.event_bus import Subscription, matches
 from hri.core.signals import Event
 from hri.hal.pending import Interrupted
 from hri.task.claims import Leave
@@ -34,7 +34,7 @@ from hri.task.hold_up import CURRENT
 from hri.task.queue import EventQueue
 
 if TYPE_CHECKING:
-    from hri.task.manager import TaskManager
+    from hri.task.task_manager import TaskManager
 
 log = logging.getLogger("hri.task")
 

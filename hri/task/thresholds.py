@@ -20,7 +20,7 @@ from typing import Any, get_type_hints
 
 from hri.behavior.ports import DATATYPES, Output
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
-from hri.core.units import Quantity, factor
+from hri.core.quantities import Quantity, factor
 from hri.task.context import TaskContext
 
 LONGEST = 500

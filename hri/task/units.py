@@ -10,7 +10,7 @@ in_si(UNIT_VELOCITY, 5)  # 0.127 meters a second
 
 from __future__ import annotations
 
-from hri.core.units import Quantity, factor
+from hri.core.quantities import Quantity, factor
 
 UNIT_DISTANCE = Quantity.DISTANCE
 UNIT_ANGLE = Quantity.ANGLE

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from hri.core.errors import HriError
+from hri.core.quantities import millisecond
 from hri.core.signals import Event
-from hri.core.units import millisecond
 from hri.task.context import TaskContext
 from hri.task.events import parse_query
 from hri.task.task import task

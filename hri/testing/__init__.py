@@ -19,7 +19,7 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.network import Network
 from hri.behavior.runner import Runner
 from hri.core.clock import FakeClock
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Event
 from hri.hal.drivers.memory import (
     MemoryCamera,
@@ -27,8 +27,8 @@ from hri.hal.drivers.memory import (
     OffscreenScreen,
     SilentSpeaker,
 )
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.robot import Job, Robot
 from hri.speech.synthesizers.silent import SilentVoice
 from hri.task.context import TaskContext

@@ -12,8 +12,8 @@ from hri.core.clock import FakeClock
 from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import Frame, Image
 from hri.hal.camera import Camera
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 
 Spoil = Callable[[Frame], Frame | None]
 """What becomes of a frame; None when it does not come."""

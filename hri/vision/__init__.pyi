@@ -3,9 +3,9 @@ from .behaviors import (
     EngagementLevel as EngagementLevel,
     PersonTracker as PersonTracker,
 )
-from .gesturing import HeadGestures as HeadGestures
+from .camera_view import CameraView as CameraView
+from .gestures.gesture_behaviors import HeadGestures as HeadGestures
+from .head_pose import head_pose as head_pose
 from .naming import FaceNames as FaceNames
-from .pointing import PointAndGo as PointAndGo
-from .pose import head_pose as head_pose
+from .point_and_go import PointAndGo as PointAndGo
 from .tasks import look_at as look_at, people_of as people_of, wait_for_person as wait_for_person
-from .view import CameraView as CameraView

@@ -10,10 +10,10 @@ from hri.behavior.ports import Input, Output, Param
 from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Frame, Gaze, HeadPose, People, Person
 from hri.hal.camera import Camera
+from hri.vision.camera_view import CameraView
 from hri.vision.engagement import DISENGAGING, ENGAGED, UNENGAGED, Zones
-from hri.vision.people import MEMORY, Seeing
-from hri.vision.presence import Presence
-from hri.vision.view import CameraView
+from hri.vision.tracking.people import MEMORY, Seeing
+from hri.vision.tracking.presence import Presence
 
 FRESH = 1.0
 """Seconds for which somebody counts as seen after they were seen last."""

@@ -16,7 +16,7 @@ from hri.core.clock import Worker
 from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Frame, Image, Landmarks, People, Person
 from hri.core.writing import Mark, mark_of
-from hri.vision.recognition import Acquaintances, FaceEmbedder, FaceRecognizer
+from hri.vision.tracking.face_recognition import Acquaintances, FaceEmbedder, FaceRecognizer
 
 log = logging.getLogger("hri.vision")
 

@@ -11,9 +11,9 @@ from hri.behavior.ports import Input, Output
 from hri.behavior.runner import Runner
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
-from hri.core.events import EventBus
-from hri.hal.manager import ResourceManager
+from hri.core.event_bus import EventBus
 from hri.hal.resource import Resource
+from hri.hal.resource_manager import ResourceManager
 
 
 class Metronome(Behavior):

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from hri.bench.speech.clips import Clip
-from hri.bench.speech.flite import RATE
+from hri.bench.speech.flite_voices import RATE
 from hri.bench.speech.listening import Heard
+from hri.bench.speech.samples import Clip
 
 
 def piece(words, tags=(), is_accepted=True, rule="", latency_s=0.01):

@@ -1,12 +1,12 @@
 import pytest
 
-from hri.bench.chain import LINKS, combinations, words
-from hri.bench.drive import measure, world
+from hri.bench.broken_links import LINKS, combinations, words
+from hri.bench.drive import measure, simulated_world
 from hri.core.errors import HriError
 
 
 def test_the_speed_of_the_world_is_measured() -> None:
-    (row,) = world.rows(quick=True)
+    (row,) = simulated_world.rows(quick=True)
     assert row["unit"] == "times real time"
     assert row["value"] > 20
 

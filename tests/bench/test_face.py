@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from hri.bench.face import frames, loading
+from hri.bench.face import frames, load_time
 from hri.face.model import load_face
 
 MODEL = load_face()
@@ -23,8 +23,8 @@ def test_rows_of_frames_tell_what_was_missed() -> None:
 def test_loading_is_measured_with_and_without_what_was_kept(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(loading, "ROUNDS", 1)
-    monkeypatch.setattr(loading, "_DRAW", "print(0.5)")
-    baked, raw, first = loading.rows()
+    monkeypatch.setattr(load_time, "ROUNDS", 1)
+    monkeypatch.setattr(load_time, "_DRAW", "print(0.5)")
+    baked, raw, first = load_time.rows()
     assert baked["value"] < raw["value"]
     assert first["value"] == 0.5

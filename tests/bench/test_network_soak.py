@@ -4,7 +4,7 @@ import hri.bench.network_soak as soak_module
 from hri.bench.network_soak import Soak
 from hri.cli.main import main
 from hri.core.clock import FakeClock
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 
 
 @pytest.mark.slow

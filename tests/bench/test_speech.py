@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from hri.bench.speech import clips, flite, outcome, speed, text
-from hri.bench.speech.clips import DATA, ORDERS, ROBOT
-from hri.bench.speech.flite import RATE
+from hri.bench.speech import flite_voices, latency, samples, scoring, text
+from hri.bench.speech.flite_voices import RATE
 from hri.bench.speech.listening import Hearing, listen
-from hri.bench.speech.outcome import Outcome
+from hri.bench.speech.samples import DATA, ORDERS, ROBOT
+from hri.bench.speech.scoring import Outcome
 from hri.cli.main import main
 from hri.core.errors import HriError
 from hri.core.statistics import wilson
@@ -45,7 +45,7 @@ def test_every_command_means_what_its_row_says(robot):
 def test_an_order_gives_the_slots_that_the_labels_name():
     said = "could i get a small dark roast iced mocha with lots of soy milk and sugar please"
     found = parse(load_grammar(ORDERS), said)
-    assert outcome.slots(piece(said, found.tags)) == {
+    assert scoring.slots(piece(said, found.tags)) == {
         "size": "small",
         "roast": "dark roast",
         "coffeeDrink": "iced mocha",
@@ -55,9 +55,9 @@ def test_an_order_gives_the_slots_that_the_labels_name():
 
 
 def test_names_are_different_and_always_the_same():
-    names = clips.names(10_000)
+    names = samples.names(10_000)
     assert len(set(names)) == 10_000
-    assert names[:1000] == clips.names(1000)
+    assert names[:1000] == samples.names(1000)
 
 
 @pytest.mark.parametrize(
@@ -100,25 +100,27 @@ def test_latency_counts_the_recordings_of_its_length():
     taken = [[piece("a", latency_s=0.030)]] * 19 + [[piece("a", latency_s=0.050)]]
     said = [noise("a", seconds=2.5)] * 20
     other = noise("b", seconds=9.0)
-    asked = speed.Latency("commands", (2.0, 4.0), 0.040)
-    row = speed.latency(asked, [*said, other], Hearing([*taken, [piece("b", latency_s=9.0)]], 0.0))
+    asked = latency.Latency("commands", (2.0, 4.0), 0.040)
+    row = latency.latency(
+        asked, [*said, other], Hearing([*taken, [piece("b", latency_s=9.0)]], 0.0)
+    )
     assert (row["pieces"], row["median"], row["passed"]) == (20, 0.03, True)
-    assert "skipped" in speed.latency(asked, [other], Hearing([[piece("b")]], 0.0))
+    assert "skipped" in latency.latency(asked, [other], Hearing([[piece("b")]], 0.0))
 
 
 def test_the_start_of_the_program_does_not_count_for_the_real_time_factor():
     def slow(grammar, said, engine=""):
         return Hearing([[] for _ in said], 0.5 + 0.02 * sum(clip.seconds for clip in said))
 
-    factor, _ = speed.real_time_factor(ROBOT, [noise("a", seconds=10.0)], slow)
+    factor, _ = latency.real_time_factor(ROBOT, [noise("a", seconds=10.0)], slow)
     assert factor == pytest.approx(0.02, rel=0.02)
 
 
 def test_the_list_of_names_is_a_grammar_of_them(monkeypatch):
-    monkeypatch.setattr(speed, "NAMES", 50)
-    with speed.names_grammar() as (path, _):
+    monkeypatch.setattr(latency, "NAMES", 50)
+    with latency.names_grammar() as (path, _):
         grammar = load_grammar(path)
-    assert all(parse(grammar, f"call {name}") for name in clips.names(50))
+    assert all(parse(grammar, f"call {name}") for name in samples.names(50))
 
 
 def test_the_grammar_of_many_rules_is_right(tmp_path):
@@ -132,25 +134,25 @@ def test_the_grammar_of_many_rules_is_right(tmp_path):
 @pytest.mark.skipif(not is_there(), reason="flite is not installed")
 def test_what_flite_said_once_is_read_from_the_disk(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    first = flite.say("stop", "kal16")
+    first = flite_voices.say("stop", "kal16")
     monkeypatch.setenv("PATH", str(tmp_path))
-    assert np.array_equal(flite.say("stop", "kal16"), first)
-    assert first[: round(flite.LEAD * RATE)].any() is np.False_
+    assert np.array_equal(flite_voices.say("stop", "kal16"), first)
+    assert first[: round(flite_voices.LEAD * RATE)].any() is np.False_
     [kept] = (tmp_path / "hri" / "flite").iterdir()
     kept.write_bytes(b"RIFF")
     with pytest.raises(HriError, match="flite is not installed"):
-        flite.say("stop", "kal16")
+        flite_voices.say("stop", "kal16")
 
 
 def test_the_program_that_listens_hears_no_speech_in_silence():
-    hearing = listen(ROBOT, [speed.SHORTEST])
+    hearing = listen(ROBOT, [latency.SHORTEST])
     assert [heard.reason for heard in hearing.heard[0]] == ["no speech"]
     assert hearing.cpu_s > 0
 
 
 def test_a_program_that_fails_is_told_of(tmp_path):
     with pytest.raises(HriError, match=r"grammar listen .* failed: .*: no such file"):
-        listen(tmp_path / "none.jsgf", [speed.SHORTEST])
+        listen(tmp_path / "none.jsgf", [latency.SHORTEST])
 
 
 def test_options_of_one_bench_are_refused_by_another(capsys):

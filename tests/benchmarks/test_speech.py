@@ -5,10 +5,10 @@ from hypothesis import given, strategies as st
 from benchmarks.speech import accuracy, babble
 from benchmarks.speech.accuracy import MEASURES, outside
 from benchmarks.speech.babble import above, active_power
-from hri.bench.speech import clips, flite
-from hri.bench.speech.clips import ORDERS, ROBOT, Recordings
-from hri.bench.speech.flite import RATE
+from hri.bench.speech import flite_voices, samples
+from hri.bench.speech.flite_voices import RATE
 from hri.bench.speech.listening import Hearing
+from hri.bench.speech.samples import ORDERS, ROBOT, Recordings
 from hri.speech.grammar import load_grammar
 from hri.speech.grammar.matching import parse
 from tests.bench.heard import noise, piece
@@ -60,7 +60,9 @@ def people():
 
 @pytest.fixture
 def _silent_flite(monkeypatch):
-    monkeypatch.setattr(flite, "say", lambda sentence, voice: noise(sentence, sentence).samples)
+    monkeypatch.setattr(
+        flite_voices, "say", lambda sentence, voice: noise(sentence, sentence).samples
+    )
 
 
 def perfect(grammar, said, engine=""):
@@ -68,7 +70,7 @@ def perfect(grammar, said, engine=""):
     heard = []
     for clip in said:
         is_order = bool(clip.slots) and grammar == ORDERS
-        is_command = clip.sentence in clips.commands()
+        is_command = clip.sentence in samples.commands()
         words = piece(clip.sentence, {"coffeeDrink": "latte"} if is_order else {})
         heard.append([words] if is_order or is_command else [])
     return Hearing(heard, 0.0)

@@ -10,7 +10,7 @@ from benchmarks.vision.script import scripts
 from hri.bench import vision
 from hri.core.errors import HriError
 from hri.core.signals import FaceBox, HeadGesture, HeadPose, People, Person
-from hri.simulation.actors import ACTORS
+from hri.simulation.people.actors import ACTORS
 
 
 def test_films_have_all_gestures_one_after_the_other_with_a_distractor_before_each() -> None:

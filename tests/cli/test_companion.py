@@ -15,7 +15,7 @@ import soundfile
 from hri.cli.main import main
 from hri.cli.run import add_options, check_files
 from hri.core import paths
-from hri.core.recording import read_events
+from hri.core.event_log import read_events
 from tests.recorded import speech
 
 SLOW = pytest.mark.slow

@@ -12,11 +12,11 @@ from hypothesis import given, strategies as st
 
 from hri.cli.drive import add_arguments, base_of, keys, opened, run
 from hri.cli.drive.keys import DEAD_MAN, KeyReader, Steering
-from hri.cli.drive.picture import COLUMNS, ROWS, Picture
 from hri.cli.drive.teleop import Teleop
-from hri.cli.drive.terminal import FORMER_SCREEN, TerminalView
+from hri.cli.drive.terminal_view import FORMER_SCREEN, TerminalView
+from hri.cli.drive.text_map import COLUMNS, ROWS, Picture
 from hri.cli.drive.view import Snapshot, View
-from hri.cli.drive.window import ALARM, WindowView
+from hri.cli.drive.window_view import ALARM, WindowView
 from hri.core import registry
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError, NotAvailable
@@ -27,10 +27,10 @@ from hri.drive.supervisor.devices import BaseOdometry
 from hri.drive.supervisor.kinds import Create2Bus
 from hri.drive.supervisor.link import State
 from hri.hal.drivers.memory import OffscreenScreen
-from hri.hal.manager import ResourceManager
 from hri.hal.motion import REST, Way
 from hri.hal.resource import Description
-from hri.simulation.bases.device import Create2Line
+from hri.hal.resource_manager import ResourceManager
+from hri.simulation.bases.emulated_base import Create2Line
 
 FASTEST = Twist(0.4, 1.0)
 PATIENCE = 5.0

@@ -8,11 +8,11 @@ import pytest
 from hri.cli import devices
 from hri.cli.probe import KINDS, ask_ports, is_recognized
 from hri.core.clock import FakeClock, RealClock
-from hri.simulation.bases.arduino import EmulatedArduino
-from hri.simulation.bases.create2 import EmulatedCreate2
+from hri.simulation.bases.emulated_arduino import EmulatedArduino
+from hri.simulation.bases.emulated_create2 import EmulatedCreate2
+from hri.simulation.bases.emulated_line import EmulatedPort, Line
 from hri.simulation.bases.emulator import Emulator
-from hri.simulation.bases.line import EmulatedPort, Line
-from hri.simulation.bases.terminal import PseudoTerminal
+from hri.simulation.bases.pseudo_terminal import PseudoTerminal
 
 EMULATORS = {"Hri.Create2": EmulatedCreate2, "Hri.ArduinoBridge": EmulatedArduino}
 

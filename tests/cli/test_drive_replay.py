@@ -12,7 +12,7 @@ from hri.cli.main import main
 from hri.core.errors import HriError
 from hri.core.signals import Pose2D
 from hri.simulation.room import Circle
-from hri.simulation.rooms import furnished
+from hri.simulation.seeded_rooms import furnished
 from hri.simulation.trips import Journey
 
 

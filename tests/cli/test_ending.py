@@ -17,7 +17,7 @@ from hri.cli.ending import Ending
 from hri.cli.run import recordings_folder
 from hri.cli.streams import unfailing_output
 from hri.core.clock import FakeClock
-from hri.core.recording import read_events
+from hri.core.event_log import read_events
 from hri.hal.drivers.wav_file import read_wav
 
 WITHIN = 60.0

@@ -13,15 +13,15 @@ from hri.cli.diagnostics import camera as camera_tool
 from hri.cli.main import main
 from hri.core import paths
 from hri.core.clock import FakeClock
-from hri.core.events import EventBus
-from hri.core.recording import EventLog
+from hri.core.event_bus import EventBus
+from hri.core.event_log import EventLog
 from hri.core.whereabouts import note, noted, whereabouts_file
-from hri.emotion.model import load_emotions
+from hri.emotion.model_spec import load_emotions
 from hri.emotion.persistence import Memory, keep, memory_file, recall
 from hri.hal.choices import choices_file, save_choices
-from hri.hal.drivers.picture_file import write_picture
+from hri.hal.drivers.image_size import write_picture
 from hri.robot import kept
-from hri.vision.recognition import Acquaintances
+from hri.vision.tracking.face_recognition import Acquaintances
 
 ANNA = "Quillobrand"
 """No dictionary knows how she is said."""

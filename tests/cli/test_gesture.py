@@ -11,8 +11,8 @@ from hypothesis import given, settings, strategies as st
 
 from hri.cli.main import main
 from hri.core.errors import HriError
-from hri.simulation.film import Film, Role
-from hri.simulation.motion import Posture, nod_angles
+from hri.simulation.people.body_motion import Posture, nod_angles
+from hri.simulation.people.scripted_film import Film, Role
 from hri.vision.pose_file import Remarks, read_poses
 
 HEADER = "t_s,pitch_deg,yaw_deg,roll_deg"

@@ -7,7 +7,7 @@ import pytest
 from hri.cli.main import main
 from hri.cli.run import add_arguments, memory_of
 from hri.emotion.behaviors import EmotionModel
-from hri.emotion.model import load_emotions
+from hri.emotion.model_spec import load_emotions
 from hri.emotion.persistence import Memory, keep, memory_file, recall
 
 

@@ -17,9 +17,9 @@ from hri.cli.watching import add_source, frames_of, interruption, opened_camera,
 from hri.core.clock import FakeClock
 from hri.core.signals import FaceBox, Frame, HeadGesture, HeadPose, People, Person
 from hri.hal.drivers.memory import OffscreenScreen
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
-from hri.simulation.actors import Appearance, render_people
+from hri.hal.resource_manager import ResourceManager
+from hri.simulation.people.actors import Appearance, render_people
 from hri.testing.cameras import Fault, FaultyCamera
 
 GRAY = np.full((240, 320, 3), 90, np.uint8)

@@ -12,10 +12,10 @@ import pytest
 from hri.bench.workers import worker_pool
 from hri.core import child
 from hri.core.clock import RealClock
-from hri.core.download import RemoteFile
 from hri.core.errors import NotAvailable
+from hri.core.fetch.download import RemoteFile
+from hri.core.fetch.pypi_wheel import Wheel, download_wheel
 from hri.core.service import ProcessService
-from hri.core.wheel import Wheel, download_wheel
 from hri.drive.supervisor.remote import COMMAND
 
 TIMEOUT = 60

@@ -5,9 +5,9 @@ from hypothesis import given, settings, strategies as st
 
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
+from hri.core.event_log import EventLog, read_events
 from hri.core.growing import GrowingFile
-from hri.core.recording import EventLog, read_events
 from tests.disk import full_disk
 
 

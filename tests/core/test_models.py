@@ -14,9 +14,10 @@ from pathlib import Path
 import pytest
 
 from hri.cli import main, models as command
-from hri.core import archive as archives
-from hri.core.archive import Part, unpack
 from hri.core.errors import HriError, NotAvailable
+from hri.core.fetch import archive as archives
+from hri.core.fetch.archive import Part, unpack
+from hri.core.fetch.pypi_wheel import Wheel
 from hri.core.models import (
     Catalog,
     Download,
@@ -27,7 +28,6 @@ from hri.core.models import (
     folder_of,
     models_folder,
 )
-from hri.core.wheel import Wheel
 
 
 @pytest.fixture(autouse=True)

@@ -10,10 +10,10 @@ from hri.core import models, ownership
 from hri.core.errors import HriError
 from hri.core.ownership import is_all_of_user, is_of_user, own_cache
 from hri.emotion.persistence import recall
-from hri.face import cache
+from hri.face.drawing import cache
 from hri.face.renderers import compiling
 from hri.speech.pronunciation.guesses import Guesses
-from hri.vision.recognition import Acquaintances
+from hri.vision.tracking.face_recognition import Acquaintances
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from hri.cli.main import main
 from hri.cli.messages import LineFormatter
 from hri.core.errors import AuthoringError, AuthoringErrors, HriError, Place
 from hri.core.quoting import LONGEST_MESSAGE, LONGEST_QUOTE, escaped, message_line, quoted
-from hri.speech.grammar.finding import warning
+from hri.speech.grammar.lint.finding import warning
 
 HOSTILE = "a\x1b[2J\x07\r\n\u202e\u2066\u200f\u2028\x85\ud800\x00\x9b31mz"
 TEXTS = st.one_of(

@@ -7,9 +7,9 @@ from hypothesis import given, strategies as st
 
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
+from hri.core.event_log import EventLog, read_events
 from hri.core.reading import parse_json, read_bytes, read_lines, read_text, require_file
-from hri.core.recording import EventLog, read_events
 from hri.core.toml import DEEPEST, LARGEST_TOML, load_toml
 
 LONG = Path("a" * 300)

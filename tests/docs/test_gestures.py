@@ -5,7 +5,7 @@ import tomllib
 from pathlib import Path
 
 from hri.core import paths
-from hri.vision.patterns import FILE, Row, load_patterns
+from hri.vision.gestures.gesture_patterns import FILE, Row, load_patterns
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs/gestures.md").read_text()

@@ -13,9 +13,9 @@ from hri.core import paths
 from hri.core.clock import FakeClock
 from hri.core.signals import Frame
 from hri.hal.camera import Camera
-from hri.hal.drivers.picture_file import picture_size, write_picture
-from hri.hal.manager import ResourceManager
+from hri.hal.drivers.image_size import picture_size, write_picture
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.task.events import event, write_event
 from hri.task.parallel import Parallel
 from hri.task.task import TaskStatus, find_task, task

@@ -12,11 +12,11 @@ from hri.behavior.runner import Runner
 from hri.cli import behave
 from hri.core import paths
 from hri.core.clock import FakeClock
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.python_file import load_module
 from hri.face.model import load_face
 from hri.hal.drivers.memory import OffscreenScreen
-from hri.hal.manager import ResourceManager
+from hri.hal.resource_manager import ResourceManager
 from hri.robot import Robot
 from hri.simulation.world import SimulatedWorld
 from hri.task import get_task_manager, use

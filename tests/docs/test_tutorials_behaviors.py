@@ -15,8 +15,8 @@ from hri.cli import behave
 from hri.cli.main import main
 from hri.core import paths
 from hri.core.clock import FakeClock
-from hri.core.events import EventBus
-from hri.hal.manager import ResourceManager
+from hri.core.event_bus import EventBus
+from hri.hal.resource_manager import ResourceManager
 from hri.simulation.world import SimulatedWorld
 from hri.testing import live
 from tests.behavior.library.ticking import tick

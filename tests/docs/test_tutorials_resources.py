@@ -8,8 +8,8 @@ import pytest
 from hri.core.clock import FakeClock
 from hri.hal.configuration import load_configuration
 from hri.hal.drive import DriveSystem, Odometry
-from hri.hal.drivers.picture_file import picture_size
-from hri.hal.manager import ResourceManager
+from hri.hal.drivers.image_size import picture_size
+from hri.hal.resource_manager import ResourceManager
 from hri.simulation.world import SimulatedWorld
 from tests.docs.tutorial import Tutorial
 

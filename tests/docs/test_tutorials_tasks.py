@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from hri.core.clock import FakeClock
-from hri.hal.drivers.picture_file import picture_size
+from hri.hal.drivers.image_size import picture_size
 from hri.simulation.world import SimulatedWorld
 from hri.task import (
     UNIT_ANGLE,

@@ -11,7 +11,7 @@ from hri.core import registry
 from hri.core.clock import FakeClock
 from hri.hal.camera import Camera
 from hri.hal.configuration import load_configuration
-from hri.hal.manager import ResourceManager
+from hri.hal.resource_manager import ResourceManager
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs/vision.md").read_text()

@@ -23,7 +23,7 @@ hri/data/emotions/display.toml
 hri/data/faces/robot/face.toml
 hri/data/grammars/companion.jsgf
 hri/cli/templates/driver/devices.xml
-hri/hal/manager.py
+hri/hal/resource_manager.py
 """
 
 

@@ -11,12 +11,12 @@ import trio
 from hri.behavior.behavior import Context
 from hri.behavior.ports import OutputPort
 from hri.core.clock import FakeClock
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Event, Pose2D, RangeReading, Twist
 from hri.drive.behaviors import CommandGate
 from hri.hal.drive import Odometry
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.simulation.base import Base
 from hri.task.context import TaskContext
 

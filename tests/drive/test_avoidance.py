@@ -14,8 +14,8 @@ from hri.drive.leaning import WAITS_S
 from hri.drive.mechanics import Mechanics, mechanics_of, swept_radius
 from hri.drive.progress import Progress
 from hri.hal.configuration import Shape, load_configuration
-from hri.hal.manager import ResourceManager
 from hri.hal.motion import REST
+from hri.hal.resource_manager import ResourceManager
 from hri.simulation.room import Box, Circle, Room, Segment
 
 MECHANICS = Mechanics(

@@ -11,14 +11,14 @@ from hri.behavior.behavior import Context
 from hri.behavior.ports import OutputPort
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Event, HeadPose, People, Person, Twist
 from hri.drive.behaviors import COMMAND, MOTION
 from hri.drive.guard import BaseGuard, nearest
 from hri.drive.supervisor.bus import BaseBus
 from hri.hal.drive import DriveSystem
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.simulation.world import SimulatedWorld
 
 WORLD = Description("world", "Hri.SimulatedWorld")

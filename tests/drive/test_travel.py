@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 import trio
 
+from hri.behavior.device_behaviors import BumperSwitch
 from hri.behavior.drive_command import DriveCommand
-from hri.behavior.drivers import BumperSwitch
 from hri.behavior.network import Network
 from hri.behavior.network_file import load_network
 from hri.behavior.ports import OutputPort
@@ -24,8 +24,8 @@ from hri.drive.behaviors import CommandGate
 from hri.drive.following import Ending, Reason
 from hri.drive.goals import DeadReckoning, FollowTarget
 from hri.drive.going import ObstacleAvoidance
-from hri.simulation.person import RADIUS
-from hri.simulation.rooms import furnished
+from hri.simulation.people.person import RADIUS
+from hri.simulation.seeded_rooms import furnished
 from hri.simulation.trips import BODY, SENSORS, Journey, devices
 from hri.simulation.world import SimulatedWorld
 from hri.task.context import TaskContext, TaskFailed

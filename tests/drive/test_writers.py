@@ -12,16 +12,16 @@ from hri.behavior.network import Network
 from hri.behavior.network_file import load_network
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Event, Twist
 from hri.drive.behaviors import COMMAND
 from hri.drive.supervisor.bus import BaseBus
 from hri.hal.drive import DriveSystem
 from hri.hal.emergency_stop import EmergencyStop
 from hri.hal.helm import Outranked
-from hri.hal.manager import ResourceManager
 from hri.hal.pending import Interrupted
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.robot import Robot
 from hri.simulation.world import SimulatedWorld
 

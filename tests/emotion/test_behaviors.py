@@ -14,12 +14,12 @@ from hri.behavior.ports import OutputPort
 from hri.core import paths
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import EmotionState, Event, Expression, HeadPose, People, Person, Stimulus
 from hri.emotion.appraisal import GoalEvent
 from hri.emotion.behaviors import EmotionDisplay, EmotionModel
 from hri.face.behaviors import Face
-from hri.hal.manager import ResourceManager
+from hri.hal.resource_manager import ResourceManager
 
 SEEN = {"p1": "Anna", "p2": ""}
 """Who is seen in a test, by id: not all have names."""

@@ -9,10 +9,10 @@ from PIL import Image
 
 from hri.cli.emotion.plot import figure_of
 from hri.cli.emotion.simulate import play
-from hri.cli.emotion.timeline import Happening
+from hri.cli.emotion.stimulus_timeline import Happening
 from hri.cli.main import main
 from hri.core.signals import Stimulus
-from hri.emotion.model import load_emotions
+from hri.emotion.model_spec import load_emotions
 
 VISIT = """
 # seconds stimulus intensity

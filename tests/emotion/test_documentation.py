@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 
 from hri.cli.emotion import COMMANDS
-from hri.cli.emotion.timeline import read_timeline
+from hri.cli.emotion.stimulus_timeline import read_timeline
 from hri.core import paths
-from hri.emotion.checking import unmet_expectations
 from hri.emotion.display import display_path, load_display
 from hri.emotion.personality import load_personality
+from hri.emotion.reachability import unmet_expectations
 from hri.emotion.stimulus import load_stimuli
 
 PAGE = (paths.house() / "docs" / "emotions.md").read_text(encoding="utf-8")

@@ -6,14 +6,14 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from hri.cli.emotion.timeline import read_timeline
+from hri.cli.emotion.stimulus_timeline import read_timeline
 from hri.core.errors import AuthoringError, HriError, Place
 from hri.core.signals import EmotionState
-from hri.emotion.checking import unmet_expectations, unreachable_emotions, unreachable_stimuli
 from hri.emotion.display import LABELS, display_path, load_display
 from hri.emotion.expectation import Expectation
-from hri.emotion.model import load_emotions
+from hri.emotion.model_spec import load_emotions
 from hri.emotion.personality import load_personality, personality_path
+from hri.emotion.reachability import unmet_expectations, unreachable_emotions, unreachable_stimuli
 from hri.emotion.stimulus import load_stimuli
 
 SHIPPED = ("neutral", "optimist", "pessimist", "shy", "hot_tempered", "easy_going", "curious")

@@ -10,12 +10,12 @@ from hypothesis import given, settings, strategies as st
 from hri.behavior.behavior import Context
 from hri.core.clock import FAKE_MORNING, FakeClock
 from hri.core.errors import HriError
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Event
 from hri.emotion.affect import Affect
 from hri.emotion.appraisal import ActionEvent, GoalEvent, name_of
 from hri.emotion.behaviors import EmotionModel
-from hri.emotion.model import load_emotions
+from hri.emotion.model_spec import load_emotions
 from hri.emotion.persistence import (
     LONGEST_AWAY_S,
     Memory,
@@ -27,7 +27,7 @@ from hri.emotion.persistence import (
     recall,
     without,
 )
-from hri.hal.manager import ResourceManager
+from hri.hal.resource_manager import ResourceManager
 
 DYNAMICS = load_emotions("neutral").dynamics()
 STEPS = st.lists(

@@ -7,12 +7,12 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.network import Network
 from hri.behavior.ports import Output
 from hri.core.clock import FakeClock
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Event
 from hri.emotion.formula import parse_formula
 from hri.emotion.stimulus import StimulusSpec
 from hri.emotion.triggers import Triggers
-from hri.hal.manager import ResourceManager
+from hri.hal.resource_manager import ResourceManager
 
 
 class Gauge(Behavior):

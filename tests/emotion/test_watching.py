@@ -7,7 +7,7 @@ import pytest
 from hri.cli.main import main
 from hri.core.clock import RealClock
 from hri.emotion.dynamics import Dynamics
-from hri.emotion.model import load_emotions
+from hri.emotion.model_spec import load_emotions
 from hri.emotion.persistence import Memory, keep, memory_file
 
 

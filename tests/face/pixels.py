@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 from hri.core.signals import Image
 from hri.face import load_face
-from hri.face.baking import Item, Shape
+from hri.face.drawing.baking import Item, Shape
+from hri.face.drawing.paint import Solid
 from hri.face.model import FaceModel
-from hri.face.paint import Solid
 from hri.face.renderers.renderer import Renderer
 from hri.face.still import still_vector
 from hri.face.vocabulary import MOTIONS, TURNS

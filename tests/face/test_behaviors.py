@@ -9,13 +9,13 @@ from hri.behavior.network import Network
 from hri.behavior.ports import Output
 from hri.behavior.runner import Runner
 from hri.core.clock import FakeClock
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Event, Expression, FaceWeights, Gaze, Image, Speech
 from hri.face.behaviors import Face, FaceRecorder, FaceRenderer
-from hri.face.recording import read_weights
+from hri.face.live_link import read_weights
 from hri.hal.drivers.memory import OffscreenScreen
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from tests.face.pixels import MODEL
 from tests.face.test_motion import TICK, spoken
 

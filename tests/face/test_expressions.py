@@ -10,8 +10,8 @@ from hypothesis import given, settings, strategies as st
 
 from hri.core.errors import HriError
 from hri.face import render_face
-from hri.face.baking import Opening, Shape
-from hri.face.mixer import Layers, Mixer
+from hri.face.drawing.baking import Opening, Shape
+from hri.face.motion.mixer import Layers, Mixer
 from hri.face.vocabulary import ARKIT, LABELS, TURNS, VISEMES, sides_of
 from tests.face.pixels import MODEL, SIZE, Shot, face
 

@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from hri.core.signals import Image
 from hri.face import load_face
-from hri.face.baking import Vector
-from hri.face.gestures import load_gestures, track_of
-from hri.face.mixer import Layers, Mixer
+from hri.face.drawing.baking import Vector
+from hri.face.motion.gesture_tracks import load_gestures, track_of
+from hri.face.motion.mixer import Layers, Mixer
 from hri.face.renderers.renderer import Renderer
 from hri.face.renderers.small_screens import Bits, one_bit
 from hri.face.still import still_vector

@@ -10,8 +10,8 @@ import pytest
 
 from hri.core.errors import AuthoringError, HriError
 from hri.face import load_face, render_face
-from hri.face.drawing import load_drawing
-from hri.face.outline import parse_path, parse_transform
+from hri.face.drawing.outline import parse_path, parse_transform
+from hri.face.drawing.svg import load_drawing
 from hri.face.vocabulary import AFFECT, ARKIT, EXPRESSIONS, LABELS, RHUBARB, VISEMES
 from tests.face.small_face import HEAD, write_face, write_target
 

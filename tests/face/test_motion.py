@@ -6,11 +6,11 @@ from hypothesis import given, settings, strategies as st
 
 from hri.core.errors import HriError
 from hri.core.signals import Expression, Gaze, Phoneme, Speech
-from hri.face import idle
 from hri.face.animator import Animator
-from hri.face.blinking import CAUSES, Blinks
+from hri.face.motion import idle
+from hri.face.motion.blinking import CAUSES, Blinks
+from hri.face.motion.spring import ARRIVAL, Follower, Spring
 from hri.face.regions import region_of
-from hri.face.spring import ARRIVAL, Follower, Spring
 from tests.face.pixels import MODEL
 
 RATE = 16000

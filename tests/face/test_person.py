@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from hri.core.signals import Image
 from hri.face import load_face
-from hri.face.baking import Item, Opening, Shape, Vector
-from hri.face.mixer import Layers, Mixer
+from hri.face.drawing.baking import Item, Opening, Shape, Vector
+from hri.face.motion.mixer import Layers, Mixer
 from hri.face.renderers.renderer import Renderer
 from hri.face.still import still_vector
 from hri.face.vocabulary import ARKIT, LABELS, VISEMES

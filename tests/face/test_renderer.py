@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from hri.core.errors import HriError
-from hri.face.baking import Item, Opening, Shape
-from hri.face.paint import Gradient, Paint, Solid, Stop
+from hri.face.drawing.baking import Item, Opening, Shape
+from hri.face.drawing.paint import Gradient, Paint, Solid, Stop
 from hri.face.renderers.captions import add_caption
 from hri.face.renderers.compiling import compiled
 from hri.face.renderers.kernel import STEPS, paint

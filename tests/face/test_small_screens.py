@@ -7,8 +7,8 @@ from hypothesis import given, strategies as st
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.face.renderers.small_screens import PIXELS, SmallScreen, one_bit, pages, rgb565, rows
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 
 
 def plain(gray: int, width: int = 32, height: int = 16) -> np.ndarray:

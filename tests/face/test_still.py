@@ -6,7 +6,7 @@ from hypothesis import given, settings, strategies as st
 
 from hri.core.errors import HriError
 from hri.face import load_face, render_face
-from hri.face.affect import affect_weights
+from hri.face.motion.affect_map import affect_weights
 from hri.face.still import still_vector
 
 MODEL = load_face("robot")

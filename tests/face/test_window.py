@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hri.cli.face.window import CYCLE_S, FaceWindow
+from hri.cli.face.face_window import CYCLE_S, FaceWindow
 from hri.cli.main import main
 from hri.core.clock import FakeClock
 from hri.hal.drivers.memory import OffscreenScreen
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from tests.face.small_face import write_face
 
 

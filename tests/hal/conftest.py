@@ -3,8 +3,8 @@
 import pytest
 
 from hri.core.clock import FakeClock
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 
 
 @pytest.fixture

@@ -11,9 +11,9 @@ from hri.hal.audio_file import AudioFilePlayer, AudioFileRecorder
 from hri.hal.drivers import sound_decoder
 from hri.hal.drivers.audio_file import MicrophoneFileRecorder, SpeakerFilePlayer
 from hri.hal.drivers.wav_file import WavMicrophone, load_sound, read_wav, write_wav
-from hri.hal.manager import ResourceManager
 from hri.hal.pending import Interrupted
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.hal.speaker import Speaker
 
 from .sounds import similarity, tone

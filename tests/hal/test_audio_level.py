@@ -8,9 +8,9 @@ import pytest
 from hri.hal.audio_level import AudioLevel
 from hri.hal.drivers.audio_level import MicrophoneLevel
 from hri.hal.drivers.memory import MemoryMicrophone
-from hri.hal.manager import ResourceManager
 from hri.hal.microphone import Microphone
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 
 from .sounds import tone
 

@@ -8,20 +8,20 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from hri.behavior.drivers import CameraFrames
+from hri.behavior.device_behaviors import CameraFrames
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError, NotAvailable
 from hri.core.signals import Frame
 from hri.hal.camera import Camera
 from hri.hal.drivers.blank import BlankCamera
 from hri.hal.drivers.image_folder import ImageFolderCamera
+from hri.hal.drivers.image_size import write_picture
 from hri.hal.drivers.memory import MemoryCamera
-from hri.hal.drivers.picture_file import write_picture
 from hri.hal.drivers.video_file import VideoFileCamera, check_video
 from hri.hal.drivers.webcam import waits
-from hri.hal.manager import ResourceManager
 from hri.hal.picture import as_picture, oriented
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.task import get_task_manager, use, vision
 from hri.testing import context, run_for
 from hri.testing.cameras import FAULTS, Fault, FaultyCamera

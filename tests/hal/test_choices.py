@@ -3,8 +3,8 @@ import pytest
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import AuthoringError, HriError
 from hri.hal.choices import apply_choices, choices_file, load_choices, save_choices
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 
 
 @pytest.fixture(autouse=True)

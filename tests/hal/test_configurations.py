@@ -12,8 +12,8 @@ from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
 from hri.hal.configuration import load_configuration
 from hri.hal.drive import DriveSystem, Odometry
-from hri.hal.manager import ResourceManager
 from hri.hal.range_sensor import RangeSensor
+from hri.hal.resource_manager import ResourceManager
 
 CONFIGURATIONS = [name for name in paths.names("config") if name.endswith(".xml")]
 

@@ -7,9 +7,9 @@ from hypothesis import given, strategies as st
 from hri.core.clock import FakeClock
 from hri.hal.drivers.memory import MemoryMicrophone
 from hri.hal.drivers.resampling import resample_blocks
-from hri.hal.manager import ResourceManager
 from hri.hal.microphone import LONGEST_BACKLOG
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 
 from .sounds import similarity, tone
 

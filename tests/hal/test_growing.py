@@ -189,11 +189,11 @@ DIES = """
 import os, pathlib, sys
 import numpy as np
 from hri.core.clock import FakeClock
-from hri.core.events import EventBus
-from hri.core.recording import EventLog
+from hri.core.event_bus import EventBus
+from hri.core.event_log import EventLog
 from hri.hal.drivers.video_file import VideoFileScreen
 from hri.hal.drivers.wav_file import WavSpeaker
-from hri.hal.manager import ResourceManager
+from hri.hal.resource_manager import ResourceManager
 from hri.hal.resource import Description
 folder = pathlib.Path(sys.argv[1])
 clock = FakeClock()

@@ -8,10 +8,10 @@ from hri.hal.battery import Battery
 from hri.hal.configuration import load_configuration
 from hri.hal.drive import DriveSystem, Odometry
 from hri.hal.gripper import Gripper
-from hri.hal.manager import ResourceManager
 from hri.hal.motor import Motor
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Resource
+from hri.hal.resource_manager import ResourceManager
 from tests.recorded import SHARED, needs_shared
 
 GUIDE = SHARED / "guide" / "resource-config.xml"

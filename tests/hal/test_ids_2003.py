@@ -5,8 +5,8 @@ import pytest
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.hal.ids_2003 import IDS
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description, Resource
+from hri.hal.resource_manager import ResourceManager
 
 
 @pytest.mark.parametrize("id", sorted(IDS))

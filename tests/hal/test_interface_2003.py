@@ -11,8 +11,8 @@ from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError
 from hri.hal.camera import Camera
 from hri.hal.drive import DriveSystem, Odometry, Stop
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 
 WORLD = Description("world", "Hri.SimulatedWorld", {"voice": "mute"})
 MUTE = Description("mute", "Hri.EspeakVoice")

@@ -7,8 +7,8 @@ from hri.core.errors import NotAvailable
 from hri.hal.drivers.joystick import PygameJoystick
 from hri.hal.drivers.memory import MemoryJoystick
 from hri.hal.joystick import Joystick
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 
 pytestmark = pytest.mark.proves("H11")
 

@@ -11,7 +11,7 @@ from PIL import Image as PillowImage
 from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Frame
 from hri.hal.drivers.blank import BlankCamera
-from hri.hal.drivers.picture_file import picture_size, write_picture
+from hri.hal.drivers.image_size import picture_size, write_picture
 from hri.hal.drivers.video_file import STILL_RATE, VideoFileCamera, check_video
 
 RAMP = np.stack(np.broadcast_arrays(*np.ogrid[0:96, 0:128], 40), axis=2).astype(np.uint8)

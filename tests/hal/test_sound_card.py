@@ -9,9 +9,9 @@ from hri.core.clock import RealClock
 from hri.core.errors import NotAvailable
 from hri.hal.drivers import sound_card
 from hri.hal.drivers.sound_card import SoundCardMicrophone, SoundCardSpeaker
-from hri.hal.manager import ResourceManager
 from hri.hal.microphone import Microphone
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 
 from .sounds import tone
 

@@ -9,8 +9,8 @@ from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.hal.configuration import load_configuration
 from hri.hal.drivers.file_stream import FileStream
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.hal.stream import Seek, Stream
 
 pytestmark = pytest.mark.proves("H22")

@@ -11,8 +11,8 @@ from hri.core.errors import AuthoringError, NotAvailable
 from hri.hal.camera import Camera
 from hri.hal.configuration import load_configuration
 from hri.hal.drivers.webcam import Webcam
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 
 
 class Film:

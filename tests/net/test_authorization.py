@@ -25,7 +25,7 @@ from hri.net.connection import Connection
 from hri.net.control import introduction
 from hri.net.loopback import is_loopback
 from hri.net.malleable import BIND, MalleableBehavior
-from hri.net.protocol import decode
+from hri.net.malleable_protocol import decode
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import SpeakOn
 from hri.testing import context

@@ -1,7 +1,7 @@
 import json
 
 from hri.bench.net import LENGTH, _message, measure
-from hri.net.protocol import encode
+from hri.net.malleable_protocol import encode
 
 
 def test_the_bench_measures_messages_of_200_bytes_and_its_figures_are_json():

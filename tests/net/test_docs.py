@@ -10,7 +10,7 @@ from hri.behavior.network_file import load_network
 from hri.behavior.runner import Runner
 from hri.core import paths
 from hri.net.connection import Connection
-from hri.net.protocol import decode
+from hri.net.malleable_protocol import decode
 from hri.testing import context
 from tests.net.conftest import WITHIN, Taken
 

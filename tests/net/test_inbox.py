@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from hri.net.inbox import KEPT, KEPT_CHARACTERS, Inbox
-from hri.net.protocol import Item, ProtocolError, Sender
+from hri.net.malleable_protocol import Item, ProtocolError, Sender
 
 
 def inbox():

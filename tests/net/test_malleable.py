@@ -13,7 +13,7 @@ from hri.core import paths
 from hri.core.errors import HriError
 from hri.net.connection import Connection
 from hri.net.malleable import MalleableBehavior
-from hri.net.protocol import encode
+from hri.net.malleable_protocol import encode
 from hri.testing import context
 from tests.net.conftest import WITHIN, Taken
 

@@ -4,9 +4,9 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from hri.behavior.behavior import Behavior
+from hri.behavior.device_behaviors import JoystickSticks
 from hri.behavior.doors import Doors
 from hri.behavior.drive_command import DriveCommand
-from hri.behavior.drivers import JoystickSticks
 from hri.behavior.library.arithmetic import Addition, Multiplication
 from hri.behavior.library.constant import Constant
 from hri.behavior.library.sharing import Share, Shared
@@ -20,10 +20,10 @@ from hri.hal.drive import PATIENCE, DriveSystem
 from hri.hal.joystick import Joystick
 from hri.hal.resource import Description
 from hri.net.malleable import MalleableBehavior
-from hri.net.protocol import Item, Message, Sender, encode
+from hri.net.malleable_protocol import Item, Message, Sender, encode
 from hri.simulation.world import SimulatedWorld
 from hri.testing import context
-from hri.vision.pointing import PointAndGo
+from hri.vision.point_and_go import PointAndGo
 from tests.net.conftest import WITHIN, Taken
 
 TICK = 0.05

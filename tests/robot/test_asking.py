@@ -6,11 +6,11 @@ from hri.behavior.network import Network
 from hri.core.clock import FakeClock
 from hri.robot import Robot, verbs
 from hri.testing import live_for
-from hri.vision import people
 from hri.vision.behaviors import PersonTracker
+from hri.vision.tracking import people
 from tests.vision.stage import Player, Stage, standing
 from tests.vision.test_behaviors import Projector
-from tests.vision.test_people import ANNA, BEN
+from tests.vision.tracking.test_people import ANNA, BEN
 
 VOICE = """<BehaviorNetwork name="talk" invocation_interval="1/30">
   <Behavior id="voice" type="Hri.Voice"/>

@@ -8,9 +8,9 @@ import pytest
 from hri.robot import load_app
 
 LAYERS = {
-    "hri.core.events": ("hri.hal", "hri.behavior", "hri.task", "hri.robot", "hri.net"),
-    "hri.hal.manager": ("hri.behavior", "hri.task", "hri.robot", "hri.simulation"),
-    "hri.behavior.networks": ("hri.task", "hri.robot", "hri.simulation", "hri.speech"),
+    "hri.core.event_bus": ("hri.hal", "hri.behavior", "hri.task", "hri.robot", "hri.net"),
+    "hri.hal.resource_manager": ("hri.behavior", "hri.task", "hri.robot", "hri.simulation"),
+    "hri.behavior.running": ("hri.task", "hri.robot", "hri.simulation", "hri.speech"),
     "hri.task": ("hri.robot", "hri.simulation", "hri.speech", "hri.drive", "hri.face"),
 }
 
@@ -38,7 +38,7 @@ from hri.core.clock import FakeClock
 from hri.core.paths import find
 from hri.hal.configuration import load_configuration
 from hri.hal.drive import DriveSystem, Odometry
-from hri.hal.manager import ResourceManager
+from hri.hal.resource_manager import ResourceManager
 
 clock = FakeClock()
 manager = ResourceManager(load_configuration(find("config", "simulated")).devices, clock)
@@ -52,8 +52,8 @@ from hri.behavior.library.constant import Constant
 from hri.behavior.network import Network
 from hri.behavior.runner import Runner
 from hri.core.clock import FakeClock
-from hri.core.events import EventBus
-from hri.hal.manager import ResourceManager
+from hri.core.event_bus import EventBus
+from hri.hal.resource_manager import ResourceManager
 
 clock = FakeClock()
 lent = Context(clock, EventBus(clock), ResourceManager((), clock))

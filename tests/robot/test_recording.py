@@ -8,8 +8,8 @@ import pytest
 from hri import Robot
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
+from hri.core.event_log import read_events
 from hri.core.growing import GrowingFile
-from hri.core.recording import read_events
 from hri.hal.drivers.wav_file import read_wav
 from hri.robot.recording import ALOUD, FILES
 from tests.devices import live_microphone

@@ -9,7 +9,7 @@ from hri.behavior.library.arithmetic import Addition
 from hri.behavior.network import Network
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError
-from hri.core.recording import read_events
+from hri.core.event_log import read_events
 from hri.hal.drive import Odometry
 from hri.hal.speaker import Speaker
 from hri.robot import load_app, verbs

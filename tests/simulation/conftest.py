@@ -6,8 +6,8 @@ import pytest
 
 from hri.core.clock import FakeClock
 from hri.core.signals import Prosody, Speech
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.hal.synthesizer import PLAIN, Synthesizer
 from hri.simulation.world import SimulatedWorld
 

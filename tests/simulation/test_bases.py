@@ -7,12 +7,12 @@ from hri.core.signals import Twist
 from hri.drive.bases.arduino import ArduinoBridge
 from hri.drive.bases.create2 import FORMATS, SLOT, Create2
 from hri.hal.resource import Description
-from hri.simulation.bases.arduino import EmulatedArduino
 from hri.simulation.bases.body import RoomBody
-from hri.simulation.bases.create2 import GROUPS, PASSIVE, SAFE, EmulatedCreate2
-from hri.simulation.bases.device import ArduinoLine
+from hri.simulation.bases.emulated_arduino import EmulatedArduino
+from hri.simulation.bases.emulated_base import ArduinoLine
+from hri.simulation.bases.emulated_create2 import GROUPS, PASSIVE, SAFE, EmulatedCreate2
+from hri.simulation.bases.emulated_line import EmulatedPort, Faults, Line
 from hri.simulation.bases.emulator import Wire
-from hri.simulation.bases.line import EmulatedPort, Faults, Line
 from hri.simulation.room import Circle, Room, Segment
 from hri.simulation.world import SimulatedWorld
 from tests.drive.bases.talk import Talk

@@ -7,7 +7,7 @@ from hri.core.errors import HriError
 from hri.core.signals import Frame
 from hri.hal.resource import Description
 from hri.simulation.behaviors import ObjRecRecognizer
-from hri.simulation.drivers import DrawnFrame
+from hri.simulation.simulated_devices import DrawnFrame
 from hri.simulation.world import SimulatedWorld
 from hri.testing import context
 from tests.behavior.library.ticking import tick

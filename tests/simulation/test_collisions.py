@@ -5,7 +5,7 @@ from hypothesis import given, strategies as st
 
 from hri.core.signals import Pose2D
 from hri.simulation.collisions import Collision, Witness, hit_by
-from hri.simulation.person import RADIUS
+from hri.simulation.people.person import RADIUS
 
 BODY = 0.2
 TOUCH = BODY + RADIUS

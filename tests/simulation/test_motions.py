@@ -14,13 +14,13 @@ from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError
 from hri.core.signals import Pose2D, Twist
 from hri.hal.drive import DriveSystem, Odometry, Stop
-from hri.hal.manager import ResourceManager
 from hri.hal.motion_profile import Trapezoid
 from hri.hal.pending import Interrupted, Pending
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.simulation.base import WATCHDOG
-from hri.simulation.drivers import SimulatedDrive
 from hri.simulation.motors import SimulatedMotor
+from hri.simulation.simulated_devices import SimulatedDrive
 from hri.simulation.world import SimulatedWorld
 
 from .conftest import ToneVoice

@@ -9,15 +9,15 @@ import pytest
 
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Image
 from hri.hal.camera import Camera
-from hri.hal.manager import ResourceManager
 from hri.hal.range_sensor import RangeSensor
-from hri.simulation.layout import load_layout
-from hri.simulation.person import Person
-from hri.simulation.script import load_visit
+from hri.hal.resource_manager import ResourceManager
+from hri.simulation.people.person import Person
+from hri.simulation.visit_script import load_visit
 from hri.simulation.world import SimulatedWorld
+from hri.simulation.world_file import load_layout
 
 from .conftest import Build
 

@@ -6,8 +6,15 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from hri.core.signals import Image
-from hri.simulation.film import Film, Role
-from hri.simulation.motion import DISTRACTORS, GESTURES, MOTIONS, REST, Posture, idle_angles
+from hri.simulation.people.body_motion import (
+    DISTRACTORS,
+    GESTURES,
+    MOTIONS,
+    REST,
+    Posture,
+    idle_angles,
+)
+from hri.simulation.people.scripted_film import Film, Role
 
 seeds = st.integers(0, 10**6)
 FIELDS = Posture.__dataclass_fields__

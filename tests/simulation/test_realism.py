@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from hri.core.errors import NotAvailable
-from hri.simulation.actors import ACTORS, Appearance, render_people
-from hri.simulation.lens import Lens
-from hri.vision.detectors.chain import Detectors, load_detectors
+from hri.simulation.people.actors import ACTORS, Appearance, render_people
+from hri.simulation.people.lens import Lens
+from hri.vision.detectors.detector_choice import Detectors, load_detectors
 from hri.vision.detectors.mesh import FittedFace, region_of, region_of_landmarks
-from hri.vision.models import find_face_models
-from hri.vision.pose import head_pose
+from hri.vision.face_models import find_face_models
+from hri.vision.head_pose import head_pose
 
 TURNS = (-12.0, -6.0, 0.0, 6.0, 12.0)
 """Degrees."""

@@ -8,16 +8,16 @@ from hri.core.clock import FakeClock
 from hri.core.paths import house
 from hri.core.signals import HeadGesture
 from hri.hal.camera import Camera
-from hri.hal.manager import ResourceManager
 from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.simulation.world import SimulatedWorld
 from hri.speech.grammar import load_grammar
-from hri.vision.detectors.chain import load_detectors
-from hri.vision.gesture import GestureRecognizer
-from hri.vision.patterns import answer_patterns
-from hri.vision.people import PeopleTracker
+from hri.vision.detectors.detector_choice import load_detectors
+from hri.vision.gestures.gesture_patterns import answer_patterns
+from hri.vision.gestures.gesture_recognizer import GestureRecognizer
+from hri.vision.tracking.people import PeopleTracker
 
 from .conftest import Build
 

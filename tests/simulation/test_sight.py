@@ -5,9 +5,9 @@ from hypothesis import given, strategies as st
 
 from hri.core.errors import AuthoringError
 from hri.core.signals import Pose2D
-from hri.simulation.layout import Item, load_layout
 from hri.simulation.room import Room, Segment
 from hri.simulation.sight import seen
+from hri.simulation.world_file import Item, load_layout
 
 EMPTY = Room()
 ORIGIN = Pose2D()

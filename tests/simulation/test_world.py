@@ -4,7 +4,7 @@ import pytest
 from hri.core.errors import AuthoringError
 from hri.core.signals import Twist
 from hri.hal.resource import Description
-from hri.simulation.sound import RATE
+from hri.simulation.acoustics import RATE
 from hri.simulation.world import BUMP_TIME, SimulatedWorld
 
 from .conftest import Build

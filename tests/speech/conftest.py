@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from hri.core.clock import FakeClock
-from hri.hal.manager import ResourceManager
+from hri.hal.resource_manager import ResourceManager
 from hri.speech.grammar import Grammar, load_grammar
 
 HOUSE = Path(__file__).resolve().parents[2]

@@ -9,12 +9,12 @@ import numpy as np
 from hri.behavior.behavior import Behavior, Context
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Phoneme, Prosody, Samples, Speech
-from hri.hal.manager import ResourceManager
 from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Grammar, Hypothesis, Recognizer, Segment
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.hal.speaker import Speaker
 from hri.hal.synthesizer import PLAIN, Synthesizer
 

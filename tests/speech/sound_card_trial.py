@@ -17,10 +17,10 @@ from typing import Any
 
 from hri.behavior.behavior import Context
 from hri.core.clock import RealClock
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.hal.drivers.wav_file import read_wav
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.hal.speaker import Speaker
 from hri.speech.listener import Listener
 

@@ -12,22 +12,22 @@ import pytest
 from hri.behavior.behavior import Context
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError, NotAvailable
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Samples
 from hri.hal.drivers.channels import OneChannel
 from hri.hal.drivers.memory import MemoryMicrophone
 from hri.hal.drivers.resampling import resample
-from hri.hal.manager import ResourceManager
 from hri.hal.recognizer import Hypothesis, Segment
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.speech.behaviors import Listener
 from hri.speech.grammar import load_grammar
 from hri.speech.pronunciation.dictionary import cmu_dictionary
 from hri.speech.pronunciation.lexicon import Lexicon
 from hri.speech.recognizers import pocketsphinx
 from hri.speech.recognizers.automatic import AutomaticRecognizer
+from hri.speech.recognizers.consensus import VetoRecognizer
 from hri.speech.recognizers.pocketsphinx import PocketSphinxRecognizer
-from hri.speech.recognizers.veto import VetoRecognizer
 from hri.speech.recognizers.vosk import PARTS, VoskRecognizer
 from hri.speech.synthesizers.espeak import EspeakVoice
 

@@ -13,8 +13,8 @@ from hri.cli.grammar import listen
 from hri.core.clock import FakeClock
 from hri.core.signals import Rejection, Utterance
 from hri.hal.drivers.resampling import resample
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.speech.grammar.matching import parse
 from hri.speech.hearing import hear
 from hri.speech.recognizers.automatic import AutomaticRecognizer

@@ -16,8 +16,8 @@ import pytest
 from hri.core.clock import FakeClock
 from hri.hal.drivers.resampling import resample
 from hri.hal.drivers.wav_file import write_wav
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.speech.synthesizers.espeak import EspeakVoice
 from tests.speech.sound_card_trial import START, STOP
 

@@ -10,16 +10,16 @@ from hri.core.clock import FakeClock
 from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import HeardWord, Utterance
 from hri.hal.drivers.resampling import resample
-from hri.hal.manager import ResourceManager
 from hri.hal.recognizer import Hypothesis, Segment
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.speech.acceptance import judge
 from hri.speech.grammar import load_grammar
 from hri.speech.recognizers.automatic import AutomaticRecognizer
-from hri.speech.recognizers.ctc.recognizer import CtcRecognizer
+from hri.speech.recognizers.consensus import VetoRecognizer
+from hri.speech.recognizers.ctc.decoder import CtcRecognizer
 from hri.speech.recognizers.pocketsphinx import PocketSphinxRecognizer
 from hri.speech.recognizers.typed import TypedRecognizer
-from hri.speech.recognizers.veto import VetoRecognizer
 from hri.speech.recognizers.vosk import PARTS, VoskRecognizer, hypothesis, known_sentences
 from hri.speech.synthesizers.espeak import EspeakVoice
 from tests.recorded import BOOK, ORDERS, spoken_by_a_person

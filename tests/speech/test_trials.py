@@ -8,7 +8,7 @@ from hri.core.statistics import told, wilson
 from hri.hal.resource import Description
 from hri.speech.acceptance import needed
 from hri.speech.grammar import load_grammar
-from hri.speech.grammar.expectations import Meaning
+from hri.speech.grammar.lint.expectations import Meaning
 from hri.speech.grammar.matching import parse
 from hri.speech.trials import (
     QUESTION,

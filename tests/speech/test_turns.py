@@ -9,7 +9,7 @@ from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.hal.resource import Description
 from hri.robot import Robot, verbs
-from hri.simulation.drivers import SimulatedSpeaker
+from hri.simulation.simulated_devices import SimulatedSpeaker
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import SpeakOn, Voice
 from hri.speech.tasks import wait_for_speech

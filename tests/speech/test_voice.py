@@ -11,11 +11,11 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 from hri.behavior.behavior import Context
 from hri.behavior.ports import OutputPort
 from hri.core.clock import RealClock
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Prosody, Speech
 from hri.hal.drivers.memory import SilentSpeaker
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.speech.behaviors import Voice
 from hri.speech.synthesizers.silent import SilentVoice
 from hri.speech.tasks import say

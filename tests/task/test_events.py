@@ -5,7 +5,7 @@ from hypothesis import given, strategies as st
 
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Event
 from hri.task.events import event, parse_event, parse_query, write_event, write_query
 

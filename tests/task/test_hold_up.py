@@ -10,8 +10,8 @@ import trio
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.network import Network
 from hri.core.clock import FakeClock, RealClock
-from hri.core.events import EventBus
-from hri.hal.manager import ResourceManager
+from hri.core.event_bus import EventBus
+from hri.hal.resource_manager import ResourceManager
 from hri.task.context import TaskContext
 from hri.task.task import task
 

@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from hri.core.errors import HriError
-from hri.core.units import FACTORS
+from hri.core.quantities import FACTORS
 from hri.task import units
 from hri.task.units import (
     UNIT_ACCELERATION,

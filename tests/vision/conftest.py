@@ -4,9 +4,9 @@ import pytest
 
 from hri.core.models import folder_of
 from hri.vision.detectors.blazeface import BlazeFace
-from hri.vision.detectors.chain import Detectors
+from hri.vision.detectors.detector_choice import Detectors
 from hri.vision.detectors.mesh import FaceMesh
-from hri.vision.models import DETECTOR, FACE, MESH
+from hri.vision.face_models import DETECTOR, FACE, MESH
 
 FACE_MODELS = folder_of(FACE.name)
 """Told before a test changes where models are kept."""

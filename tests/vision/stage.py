@@ -13,11 +13,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from hri.core.signals import FaceBox, Frame, Image, Landmarks, People
-from hri.vision.detectors.chain import Detectors
+from hri.vision.detectors.detector_choice import Detectors
 from hri.vision.detectors.face import FoundFace
 from hri.vision.detectors.mesh import FittedFace, Region
-from hri.vision.people import PeopleTracker
-from hri.vision.pose import FACE, NUMBERS
+from hri.vision.head_pose import FACE, NUMBERS
+from hri.vision.tracking.people import PeopleTracker
 
 SIZE = (320, 240)
 """Pixels of the pictures."""

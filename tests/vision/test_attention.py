@@ -10,8 +10,8 @@ from hypothesis import given, strategies as st
 from hri.core.signals import HeadPose, People, Person
 from hri.vision.attention import Attending
 from hri.vision.engagement import DISENGAGING, ENGAGED, ENGAGING, UNENGAGED, Engagement, Zones
-from hri.vision.looking import Looking, looking_score
-from hri.vision.presence import Presence
+from hri.vision.eye_contact import Looking, looking_score
+from hri.vision.tracking.presence import Presence
 
 ANN = Person("p1", HeadPose(0.0, 0.0, 0.0), distance=1.2, looking=1.0, is_looking=True)
 BOB = replace(ANN, id="p2")

@@ -7,15 +7,15 @@ import pytest
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output
 from hri.core.clock import FakeClock
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Event, Frame, Gaze, HeadPose, People
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
-from hri.simulation.drivers import SimulatedCamera
-from hri.vision import people
+from hri.hal.resource_manager import ResourceManager
+from hri.simulation.simulated_devices import SimulatedCamera
 from hri.vision.behaviors import Attention, EngagementLevel, PersonTracker, gaze_at
+from hri.vision.tracking import people
 from tests.vision.stage import Player, Spot, Stage, standing
-from tests.vision.test_people import ANNA, BEN, CARA, away_between, until
+from tests.vision.tracking.test_people import ANNA, BEN, CARA, away_between, until
 
 TICK = 1 / 15
 NEAR = 100.0

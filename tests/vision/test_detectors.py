@@ -6,19 +6,19 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from hri.core.archive import Part
 from hri.core.errors import NotAvailable
+from hri.core.fetch.archive import Part
 from hri.core.signals import FaceBox, Image
-from hri.simulation.actors import ACTORS, Appearance, render_people
+from hri.simulation.people.actors import ACTORS, Appearance, render_people
 from hri.vision.detectors import yunet
 from hri.vision.detectors.blazeface import BlazeFace, squares_of
-from hri.vision.detectors.chain import load_detectors
+from hri.vision.detectors.detector_choice import load_detectors
 from hri.vision.detectors.face import FoundFace, is_same, merged, overlap
 from hri.vision.detectors.flow import FaceFlow
 from hri.vision.detectors.haar import HaarDetector
-from hri.vision.detectors.picture import Gray, evened, gray_picture
+from hri.vision.detectors.preprocessing import Gray, evened, gray_picture
 from hri.vision.detectors.yunet import YuNet
-from hri.vision.models import DETECTOR, MESH
+from hri.vision.face_models import DETECTOR, MESH
 from tests.vision.film import render_head
 
 BOX = FaceBox(120, 90, 80, 80)

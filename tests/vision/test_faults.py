@@ -9,16 +9,16 @@ import pytest
 from hri.core.clock import FakeClock
 from hri.core.signals import Frame
 from hri.hal.camera import Camera
-from hri.hal.manager import ResourceManager
 from hri.hal.picture import oriented
 from hri.hal.resource import Description
-from hri.simulation.actors import Appearance, render_people
+from hri.hal.resource_manager import ResourceManager
+from hri.simulation.people.actors import Appearance, render_people
 from hri.simulation.world import SimulatedWorld
 from hri.testing.cameras import FAULTS, Fault, FaultyCamera
-from hri.vision.detectors.chain import load_detectors
-from hri.vision.gesturing import PeopleGestures
-from hri.vision.patterns import answer_patterns
-from hri.vision.people import PeopleTracker
+from hri.vision.detectors.detector_choice import load_detectors
+from hri.vision.gestures.gesture_behaviors import PeopleGestures
+from hri.vision.gestures.gesture_patterns import answer_patterns
+from hri.vision.tracking.people import PeopleTracker
 
 PICTURE = render_people([Appearance(center=(160, 120), height=120)], (320, 240))
 RATE = 10.0

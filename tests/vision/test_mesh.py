@@ -9,9 +9,9 @@ import pytest
 
 from hri.core.errors import NotAvailable
 from hri.core.signals import Image, Landmarks
-from hri.simulation.actors import ACTORS, Appearance, render_people
-from hri.simulation.lens import Lens
-from hri.vision.detectors.chain import Detectors
+from hri.simulation.people.actors import ACTORS, Appearance, render_people
+from hri.simulation.people.lens import Lens
+from hri.vision.detectors.detector_choice import Detectors
 from hri.vision.detectors.face import FoundFace
 from hri.vision.detectors.mesh import (
     LEFT_EYE,
@@ -21,8 +21,8 @@ from hri.vision.detectors.mesh import (
     region_of,
     region_of_landmarks,
 )
-from hri.vision.models import DETECTOR
-from hri.vision.pose import head_pose
+from hri.vision.face_models import DETECTOR
+from hri.vision.head_pose import head_pose
 
 ADA = Appearance("ada", center=(320, 240), height=180)
 AT_ADA = Region(320, 260, 200)

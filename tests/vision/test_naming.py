@@ -3,17 +3,17 @@ import pytest
 from hri.behavior.behavior import Context
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Frame
-from hri.hal.manager import ResourceManager
+from hri.hal.resource_manager import ResourceManager
 from hri.vision.naming import FaceNames
-from hri.vision.people import PeopleTracker
-from hri.vision.recognition import Acquaintances
+from hri.vision.tracking.face_recognition import Acquaintances
+from hri.vision.tracking.people import PeopleTracker
 from tests.vision.stage import Player, Stage, standing
-from tests.vision.test_people import ANNA, BEN
+from tests.vision.tracking.test_people import ANNA, BEN
 
 BROKEN = "tests.vision.test_naming:Broken"
-MODEL = "tests.vision.test_recognition:Colors"
+MODEL = "tests.vision.tracking.test_face_recognition:Colors"
 TICK = 1 / 15
 
 

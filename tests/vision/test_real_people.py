@@ -9,8 +9,8 @@ from hri.core.signals import FaceBox, HeadPose, Image
 from hri.vision.detectors.blazeface import BlazeFace
 from hri.vision.detectors.face import FaceFinder
 from hri.vision.detectors.haar import HaarDetector
-from hri.vision.gesture import GestureRecognizer
-from hri.vision.patterns import answer_patterns
+from hri.vision.gestures.gesture_patterns import answer_patterns
+from hri.vision.gestures.gesture_recognizer import GestureRecognizer
 from tests.recorded import HERE, picture
 
 PORTRAITS = {"biden": (0.59, 0.18), "obama": (0.54, 0.23), "obama2": (0.53, 0.36)}

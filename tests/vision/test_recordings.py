@@ -7,8 +7,8 @@ import pytest
 
 from benchmarks.vision import cross_validation, recordings
 from hri.core.errors import NotAvailable
-from hri.vision.gesture import GestureRecognizer
-from hri.vision.patterns import answer_patterns
+from hri.vision.gestures.gesture_patterns import answer_patterns
+from hri.vision.gestures.gesture_recognizer import GestureRecognizer
 
 PATTERNS = answer_patterns()
 DRAWS = 2

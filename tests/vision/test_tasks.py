@@ -5,13 +5,13 @@ import pytest
 from hri.behavior.network import Network
 from hri.core.errors import HriError
 from hri.task.context import TaskContext
-from hri.vision import people
 from hri.vision.behaviors import Attention, PersonTracker
 from hri.vision.tasks import look_at, wait_for_person
+from hri.vision.tracking import people
 from tests.task.stage import Stage as Loop
 from tests.vision.stage import Player, Spot, Stage, standing
 from tests.vision.test_behaviors import Projector
-from tests.vision.test_people import ANNA, BEN, away_between, until
+from tests.vision.tracking.test_people import ANNA, BEN, away_between, until
 
 
 @pytest.fixture

@@ -1,7 +1,7 @@
 """Drives about with each command of a drive system. Keep a meter free around the robot."""
 
 from hri.core import Clock, RealClock
-from hri.core.units import cm, degree
+from hri.core.quantities import cm, degree
 from hri.hal import DriveSystem, ResourceManager, Stop
 
 SPEED, ACCELERATION = 20 * cm, 40 * cm

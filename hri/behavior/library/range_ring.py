@@ -6,8 +6,8 @@ from hri.behavior.behavior import Context
 from hri.behavior.device import DeviceBehavior
 from hri.behavior.library.quadrants import Quadrant, clearance, quadrants
 from hri.behavior.ports import DBL_MAX, Output, Param
-from hri.hal.manager import ResourceManager
 from hri.hal.range_sensor import RangeSensor
+from hri.hal.resource_manager import ResourceManager
 
 
 class FuzzyRangeSensorRing(DeviceBehavior):

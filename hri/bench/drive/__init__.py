@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from hri.bench.drive import steering, stopping, world
+from hri.bench.drive import simulated_world, steering, stopping
 from hri.bench.table import Parts, measured
 
 PARTS: Parts = {
     "stops": stopping.rows,
     "chain": stopping.chain,
     "steering": steering.rows,
-    "simulated world": world.rows,
+    "simulated world": simulated_world.rows,
 }
 """The parts of the bench in the order of the table; those of `benchmarks.drive` follow."""
 

@@ -18,9 +18,9 @@ import numpy as np
 import trio
 
 from hri.behavior.behavior import Behavior, Context
+from hri.behavior.device_behaviors import JoystickSticks
 from hri.behavior.doors import Doors
 from hri.behavior.drive_command import DriveCommand
-from hri.behavior.drivers import JoystickSticks
 from hri.behavior.network import Network
 from hri.behavior.ports import LINEAR_VELOCITY, Output
 from hri.behavior.runner import Runner
@@ -29,13 +29,13 @@ from hri.bench.table import Row, amount, at_most
 from hri.bench.workers import running
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Twist
 from hri.drive.supervisor.bus import BaseBus
 from hri.hal.drive import DriveSystem
 from hri.hal.drivers.memory import MemoryJoystick
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.net.connection import Connection
 from hri.net.malleable import MalleableBehavior
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 
-from hri.bench import chain as links, stops
+from hri.bench import broken_links as links, stops
 from hri.bench.table import Row, amount, at_most
 
 TRIES, QUICK_TRIES = 100, 10

@@ -13,7 +13,7 @@ from functools import partial
 from typing import Any
 
 from hri.bench.checkout import research
-from hri.bench.face import frames, live, loading
+from hri.bench.face import frames, live, load_time
 from hri.bench.table import Row, attempted, report
 from hri.bench.threads import one_thread
 from hri.face.model import load_face
@@ -39,7 +39,7 @@ def rows(count: int, seconds: float) -> Iterator[Row]:
         talking = frames.talking(model, count)
         yield from frames.rows(model, talking, SIZE)
     tell("loading")
-    yield from loading.rows()
+    yield from load_time.rows()
     tell(f"{seconds:g} s of talking")
     yield from attempted("frames dropped while talking", lambda: live.rows(seconds))
     if (compared := research("face")) is not None:

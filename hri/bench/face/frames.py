@@ -12,7 +12,7 @@ import numpy as np
 from hri.bench.table import Row, amount, at_most
 from hri.core.signals import Expression, Gaze, Phoneme, Speech
 from hri.face.animator import Animator
-from hri.face.baking import Vector
+from hri.face.drawing.baking import Vector
 from hri.face.model import FaceModel
 from hri.face.renderers.renderer import Renderer
 

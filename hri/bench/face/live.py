@@ -15,7 +15,7 @@ from hri.core.clock import RealClock
 from hri.face.behaviors import FaceRenderer
 from hri.hal.resource import Description
 from hri.robot import Robot, verbs
-from hri.simulation.script import load_visit
+from hri.simulation.visit_script import load_visit
 from hri.simulation.world import SimulatedWorld
 from hri.task.context import TaskContext
 

@@ -13,12 +13,12 @@ from pathlib import Path
 from typing import Any
 
 from hri.bench.checkout import research
-from hri.bench.speech.clips import Clip, Recordings, read_recordings
+from hri.bench.speech.latency import rows as speed_rows
 from hri.bench.speech.listening import Listen, listen
-from hri.bench.speech.speaking import rows as speaking_rows
-from hri.bench.speech.speed import rows as speed_rows
+from hri.bench.speech.samples import Clip, Recordings, read_recordings
 from hri.bench.speech.start import rows as start_rows
 from hri.bench.speech.text import rows as text_rows
+from hri.bench.speech.voice_start import rows as speaking_rows
 from hri.bench.table import Row, attempted, report
 from hri.core import paths
 

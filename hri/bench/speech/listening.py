@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
-from hri.bench.speech.clips import Clip, write_wav
+from hri.bench.speech.samples import Clip, write_wav
 from hri.core import child
 from hri.core.errors import HriError
 

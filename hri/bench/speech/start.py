@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hri.bench.speech.clips import ROBOT, Clip, write_wav
 from hri.bench.speech.listening import ONE_CORE
+from hri.bench.speech.samples import ROBOT, Clip, write_wav
 from hri.bench.table import Row, amount, at_most, skipped
 from hri.core import child
 from hri.core.errors import HriError

@@ -19,8 +19,8 @@ from pathlib import Path
 import numpy as np
 
 from hri.core.clock import RealClock
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.speech.grammar import load_grammar
 
 STATUS = Path("/proc/self/statm")

@@ -10,12 +10,12 @@ from pathlib import Path
 
 import numpy as np
 
-from hri.bench.speech import clips
-from hri.bench.speech.clips import ROBOT
+from hri.bench.speech import samples
+from hri.bench.speech.samples import ROBOT
 from hri.bench.table import Row, amount, at_most
 from hri.speech.grammar import Grammar, load_grammar, read_grammar
-from hri.speech.grammar.check import check
 from hri.speech.grammar.expansion import random_sentence
+from hri.speech.grammar.lint.linter import check
 from hri.speech.grammar.matching import parse
 
 RULES = 1000
@@ -66,7 +66,7 @@ def _check_s() -> float:
 
 def many_rules(count: int) -> str:
     """A grammar of so many rules: half are commands, the others the names they are about."""
-    names = clips.names(count // 2)
+    names = samples.names(count // 2)
     lines = ["#JSGF V1.0;", "grammar many;"]
     for number, name in enumerate(names):
         lines.append(f"/** Meets {name}. */")

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from hri.bench.table import Parts, measured
-from hri.bench.vision import speed
+from hri.bench.vision import picture_cost
 
-PARTS: Parts = {"the chain on one core": speed.rows}
+PARTS: Parts = {"the chain on one core": picture_cost.rows}
 """The parts of the bench; those of `benchmarks.vision` follow."""
 
 

@@ -6,11 +6,11 @@ import time
 from collections.abc import Iterable, Iterator
 
 from hri.core.signals import Frame, People
-from hri.simulation.actors import Optics
-from hri.vision.detectors.chain import AUTO, load_detectors
-from hri.vision.models import find_face_models
-from hri.vision.people import PeopleTracker
-from hri.vision.view import CameraView
+from hri.simulation.people.actors import Optics
+from hri.vision.camera_view import CameraView
+from hri.vision.detectors.detector_choice import AUTO, load_detectors
+from hri.vision.face_models import find_face_models
+from hri.vision.tracking.people import PeopleTracker
 
 
 def tracker(optics: Optics, setting: str = AUTO) -> PeopleTracker:

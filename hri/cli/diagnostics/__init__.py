@@ -9,15 +9,15 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import TypeVar
 
+from hri.cli.exit_status import status_of
 from hri.cli.messages import OptionParser
-from hri.cli.outcome import status_of
 from hri.core import paths
 from hri.core.clock import Clock, FakeClock, RealClock
 from hri.core.errors import NotAvailable
 from hri.hal.choices import apply_choices, load_choices
 from hri.hal.configuration import Configuration, load_configuration
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Resource
+from hri.hal.resource_manager import ResourceManager
 
 R = TypeVar("R", bound=Resource)
 

@@ -13,7 +13,7 @@ from hri.core.errors import HriError, NotAvailable
 from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE
 from hri.hal.camera import Camera
-from hri.hal.drivers.picture_file import write_picture
+from hri.hal.drivers.image_size import write_picture
 
 HELP = """\
 Usage: test_camera [OPTIONS] [<camera1_id> [..<cameraN_id>]]

@@ -13,7 +13,7 @@ from hri.core.clock import Clock
 from hri.core.errors import HriError
 from hri.core.geometry import seen_from
 from hri.hal.drive import DriveSystem, Odometry
-from hri.hal.manager import ResourceManager
+from hri.hal.resource_manager import ResourceManager
 
 HELP = """\
 Usage: test_drive_system [OPTIONS] [<drive_id>]

@@ -10,9 +10,9 @@ from dataclasses import replace
 
 from hri.cli.drive import replay
 from hri.cli.drive.teleop import Teleop
-from hri.cli.drive.terminal import TerminalView, own_terminal
+from hri.cli.drive.terminal_view import TerminalView, own_terminal
 from hri.cli.drive.view import View
-from hri.cli.drive.window import WindowView
+from hri.cli.drive.window_view import WindowView
 from hri.cli.ending import Ending
 from hri.cli.probe import KINDS, ask_ports
 from hri.core import paths
@@ -21,8 +21,8 @@ from hri.core.errors import HriError
 from hri.drive.supervisor.bus import SIMULATED, BaseBus
 from hri.hal.configuration import load_configuration
 from hri.hal.drive import Odometry
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.hal.screen import Screen
 
 NAMES = {type.rpartition(".")[2].lower(): type for type in KINDS}

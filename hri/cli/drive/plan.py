@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 
 from hri.core.signals import Image, Pose2D
-from hri.simulation.person import RADIUS as PERSON_RADIUS
+from hri.simulation.people.person import RADIUS as PERSON_RADIUS
 from hri.simulation.room import Box, Circle, Obstacle, Segment
 
 Point = tuple[float, float]

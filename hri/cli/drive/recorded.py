@@ -17,12 +17,12 @@ from typing import Any
 
 from hri.cli.drive.plan import Moment, Point, Run
 from hri.core.errors import HriError
+from hri.core.event_log import LARGEST_LOG
 from hri.core.reading import parse_json, read_text
-from hri.core.recording import LARGEST_LOG
 from hri.core.signals import Pose2D
-from hri.simulation.layout import load_layout
-from hri.simulation.rooms import furnished
+from hri.simulation.seeded_rooms import furnished
 from hri.simulation.trips import Journey
+from hri.simulation.world_file import load_layout
 
 EVENTS = "events.jsonl"
 """The file in a robot's recording."""

@@ -14,13 +14,13 @@ from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.quoting import message_line
 from hri.emotion import personality, stimulus
-from hri.emotion.checking import (
+from hri.emotion.display import load_display
+from hri.emotion.reachability import (
     felt_by_name,
     unmet_expectations,
     unreachable_emotions,
     unreachable_stimuli,
 )
-from hri.emotion.display import load_display
 from hri.emotion.stimulus import StimulusSpec
 
 _MENTION = re.compile(rb"""["']([A-Za-z_][\w-]*(?:\.[\w-]+)*)["']""")

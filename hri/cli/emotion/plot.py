@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from hri.cli.emotion.timeline import Happening
+from hri.cli.emotion.stimulus_timeline import Happening
 from hri.core.signals import EmotionState, Stimulus
 from hri.core.writing import write_bytes
 from hri.emotion.affect import Affect

@@ -7,11 +7,11 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from hri.cli.emotion.output import json_line, text_line
-from hri.cli.emotion.timeline import Happening, read_timeline, seconds
+from hri.cli.emotion.stimulus_timeline import Happening, read_timeline, seconds
 from hri.core.signals import Stimulus
 from hri.emotion.affect import Affect
 from hri.emotion.dynamics import Dynamics
-from hri.emotion.model import load_emotions
+from hri.emotion.model_spec import load_emotions
 
 MOST_DRAWN = 5000
 """States that a plot is drawn of; of a longer timeline some are skipped."""

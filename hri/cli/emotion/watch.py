@@ -18,7 +18,7 @@ from hri.core.quoting import escaped
 from hri.emotion.affect import Affect
 from hri.emotion.dynamics import Dynamics
 from hri.emotion.files import EmotionFiles
-from hri.emotion.model import EmotionModelSpec
+from hri.emotion.model_spec import EmotionModelSpec
 from hri.emotion.persistence import Memory, memory_file, recall
 from hri.emotion.reasons import age_words, why_words
 

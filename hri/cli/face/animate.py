@@ -5,15 +5,15 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from hri.cli.face.arguments import FACE, pixels
-from hri.cli.film import Film
-from hri.cli.voice import PLAIN_VOICE, open_voice
+from hri.cli.face.options import FACE, pixels
+from hri.cli.face_film import Film
+from hri.cli.voice_options import PLAIN_VOICE, open_voice
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.face import load_face
 from hri.face.scene import load_scene
 from hri.hal.drivers.wav_file import write_wav
-from hri.hal.manager import ResourceManager
+from hri.hal.resource_manager import ResourceManager
 
 HELP = """\
 The script is TOML: [[step]] by [[step]], each with `at` (seconds from the start), or `wait`

@@ -8,7 +8,7 @@ import sys
 from hri.core import paths
 from hri.core.quoting import message_line
 from hri.face import load_face
-from hri.face.gestures import load_gestures
+from hri.face.motion.gesture_tracks import load_gestures
 from hri.face.vocabulary import CORRECTIVE
 
 
@@ -18,7 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Exit status 1 when there is something to warn of, 2 when the face cannot be loaded."""
-    from hri.face.checking import findings
+    from hri.face.lint import findings
     from hri.face.mistakes import mistakes
 
     folder = paths.find("faces", options.face)

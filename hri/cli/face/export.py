@@ -9,7 +9,7 @@ from pathlib import Path
 
 from hri.core.writing import write_text
 from hri.face import FaceModel, load_face
-from hri.face.exchange import Plain, exported
+from hri.face.drawing.serialization import Plain, exported
 from hri.face.vocabulary import MOTIONS
 
 

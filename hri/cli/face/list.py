@@ -7,7 +7,7 @@ import argparse
 from hri.core import paths
 from hri.core.errors import HriError
 from hri.face import load_face
-from hri.face.gestures import load_gestures
+from hri.face.motion.gesture_tracks import load_gestures
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -11,8 +11,8 @@ from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.writing import make_folder, new_folder
 from hri.face import load_face
-from hri.face.gestures import FILE as GESTURES
 from hri.face.model import stamps_of
+from hri.face.motion.gesture_tracks import FILE as GESTURES
 
 NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
 

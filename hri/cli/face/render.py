@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from hri.cli.face.arguments import FACE, pair, pixels, share
+from hri.cli.face.options import FACE, pair, pixels, share
 from hri.core.signals import Image
 from hri.face import render_face
-from hri.hal.drivers.picture_file import write_picture
+from hri.hal.drivers.image_size import write_picture
 
 HELP = """\
 A named expression or viseme is shown at its apex; --time moves idle life only.

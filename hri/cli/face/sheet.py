@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from hri.cli.face.arguments import FACE
+from hri.cli.face.options import FACE
 from hri.face import load_face
-from hri.hal.drivers.picture_file import write_picture
+from hri.hal.drivers.image_size import write_picture
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -16,7 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from hri.face.renderers.sheet import draw_sheet
+    from hri.face.renderers.contact_sheet import draw_sheet
 
     write_picture(options.out, draw_sheet(load_face(options.face)))
     return 0

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import argparse
 
-from hri.cli.face.arguments import FACE, pixels
+from hri.cli.face.options import FACE, pixels
 from hri.core import paths
 from hri.core.clock import RealClock
 from hri.face import load_face
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.hal.screen import Screen
 
 
@@ -22,7 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from hri.cli.face.window import LEGEND, FaceWindow
+    from hri.cli.face.face_window import LEGEND, FaceWindow
 
     folder = paths.find("faces", options.face)
     load_face(folder)

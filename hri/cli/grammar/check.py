@@ -11,12 +11,12 @@ from typing import TextIO
 
 from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.excerpt import Excerpts
-from hri.cli.progress import waiting
+from hri.cli.progress_line import waiting
 from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, NotAvailable, Place
 from hri.speech.grammar import Grammar, read_grammar
-from hri.speech.grammar.check import check
-from hri.speech.grammar.finding import SEVERITIES, Finding, warning
+from hri.speech.grammar.lint.finding import SEVERITIES, Finding, warning
+from hri.speech.grammar.lint.linter import check
 from hri.speech.pronunciation.lexicon import Lexicon, load_lexicon
 from hri.speech.recognizers.ctc.phone_graph import compile
 

@@ -6,18 +6,18 @@ import argparse
 import json
 
 from hri.cli.grammar import FILE_HELP
-from hri.cli.grammar.clips import spoken, usual_voices
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
 from hri.cli.grammar.expand import in_words
+from hri.cli.grammar.manifest import spoken, usual_voices
 from hri.cli.messages import Within
-from hri.cli.progress import progress, waiting
+from hri.cli.progress_line import progress, waiting
 from hri.core import paths
 from hri.core.statistics import told
 from hri.speech.acceptance import STRICTNESS
 from hri.speech.grammar import Grammar, load_grammar
-from hri.speech.grammar.confusion import FARTHEST, SoundAlike, sound_alikes
 from hri.speech.grammar.expansion import count_ways
-from hri.speech.grammar.expectations import meaning_of
+from hri.speech.grammar.lint.confusion import FARTHEST, SoundAlike, sound_alikes
+from hri.speech.grammar.lint.expectations import meaning_of
 from hri.speech.grammar.matching import Parse, parse
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.trials import Attempt, attempt, confusions, score

@@ -8,13 +8,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from hri.cli.progress import waiting
+from hri.cli.progress_line import waiting
 from hri.core import registry
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
-from hri.hal.manager import ResourceManager
 from hri.hal.recognizer import Recognizer
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.speech.grammar import Grammar
 
 ENGINES = {

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from hri.core.errors import HriError, Place
-from hri.speech.grammar.loading import read_source
+from hri.speech.grammar.loader import read_source
 
 WIDEST = 100
 """Characters of a line that are shown."""

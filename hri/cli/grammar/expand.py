@@ -10,7 +10,7 @@ from functools import partial
 
 from hri.cli.grammar import FILE_HELP
 from hri.cli.messages import Within
-from hri.cli.progress import waiting
+from hri.cli.progress_line import waiting
 from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
 from hri.speech.grammar import Grammar, load_grammar
@@ -20,7 +20,7 @@ from hri.speech.grammar.expansion import (
     random_sentence,
     sentences,
 )
-from hri.speech.grammar.expectations import meaning_of
+from hri.speech.grammar.lint.expectations import meaning_of
 from hri.speech.grammar.matching import parse
 from hri.speech.grammar.tags import spell_tags
 

@@ -25,10 +25,10 @@ from hri.core.signals import Rejection, Samples, Utterance
 from hri.hal.audio_level import QUIETEST
 from hri.hal.drivers.channels import CHOICES
 from hri.hal.drivers.wav_file import load_sound
-from hri.hal.manager import ResourceManager
 from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer, Segment
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.speech.acceptance import STRICTNESS
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.tags import spell_tags

@@ -8,17 +8,17 @@ import sys
 from pathlib import Path
 
 from hri.cli.grammar import explained
-from hri.cli.grammar.clips import read_manifest
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
+from hri.cli.grammar.manifest import read_manifest
 from hri.cli.messages import Within
-from hri.cli.progress import progress
+from hri.cli.progress_line import progress
 from hri.core import paths
 from hri.core.errors import HriError, Mistakes
 from hri.core.quoting import message_line
 from hri.core.statistics import told
 from hri.speech.acceptance import STRICTNESS
 from hri.speech.grammar import Grammar, analysis, read_grammar
-from hri.speech.grammar.expectations import Failure, failures, meaning_of, read_expectations
+from hri.speech.grammar.lint.expectations import Failure, failures, meaning_of, read_expectations
 from hri.speech.trials import Attempt, attempt, confusions, score
 
 EXAMPLES = """\

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.drive.supervisor.bus import BaseBus, Watcher
 from hri.drive.supervisor.cause import Cause
 from hri.drive.supervisor.link import State

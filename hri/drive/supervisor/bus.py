@@ -52,7 +52,7 @@ from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Description
 
 if TYPE_CHECKING:
-    from hri.hal.manager import ResourceManager
+    from hri.hal.resource_manager import ResourceManager
 
 SIMULATED = "simulated"
 """The port of a base that is emulated in the simulated world."""

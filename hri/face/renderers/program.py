@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.errors import HriError
-from hri.face.baking import Item, Opening, Shape
-from hri.face.paint import Gradient, Paint, Stop
+from hri.face.drawing.baking import Item, Opening, Shape
+from hri.face.drawing.paint import Gradient, Paint, Stop
 from hri.face.renderers.kernel import (
     BLOCK,
     CLOSING,

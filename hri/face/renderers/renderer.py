@@ -9,9 +9,9 @@ import numpy as np
 
 from hri.core.errors import HriError
 from hri.core.signals import Image
-from hri.face.baking import DisplayList, Vector
+from hri.face.drawing.baking import DisplayList, Vector
+from hri.face.drawing.outline import Matrix, apply, compose
 from hri.face.model import FaceModel
-from hri.face.outline import Matrix, apply, compose
 from hri.face.renderers.kernel import STEPS, Picture, Whole, paint
 from hri.face.renderers.program import lines, packed, program_of, scratch_for
 from hri.face.renderers.strokes import Points, Strokes

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.face.baking import Shape, Vector
+from hri.face.drawing.baking import Shape, Vector
 
 Points = NDArray[np.float32]
 """Shape [n, 2], pixels."""

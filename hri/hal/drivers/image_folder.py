@@ -11,7 +11,7 @@ import numpy as np
 from hri.core.errors import HriError
 from hri.core.signals import Frame, Image
 from hri.hal.camera import FIELD_OF_VIEW, Camera
-from hri.hal.drivers.picture_file import picture_size
+from hri.hal.drivers.image_size import picture_size
 from hri.hal.drivers.video_file import PACES
 
 SUFFIXES = (".bmp", ".jpg", ".jpeg", ".png", ".webp")

@@ -15,7 +15,7 @@ from hri.core.reading import require_file
 from hri.core.signals import Frame, Image
 from hri.hal.camera import FIELD_OF_VIEW, Camera
 from hri.hal.drivers.growing_movie import GrowingMovie
-from hri.hal.drivers.picture_file import picture_size
+from hri.hal.drivers.image_size import picture_size
 from hri.hal.picture import LARGEST_SIDE
 from hri.hal.screen import Screen
 

@@ -1,6 +1,6 @@
 """Grammars: what can be heard, and what it means."""
 
-from hri.speech.grammar.loading import load_grammar, read_grammar
+from hri.speech.grammar.loader import load_grammar, read_grammar
 from hri.speech.grammar.rules import Grammar, Rule
 
 __all__ = ["Grammar", "Rule", "load_grammar", "read_grammar"]

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from hri.core.errors import NotAvailable
 from hri.hal.recognizer import Recognizer
-from hri.speech.recognizers.ctc.recognizer import CtcRecognizer
+from hri.speech.recognizers.ctc.decoder import CtcRecognizer
 from hri.speech.recognizers.delegating import DelegatingRecognizer
 from hri.speech.recognizers.pocketsphinx import PocketSphinxRecognizer
 from hri.speech.recognizers.vosk import VoskRecognizer, find_model

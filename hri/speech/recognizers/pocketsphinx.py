@@ -16,10 +16,10 @@ from hri.core import child
 from hri.core.errors import HriError
 from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, HeardWord, Hypothesis, Segment
-from hri.speech.confidence import FRAME, PathFigures, confidence
-from hri.speech.models import find_pocketsphinx
+from hri.speech.engine_models import find_pocketsphinx
+from hri.speech.path_confidence import FRAME, PathFigures, confidence
 from hri.speech.pronunciation.lexicon import Lexicon, load_lexicon
-from hri.speech.recognizers.sound import SoundRecognizer
+from hri.speech.recognizers.endpointed import SoundRecognizer
 
 NOISE_FLOOR = 20.0
 """Standard deviation of the noise laid under all sound, of 32767."""

@@ -14,8 +14,8 @@ from hri.core.errors import HriError
 from hri.core.models import models_folder
 from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, HeardWord, Hypothesis, Segment
-from hri.speech.models import DOWNLOADS, find_vosk
-from hri.speech.recognizers.sound import SoundRecognizer
+from hri.speech.engine_models import DOWNLOADS, find_vosk
+from hri.speech.recognizers.endpointed import SoundRecognizer
 
 VARIABLE = "HRI_VOSK_MODEL"
 DEFAULT_FOLDER = Path("~/.local/share/hri/vosk")

@@ -20,9 +20,9 @@ import numpy as np
 
 from hri.core.signals import FaceBox, Image
 from hri.vision.detectors.face import FoundFace, Places, merged
-from hri.vision.detectors.network import Network, Tensor
-from hri.vision.detectors.picture import evened, is_picture
-from hri.vision.models import DETECTOR, REMEDY
+from hri.vision.detectors.opencv_network import Network, Tensor
+from hri.vision.detectors.preprocessing import evened, is_picture
+from hri.vision.face_models import DETECTOR, REMEDY
 
 SIDE = 128
 """Pixels of the square picture that the network takes."""

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.signals import FaceBox
-from hri.vision.detectors.picture import Gray
+from hri.vision.detectors.preprocessing import Gray
 
 Points = NDArray[np.float32]
 """Places in a picture, shape [n, 1, 2]: x and y in pixels."""

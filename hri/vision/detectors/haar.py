@@ -12,7 +12,7 @@ import numpy as np
 
 from hri.core.signals import FaceBox, Image
 from hri.vision.detectors.face import FoundFace, merged
-from hri.vision.detectors.picture import gray_picture
+from hri.vision.detectors.preprocessing import gray_picture
 
 FOLDER = Path(cv2.__file__).parent / "data"
 CASCADE = "haarcascade_frontalface_alt2.xml"

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from hri.core.signals import Image, Landmarks
 from hri.vision.detectors.face import FoundFace
-from hri.vision.detectors.network import Network
-from hri.vision.detectors.picture import darkness, evened, is_picture
-from hri.vision.models import MESH, REMEDY
+from hri.vision.detectors.opencv_network import Network
+from hri.vision.detectors.preprocessing import darkness, evened, is_picture
+from hri.vision.face_models import MESH, REMEDY
 
 SIDE = 192
 """Pixels of the square picture that the network takes."""

@@ -14,8 +14,8 @@ import numpy as np
 from hri.core.errors import NotAvailable
 from hri.core.signals import FaceBox, Image
 from hri.vision.detectors.face import FoundFace, merged
-from hri.vision.detectors.network import read_network_file
-from hri.vision.detectors.picture import is_picture
+from hri.vision.detectors.opencv_network import read_network_file
+from hri.vision.detectors.preprocessing import is_picture
 
 SEEN_SIDE = 320
 """Pixels of the longer side of the picture that is looked at: 8 ms, faces from 24 of 640."""

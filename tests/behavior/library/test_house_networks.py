@@ -10,9 +10,9 @@ from hri.behavior.runner import Runner
 from hri.core import paths
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.hal.configuration import load_configuration
-from hri.hal.manager import ResourceManager
+from hri.hal.resource_manager import ResourceManager
 from hri.simulation.world import SimulatedWorld
 from hri.testing import live
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from hri.behavior.behavior import Behavior
-from hri.behavior.drivers import RangeSensorReading
+from hri.behavior.device_behaviors import RangeSensorReading
 from hri.behavior.library.shaping import Clamp, Deadband, RateLimit, Scale, Smooth
 from hri.behavior.ports import DBL_MAX, Input
 from hri.core.errors import HriError

@@ -11,10 +11,10 @@ import pytest
 from hri.cli.grammar import calibrate, confuse, test as test_command
 from hri.core.clock import FakeClock
 from hri.hal.drivers.wav_file import write_wav
-from hri.hal.manager import ResourceManager
 from hri.hal.recognizer import Hypothesis, Recognizer, Segment
 from hri.hal.resource import Description
-from hri.speech.grammar.expectations import meaning_of
+from hri.hal.resource_manager import ResourceManager
+from hri.speech.grammar.lint.expectations import meaning_of
 from hri.speech.grammar.matching import parse
 from hri.speech.synthesizers import flite
 from hri.speech.trials import Clip

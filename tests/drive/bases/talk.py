@@ -3,7 +3,7 @@
 from hri.core.signals import Twist
 from hri.drive.bases.arduino import Wiring
 from hri.drive.bases.protocol import BaseProtocol, BaseReport
-from hri.simulation.bases.line import Line
+from hri.simulation.bases.emulated_line import Line
 
 STEP = 0.005
 WIRING = Wiring(

@@ -10,8 +10,8 @@ from hri.core.signals import Twist
 from hri.drive.bases.arduino import ArduinoBridge, Wiring
 from hri.drive.bases.check import checked, without_check
 from hri.hal.resource import Description
-from hri.simulation.bases.arduino import EmulatedArduino
-from hri.simulation.bases.line import Line
+from hri.simulation.bases.emulated_arduino import EmulatedArduino
+from hri.simulation.bases.emulated_line import Line
 from tests.drive.bases.talk import WIRING, Talk
 
 

@@ -10,9 +10,9 @@ from hri.core.signals import Twist
 from hri.drive.bases.create2 import TRACK, Create2, drive_direct
 from hri.drive.bases.protocol import Note
 from hri.hal.drivers.serial_port import SerialPort
-from hri.simulation.bases.create2 import SAFE, EmulatedCreate2
-from hri.simulation.bases.line import Line
-from hri.simulation.bases.terminal import PseudoTerminal
+from hri.simulation.bases.emulated_create2 import SAFE, EmulatedCreate2
+from hri.simulation.bases.emulated_line import Line
+from hri.simulation.bases.pseudo_terminal import PseudoTerminal
 from tests.drive.bases.talk import Talk
 
 PATIENCE = 5.0

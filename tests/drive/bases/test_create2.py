@@ -17,8 +17,8 @@ from hri.drive.bases.create2 import (
 )
 from hri.drive.bases.protocol import Note
 from hri.hal.resource import Description
-from hri.simulation.bases.create2 import FULL, PASSIVE, EmulatedCreate2
-from hri.simulation.bases.line import Line
+from hri.simulation.bases.emulated_create2 import FULL, PASSIVE, EmulatedCreate2
+from hri.simulation.bases.emulated_line import Line
 from tests.drive.bases.talk import Talk
 
 

@@ -11,9 +11,9 @@ import pytest
 from hri.core.signals import Twist
 from hri.drive.bases.arduino import SHAPE, ArduinoBridge, Wiring
 from hri.drive.bases.check import checked, without_check
-from hri.simulation.bases.arduino import EmulatedArduino
+from hri.simulation.bases.emulated_arduino import EmulatedArduino
+from hri.simulation.bases.emulated_line import Line
 from hri.simulation.bases.emulator import Emulator
-from hri.simulation.bases.line import Line
 from tests.drive.bases.talk import Talk
 
 SKETCH = Path(__file__).parents[3] / "config" / "firmware" / "hri_base" / "hri_base.ino"

@@ -12,9 +12,9 @@ from hri.core.signals import Twist
 from hri.drive.bases.arduino import ArduinoBridge
 from hri.drive.bases.create2 import Create2
 from hri.hal.resource import Description
-from hri.simulation.bases.arduino import EmulatedArduino
-from hri.simulation.bases.create2 import EmulatedCreate2
-from hri.simulation.bases.line import Faults, Line
+from hri.simulation.bases.emulated_arduino import EmulatedArduino
+from hri.simulation.bases.emulated_create2 import EmulatedCreate2
+from hri.simulation.bases.emulated_line import Faults, Line
 from tests.drive.bases.talk import WIRING, Talk
 
 BASES = {

@@ -7,8 +7,8 @@ import pytest
 
 from hri.core import registry
 from hri.core.clock import FakeClock
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 
 DEVICES, KINDS = "hri.drive.supervisor.devices", "hri.drive.supervisor.kinds"
 NAMES = {
@@ -20,8 +20,8 @@ NAMES = {
     "Hri.BaseCliffSensor": f"{DEVICES}:BaseCliffSensor",
     "Hri.BaseRangeSensor": f"{DEVICES}:BaseRangeSensor",
     "Hri.BaseBattery": f"{DEVICES}:BaseBattery",
-    "Hri.EmulatedArduino": "hri.simulation.bases.device:ArduinoLine",
-    "Hri.EmulatedCreate2": "hri.simulation.bases.device:Create2Line",
+    "Hri.EmulatedArduino": "hri.simulation.bases.emulated_base:ArduinoLine",
+    "Hri.EmulatedCreate2": "hri.simulation.bases.emulated_base:Create2Line",
 }
 
 

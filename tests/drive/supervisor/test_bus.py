@@ -9,7 +9,7 @@ import pytest
 
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError, NotAvailable
-from hri.core.events import EventBus
+from hri.core.event_bus import EventBus
 from hri.core.signals import Event, Twist
 from hri.drive.bases.protocol import Note
 from hri.drive.supervisor.announcement import announce
@@ -22,11 +22,11 @@ from hri.drive.supervisor.devices import (
     BaseOdometry,
     BaseRangeSensor,
 )
-from hri.hal.manager import ResourceManager
 from hri.hal.pending import Interrupted
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.simulation.bases.body import RoomBody
-from hri.simulation.bases.device import ArduinoLine, Create2Line
+from hri.simulation.bases.emulated_base import ArduinoLine, Create2Line
 from hri.simulation.world import SimulatedWorld
 
 GO = Twist(0.3)

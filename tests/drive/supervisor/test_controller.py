@@ -15,8 +15,8 @@ from hri.drive.supervisor.cause import POWER_UP, Cause
 from hri.drive.supervisor.link import Ask, Dock, Heartbeat, Nearest, Release, Song, Trip
 from hri.drive.supervisor.multiplexer import Level
 from hri.hal.motion import REST
-from hri.simulation.bases.create2 import PASSIVE
-from hri.simulation.bases.line import Faults
+from hri.simulation.bases.emulated_create2 import PASSIVE
+from hri.simulation.bases.emulated_line import Faults
 
 
 @pytest.mark.parametrize("name", FAULTS)

@@ -29,9 +29,9 @@ from hri.drive.supervisor.multiplexer import Level
 from hri.drive.supervisor.process import Settings
 from hri.drive.supervisor.remote import Remote
 from hri.hal.drivers.serial_port import Backoff
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
-from hri.simulation.bases.terminal import PseudoTerminal
+from hri.hal.resource_manager import ResourceManager
+from hri.simulation.bases.pseudo_terminal import PseudoTerminal
 
 SOON = 3.0
 """Seconds; on a quiet machine the figures are below a tenth of it."""

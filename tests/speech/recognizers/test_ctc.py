@@ -11,9 +11,9 @@ from hypothesis import given, strategies as st
 
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError, NotAvailable
-from hri.hal.manager import ResourceManager
 from hri.hal.recognizer import Segment
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.speech.grammar import load_grammar
 from hri.speech.pronunciation.lexicon import VARIABLE
 from hri.speech.recognizers.ctc.confidence import (
@@ -24,9 +24,9 @@ from hri.speech.recognizers.ctc.confidence import (
     scores_of,
     shares,
 )
+from hri.speech.recognizers.ctc.decoder import CtcRecognizer
 from hri.speech.recognizers.ctc.lattice import Path, Span
-from hri.speech.recognizers.ctc.recognizer import CtcRecognizer
-from hri.speech.recognizers.ctc.silence import KEPT, noise_of, sounding
+from hri.speech.recognizers.ctc.loudness import KEPT, noise_of, sounding
 from tests.recorded import spoken_by_a_person
 from tests.speech.recognizers.speaking import spoken
 from tests.speech.recognizers.word_graphs import random_scores

@@ -11,8 +11,8 @@ from hypothesis import given, settings, strategies as st
 
 from hri.core.errors import HriError
 from hri.speech.recognizers.ctc.classes import CLASSES, TOKENS, folding
+from hri.speech.recognizers.ctc.conformer import _gelu, load_network
 from hri.speech.recognizers.ctc.features import WIDTH, log_mel, padded
-from hri.speech.recognizers.ctc.network import _gelu, load_network
 from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
 from tests.recorded import spoken_by_a_person
 from tests.speech.recognizers.speaking import spoken
@@ -172,7 +172,7 @@ def test_one_thread_does_the_arithmetic_unless_the_user_says_otherwise(chosen, t
 
 
 def test_tensors_of_another_shape_are_refused(tensors):
-    from hri.speech.recognizers.ctc.network import Network
+    from hri.speech.recognizers.ctc.conformer import Network
 
     with pytest.raises(HriError, match="another network"):
         Network({**tensors, "mel_fb": np.zeros((2, 2), np.float32)})

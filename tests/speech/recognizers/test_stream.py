@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from hri.speech.recognizers.ctc.network import FARTHEST, load_network
-from hri.speech.recognizers.ctc.stream import AHEAD, CHUNK, Stream
+from hri.speech.recognizers.ctc.conformer import FARTHEST, load_network
+from hri.speech.recognizers.ctc.posterior_stream import AHEAD, CHUNK, Stream
 
 
 @pytest.fixture(scope="module")

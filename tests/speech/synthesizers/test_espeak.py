@@ -11,8 +11,8 @@ from hri.core.errors import AuthoringError, HriError
 from hri.core.signals import EmotionState, Prosody, Speech
 from hri.emotion.display import felt_now, load_display
 from hri.emotion.emotions import NAMES
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.speech.synthesizers.espeak import EspeakVoice
 from hri.speech.synthesizers.espeak_library import load_espeak
 

@@ -9,9 +9,9 @@ from hri.core.clock import FakeClock
 from hri.core.signals import EmotionState
 from hri.emotion.display import felt_now, load_display
 from hri.hal.drivers.resampling import resample
-from hri.hal.manager import ResourceManager
 from hri.hal.recognizer import Segment
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.speech.grammar import load_grammar
 from hri.speech.recognizers.pocketsphinx import PocketSphinxRecognizer
 from hri.speech.synthesizers.espeak import EspeakVoice

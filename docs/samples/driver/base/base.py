@@ -1,7 +1,7 @@
 """Shows what the base measures, drives 20 cm ahead and back, and shows it again."""
 
 from hri.core import Clock, RealClock
-from hri.core.units import cm
+from hri.core.quantities import cm
 from hri.hal import Battery, Bumper, DriveSystem, Odometry, RangeSensor, ResourceManager
 
 SPEED, ACCELERATION = 20 * cm, 40 * cm

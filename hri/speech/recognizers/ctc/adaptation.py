@@ -17,8 +17,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hri.core.archive import BROKEN, check_members
 from hri.core.errors import HriError
+from hri.core.fetch.archive import BROKEN, check_members
 from hri.core.reading import opened
 from hri.speech.recognizers.ctc.weights import Tensor
 

@@ -1,0 +1,1 @@
+"""Getting large files from servers: archives, downloads and wheels of PyPI."""

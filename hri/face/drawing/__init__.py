@@ -1,0 +1,1 @@
+"""From drawings to one linear morph: SVG, outlines, paint, and the baked display list."""

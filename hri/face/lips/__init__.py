@@ -1,0 +1,1 @@
+"""From the sounds of a voice to the shapes of the mouth."""

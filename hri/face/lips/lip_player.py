@@ -1,0 +1,63 @@
+"""The mouth while the robot talks: the track of the lips at what has really been heard."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from hri.core.signals import Speech
+from hri.face.lips.lipsync import LipTrack, lip_track
+from hri.face.lips.viseme_shapes import Articulation
+from hri.face.model import FaceModel
+from hri.face.motion.spring import Follower, Spring, Values
+
+PICTURE_LEAD = 0.05
+"""Seconds by which the track of the lips is read ahead of what is heard: one frame until the
+picture is seen, and a little more, since lips that are early look right and late ones do not."""
+RAISED = {"browOuterUp": 0.4, "browInnerUp": 0.25, "headPitch": 0.12}
+"""What a stressed syllable lifts."""
+
+_LIPS = 70.0
+"""Stiffness in radians a second: shut within 100 ms of a cut."""
+_TALKING = 30.0
+"""Of how speech takes the mouth over, and gives it back."""
+
+
+class Speaking:
+    """The mouth of one face."""
+
+    def __init__(self, model: FaceModel, latency: float) -> None:
+        """`latency` is how many seconds pass until a picture of the mouth is seen."""
+        self.speech: Speech | None = None
+        """What is being said."""
+        self._latency = latency
+        self._track: LipTrack | None = None
+        self._followed: LipTrack | None = None
+        self._articulation = Articulation(model)
+        there = {name: weight for name, weight in RAISED.items() if name in model.names}
+        self._raised = model.vector(there).astype(float)
+        self._rest = np.zeros(len(model.channels))
+        self._mouth = Spring(len(model.channels), _LIPS)
+        self._talking = Follower(0.0)
+
+    def say(self, speech: Speech | None) -> None:
+        """Follow this speech; None when nothing is said."""
+        self.speech = speech
+        self._track = None if speech is None else lip_track(speech)
+
+    def follow(self, position: float | None, dt: float) -> tuple[Values, float]:
+        """Weights of all channels, and how much speech owns the mouth, 0 to 1.
+
+        `position` is how many seconds have been heard. Nothing waits in a queue: what comes too
+        late to be seen is never shown. A track that begins or is cut short glides.
+        """
+        is_heard = position is not None and math.isfinite(position)
+        track = self._track if is_heard else None
+        goal = self._rest
+        if track is not None and position is not None:
+            at = position + self._latency
+            goal = self._articulation.vector(track, at) + track.emphasis(at) * self._raised
+        leaps, self._followed = track is not self._followed, track
+        talking = self._talking.follow(float(self.speech is not None), dt, _TALKING)
+        return self._mouth.follow(goal, dt, leaps=leaps), float(talking)

@@ -1,0 +1,1 @@
+"""How a face moves over time: expressions, gestures, gaze, lids and idle life."""

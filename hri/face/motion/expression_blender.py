@@ -1,0 +1,127 @@
+"""Mood, states and expressions over time: what is asked for jumps, what shows glides."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from hri.core.errors import HriError
+from hri.core.signals import Expression
+from hri.face.model import FaceModel
+from hri.face.motion.affect_map import AffectMap
+from hri.face.motion.lids import Lids
+from hri.face.motion.spring import ARRIVAL, Follower, Values
+from hri.face.regions import NAMES, by_region
+from hri.face.settings import Timing
+
+MOOD = 0.6
+"""How much of an expression a mood shows: it is weaker than what is shown on purpose."""
+COVERING = ("asleep", "error")
+"""States whose look hides what is expressed; that of the others shows where nothing is."""
+PACES = {**dict.fromkeys(NAMES, 1.0), "brows": 1.3, "lids": 1.3, "eyes": 1.3, "head": 0.7}
+"""How fast an expression sets in, of its onset: brows and eyes lead, the head follows."""
+
+_BELOW = 4.0
+"""Stiffness of mood and state, radians a second."""
+_CHANGE = 8.0
+"""Least stiffness of an expression that grows stronger or weaker."""
+
+
+class Expressing:
+    """What a face shows of what it feels."""
+
+    def __init__(self, model: FaceModel) -> None:
+        self.label = ""
+        """Of the expression that is shown, or was last asked for; empty for none."""
+        self._model = model
+        self._affect = AffectMap(model)
+        self._lids = Lids(model)
+        size = len(model.channels)
+        # Behind the weights stands how much an expression is there at all.
+        self._goal = np.zeros(size + 1)
+        self._shown = Follower(self._goal, np.append(by_region(model.channels, PACES), 1.0))
+        self._timing, self._stiffness = Timing(), _CHANGE
+        self._lasts: float | None = None
+        self._falls_at = math.inf
+        self._mood: tuple[float, float] | None = None
+        self._state = ""
+        self._below_goal = np.zeros(size)
+        self._below = Follower(self._below_goal)
+
+    def show(self, expression: Expression) -> None:
+        """Show an expression. Raises HriError for an unknown label or what is not finite."""
+        intensity = bounded("intensity", expression.intensity, 0.0, 1.0)
+        if expression.duration is not None and not 0 <= expression.duration < math.inf:
+            what = f"an expression for {expression.duration} s"
+            raise HriError(f"{what} - give seconds from 0, or None to let it stay")
+        weights = self._model.vector(self._model.expression(expression.label))
+        # Neutral is how a mood looks through.
+        is_neutral = expression.label == "neutral"
+        self._goal = intensity * np.append(weights.astype(float), float(not is_neutral))
+        self._lasts, self._falls_at = expression.duration, math.inf
+        before, self._timing = self._timing, self._model.settings.timing[expression.label]
+        if expression.label == self.label:
+            self._stiffness = max(self._stiffness, _CHANGE)
+        else:
+            seconds = before.offset_s if is_neutral else self._timing.onset_s
+            self._stiffness = ARRIVAL / seconds
+        self.label = expression.label
+
+    def fall(self) -> None:
+        """Let the expression go."""
+        self.label, self._goal, self._falls_at = "", np.zeros_like(self._goal), math.inf
+        self._stiffness = ARRIVAL / self._timing.offset_s
+
+    def feel(self, mood: tuple[float, float] | None) -> None:
+        """Have a mood: valence and arousal, -1 to 1; None for none."""
+        if mood != self._mood:
+            self._mood = mood
+            self._settle()
+
+    def be(self, state: str) -> None:
+        """Look like a state, if the face has an expression of that name; "" for none."""
+        self._state = state
+        self._settle()
+
+    @property
+    def shuts(self) -> float:
+        """How far what is asked for shuts the eyes, 0 to 1."""
+        goal = self._wanted()
+        shown = goal[:-1] + (1 - goal[-1]) * self._below_goal
+        return self._lids.shut(shown)
+
+    def follow(self, now: float, dt: float) -> Values:
+        """The weights of all channels: the mood, and in its place as much expression as there is.
+
+        An expression that has lasted long enough falls.
+        """
+        if self._lasts is not None:
+            lasts = self._lasts or self._timing.onset_s + self._timing.apex_s
+            self._falls_at, self._lasts = now + lasts, None
+        if now >= self._falls_at:
+            self.fall()
+        shown = self._shown.follow(self._wanted(), dt, self._stiffness)
+        below = self._below.follow(self._below_goal, dt, _BELOW)
+        mixed: Values = shown[:-1] + (1 - shown[-1]) * below
+        return mixed
+
+    def _wanted(self) -> Values:
+        """What an expression asks for, and how much it is there."""
+        return np.zeros_like(self._goal) if self._state in COVERING else self._goal
+
+    def _settle(self) -> None:
+        """Set what shows below the expression: the look of the state, else the mood."""
+        goal = np.zeros(len(self._below_goal))
+        if self._state in self._model.expressions:
+            goal = self._model.vector(self._model.expression(self._state)).astype(float)
+        elif self._mood is not None:
+            goal = MOOD * self._affect.weights(*self._mood).astype(float)
+        self._below_goal = goal
+
+
+def bounded(name: str, value: float, least: float, most: float) -> float:
+    """The value within its range. Raises HriError when it is not finite."""
+    if not math.isfinite(value):
+        raise HriError(f"the {name} is {value} - give a number from {least:g} to {most:g}")
+    return min(max(float(value), least), most)

@@ -1,0 +1,41 @@
+"""What all simulated devices have in common: the world they are in.
+
+    <DeviceBus id="world" type="Hri.SimulatedWorld">
+      <Device id="simulated_camera" type="Hri.SimulatedCamera"/>
+    </DeviceBus>
+
+A device whose bus is no simulated world uses the first one of the configuration. Where there is
+none, all of them share one that is made for them, the world "home".
+"""
+
+from __future__ import annotations
+
+from hri.core import registry
+from hri.hal.resource import Description, Resource
+from hri.hal.resource_manager import ResourceManager
+from hri.simulation.world import SimulatedWorld
+
+TYPE = "Hri.SimulatedWorld"
+OWN_IDS = ("world", "simulated_world")
+"""Id of the world that is made where none is configured; the second if the first is taken."""
+
+
+class InWorld(Resource):
+    """A device of the simulated world."""
+
+    world: SimulatedWorld
+
+    def _open(self) -> None:
+        super()._open()
+        self.world = self.use(world_id(self.manager, self.description.bus), SimulatedWorld)
+
+
+def world_id(manager: ResourceManager, bus: str = "") -> str:
+    """Id of the simulated world for what sits on that bus; one is declared where there is none."""
+    kinds = {d.id: registry.canonical(d.type) for d in list(manager.descriptions.values())}
+    worlds = [id for id, kind in kinds.items() if kind == TYPE]
+    if worlds:
+        return bus if bus in worlds else worlds[0]
+    id = OWN_IDS[OWN_IDS[0] in kinds]
+    manager.declare(Description(id, TYPE))
+    return id

@@ -1,0 +1,183 @@
+"""People for tests and demonstrations: some faces, how one of them appears, and the picture."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from hri.core.signals import Image
+from hri.simulation.people.backdrop import back_hair, body, room
+from hri.simulation.people.body_motion import Posture
+from hri.simulation.people.head import paint_head
+from hri.simulation.people.looks import DEFAULT_ACTOR, Looks
+from hri.simulation.people.portrait import Mien
+
+ACTORS: Mapping[str, Looks] = {
+    DEFAULT_ACTOR: Looks(),
+    "bruno": Looks(
+        skin=(238, 190, 166),
+        hair=(120, 100, 84),
+        brows=(104, 78, 60),
+        iris=(92, 116, 140),
+        shirt=(120, 72, 66),
+        width=1.06,
+        jaw=1.12,
+        nose=1.15,
+        eyes=0.92,
+        mouth=1.05,
+        hairline=-0.70,
+        beard=0.75,
+    ),
+    "chima": Looks(
+        skin=(122, 82, 62),
+        hair=(28, 24, 24),
+        brows=(26, 20, 20),
+        lips=(124, 66, 66),
+        iris=(52, 34, 26),
+        shirt=(206, 178, 92),
+        width=1.02,
+        nose=1.05,
+        brow=1.25,
+        mouth=1.12,
+        hairline=-0.66,
+    ),
+    "mei": Looks(
+        skin=(232, 192, 160),
+        hair=(34, 28, 30),
+        brows=(44, 34, 32),
+        lips=(190, 96, 98),
+        iris=(58, 40, 30),
+        shirt=(86, 120, 92),
+        width=0.97,
+        jaw=0.94,
+        nose=0.88,
+        brow=0.7,
+        eyes=0.96,
+        mouth=0.95,
+        hairline=-0.58,
+        hair_length=0.9,
+        has_glasses=True,
+    ),
+    "kofi": Looks(
+        skin=(146, 100, 78),
+        hair=(92, 90, 92),
+        brows=(52, 46, 46),
+        lips=(140, 80, 78),
+        iris=(60, 40, 30),
+        shirt=(224, 224, 218),
+        width=1.04,
+        jaw=1.06,
+        nose=0.95,
+        brow=0.5,
+        mouth=1.1,
+        hairline=-0.74,
+        beard=0.35,
+        has_glasses=True,
+        is_for_tests=True,
+    ),
+    "tove": Looks(
+        skin=(244, 204, 184),
+        hair=(206, 170, 112),
+        brows=(150, 114, 76),
+        lips=(206, 112, 108),
+        iris=(104, 138, 160),
+        shirt=(96, 82, 128),
+        width=0.95,
+        jaw=1.04,
+        nose=1.05,
+        eyes=1.06,
+        hairline=-0.60,
+        hair_length=0.55,
+        is_for_tests=True,
+    ),
+}
+"""The faces; those that are for tests are seen by nothing that is tuned."""
+
+
+@dataclass(frozen=True, slots=True)
+class Appearance:
+    """Somebody in a picture. Angles as in HeadPose, radians, all 0 face the camera."""
+
+    actor: str = DEFAULT_ACTOR
+    """A key of `ACTORS`."""
+    pitch: float = 0.0
+    yaw: float = 0.0
+    roll: float = 0.0
+    center: tuple[float, float] = (160.0, 120.0)
+    """Middle of the head, pixels."""
+    height: float = 105.0
+    """Chin to crown, pixels."""
+    mouth: float = 0.0
+    """0 shut to 1 open."""
+    lids: float = 1.0
+    """0 shut to 1 open."""
+    smile: float = 0.0
+    """0 to 1."""
+    brows: float = 0.0
+    """-1 drawn together and down, 0 at rest, 1 raised."""
+
+
+HEAD_HEIGHT = 0.24
+"""Meters from chin to crown, of an adult."""
+NEAREST = 0.4
+"""Meters; somebody who is nearer leans back."""
+
+
+@dataclass(frozen=True, slots=True)
+class Optics:
+    """How a camera casts its picture."""
+
+    width: int = 320
+    """Pixels."""
+    height: int = 240
+    field_of_view: float = 0.6
+    """Radians, across."""
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height."""
+        return self.width, self.height
+
+    def show(
+        self, actor: str, held: Posture, right: float, distance: float, lids: float = 1.0
+    ) -> Appearance:
+        """How somebody appears who stands so many meters ahead and to the right at eye level."""
+        focal = self.width / 2 / math.tan(self.field_of_view / 2)
+        meter = focal / max(NEAREST, distance - held.nearer)
+        return Appearance(
+            actor,
+            held.pitch,
+            held.yaw,
+            held.roll,
+            center=(
+                self.width / 2 + (right + held.right) * meter,
+                self.height / 2 + held.down * meter,
+            ),
+            height=HEAD_HEIGHT * meter,
+            mouth=held.mouth,
+            lids=lids,
+            smile=held.smile,
+            brows=held.brows,
+        )
+
+
+def render_people(
+    appearances: Iterable[Appearance], size: tuple[int, int] = (320, 240), scene: int = 0
+) -> Image:
+    """The picture of these people in a room, the far ones first; the same for the same arguments.
+
+    `size` is width and height; each number of a `scene` is another room.
+    """
+    image = room(size, scene).copy()
+    for shown in sorted(appearances, key=lambda shown: shown.height):
+        looks, scale = ACTORS[shown.actor], shown.height / 2
+        if looks.hair_length:
+            # It hangs on the head, so it swings to the side where the face does not look.
+            x = shown.center[0] - 0.25 * scale * math.sin(shown.yaw)
+            back_hair(looks).on(image, (x, shown.center[1]), scale, shown.roll)
+        body(looks).on(image, shown.center, scale, 0.0)
+        mien = Mien.of(shown.mouth, shown.lids, shown.smile, shown.brows)
+        angles = (shown.pitch, shown.yaw, shown.roll)
+        paint_head(image, looks, mien, angles, shown.center, shown.height)
+    return image

@@ -1,0 +1,196 @@
+"""What is around the head of a simulated person: hair behind it, neck, clothes, and the room."""
+
+from __future__ import annotations
+
+import math
+import random
+from dataclasses import dataclass
+from functools import lru_cache
+
+import cv2
+import numpy as np
+
+from hri.core.signals import Image
+from hri.simulation.people.looks import Looks
+from hri.simulation.people.soft_edges import Color, Field, Point, filled
+
+Outline = tuple[Point, ...]
+
+NECK: Outline = ((-0.38, 0.3), (-0.40, 1.15), (-0.62, 1.36), (0.0, 1.62))
+SHIRT: Outline = (
+    (0.0, 1.60),
+    (-0.36, 1.42),
+    (-0.60, 1.27),
+    (-1.30, 1.50),
+    (-1.66, 1.80),
+    (-1.86, 2.60),
+    (-1.95, 4.6),
+    (-1.55, 6.3),
+    (-1.30, 6.3),
+)
+TROUSERS: Outline = (
+    (0.0, 6.0),
+    (-1.30, 6.0),
+    (-1.25, 8.0),
+    (-1.0, 13.4),
+    (-0.25, 13.4),
+    (0.0, 7.4),
+)
+"""The left half of the outlines, in half heads from the middle of the head."""
+TROUSERS_COLOR = np.array((58, 58, 70), np.float32)
+
+SPRITE_DENSITY = 48
+"""Points of the drawn body to a half head."""
+SPRITE_LEFT, SPRITE_TOP, SPRITE_BOTTOM = -2.2, -1.3, 13.6
+"""Where the drawn body begins and ends; it is as wide to the right."""
+
+Box = tuple[float, float, float, float, Color]
+WALL: tuple[Color, Color] = ((206, 198, 184), (168, 156, 142))
+"""At the top and at the bottom."""
+FURNITURE: tuple[Box, ...] = (
+    (0.03, 0.08, 0.25, 0.62, (236, 238, 236)),  # window frame
+    (0.05, 0.11, 0.135, 0.59, (178, 206, 226)),
+    (0.145, 0.11, 0.23, 0.59, (188, 214, 232)),
+    (0.05, 0.42, 0.23, 0.59, (150, 176, 150)),  # trees in it
+    (0.76, 0.16, 0.98, 0.60, (128, 96, 68)),  # shelf
+    (0.775, 0.19, 0.965, 0.37, (92, 68, 50)),
+    (0.775, 0.40, 0.965, 0.57, (92, 68, 50)),
+    (0.785, 0.22, 0.805, 0.37, (150, 62, 54)),  # books
+    (0.81, 0.24, 0.835, 0.37, (64, 96, 112)),
+    (0.84, 0.21, 0.86, 0.37, (190, 164, 98)),
+    (0.865, 0.25, 0.895, 0.37, (84, 112, 84)),
+    (0.90, 0.23, 0.92, 0.37, (120, 84, 110)),
+    (0.80, 0.43, 0.82, 0.57, (70, 84, 120)),
+    (0.825, 0.45, 0.855, 0.57, (176, 120, 70)),
+    (0.86, 0.42, 0.885, 0.57, (110, 60, 60)),
+    (0.93, 0.44, 0.955, 0.57, (196, 188, 170)),
+    (0.0, 0.90, 1.0, 0.915, (214, 208, 198)),  # skirting
+)
+"""Left, top, right, bottom as parts of the picture, color."""
+
+
+@lru_cache(maxsize=8)
+def room(size: tuple[int, int], scene: int = 0) -> Image:
+    """A room behind the people, a little out of focus; room 0 is at home, others are drawn by lot.
+
+    Shared: copy it before you paint on it.
+    """
+    width, height = size
+    (top, bottom), furniture = (WALL, FURNITURE) if scene == 0 else _furnished(scene)
+    blend = np.linspace(0, 1, height)[:, None, None]
+    wall = np.array(top) * (1 - blend) + np.array(bottom) * blend
+    glow = 1.08 - 0.16 * np.linspace(0, 1, width)[None, :, None]
+    image: Image = np.clip(wall * glow, 0, 255).astype(np.uint8)
+    for left, upper, right, lower, color in furniture:
+        corners = (
+            (round(left * width), round(upper * height)),
+            (round(right * width), round(lower * height)),
+        )
+        cv2.rectangle(image, *corners, color, cv2.FILLED)
+    return cv2.GaussianBlur(image, (0, 0), max(0.5, width / 160)).astype(np.uint8)
+
+
+def _furnished(scene: int) -> tuple[tuple[Color, Color], tuple[Box, ...]]:
+    """A wall and what stands before it."""
+    dice = random.Random(f"room {scene}")
+    top = _muted(dice, 120, 225)
+    boxes: list[Box] = []
+    for _ in range(dice.randint(3, 6)):  # Pictures, doors, cupboards.
+        left, upper = dice.uniform(-0.1, 0.9), dice.uniform(-0.1, 0.6)
+        right, lower = left + dice.uniform(0.08, 0.3), upper + dice.uniform(0.1, 0.5)
+        boxes.append((left, upper, right, lower, _muted(dice, 40, 235)))
+        for _ in range(dice.randint(0, 5)):
+            x, width = dice.uniform(left, right), dice.uniform(0.01, 0.05)
+            inner = (x, upper + 0.03, min(x + width, right), lower - 0.03)
+            boxes.append((*inner, _muted(dice, 30, 240)))
+    red, green, blue = top
+    return (top, (0.8 * red, 0.8 * green, 0.8 * blue)), tuple(boxes)
+
+
+def _muted(dice: random.Random, darkest: float, brightest: float) -> Color:
+    """A color of a home: nearer to gray than one drawn by lot."""
+    red, green, blue = (dice.uniform(darkest, brightest) for _ in range(3))
+    gray = (red + green + blue) / 3
+    return (0.6 * gray + 0.4 * red, 0.6 * gray + 0.4 * green, 0.6 * gray + 0.4 * blue)
+
+
+@dataclass(frozen=True, eq=False)
+class Sprite:
+    """Something flat: its color where it covers, and how much it lets through; 0 to 255 both."""
+
+    color: Image
+    through: Image
+
+    def on(self, image: Image, center: tuple[float, float], scale: float, roll: float) -> None:
+        """Lay it on the picture, turned about the middle of the head; pixels, half heads."""
+        grow = scale / SPRITE_DENSITY
+        cos, sin = grow * math.cos(roll), grow * math.sin(roll)
+        x, y = -SPRITE_LEFT * SPRITE_DENSITY, -SPRITE_TOP * SPRITE_DENSITY
+        way = np.array(
+            [
+                [cos, -sin, center[0] - cos * x + sin * y],
+                [sin, cos, center[1] - sin * x - cos * y],
+            ],
+        )
+        height, width = image.shape[:2]
+        reach = -SPRITE_LEFT * scale + abs(sin) * scale
+        left, right = (min(width, max(0, round(center[0] + s * reach))) for s in (-1, 1))
+        top = min(height, max(0, round(center[1] + (SPRITE_TOP - abs(sin)) * scale)))
+        bottom = min(height, max(0, round(center[1] + SPRITE_BOTTOM * scale)))
+        if right - left < 1 or bottom - top < 1:
+            return
+        way[:, 2] -= (left, top)
+        size = (right - left, bottom - top)
+        part = image[top:bottom, left:right]
+        through = cv2.warpAffine(self.through, way, size, borderValue=(255, 255, 255))
+        color = cv2.warpAffine(self.color, way, size)
+        part[:] = cv2.add(cv2.multiply(part, through, scale=1 / 255), color)
+
+
+@lru_cache(maxsize=16)
+def body(looks: Looks) -> Sprite:
+    """Neck, shirt and trousers."""
+    x, y = _plane()
+    turned_away = np.clip(1.05 - 0.10 * x - 0.05 * x * x, 0.3, 1.1)
+    below_chin = 0.5 + 0.5 * np.clip((y - 0.75) / 0.5, 0, 1)
+    return _sprite(
+        (
+            (NECK, np.array(looks.skin, np.float32) * below_chin * turned_away),
+            (TROUSERS, TROUSERS_COLOR * turned_away),
+            (SHIRT, np.array(looks.shirt, np.float32) * turned_away),
+        )
+    )
+
+
+@lru_cache(maxsize=16)
+def back_hair(looks: Looks) -> Sprite:
+    """Long hair behind the neck."""
+    x, y = _plane()
+    low = 0.35 + looks.hair_length
+    outline: Outline = ((0.0, -0.95), (-0.3, -0.92), (-0.55, -0.75), (-0.72, -0.48), (-0.8, -0.1))
+    outline += ((-0.84, 0.5 * low), (-0.84, 0.85 * low), (-0.74, low), (-0.5, low + 0.1))
+    outline += ((0.0, low + 0.12),)
+    strands = (0.72 + 0.10 * np.sin(31 * x + 2 * y)) * np.ones_like(y)
+    return _sprite(((outline, np.array(looks.hair, np.float32) * strands),))
+
+
+def _plane() -> tuple[Field, Field]:
+    """The coordinates of a sprite's points, for colors of three channels."""
+    x = np.arange(SPRITE_LEFT, -SPRITE_LEFT, 1 / SPRITE_DENSITY, dtype=np.float32)
+    y = np.arange(SPRITE_TOP, SPRITE_BOTTOM, 1 / SPRITE_DENSITY, dtype=np.float32)
+    return x[None, :, None], y[:, None, None]
+
+
+def _sprite(parts: tuple[tuple[Outline, Field], ...]) -> Sprite:
+    x, y = _plane()
+    shape = (y.shape[0], x.shape[1], 3)
+    color, through = np.zeros(shape, np.float32), np.ones(shape, np.float32)
+    for outline, paint in parts:
+        whole = np.array([*outline, *((-px, py) for px, py in reversed(outline))])
+        points = (whole - (SPRITE_LEFT, SPRITE_TOP)) * SPRITE_DENSITY
+        cover = filled(shape, [points], 0.8)[..., None]
+        color += (paint - color) * cover
+        through *= 1 - cover
+    return Sprite(
+        np.clip(color, 0, 255).astype(np.uint8), np.clip(255 * through, 0, 255).astype(np.uint8)
+    )

@@ -1,0 +1,1 @@
+"""What the author of a grammar should know: errors, ambiguity, confusion, expectations."""

@@ -1,0 +1,387 @@
+"""Reads a grammar file and all it imports, and finds the rule behind every name.
+
+A grammar `com.acme.colors` is looked for as `colors.jsgf` and as `com/acme/colors.jsgf`: beside
+the file that imports it, then in the folders above it as far as its own package goes, then in
+`grammars/` of the folders of HRI_PATH and of the house.
+
+A grammar with `/** @extends companion */` before its `grammar` understands the commands of that one
+as well. A rule of its own hides one of the same name there, and may still call it as
+`<companion.greet>`.
+
+A rule is called by its name alone, by `<colors.red>`, or by `<com.acme.colors.red>`; the last
+needs no import (JSGF 1.0, 3.3). A grammar's own rules hide imported ones of the same name.
+"""
+
+from __future__ import annotations
+
+import codecs
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+
+from hri.core import paths
+from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
+from hri.core.reading import read_bytes, read_text
+from hri.speech.grammar import analysis
+from hri.speech.grammar.expressions import RuleReference, Span, rename
+from hri.speech.grammar.jsgf import Document, Import, NameListImport, read_jsgf
+from hri.speech.grammar.name_lists import read_names
+from hri.speech.grammar.rules import Grammar, Rule
+
+MOST_FILES = 100
+"""Files that one grammar may import, directly or not."""
+
+_ENCODING = re.compile(rb"\s*#JSGF[ \t]+V1\.0[ \t]+([\w.:-]+)[^\n;]*;")
+_KNOWN_ENCODINGS = re.compile(
+    r"ascii|utf-(8|16|32).*|iso8859.*|iso2022.*|cp\d+|koi8.*|mac.*|euc.*|shift.*|gb.*|big5.*"
+)
+"""Python's names of encodings of text; others are transformations, and some take for ever."""
+
+
+def load_grammar(path: Path) -> Grammar:
+    """The grammar of a file and of all it imports, ready to be used.
+
+    Raises AuthoringError for the first mistake in it, HriError when it cannot be read.
+    """
+    grammar, errors = read_grammar(path)
+    errors = errors or analysis.errors(grammar)
+    if errors:
+        raise errors[0]
+    return grammar
+
+
+def read_grammar(path: Path) -> tuple[Grammar, list[AuthoringError]]:
+    """The grammar as far as it can be read, and the mistakes in its writing.
+
+    What the rules say is not looked at yet: see `hri.speech.grammar.lint.linter`.
+    Raises HriError when the file, or one that it imports, cannot be read at all.
+    """
+    return _Loader().load(path)
+
+
+def read_source(path: Path) -> str:
+    """The text of a grammar file in the encoding its header names, UTF-8 without one.
+
+    Raises HriError when it cannot be read, AuthoringError when it is no text in that encoding.
+    """
+    if paths.exists(path) and path.is_dir():
+        raise HriError(f"{path}: this is a folder - name a grammar file in it")
+    if not paths.exists(path):
+        raise HriError(f"{path}: no such grammar file - check the path")
+    raw = read_bytes(path, "grammar")
+    match = _ENCODING.match(raw)
+    encoding = match[1].decode(errors="replace") if match else "utf-8"
+    if raw.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        encoding = "utf-16"
+    remedy = 'save it as UTF-8 and write "#JSGF V1.0 UTF-8 en;"'
+    try:
+        name = codecs.lookup(encoding).name
+        if name in ("utf-8", "ascii"):
+            return read_text(path, "grammar")
+        if _KNOWN_ENCODINGS.fullmatch(name):
+            return raw.decode(encoding)
+        raise LookupError
+    except LookupError as error:
+        raise AuthoringError(Place(path), f'unknown encoding "{encoding}"', remedy) from error
+    except UnicodeError as error:
+        raise AuthoringError(Place(path), f"this is no {encoding} text", remedy) from error
+
+
+@dataclass(frozen=True, eq=False)
+class _File:
+    """One grammar file and what the names in it mean."""
+
+    document: Document
+    prefix: str
+    """Stands before the names of its rules in their keys; empty for the main file."""
+    is_heard: bool = False
+    """Whether its public rules are commands: the main file's are, and those of what it extends."""
+    own: dict[str, str] = field(default_factory=dict)
+    """Keys of the rules it defines, by name."""
+    imported: dict[str, list[str]] = field(default_factory=dict)
+    """Keys of imported rules by the names this file may call them; two are one too many."""
+    brought: list[tuple[Import | NameListImport, set[str]]] = field(default_factory=list)
+    """Its imports, and the keys of what they bring."""
+    used: set[str] = field(default_factory=set)
+    """Keys of the rules it refers to."""
+    lost: list[str] = field(default_factory=list)
+    """Imported grammars that are missing; any name may be theirs."""
+
+    def place(self, span: Span) -> Place:
+        return Place(self.document.path, span.line, span.column)
+
+    def idle_imports(self) -> tuple[Import | NameListImport, ...]:
+        """Those that bring nothing it refers to."""
+        return tuple(use for use, keys in self.brought if self.used.isdisjoint(keys))
+
+    def public_names(self) -> dict[str, str]:
+        """Keys of the rules that others may use, by name."""
+        names = [rule.name for rule in self.document.rules if rule.is_public]
+        return {name: self.own[name] for name in (*names, *self.document.broken)}
+
+
+class _Loader:
+    """Opens files one after the other, then gives every rule its key and its references keys."""
+
+    def __init__(self) -> None:
+        self._errors: list[AuthoringError] = []
+        self._rules: dict[str, Rule] = {}
+        self._broken: set[str] = set()
+        self._files: dict[Path, _File] = {}
+        self._pending: list[_File] = []
+        self._taken: set[str] = set()
+        """Names that stand for a rule without a prefix."""
+
+    def load(self, path: Path) -> tuple[Grammar, list[AuthoringError]]:
+        main = self._read(path, prefix="", is_heard=True)
+        self._extend(main, (main,))
+        while self._pending:
+            file = self._pending.pop(0)
+            for use in file.document.imports:
+                self._import(file, use)
+            self._define(file)
+        name = main.document.name.rpartition(".")[2] or path.stem
+        broken = frozenset(self._broken)
+        grammar = Grammar(
+            name,
+            path,
+            self._rules,
+            broken,
+            locale=main.document.locale,
+            idle_imports=main.idle_imports(),
+            names=frozenset({*main.own, *main.imported}),
+        )
+        return grammar, self._errors
+
+    def _read(self, path: Path, prefix: str, is_heard: bool = False) -> _File:
+        document = read_jsgf(read_source(path), path)
+        self._errors += document.errors
+        file = self._files[path.resolve()] = _File(document, prefix, is_heard)
+        self._pending.append(file)
+        commands = {rule.name for rule in document.rules if rule.is_public and is_heard}
+        names = [rule.name for rule in document.rules] + [use.name for use in document.name_lists]
+        for name in (*names, *document.broken):
+            is_command = name in commands and name not in self._taken
+            file.own[name] = name if is_command else prefix + name
+        self._taken |= {name for name, key in file.own.items() if name == key}
+        self._broken.update(file.own[name] for name in document.broken)
+        return file
+
+    def _report(self, file: _File, span: Span, what: str, remedy: str) -> None:
+        self._errors.append(AuthoringError(file.place(span), what, remedy))
+
+    # Other grammars
+
+    def _extend(self, file: _File, below: tuple[_File, ...]) -> None:
+        """Make the commands of what a file extends commands of this grammar, and known to it."""
+        for use in file.document.extends:
+            other = self._open(file, use.grammar, is_heard=True)
+            if other is None:
+                self._miss(file, use.grammar, use.span)
+                continue
+            if other in below:
+                what = f'"{use.grammar}" extends itself'
+                self._report(file, use.span, what, "extend a grammar of another name")
+                continue
+            self._extend(other, (*below, other))
+            self._bring(file, use.grammar, other.public_names())
+
+    def _import(self, file: _File, use: Import) -> None:
+        """Make the rules of an import visible in a file."""
+        other = self._open(file, use.grammar)
+        if other is None:
+            self._miss(file, use.grammar, use.span)
+            return
+        public = other.public_names()
+        if use.rule != "*" and use.rule not in public:
+            self._report(file, use.span, *_not_public(other, use.grammar, use.rule))
+            public[use.rule] = other.prefix + use.rule
+            self._broken.add(public[use.rule])
+        if use.rule != "*":
+            public = {use.rule: public[use.rule]}
+        file.brought.append((use, set(public.values())))
+        self._bring(file, use.grammar, public)
+
+    def _miss(self, file: _File, grammar: str, span: Span) -> None:
+        near = did_you_mean(grammar, _grammars_near(file), "")
+        where = f"put {grammar.rpartition('.')[2]}.jsgf into the same folder"
+        remedy = near if near.startswith("did you mean") else where
+        self._report(file, span, f'no grammar "{grammar}"', remedy)
+        file.lost.append(grammar)
+
+    @staticmethod
+    def _bring(file: _File, grammar: str, public: Mapping[str, str]) -> None:
+        """Let a file call rules of another grammar, by their names and with that grammar's."""
+        short = grammar.rpartition(".")[2]
+        for name, key in public.items():
+            for called in {name, f"{short}.{name}", f"{grammar}.{name}"}:
+                keys = file.imported.setdefault(called, [])
+                if key not in keys:
+                    keys.append(key)
+
+    def _open(self, file: _File, grammar: str, is_heard: bool = False) -> _File | None:
+        """The file of a grammar, read when it is a new one; None when there is none."""
+        path = _find_grammar(file.document, grammar)
+        if path is None:
+            return None
+        known = self._files.get(path.resolve())
+        if known is not None:
+            return known
+        if len(self._files) >= MOST_FILES:
+            what = f"more than {MOST_FILES} grammar files"
+            raise AuthoringError(Place(file.document.path), what, "import fewer")
+        prefix = f"{grammar}."
+        while any(other.prefix == prefix for other in self._files.values()):
+            prefix = f"{prefix[:-1]}'."
+        return self._read(path, prefix, is_heard)
+
+    # Rules
+
+    def _define(self, file: _File) -> None:
+        document = file.document
+        for use in document.name_lists:
+            file.brought.append((use, {file.own[use.name]}))
+            self._add(file, use.span, self._list_rule(file, use))
+        resolve = partial(self._resolve, file)
+        for definition in document.rules:
+            key = file.own[definition.name]
+            rule = Rule(
+                key=key,
+                expression=rename(definition.expression, resolve),
+                is_public=definition.is_public and file.is_heard and key == definition.name,
+                span=definition.span,
+                path=document.path,
+                doc=definition.doc.text,
+                doc_tags=definition.doc.tags,
+            )
+            self._add(file, definition.span, rule)
+
+    def _add(self, file: _File, span: Span, rule: Rule | None) -> None:
+        if rule is None:
+            return
+        first = self._rules.setdefault(rule.key, rule)
+        if first is not rule:
+            name = rule.key.removeprefix(file.prefix)
+            line = first.span.line
+            self._report(
+                file, span, f"<{name}> is already defined in line {line}", "rename one of the two"
+            )
+
+    def _list_rule(self, file: _File, use: NameListImport) -> Rule | None:
+        """The rule of a list of names; None, and its key is broken, when it cannot be read."""
+        key = file.own[use.name]
+        path = next((path for path in _places_of(file.document.path, use.file)), None)
+        if path is None:
+            self._report(file, use.span, *_no_list(file.document.path, use.file))
+        else:
+            try:
+                names, errors = read_names(path, use.name)
+                self._errors += errors
+                return Rule(key, names, is_public=False, span=use.span, path=path)
+            except AuthoringError as error:
+                self._errors.append(error)
+            except HriError as error:
+                self._report(file, use.span, str(error), "mend the file, or take the import out")
+        self._broken.add(key)
+        return None
+
+    def _resolve(self, file: _File, node: RuleReference) -> RuleReference:
+        """The reference with the key of the rule it means; unknown ones get a key nobody has."""
+        key = self._key(file, node)
+        file.used.add(key)
+        return node if key == node.name else replace(node, name=key)
+
+    def _key(self, file: _File, node: RuleReference) -> str:
+        name = node.name
+        if name in file.own:
+            return file.own[name]
+        keys = file.imported.get(name) or self._qualified(file, node)
+        if len(keys) > 1:
+            what = f"<{name}> is imported twice"
+            remedy = f"say which: {' or '.join(f'<{key}>' for key in keys)}"
+            self._report(file, node.span, what, remedy)
+        if keys:
+            return keys[0]
+        if file.lost:
+            self._broken.add(file.prefix + name)
+        return file.prefix + name
+
+    def _qualified(self, file: _File, node: RuleReference) -> list[str]:
+        """The keys behind `grammar.rule`: of this file, or of one that was not imported."""
+        grammar, _, name = node.name.rpartition(".")
+        full = file.document.name
+        if grammar in (full, full.rpartition(".")[2]) and name in file.own:
+            return [file.own[name]]
+        if not grammar or grammar in file.lost:
+            return []
+        other = self._open(file, grammar)
+        if other is None:
+            return []
+        public = other.public_names()
+        if name not in public:
+            self._report(file, node.span, *_not_public(other, grammar, name))
+            self._broken.add(other.prefix + name)
+        return [other.prefix + name]
+
+
+def _not_public(other: _File, grammar: str, name: str) -> tuple[str, str]:
+    """What is wrong with the use of a rule, and what to do."""
+    if name in other.own:
+        remedy = f'write "public" before it in {other.document.path.name}'
+        return f'<{name}> of "{grammar}" is not public', remedy
+    return f'"{grammar}" has no public rule <{name}>', did_you_mean(name, other.public_names())
+
+
+def _find_grammar(importer: Document, grammar: str) -> Path | None:
+    """The file of a grammar that another one names."""
+    inside = Path(*grammar.split("."))
+    inside = inside.with_name(f"{inside.name}.jsgf")
+    beside = importer.path.parent / inside.name
+    if paths.is_file(beside):
+        return beside
+    levels = importer.name.count(".") + 1
+    for folder in list(importer.path.resolve().parents)[:levels]:
+        if paths.is_file(folder / inside):
+            return folder / inside
+    return next(_places_of(importer.path, str(inside)), None)
+
+
+def _places_of(importer: Path, file: str) -> Iterator[Path]:
+    """Where a file is: beside a grammar, or in a search folder, or in `grammars/` there.
+
+    A path or a link that leads out of these folders is passed over: a grammar may come from
+    anybody, and must not read whatever lies on the machine.
+    """
+    folders = (
+        below for folder in paths.search_folders() for below in (folder / "grammars", folder)
+    )
+    for folder in (importer.parent, *folders):
+        place = folder / file
+        if paths.is_file(place) and place.resolve().is_relative_to(folder.resolve()):
+            yield place
+
+
+def _no_list(importer: Path, file: str) -> tuple[str, str]:
+    """Why a list is not read, and what to do."""
+    if _leads_out(importer.parent, file):
+        what = f'the list of names "{file}" is not read, for it leads out of the grammar\'s folder'
+        return what, "copy the list itself into that folder"
+    beside = sorted(importer.parent.glob("*.txt"))[:100]
+    near = [entry.name for entry in beside if entry.name != file]
+    return f'no list of names "{file}"', did_you_mean(file, near, "put it beside the grammar")
+
+
+def _leads_out(folder: Path, file: str) -> bool:
+    """Whether a path is absolute, goes upwards or over a link to somewhere else."""
+    try:
+        return not (folder / file).resolve().is_relative_to(folder.resolve())
+    except (OSError, ValueError, RuntimeError):  # no name that a file can have, links in a circle
+        return False
+
+
+def _grammars_near(file: _File) -> list[str]:
+    """Names of the grammars that could be meant."""
+    beside = [entry.stem for entry in sorted(file.document.path.parent.glob("*.jsgf"))[:100]]
+    return beside + [Path(name).stem for name in paths.names("grammars")]

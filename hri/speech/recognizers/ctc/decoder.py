@@ -1,0 +1,201 @@
+"""The default engine: phones by a small network, words by an exact search of the grammar."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hri.core.signals import Samples
+from hri.hal.recognizer import Alternative, Grammar, HeardWord, Hypothesis, Segment
+from hri.speech.hearing import SILENT_AFTER
+from hri.speech.pronunciation.lexicon import load_lexicon
+from hri.speech.recognizers.ctc.adaptation import adapted
+from hri.speech.recognizers.ctc.confidence import (
+    confidence,
+    fit_of,
+    scores_of,
+    shares,
+)
+from hri.speech.recognizers.ctc.conformer import FRAME, Network
+from hri.speech.recognizers.ctc.habits import Habits
+from hri.speech.recognizers.ctc.lattice import Path, Walk
+from hri.speech.recognizers.ctc.loudness import noise_of, sounding
+from hri.speech.recognizers.ctc.phone_graph import Floats, compile
+from hri.speech.recognizers.ctc.posterior_stream import Stream
+from hri.speech.recognizers.ctc.rivals import Rivals
+from hri.speech.recognizers.ctc.search import Search
+from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
+from hri.speech.recognizers.endpointed import SoundRecognizer
+
+MOST_SENTENCES = 8
+"""Sentences that are told: the best and its alternatives."""
+BEAM = 12.0
+"""Natural log: an alternative that is worse than the best by more is none."""
+
+
+@dataclass
+class Progress:
+    """How far a piece of speech that still goes on has been worked through."""
+
+    number: int
+    rules: frozenset[str] | None
+    stream: Stream
+    search: Search
+    taken: int = 0
+    """Samples."""
+
+
+@dataclass(frozen=True, eq=False)
+class Early:
+    """What was made of a piece of speech in the pause that may end it."""
+
+    samples: Samples
+    voice_end: float
+    """Seconds of the clock."""
+    rules: frozenset[str] | None
+    hypothesis: Hypothesis
+
+    def holds_for(self, segment: Segment, samples: Samples, rules: frozenset[str] | None) -> bool:
+        """Whether a piece is the same one, and nothing was said since."""
+        return (
+            self.rules == rules
+            and abs(self.voice_end - (segment.end - segment.quiet)) < 0.5 * FRAME
+            and len(self.samples) <= len(samples)
+            and np.array_equal(self.samples, samples[: len(self.samples)])
+        )
+
+
+class CtcRecognizer(SoundRecognizer):
+    """Hears what the grammar allows, by the network of the `hama` wheel.
+
+    `weights` names another file of the same network. Everything but the grammar's own graph is
+    shared by all pieces; a new grammar takes its place between two of them.
+
+    A piece is decoded as soon as the voice falls silent, within the pause that is waited for; when
+    the voice stays silent, the result is there as soon as the pause is over.
+    """
+
+    parameters = ("weights", *SoundRecognizer.parameters)
+
+    def _open(self) -> None:
+        super()._open()
+        weights = find_weights(self.description.text("weights"))
+        self._network = Network(adapted(read_tensors(weights)))
+        self._work = threading.Lock()
+        self._search: Search | None = None
+        self._progress: Progress | None = None
+        self._early: Early | None = None
+
+    def start(self, grammar: Grammar) -> None:
+        # The same lexicon for both: it may have changed since the engine was opened.
+        lexicon = Habits(load_lexicon())
+        search, rivals = Search(compile(grammar.graph(), lexicon)), Rivals(lexicon)
+        with self._work:
+            self._search, self._rivals = search, rivals
+            self._progress = None
+            self._early = None
+
+    def advance(self, segment: Segment, rules: Collection[str] | None = None) -> str:
+        active = None if rules is None else frozenset(rules)
+        with self._work:
+            if self._search is None or segment.samples is None:
+                return ""
+            if segment.quiet >= SILENT_AFTER:
+                return self._whole(segment, segment.samples, active, self._search).text
+            progress = self._progress_of(segment, active, self._search)
+            new = segment.samples[progress.taken :]
+            progress.taken += len(new)
+            progress.search.advance(scores_of(progress.stream.push(new)))
+            return " ".join(progress.search.partial())
+
+    def _progress_of(
+        self, segment: Segment, rules: frozenset[str] | None, search: Search
+    ) -> Progress:
+        """What is known of a piece; nothing as yet when it is a new one."""
+        progress = self._progress
+        if progress is None or progress.number != segment.number or progress.rules != rules:
+            search.begin(rules)
+            progress = Progress(segment.number, rules, Stream(self._network), search)
+            self._progress = progress
+        return progress
+
+    def _decode(
+        self, segment: Segment, samples: Samples, rules: Collection[str] | None
+    ) -> Hypothesis:
+        active = None if rules is None else frozenset(rules)
+        with self._work:
+            if self._search is None:
+                raise self.not_available("it has no grammar", "call start with a grammar first")
+            return self._whole(segment, samples, active, self._search)
+
+    def _whole(
+        self,
+        segment: Segment,
+        samples: Samples,
+        rules: frozenset[str] | None,
+        search: Search,
+    ) -> Hypothesis:
+        """Decode all of a piece, unless that has been done since the voice fell silent."""
+        early = self._early
+        if early is None or not early.holds_for(segment, samples, rules):
+            self._progress = None  # Its search is used for the whole.
+            part = sounding(samples)
+            heard = self._network.posteriors(samples[part])
+            found = decoded(search, self._rivals, heard, rules, noise_of(samples))
+            hypothesis = later(found, part.start / self.rate)
+            early = Early(samples, segment.end - segment.quiet, rules, hypothesis)
+            self._early = early
+        return early.hypothesis
+
+
+def decoded(
+    search: Search,
+    rivals: Rivals,
+    log_probabilities: Floats,
+    rules: Collection[str] | None = None,
+    noise: float = 0.0,
+) -> Hypothesis:
+    """The best sentence of a whole piece of speech, and what else it may have been.
+
+    `noise` is how noisy the piece is, 0 to 1.
+    """
+    scores = scores_of(log_probabilities)
+    search.begin(rules)
+    search.advance(scores)
+    paths = Walk(search.trellis).sentences(MOST_SENTENCES, BEAM)
+    if not paths:
+        return Hypothesis("", 0.0)
+    best = paths[0]
+    fit = fit_of(best, rivals.score(scores, best.words), scores, search.graph.phones)
+    chances = shares([path.score for path in paths])
+    return Hypothesis(
+        text=" ".join(best.words),
+        confidence=confidence(fit, noise),
+        words=_times(best),
+        alternatives=tuple(
+            Alternative(" ".join(path.words), float(chance))
+            for path, chance in zip(paths[1:], chances[1:], strict=True)
+        ),
+    )
+
+
+def later(hypothesis: Hypothesis, seconds: float) -> Hypothesis:
+    """The same, with its words so many seconds later."""
+    words = tuple(
+        replace(word, start=round(word.start + seconds, 3), end=round(word.end + seconds, 3))
+        for word in hypothesis.words
+    )
+    return replace(hypothesis, words=words)
+
+
+def _times(path: Path) -> tuple[HeardWord, ...]:
+    """The words with the times of their phones; pauses belong to none."""
+    heard = []
+    for word, span in zip(path.words, path.spans, strict=True):
+        sounding = [index for index, state in enumerate(span.states) if state >= 0]
+        start, end = span.start + sounding[0], span.start + sounding[-1] + 1
+        heard.append(HeardWord(word, round(start * FRAME, 3), round(end * FRAME, 3)))
+    return tuple(heard)

@@ -1,0 +1,1 @@
+"""Who is who over time: faces followed, told apart and recognized."""

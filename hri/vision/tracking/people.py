@@ -1,0 +1,362 @@
+"""Everybody in the pictures of a camera: found, followed, told apart, and described.
+
+A search of the whole picture is made only while it is needed: now and then for newcomers, more
+often while somebody is missing. Between, each face is followed by itself. Faces that come close to
+each other may be taken for each other, or cover each other; who is who is settled anew by looks as
+soon as they are apart again.
+"""
+
+from __future__ import annotations
+
+import itertools
+import logging
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from hri.core.signals import Frame, Landmarks, People
+from hri.vision.attention import Attending
+from hri.vision.camera_view import CameraView
+from hri.vision.detectors.detector_choice import Detectors, load_detectors
+from hri.vision.detectors.face import FoundFace, overlap
+from hri.vision.detectors.mesh import region_of
+from hri.vision.detectors.preprocessing import gray_picture
+from hri.vision.engagement import Zones
+from hri.vision.tracking.appearance import Look, look_of
+from hri.vision.tracking.assignment import assigned
+from hri.vision.tracking.face_track import MAX_GAP, FollowedFace, Sight, is_face
+from hri.vision.tracking.identity import STRANGER, STRANGER_IN_CROWD
+from hri.vision.tracking.person_track import Somebody, number_of
+
+log = logging.getLogger("hri.vision")
+
+MEMORY = 3.0
+"""Seconds after which somebody who is out of sight is given up."""
+MOST = 8
+"""Faces that are followed at once."""
+MOST_FITS = 4
+"""Meshes that are fitted in one picture; of more faces, those of the others take turns."""
+SEARCH_ALONE = 0.1
+"""Seconds between two searches while nobody is seen."""
+SEARCH_MISSING = 0.2
+"""Seconds between two searches while somebody is out of sight."""
+SEARCH_NEWCOMERS = 0.4
+"""Seconds between two searches else."""
+SEARCH_BOXES = 0.3
+"""Seconds between two searches at most when there is no mesh to say where the faces are."""
+CLOSE, APART = 1.1, 1.4
+"""Sizes of the face between two faces that may be mixed up, and that no longer can."""
+SAME_FACE = 0.4
+"""Sizes of the face; nearer to each other, two faces are one."""
+SAME_BOX = 0.4
+"""Overlap of two boxes, found one after the other, that are of one face."""
+STAYING = 0.03
+"""By so much less it costs a face to stay whose it is."""
+LATENESS = 0.1
+"""What a face costs more for who was never seen away from the others: likely one of them."""
+LEARN_EVERY = 0.2
+"""Seconds between two looks at how somebody looks."""
+FRONTAL = math.radians(35)
+"""A head turned further does not show how somebody looks."""
+
+
+class PeopleTracker:
+    """Sees frames one by one, in the order they were taken; the same frames give the same people.
+
+    People keep their id, "p1", "p2" ..., while they are seen and for `MEMORY` seconds after; no id
+    is given twice. A frame that is no picture changes nothing. When time goes back, no picture has
+    come for `MEMORY` seconds, or pictures change their size, everybody is new.
+    """
+
+    def __init__(
+        self,
+        detectors: Detectors,
+        view: CameraView | None = None,
+        zones: Zones | None = None,
+        first: int = 1,
+    ) -> None:
+        """`first` is the number of the first person who comes."""
+        self._finder, self._mesh = detectors.finder, detectors.mesh
+        self._view, self._zones = view or CameraView(), zones or Zones()
+        self._numbers = itertools.count(first)
+        self._last = People(-math.inf)
+        self._size = (0, 0)
+        self._forget()
+
+    def see(self, frame: Frame) -> People:
+        """Everybody who is there at the time of the frame."""
+        picture = gray_picture(frame.image)
+        if picture is None or not math.isfinite(frame.time) or frame.time == self._last.time:
+            return self._last
+        elapsed = frame.time - self._last.time
+        sight = Sight(frame.image, picture.gray, picture.scale, frame.time, elapsed)
+        if not 0 < elapsed <= MEMORY or sight.size != self._size:
+            self._forget()
+            self._size = sight.size
+        elif elapsed > MAX_GAP:
+            self._lose_all()
+        self._follow(sight)
+        self._mix(sight.time)
+        if sight.time - self._searched >= self._interval():
+            self._search(sight)
+            self._mix(sight.time)
+        self._settle(sight)
+        self._note(sight)
+        return self._described(sight)
+
+    def _forget(self) -> None:
+        self._known: list[Somebody] = []
+        self._mixed: set[frozenset[int]] = set()
+        """Numbers of each two whose faces may have been mixed up."""
+        self._candidates: list[FoundFace] = []
+        self._searched = -math.inf
+        self._turns = itertools.count()
+        """Of the searches, so that the finder sees the same in the same film."""
+        self._attending = Attending()
+
+    def _lose_all(self) -> None:
+        """Look for everybody anew: who knows who sits there now."""
+        for somebody in self._known:
+            somebody.face = None
+        self._searched = -math.inf
+
+    def _seen(self) -> Iterator[tuple[Somebody, FollowedFace]]:
+        """Who is in sight, with their faces."""
+        for somebody in self._known:
+            if somebody.face is not None:
+                yield somebody, somebody.face
+
+    def _follow(self, sight: Sight) -> None:
+        for _, face in self._seen():
+            face.follow(sight)
+        if self._mesh is not None:
+            for somebody, face in sorted(self._seen(), key=self._urgency)[:MOST_FITS]:
+                face.fit(sight, self._mesh)
+                somebody.fitted = sight.time
+        for somebody, face in self._seen():
+            if face.is_lost(sight.time) or not _is_inside(face.middle, sight.size):
+                somebody.face = None
+
+    def _urgency(self, seen: tuple[Somebody, FollowedFace]) -> tuple[bool, float, int]:
+        """Whose mesh comes first: that of the one attended to, then who has waited longest."""
+        somebody = seen[0]
+        return somebody.id != self._attending.chosen, somebody.fitted, somebody.number
+
+    # --- finding ---
+
+    def _interval(self) -> float:
+        """Seconds from one search to the next."""
+        if all(somebody.face is None for somebody in self._known):
+            return SEARCH_ALONE
+        is_missing = any(somebody.face is None for somebody in self._known)
+        interval = SEARCH_MISSING if is_missing else SEARCH_NEWCOMERS
+        return interval if self._mesh is not None else min(interval, SEARCH_BOXES)
+
+    def _search(self, sight: Sight) -> None:
+        self._searched = sight.time
+        strangers = []
+        turn = next(self._turns)
+        for found in self._finder.find(sight.image, turn):
+            owner = self._owner(found)
+            if owner is None:
+                strangers.append(found)
+            elif self._mesh is None:
+                owner.find_again(found, sight)
+        room = MOST - sum(1 for _ in self._seen())
+        self._welcome(sight, self._confirmed(sight, strangers)[: max(0, room)])
+
+    def _owner(self, found: FoundFace) -> FollowedFace | None:
+        """The face that is followed already where one was found."""
+        region = region_of(found)
+        for _, face in self._seen():
+            away = math.hypot(region.x - face.region.x, region.y - face.region.y)
+            if away < SAME_FACE * max(face.breadth, found.box.width):
+                return face
+        return None
+
+    def _confirmed(self, sight: Sight, strangers: list[FoundFace]) -> list[FollowedFace]:
+        """Those that are faces: a mesh fits, or without one, found twice at the same place."""
+        before, self._candidates = self._candidates, strangers
+        faces: list[FollowedFace] = []
+        for found in strangers[:MOST]:
+            known = [*faces, *(other for _, other in self._seen())]
+            if any(other.hides(found) for other in known):
+                continue
+            landmarks = None
+            if self._mesh is not None:
+                landmarks = self._fitted(sight, found)
+                if landmarks is None:
+                    continue
+            elif not any(overlap(found.box, other.box) > SAME_BOX for other in before):
+                continue
+            face = FollowedFace(sight, found, landmarks)
+            if all(_between(face, other) > SAME_FACE for other in known):
+                faces.append(face)
+        return faces
+
+    def _fitted(self, sight: Sight, found: FoundFace) -> Landmarks | None:
+        assert self._mesh is not None
+        region = region_of(found)
+        fitted = self._mesh.fit(sight.image, region)
+        return fitted.landmarks if fitted is not None and is_face(fitted, region) else None
+
+    def _welcome(self, sight: Sight, faces: list[FollowedFace]) -> None:
+        """Give each new face to whoever of the missing it fits, else to a new person."""
+        missing = [somebody for somebody in self._known if somebody.face is None]
+        looks = [look_of(sight.image, face.region) for face in faces]
+        costs = [
+            [self._cost(sight.time, somebody, face, look) for somebody in missing]
+            for face, look in zip(faces, looks, strict=True)
+        ]
+        for face, look, index in zip(faces, looks, assigned(costs), strict=True):
+            if index is None:
+                somebody = Somebody(next(self._numbers), sight.time, self._zones)
+                somebody.identity.learn(look)
+                self._known.append(somebody)
+            else:
+                somebody = missing[index]
+            somebody.face, somebody.fitted = face, sight.time
+
+    def _cost(self, time: float, somebody: Somebody, face: FollowedFace, look: Look) -> float:
+        """How unlikely it is that a new face is that of somebody missing; infinite for no.
+
+        Of those who are mixed up, each may be taken for another: a face that fits any of them will
+        do, and so will one that is half covered still. Who is who is settled when they are apart.
+        """
+        group = next((group for group in self._groups() if somebody in group), [])
+        if group and any(_between(face, other) < APART for _, other in self._seen()):
+            return somebody.identity.cost(time, face, look)
+        candidates = group or [somebody]
+        cost = min(candidate.identity.cost(time, face, look) for candidate in candidates)
+        return cost if cost < (STRANGER_IN_CROWD if group else STRANGER) else math.inf
+
+    # --- telling apart ---
+
+    def _mix(self, time: float) -> None:
+        """Note who is so close to whom that faces may be taken for each other's."""
+        for one, other in itertools.combinations(self._known, 2):
+            if one.face is None and other.face is None:
+                continue
+            if _gap(time, one, other) < CLOSE:
+                self._mixed.add(frozenset((one.number, other.number)))
+            if one.face and other.face and _between(one.face, other.face) < SAME_FACE:
+                self._part(time, one, other)
+
+    def _part(self, time: float, one: Somebody, other: Somebody) -> None:
+        """Of two who have the same face, one is covered: the one whom place and size fit less."""
+        face = one.face
+        assert face is not None
+        max((one, other), key=lambda somebody: somebody.identity.misfit(time, face)).face = None
+
+    def _settle(self, sight: Sight) -> None:
+        """Find out who is who of those that were close, when they are apart again."""
+        for group in self._groups():
+            leaving = [s for s in group if sight.time - s.seen > MEMORY - SEARCH_MISSING]
+            pairs = [
+                pair
+                for pair in itertools.combinations(group, 2)
+                if any(somebody.face is not None for somebody in pair)
+            ]
+            if leaving or all(_gap(sight.time, *pair) > APART for pair in pairs):
+                self._sort_out(sight, group)
+                numbers = {somebody.number for somebody in group}
+                self._mixed = {pair for pair in self._mixed if not pair & numbers}
+
+    def _groups(self) -> list[list[Somebody]]:
+        """Those who are mixed up with each other."""
+        groups: list[set[int]] = []
+        for pair in sorted(self._mixed, key=sorted):
+            touching = [group for group in groups if group & pair]
+            groups = [group for group in groups if not group & pair]
+            groups.append(set(pair).union(*touching))
+        return [[s for s in self._known if s.number in group] for group in groups]
+
+    def _sort_out(self, sight: Sight, group: list[Somebody]) -> None:
+        """Give each face of a group to whom it fits best."""
+        faces = [somebody.face for somebody in group if somebody.face is not None]
+        looks = [look_of(sight.image, face.region) for face in faces]
+        costs = [
+            [
+                somebody.identity.cost(sight.time, face, look)
+                - STAYING * (face is somebody.face)
+                + LATENESS * (not somebody.identity.is_established)
+                for face, look in zip(faces, looks, strict=True)
+            ]
+            for somebody in group
+        ]
+        for somebody, index in zip(group, assigned(costs), strict=True):
+            somebody.face = None if index is None else faces[index]
+        # Who came up amidst the others and has no face was one of them.
+        self._known = [
+            somebody
+            for somebody in self._known
+            if somebody not in group or somebody.face or somebody.identity.is_established
+        ]
+
+    def _note(self, sight: Sight) -> None:
+        """Learn place and look of who is in sight and not mixed up with anybody."""
+        mixed = set().union(*self._mixed)
+        for somebody, face in self._seen():
+            somebody.seen = sight.time
+            if somebody.number in mixed:
+                continue
+            somebody.identity.place(sight.time, face)
+            is_frontal = math.hypot(face.pose.pitch, face.pose.yaw) < FRONTAL
+            if is_frontal and sight.time - somebody.learned >= LEARN_EVERY:
+                somebody.learned = sight.time
+                somebody.identity.learn(look_of(sight.image, face.region))
+        self._known = [s for s in self._known if sight.time - s.seen <= MEMORY]
+        left = {somebody.number for somebody in self._known}
+        self._mixed = {pair for pair in self._mixed if pair <= left}
+
+    def _described(self, sight: Sight) -> People:
+        persons = tuple(
+            somebody.describe(sight.time, sight.size, self._view) for somebody in self._known
+        )
+        attended = self._attending.choose(sight.time, persons)
+        self._last = People(sight.time, persons, attended)
+        return self._last
+
+
+@dataclass(slots=True)
+class Seeing:
+    """Makes a tracker with the detectors of a setting, where the work is done.
+
+    What of the setting cannot be had is told to the log; then it sees with less.
+    """
+
+    setting: str
+    view: CameraView
+    zones: Zones
+    first: int = 1
+    """Number of the first person whom the next tracker sees."""
+
+    def __call__(self) -> Callable[[Frame], People]:
+        detectors = load_detectors(self.setting)
+        for problem in detectors.problems:
+            log.warning(problem)
+        return PeopleTracker(detectors, self.view, self.zones, self.first).see
+
+    def note(self, people: People) -> None:
+        """Let no tracker made from now on give the ids of these people again."""
+        for person in people.persons:
+            self.first = max(self.first, number_of(person.id) + 1)
+
+
+def _gap(time: float, one: Somebody, other: Somebody) -> float:
+    """Between two, in sizes of the face; of who is out of sight, from where they should be."""
+    places = [s.face.middle if s.face else s.identity.expected(time) for s in (one, other)]
+    sizes = [s.face.breadth for s in (one, other) if s.face is not None]
+    (x, y), (other_x, other_y) = places
+    gap = math.hypot(x - other_x, y - other_y) / (sum(sizes) / len(sizes))
+    return gap if math.isfinite(gap) else math.inf
+
+
+def _between(one: FollowedFace, other: FollowedFace) -> float:
+    """From one face to another, in sizes of the smaller."""
+    away = math.hypot(one.region.x - other.region.x, one.region.y - other.region.y)
+    return away / min(one.breadth, other.breadth)
+
+
+def _is_inside(place: tuple[float, float], size: tuple[int, int]) -> bool:
+    return 0 <= place[0] < size[0] and 0 <= place[1] < size[1]

@@ -1,0 +1,109 @@
+"""One person as the tracker knows them: what stays theirs while faces come and go."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from hri.core.signals import Person
+from hri.vision.blendshapes import PUPILS, Expressiveness
+from hri.vision.camera_view import EYE_DISTANCE, FACE_SIZE, CameraView
+from hri.vision.engagement import Engagement, Zones
+from hri.vision.eye_contact import Looking, looking_score
+from hri.vision.tracking.face_track import FollowedFace
+from hri.vision.tracking.identity import Identity
+
+DISTANCE_SMOOTHING = 0.25
+"""Seconds over which the distance is averaged."""
+
+
+class Somebody:
+    """Who they are, which face is theirs now, and what they are doing."""
+
+    def __init__(self, number: int, time: float, zones: Zones) -> None:
+        self.number = number
+        self.id = f"p{number}"
+        self.face: FollowedFace | None = None
+        self.identity = Identity()
+        self.seen = time
+        """Seconds, when they were in sight last."""
+        self.learned = -math.inf
+        self.fitted = -math.inf
+        self.person: Person | None = None
+        self._distance = math.nan
+        self._distance_time = time
+        self._looking, self._engagement = Looking(), Engagement(zones)
+        self._expressiveness = Expressiveness()
+
+    def describe(self, time: float, size: tuple[int, int], view: CameraView) -> Person:
+        """The person as they are now, or as they were last while they are out of sight."""
+        if self.face is None:
+            self.person = self._hidden(time)
+        else:
+            self.person = self._visible(time, self.face, size, view)
+        return self.person
+
+    def _visible(
+        self, time: float, face: FollowedFace, size: tuple[int, int], view: CameraView
+    ) -> Person:
+        x, y, pixels, meters = _gauge(face)
+        distance = self._smoothed(time, view.distance(x, y, pixels, meters, size))
+        bearing, elevation = view.toward(x, y, size)
+        score = looking_score(face.pose.pitch, face.pose.yaw)
+        is_looking = self._looking.update(time, score)
+        landmarks = face.landmarks
+        return Person(
+            self.id,
+            face.pose,
+            face.motion,
+            distance=distance,
+            bearing=bearing,
+            elevation=elevation,
+            looking=score,
+            is_looking=is_looking,
+            engagement=self._engagement.update(time, distance, is_looking),
+            countenance=None if landmarks is None else self._expressiveness.update(time, landmarks),
+            landmarks=landmarks,
+        )
+
+    def _hidden(self, time: float) -> Person:
+        assert self.person is not None
+        is_looking = self._looking.update(time, 0.0)
+        return replace(
+            self.person,
+            is_visible=False,
+            motion=None,
+            looking=0.0,
+            is_looking=is_looking,
+            engagement=self._engagement.update(time, self.person.distance, is_looking),
+        )
+
+    def _smoothed(self, time: float, distance: float) -> float:
+        elapsed, self._distance_time = time - self._distance_time, time
+        if not math.isfinite(self._distance) or elapsed > 1.0:
+            self._distance = distance
+        elif math.isfinite(distance):
+            part = 1 - math.exp(-max(0.0, elapsed) / DISTANCE_SMOOTHING)
+            self._distance += (distance - self._distance) * part
+        return self._distance
+
+
+def number_of(id: str) -> int:
+    """The number in the id of somebody."""
+    return int(id[1:])
+
+
+def _gauge(face: FollowedFace) -> tuple[float, float, float, float]:
+    """Where the eyes are, in pixels, and a length to measure the distance by: pixels and meters.
+
+    With a mesh it is the distance of the pupils in all three directions, which turning the head
+    does not shorten; else the size of the face.
+    """
+    if face.landmarks is None:
+        x, y = face.middle
+        return x, y, face.breadth, FACE_SIZE
+    right, left = (face.landmarks[list(eye)].mean(axis=0) for eye in PUPILS)
+    x, y = ((right + left) / 2)[:2].tolist()
+    return x, y, float(np.linalg.norm(left - right)), EYE_DISTANCE
