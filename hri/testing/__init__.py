@@ -33,19 +33,24 @@ from hri.robot import Job, Robot
 from hri.speech.synthesizers.silent import SilentVoice
 from hri.task.context import TaskContext
 from hri.testing.cameras import Fault, FaultyCamera
+from hri.testing.golden import Golden
+from hri.testing.pictures import expressions_of, spoken_frames
 
 __all__ = [
     "FakeClock",
     "Fault",
     "FaultyCamera",
+    "Golden",
     "MemoryCamera",
     "MemoryMicrophone",
     "OffscreenScreen",
     "SilentSpeaker",
     "SilentVoice",
     "context",
+    "expressions_of",
     "live_for",
     "run_for",
+    "spoken_frames",
 ]
 
 

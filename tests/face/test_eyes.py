@@ -1,22 +1,16 @@
-"""The eyes on the smallest screen: 128x64 pixels, each on or off.
-
-`python -m tests.face.test_eyes` draws the pictures in golden/eyes anew; look at each of them.
-"""
+"""The eyes on the smallest screen: 128x64 pixels, each on or off."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache
 from itertools import combinations
-from pathlib import Path
 
-import cv2
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 
-from hri.core.signals import Image
 from hri.face import load_face
 from hri.face.drawing.baking import Vector
 from hri.face.motion.gesture_tracks import load_gestures, track_of
@@ -25,6 +19,7 @@ from hri.face.renderers.renderer import Renderer
 from hri.face.renderers.small_screens import Bits, one_bit
 from hri.face.still import still_vector
 from hri.face.vocabulary import LABELS
+from hri.testing.golden import Golden
 
 MODEL = load_face("eyes")
 SCREEN = Renderer(MODEL, (128, 64))
@@ -34,7 +29,6 @@ LEFT_HALF, RIGHT_HALF = slice(0, 64), slice(64, 128)
 BAR = (slice(50, 64), slice(48, 80))
 """Where the voice shows, below and between the eyes."""
 
-GOLDEN = Path(__file__).parent / "golden" / "eyes"
 GOLDEN_SIZE = (256, 128)
 GOLDENS = ("neutral", "happy", "furious", "pleading", "asleep", "confused")
 
@@ -331,23 +325,6 @@ def test_the_eyes_are_light_to_draw() -> None:
     assert len(MODEL.display.items) < 60
 
 
-def drawn(label: str) -> Image:
-    return Renderer(MODEL, GOLDEN_SIZE).render(still_vector(MODEL, label))
-
-
 @pytest.mark.parametrize("label", GOLDENS)
-def test_the_pictures_stay_as_they_were_approved(label: str, tmp_path: Path) -> None:
-    golden = cv2.imread(str(GOLDEN / f"{label}.png"))
-    assert golden is not None, "python -m tests.face.test_eyes draws it"
-    approved = cv2.cvtColor(golden, cv2.COLOR_BGR2RGB)
-    difference = np.abs(drawn(label).astype(int) - approved)
-    seen = np.minimum(8 * difference, 255).astype(np.uint8)
-    cv2.imwrite(str(tmp_path / f"{label}.png"), seen)
-    assert difference.mean() < 0.5, f"see {tmp_path}"
-    assert np.quantile(difference, 0.999) < 24, f"see {tmp_path}"
-
-
-if __name__ == "__main__":
-    GOLDEN.mkdir(parents=True, exist_ok=True)
-    for label in GOLDENS:
-        cv2.imwrite(str(GOLDEN / f"{label}.png"), cv2.cvtColor(drawn(label), cv2.COLOR_RGB2BGR))
+def test_the_pictures_stay_as_they_were_approved(label: str, golden: Golden) -> None:
+    golden.check(label, Renderer(MODEL, GOLDEN_SIZE).render(still_vector(MODEL, label)))

@@ -1,13 +1,9 @@
-"""The cartoon person: its parts are measured where they are drawn, its looks from the pixels.
-
-`python -m tests.face.test_person` draws the pictures in golden/person anew; look at each of them.
-"""
+"""The cartoon person: its parts are measured where they are drawn, its looks from the pixels."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import combinations
-from pathlib import Path
 
 import cv2
 import numpy as np
@@ -22,6 +18,7 @@ from hri.face.motion.mixer import Layers, Mixer
 from hri.face.renderers.renderer import Renderer
 from hri.face.still import still_vector
 from hri.face.vocabulary import ARKIT, LABELS, VISEMES
+from hri.testing.golden import Golden
 from tests.face.pixels import Shot, face
 
 MODEL = load_face("person")
@@ -30,7 +27,6 @@ MOUTH = (slice(152, 204), slice(80, 160))
 """In such a picture, of a head held still."""
 STEPS = (0.0, 0.25, 0.5, 0.75, 1.0)
 
-GOLDEN = Path(__file__).parent / "golden" / "person"
 GOLDEN_SIZE = (320, 240)
 GOLDENS = (
     "neutral", "happy", "sad", "angry", "surprised", "disgusted", "asleep", "excited", "error",
@@ -38,8 +34,6 @@ GOLDENS = (
 )  # fmt: skip
 FRAME = (slice(60, 210), slice(85, 235))
 """What is kept of such a picture."""
-REGIONS = {"brows": slice(10, 50), "eyes": slice(45, 95), "mouth": slice(92, 150)}
-"""Rows of that."""
 
 Points = NDArray[np.float64]
 
@@ -395,7 +389,7 @@ def test_a_smile_stays_in_the_corners_of_a_talking_mouth() -> None:
 # --- pictures ------------------------------------------------------------------------------------
 
 
-def approved(name: str) -> Image:
+def drawn_now(name: str) -> Image:
     turned = name == "turned"
     vector = (
         MODEL.vector({"headYaw": 1.0, "headPitch": 0.5}) if turned else still_vector(MODEL, name)
@@ -404,18 +398,5 @@ def approved(name: str) -> Image:
 
 
 @pytest.mark.parametrize("name", GOLDENS)
-def test_the_pictures_stay_as_they_were_approved(name: str, tmp_path: Path) -> None:
-    golden = cv2.imread(str(GOLDEN / f"{name}.png"))
-    assert golden is not None, "python -m tests.face.test_person draws it"
-    was = cv2.cvtColor(golden, cv2.COLOR_BGR2RGB).astype(int)
-    difference = np.abs(approved(name) - was)
-    cv2.imwrite(str(tmp_path / f"{name}.png"), np.minimum(8 * difference, 255))
-    for region, rows in REGIONS.items():
-        assert difference[rows].mean() < 0.5, f"{region}, see {tmp_path}"
-        assert np.quantile(difference[rows], 0.999) < 24, f"{region}, see {tmp_path}"
-
-
-if __name__ == "__main__":
-    GOLDEN.mkdir(parents=True, exist_ok=True)
-    for name in GOLDENS:
-        cv2.imwrite(str(GOLDEN / f"{name}.png"), cv2.cvtColor(approved(name), cv2.COLOR_RGB2BGR))
+def test_the_pictures_stay_as_they_were_approved(name: str, golden: Golden) -> None:
+    golden.check(name, drawn_now(name))

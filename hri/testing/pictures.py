@@ -1,0 +1,59 @@
+"""What a face looks like, offscreen: the frames of a sentence, and all of its expressions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from hri.core.clock import FakeClock
+from hri.core.signals import Expression, Image, Speech
+from hri.face.model import FaceModel, load_face
+from hri.face.renderers.renderer import Renderer
+from hri.face.scene import scene_of
+from hri.face.still import still_vector
+from hri.hal.manager import ResourceManager
+from hri.hal.resource import Description
+from hri.speech.synthesizers.espeak import EspeakVoice
+
+SIZE = (320, 240)
+"""Width and height in pixels: enough to tell two faces apart, and drawn in a millisecond."""
+
+
+def spoken_frames(
+    text: str | Speech,
+    face: str | FaceModel = "robot",
+    expression: str = "neutral",
+    *,
+    rate: float = 25.0,
+    size: tuple[int, int] = SIZE,
+    seed: int = 0,
+) -> Iterator[Image]:
+    """The pictures of a face that says a sentence: RGB, uint8, [height, width, 3].
+
+    A text is spoken by espeak-ng; a `Speech` brings its own sound and phonemes. `rate` is in
+    pictures a second; the last second is the silence after it. The same arguments give the same
+    bytes. Raises HriError for an unknown face or expression.
+    """
+    speech = said(text) if isinstance(text, str) else text
+    model = load_face(face) if isinstance(face, str) else face
+    still_vector(model, expression)  # raises for one that the face does not know
+    renderer = Renderer(model, size)
+    for moment in scene_of(speech, Expression(expression)).moments(model, rate, seed):
+        yield renderer.render(moment.vector)
+
+
+def said(text: str) -> Speech:
+    """A sentence in the default voice, with the times of its phonemes."""
+    with ResourceManager((), FakeClock()) as resources:
+        voice = EspeakVoice(Description("voice", "Hri.EspeakVoice"), resources)
+        resources.substitute("voice", voice)
+        voice.activate()
+        return voice.synthesize(text)
+
+
+def expressions_of(
+    face: str | FaceModel = "robot", size: tuple[int, int] = SIZE
+) -> Mapping[str, Image]:
+    """A picture of each expression of a face by name, at its apex. Raises HriError."""
+    model = load_face(face) if isinstance(face, str) else face
+    renderer = Renderer(model, size)
+    return {name: renderer.render(still_vector(model, name)) for name in model.expressions}
