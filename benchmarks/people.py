@@ -57,7 +57,7 @@ def told(name: str, trips: Sequence[Trip], before: Before) -> Iterator[Row]:
     """The rows of one case."""
     collisions = [collision for trip in trips for collision in trip.collisions]
     covered = [c for c in collisions if c.is_moving and c.covered_by]
-    what = f"{name}: collisions of the moving robot with somebody a sensor covered"
+    what = f"{name}: collisions of the moving robot with someone a sensor covered"
     yield amount(
         what,
         len(covered),

@@ -51,7 +51,7 @@ class Site:
         self.stops = run_interrupted(partial(self._writer, self.path, number))
         made = content(self.path)
         if not made:
-            raise HriError(f"{self.path.name}: its writer writes nothing - mend the writer")
+            raise HriError(f"{self.path.name}: its writer writes nothing - fix the writer")
         return made
 
     def _clear(self) -> None:

@@ -46,7 +46,7 @@ GREETINGS = ("greet", "wake")
 EXAMPLES = 4
 """Commands that it names at once when it is asked what can be said, and how to stop it."""
 COMPANY_SECONDS = 45.0
-"""How long after the last words somebody who is seen counts as company."""
+"""How long after the last words someone who is seen counts as company."""
 ALIKE = 0.5
 """Share of letters in common, of 1, from which a typed line is like a command."""
 
@@ -126,7 +126,7 @@ class Companion:
             self.talk.start(verbs.say, words)
 
     def puzzle(self, reason: str, text: str) -> None:
-        """Show that it did not understand somebody; the first time, say what is nearest to it.
+        """Show that it did not understand someone; the first time, say what is nearest to it.
 
         What is typed is meant for it. A sound is as far as it was like a command in a conversation.
         """
@@ -158,11 +158,11 @@ class Companion:
         self.context.manager.install(TaskType(task.id, performed))
 
     def make(self, gesture: str) -> None:
-        """Make a gesture, in place of one that is being made."""
+        """Make a gesture, instead of one that is being made."""
         self.gestures.start(verbs.gesture, gesture)
 
     def say(self, words: str) -> None:
-        """Say it, in place of what is being said; nothing while it was told to be quiet."""
+        """Say it, instead of what is being said; nothing while it was told to be quiet."""
         if self.may_speak:
             self.talk.start(verbs.say, words)
 
@@ -212,7 +212,7 @@ class Companion:
         rules.sort(key=lambda rule: grammar.rules[rule].path != grammar.path)
         return {rule: example for rule in rules if (example := _example(grammar, rule))}
 
-    # --- actions, named as in replies.toml; what one returns is said in place of the reply ---
+    # --- actions, named as in replies.toml; what one returns is said instead of the reply ---
 
     def _drive(self, job: Job, *arguments: Any) -> str | None:
         """Start a motion; while the base must not move, return why it does not."""

@@ -115,7 +115,7 @@ def _read(table: Table, vocabulary: Vocabulary, mistakes: Mistakes, is_own: bool
         if rule in rules:
             replies[rule] = mistakes.keep(partial(_reply, rule, entry, vocabulary)) or Reply()
         elif is_own:
-            mend = "delete this table, or mend the grammar"
+            mend = "delete this table, or fix the grammar"
             if vocabulary.app.base is not None and not vocabulary.app.files(GRAMMAR):
                 mend = f"add the rule to a {GRAMMAR} in {vocabulary.app.folder}"
             remedy = did_you_mean(rule, missing, mend)

@@ -34,13 +34,13 @@ FIRST_QUESTION = 7.0
 """Seconds of calm after a conversation before it asks a question of its own."""
 BETWEEN_QUESTIONS = 40.0
 UNSEEN_SECONDS = 20.0
-"""The same for somebody who is not seen."""
+"""The same for someone who is not seen."""
 LOOK_EVERY = 1.0
 """Seconds between looks at whether the replies have been saved."""
 READING_SECONDS = 0.05
 """What reading them takes on a fake clock."""
 IGNORED_SECONDS = 25.0
-"""Calm while somebody is there, after which it feels ignored; again after each such time."""
+"""Calm while someone is there, after which it feels ignored; again after each such time."""
 
 
 def check(context: TaskContext) -> None:
@@ -106,7 +106,7 @@ async def converse(context: TaskContext) -> None:
 
 
 async def wonder(context: TaskContext) -> None:
-    """Ask a question now and then, when somebody is there and it is calm."""
+    """Ask a question now and then, when someone is there and it is calm."""
     companion = Companion.of(context)
     clock = context.clock
     count, last = 0, -math.inf
@@ -188,7 +188,7 @@ async def watch_keys(context: TaskContext) -> None:
         await context.clock.sleep(0.05)
         for key in screen.pressed_keys():
             if key == "space":
-                companion.guard.halt("somebody pressed the stop key")
+                companion.guard.halt("someone pressed the stop key")
                 companion.reply("stop", "stop", {})
             elif key == "r":
                 companion.guard.release()

@@ -1,4 +1,4 @@
-"""What the student hears in place of clean speech: rooms, microphones, babble and other noise."""
+"""What the student hears instead of clean speech: rooms, microphones, babble and other noise."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def babble(clips: Sequence[Sound], chance: Chance) -> Sound:
 
 
 def one_talker(clips: Sequence[Sound], chance: Chance) -> Sound:
-    """Somebody else, above steady noise."""
+    """Someone else, above steady noise."""
     floor = steady(clips, chance)
     return talk(clips, chance) + floor / floor.std() * decibels(chance.uniform(-15, 0))
 

@@ -39,7 +39,7 @@ LABELS = 4
 
 
 def varied(clip: Clip, chance: np.random.Generator) -> Clip | None:
-    """The same words of somebody else; None for what has no pitch."""
+    """The same words of someone else; None for what has no pitch."""
     sound = clip / 32768
     rough, times = pyworld.dio(sound, RATE, frame_period=FRAME_MS)
     pitch = pyworld.stonemask(sound, rough, times, RATE)

@@ -1,4 +1,4 @@
-"""Everything that reads what somebody else wrote, and good inputs to begin with."""
+"""Everything that reads what someone else wrote, and good inputs to begin with."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ def main(words: list[str]) -> None:
 
 def _tried(reader: Reader, path: Path, number: int) -> dict[str, object]:
     held = _pages(1)
-    Path("/proc/self/clear_refs").write_text("5")  # the peak begins anew
+    Path("/proc/self/clear_refs").write_text("5")  # the peak begins again
     signal.setitimer(signal.ITIMER_PROF, LONGEST)
     began = time.process_time()
     what, why = _outcome(reader, path)
@@ -103,7 +103,7 @@ def _pages(column: int) -> int:
 
 
 def _peak() -> int:
-    """The most bytes of memory since the peak began anew."""
+    """The most bytes of memory since the peak began again."""
     status = Path("/proc/self/status").read_text()
     return int(status.partition("VmHWM:")[2].split()[0]) * 1024
 

@@ -1,9 +1,9 @@
 """The same recordings, judged by limits that were chosen without them.
 
 The limits of `config/gestures.toml` were fitted to these recordings, so they are right more often
-on them than on others. Here the limits of the two-swing rows, which decide most, are chosen anew on
-four fifths of the recordings and judged on the last fifth, for each fifth in turn. The form of the
-rows and the limits that are not chosen were made with all recordings in view.
+on them than on others. Here the limits of the two-swing rows, which matter most, are chosen again
+on four fifths of the recordings and judged on the last fifth, for each fifth in turn. The form of
+the rows and the limits that are not chosen were made with all recordings in view.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Two people who cross, and one who leaves and returns: whether everybody keeps their id."""
+"""Two people who cross, and one who leaves and returns: whether everyone keeps their id."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ SEED = 590_000
 APART = 1.3
 """Heads between two faces from which on it is plain which box is whose."""
 SETTLED = 0.5
-"""Seconds after two faces were close, from when on everybody must have their own id again."""
+"""Seconds after two faces were close, from when on everyone must have their own id again."""
 LONGEST_AWAY = 2.6
 """Seconds; ids are kept for 3."""
 
@@ -40,11 +40,11 @@ class Verdict:
     """What became of the ids in a case."""
 
     is_swapped: bool
-    """Somebody kept the id of the other."""
+    """Someone kept the id of the other."""
     is_mixed_up: bool
-    """Somebody had the id of the other, if only for a moment after they were close."""
+    """Someone had the id of the other, if only for a moment after they were close."""
     is_lost: bool
-    """Somebody got a new id."""
+    """Someone got a new id."""
 
 
 def rows(quick: bool, workers: int) -> Iterator[Row]:
@@ -70,7 +70,7 @@ def _judged(count: int, rate: float, workers: int) -> list[Verdict]:
 
 
 def judge(number: int, rate: float = RATE) -> Verdict:
-    """Case of a number: every other one has somebody who leaves and returns."""
+    """Case of a number: every other one has someone who leaves and returns."""
     roles = crossing_roles(number) if number % 2 == 0 else _returning(number)
     lens = Lens(noise=4.0, seed=SEED + number)
     film = Film(roles, SECONDS, rate, OPTICS, lens, scene=number)

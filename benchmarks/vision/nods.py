@@ -1,4 +1,4 @@
-"""Films of somebody who nods again and again, and of what must not be taken for it; nobody asks.
+"""Films of someone who nods again and again, and of what must not be taken for it; nobody asks.
 
 Before the first of the nods the head turns by 20 degrees; the pictures are blurred and noisy.
 """
@@ -48,7 +48,7 @@ Motion = Callable[[float], Posture]
 
 @dataclass(frozen=True, slots=True)
 class Nods:
-    """When somebody nods, and how."""
+    """When someone nods, and how."""
 
     starts: tuple[float, ...]
     hertz: tuple[float, ...]
@@ -90,12 +90,12 @@ def nods(seed: int) -> Nods:
 
 
 def rest(seed: int) -> Motion:
-    """Somebody who only sways."""
+    """Someone who only sways."""
     return lambda time: Posture()
 
 
 def turns(seed: int) -> Motion:
-    """Somebody who turns the head aside and back, again and again."""
+    """Someone who turns the head aside and back, again and again."""
     dice = random.Random(f"turns {seed}")
     ways = [math.radians(dice.choice((-1, 1)) * dice.uniform(15, 40)) for _ in range(NODS)]
     speeds = [dice.uniform(0.35, 0.6) for _ in range(NODS)]
@@ -111,7 +111,7 @@ def turns(seed: int) -> Motion:
 
 
 def pictures(seed: int) -> Motion:
-    """Still pictures of somebody, one switched for another."""
+    """Still pictures of someone, one switched for another."""
     dice = random.Random(f"pictures {seed}")
     poses = [(dice.uniform(-12, 12), dice.uniform(-20, 20)) for _ in range(4)]
     until, shown, moments = 0.0, 0, []
@@ -138,7 +138,7 @@ FILMS: Mapping[str, Callable[[int], Motion]] = {
 
 
 def film(motion: Motion, seed: int, rate: float, duration: float = DURATION) -> Film:
-    """Somebody who moves so, blurred and noisy, so many pictures a second."""
+    """Someone who moves so, blurred and noisy, so many pictures a second."""
     dice = random.Random(f"lens {seed}")
     lens = Lens(noise=dice.uniform(3, 7), blur=dice.uniform(0.6, 1.0), seed=seed)
     actors = [name for name, looks in ACTORS.items() if looks.is_for_tests]
@@ -149,7 +149,7 @@ def film(motion: Motion, seed: int, rate: float, duration: float = DURATION) -> 
 
 
 def told(kind: str, seed: int, rate: float) -> list[HeadGesture]:
-    """What is told of everybody in a film, though nobody asks."""
+    """What is told of everyone in a film, though nobody asks."""
     made = film(FILMS[kind](seed), seed, rate)
     watching = PeopleGestures(answer_patterns())
     with one_thread():

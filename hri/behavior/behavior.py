@@ -76,8 +76,8 @@ class Behavior:
     is_sensor: ClassVar[bool] = False
     """Sensors run first in each cycle."""
     is_relay: ClassVar[bool] = False
-    """Whether it passes on what somebody outside of the network says, with the time of that. A
-    drive that follows such values stops when that somebody falls silent."""
+    """Whether it passes on what someone outside of the network says, with the time of that. A
+    drive that follows such values stops when that someone falls silent."""
     keeps_inputs: ClassVar[bool] = True
     """Whether what it sends may rest on what came in earlier ticks, such as a goal. The word of a
     relay then ages until the input gets another; a class that forgets, or whose output asks for no

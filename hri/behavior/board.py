@@ -41,7 +41,7 @@ DECLARED = {
         Slot("drive.command", "twist", "what tasks ask the base for"),
         Slot("drive.goal", "pose", "where tasks send the base"),
         Slot("expression.override", "expression", "what tasks let the face show"),
-        Slot("people", "people", "everybody who is seen; tasks read it"),
+        Slot("people", "people", "everyone who is seen; tasks read it"),
         Slot("question.open", "boolean", "true while a task waits for an answer"),
     )
 }

@@ -27,14 +27,14 @@ def find_behavior(type_name: str) -> type[Behavior]:
     schema = load_schema(path)
     if schema.type != type_name:
         what = f'this is the schema of "{schema.type}", not of "{type_name}"'
-        raise AuthoringError(Place(path), what, "rename the file, or mend its type")
+        raise AuthoringError(Place(path), what, "rename the file, or fix its type")
     try:
         return _behavior_of(schema, path)
     except AuthoringError:
         raise
     except (HriError, ValueError) as error:
         what, _, remedy = str(error).partition(" - ")
-        raise AuthoringError(Place(path), what, remedy or "mend the schema") from error
+        raise AuthoringError(Place(path), what, remedy or "fix the schema") from error
 
 
 def find_schema(type_name: str) -> Path:

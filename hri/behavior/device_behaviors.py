@@ -31,7 +31,7 @@ from hri.hal.screen import Screen
 class CameraFrames(DeviceBehavior):
     """Sends each new picture of a camera.
 
-    Raises `camera.switched` (`camera`, `on`) when somebody turns it off or on, `camera.lost` when
+    Raises `camera.switched` (`camera`, `on`) when someone turns it off or on, `camera.lost` when
     no picture comes any more, and `camera.found` once they come again.
     """
 

@@ -25,7 +25,7 @@ class Doors:
     allows_remote: bool = False
     """Whether other machines may connect."""
     trusted: tuple[str, ...] = ()
-    """Ports of the bridge that anybody may write to, as `tag` or `tag.port`; `*` in a name stands
+    """Ports of the bridge that anyone may write to, as `tag` or `tag.port`; `*` in a name stands
     for any characters."""
     events: tuple[str, ...] = NAMES_OF_2003
     """Names of events that may come from outside, with `*` as above."""
@@ -35,7 +35,7 @@ class Doors:
         return replace(self, trusted=(*self.trusted, *trusted), events=(*self.events, *events))
 
     def trusts(self, tag: str, port: str) -> bool:
-        """Whether anybody may write to a port."""
+        """Whether anyone may write to a port."""
         return any(matches(one, tag) or matches(one, f"{tag}.{port}") for one in self.trusted)
 
     def unknown(self, behaviors: Iterable[Behavior]) -> Iterator[str]:

@@ -25,9 +25,9 @@ STEERING_RANKS = tuple(rank.value for rank in Rank if rank is not Rank.NOBODY)
 class DriveCommand(DeviceBehavior):
     """Passes velocities on to the drive, and stops it when they end.
 
-    A velocity that rests on the word of somebody outside, such as a peer over the network, counts
+    A velocity that rests on the word of someone outside, such as a peer over the network, counts
     for `PATIENCE` seconds after that word. While nothing comes in it leaves the drive alone, so
-    that somebody else may use it. Several that write one drive need different ranks; while one of
+    that someone else may use it. Several that write one drive need different ranks; while one of
     a higher rank steers, the others wait, and raise `drive.refused` (`words`) once. With the rank
     "teleop", a velocity of 0 counts as nothing: it is that of a stick at rest.
     """

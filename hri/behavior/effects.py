@@ -6,7 +6,7 @@ from enum import Enum
 
 
 class Effect(Enum):
-    """What needs somebody's leave when it comes from outside; the value says it in a sentence."""
+    """What needs someone's leave when it comes from outside; the value says it in a sentence."""
 
     MOVES = "moves the robot"
     SPEAKS = "lets it speak"

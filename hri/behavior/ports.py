@@ -20,7 +20,7 @@ ANGULAR_VELOCITY = "Evolution.AngularVelocity"
 """Meanings of ports; a generic one fits all others."""
 
 DBL_MAX = sys.float_info.max
-"""What ports of 2003 carry, in place of infinity, when nothing is in range."""
+"""What ports of 2003 carry, instead of infinity, when nothing is in range."""
 
 ANY = "any"
 """The datatype that fits every other."""
@@ -65,7 +65,7 @@ def declare_datatype(name: str, kind: type) -> type:
     if not isinstance(kind, type):
         raise TypeError(f"{name} is {kind!r:.60} - give a class")
     known = DATATYPES.get(name, kind)
-    # A file that is read again makes its classes anew.
+    # A file that is read again makes its classes again.
     if (known.__module__, known.__qualname__) != (kind.__module__, kind.__qualname__):
         what = f'the datatype "{name}" is {known.__module__}.{known.__qualname__} already'
         raise TypeError(f"{what} - choose another name")

@@ -2,7 +2,7 @@
 
 The order of a tick, once and in words: all outputs are emptied; what was injected takes its place
 as links; the behaviors run, sensors first and then in dependency order, and what rests on the word
-of somebody outside carries the time of that word on, also when a behavior kept it from an earlier
+of someone outside carries the time of that word on, also when a behavior kept it from an earlier
 tick; the time each one took is kept; those who watch outputs are told what was sent. A tick that
 ends after its deadline is a missed interval: it is counted, reported with what took longest, and
 the deadlines that have passed are skipped, never run in a burst.
@@ -40,7 +40,7 @@ REST = 1.0
 
 @dataclass(eq=False, slots=True)
 class Watch:
-    """Somebody who is told what an output sends; `cancel()` ends it, a second call is harmless."""
+    """Someone who is told what an output sends; `cancel()` ends it, a second call is harmless."""
 
     port: OutputPort[Any]
     callback: Callable[[Any, float], object]
@@ -149,7 +149,7 @@ class Runner:
 
     @property
     def watched(self) -> tuple[OutputPort[Any], ...]:
-        """The outputs that somebody watches."""
+        """The outputs that someone watches."""
         return tuple(watch.port for watch in self._watches)
 
     def tick(self, now: float) -> float:
@@ -186,7 +186,7 @@ class Runner:
                 if carrier is not None:
                     carrier.carry()
                 after = perf_counter()
-                # Written out, in place of `timing.add`: this is the inner loop of it all.
+                # Written out, instead of `timing.add`: this is the inner loop of it all.
                 timing.last = spent = after - before
                 timing.count += 1
                 timing.total += spent
@@ -297,7 +297,7 @@ class Runner:
         # A new list, since the tick still walks over the old one.
         self._order = [kept for kept in self._order if kept[0] is not behavior]
         name = self._name_of(behavior)
-        # The first time with all that helps to mend it, then in a line.
+        # The first time with all that helps to fix it, then in a line.
         is_new = behavior not in self._failed
         self._failed.add(behavior)
         log.error("%s failed: %s", name, error, exc_info=error if is_new else None)

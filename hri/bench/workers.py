@@ -58,6 +58,6 @@ def running(code: str, stdout: int | None = None) -> Iterator[subprocess.Popen[s
 
 @contextmanager
 def busy_processes(count: int) -> Iterator[list[subprocess.Popen[str]]]:
-    """Processes that do nothing but keep processors busy while the block runs."""
+    """Processes that do only keep processors busy while the block runs."""
     with ExitStack() as stack:
         yield [stack.enter_context(running("while True: pass")) for _ in range(count)]

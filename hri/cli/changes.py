@@ -19,7 +19,7 @@ Marks = dict[Path, tuple[int, int]]
 async def announce_changes(app: App, tell: Callable[[str], object], context: TaskContext) -> None:
     """Tell one line for each file that is saved and not taken, once a file.
 
-    These are `app.toml`, Python files and networks; grammars, replies and emotions are read anew.
+    These are `app.toml`, Python files and networks; grammars, replies and emotions are read again.
     """
     before, told = marks(app), set[Path]()
     while True:

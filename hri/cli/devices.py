@@ -1,6 +1,6 @@
 """`hri devices`: what a configuration names, what of it is present, and why something is not.
 
-With `--probe` it looks for bases on the serial ports in place of that.
+With `--probe` it looks for bases on the serial ports instead of that.
 """
 
 from __future__ import annotations
@@ -131,7 +131,7 @@ class _Probe:
         except HriError as error:
             self._says = str(error).removeprefix(f"{device.id}: ")
         except Exception as error:
-            self._says = f"its driver failed: {error!r} - mend the driver"
+            self._says = f"its driver failed: {error!r} - fix the driver"
         else:
             self._opened, self._state, self._says = resource, "present", resource.describe()
 

@@ -1,4 +1,4 @@
-"""`hri doctor`: try every device, say what is wrong and how to mend it, choose others."""
+"""`hri doctor`: try every device, say what is wrong and how to fix it, choose others."""
 
 from __future__ import annotations
 

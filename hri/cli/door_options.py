@@ -16,7 +16,7 @@ def add_door_options(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="TAG[.PORT]",
-        help="let anybody write to a port of the bridge without the token; may be repeated",
+        help="let anyone write to a port of the bridge without the token; may be repeated",
     )
 
 

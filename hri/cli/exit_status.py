@@ -70,6 +70,6 @@ def _alone(error: BaseException) -> BaseException:
 
 
 def _complain(line: str) -> None:
-    """Print a line to standard error, where anybody can read it."""
+    """Print a line to standard error, where anyone can read it."""
     with suppress(OSError):
         print(line, file=sys.stderr)

@@ -85,8 +85,8 @@ def add_sound(path: Path, samples: Samples, rate: int) -> bool:
         try:
             done = subprocess.run(words, capture_output=True, timeout=PATIENCE, check=False)
         except (OSError, subprocess.TimeoutExpired) as error:
-            raise HriError(f"{program} cannot add the sound: {error} - mend ffmpeg") from error
+            raise HriError(f"{program} cannot add the sound: {error} - fix ffmpeg") from error
         if done.returncode:
             reason = done.stderr.decode("utf-8", "replace").strip().splitlines()[-1:]
-            raise HriError(f"{program} cannot add the sound: {' '.join(reason)} - mend ffmpeg")
+            raise HriError(f"{program} cannot add the sound: {' '.join(reason)} - fix ffmpeg")
     return True

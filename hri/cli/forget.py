@@ -11,7 +11,7 @@ from hri.robot import kept
 from hri.robot.kept import Trace
 
 EPILOG = """\
-A robot that is running forgets it, too, within a second or so. What somebody made on purpose is
+A robot that is running forgets it, too, within a second or so. What someone made on purpose is
 deleted only after a yes: recordings, and without a name also pictures and films of the camera,
 your lexicon, and your choice of devices. Where nobody can be asked, it stays, and is listed."""
 

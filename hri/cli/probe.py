@@ -1,6 +1,6 @@
 """Which bases are on the serial ports: each kind is asked in its own words, and no wheel moves.
 
-A vacuum cleaner that is at work stops; a board that its port resets starts anew.
+A vacuum cleaner that is at work stops; a board that its port resets starts again.
 """
 
 from __future__ import annotations

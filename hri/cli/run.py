@@ -58,7 +58,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
     add("--audio", type=Path, metavar="FILE", help="hear this sound file instead of a microphone")
     add("--camera", metavar="FILE|none", help="see this video or image, or nothing")
-    add("--record", type=Path, metavar="DIR", help="write events, video, sound, plot there, anew")
+    add("--record", type=Path, metavar="DIR", help="write events, video, sound, plot there, again")
     add("--record-rejected", action="store_true", help="write rejected words there, too")
     add("--keep", action="store_true", help="go on from earlier feelings, and keep what it feels")
     add("--headless", action="store_true", help="draw the face, but show it to nobody")
@@ -167,7 +167,7 @@ def check_files(options: argparse.Namespace) -> None:
 
 
 def memory_of(options: argparse.Namespace) -> str:
-    """The file in which feelings outlast the run; none unless somebody asked for it."""
+    """The file in which feelings outlast the run; none unless someone asked for it."""
     return str(memory_file()) if options.keep else ""
 
 
@@ -185,7 +185,7 @@ def is_to_repeat(options: argparse.Namespace) -> bool:
 
 
 def replaced_devices(options: argparse.Namespace) -> list[Description]:
-    """The devices that the command line puts in place of the configured ones."""
+    """The devices that the command line puts instead of the configured ones."""
     devices = []
     if options.audio is not None:
         file = {"file": str(options.audio)}

@@ -1,4 +1,4 @@
-"""`hri watch`: what the robot sees: everybody's box, id, pose, gaze and gestures, drawn live."""
+"""`hri watch`: what the robot sees: everyone's box, id, pose, gaze and gestures, drawn live."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ KEYS = "escape: end; space: hold; l: landmarks; c: camera off and on"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_source(parser)
     add = parser.add_argument
-    add("--out", type=Path, metavar="FILM.mp4", help="write a film in place of opening a window")
+    add("--out", type=Path, metavar="FILM.mp4", help="write a film instead of opening a window")
     add(
         "--detector", default="auto", metavar="NAME", help="auto, haar, or the path of a YuNet file"
     )

@@ -217,7 +217,7 @@ class Clock(ABC):
         return None
 
     def _wake(self) -> None:
-        """Let the robot loop look at its timers anew."""
+        """Let the robot loop look at its timers again."""
         token = self._token
         if token is None or threading.get_ident() == self._driver:
             self._changed.set()
@@ -253,7 +253,7 @@ class RealClock(Clock):
 
     def advance_until(self, is_over: Callable[[], bool], timeout: float = math.inf) -> bool:
         if self.is_driven:
-            raise RuntimeError("a robot loop runs this clock - await, in place of waiting")
+            raise RuntimeError("a robot loop runs this clock - await, instead of waiting")
         end = self.now() + timeout
         while not is_over():
             timer = self._pop_timer()

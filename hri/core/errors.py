@@ -15,9 +15,9 @@ T = TypeVar("T")
 
 
 class HriError(Exception):
-    """Something the user can mend; its text is one line: what is wrong - what to do.
+    """Something the user can fix; its text is one line: what is wrong - what to do.
 
-    What is quoted in it may come from anybody: see `hri.core.quoting.message_line`.
+    What is quoted in it may come from anyone: see `hri.core.quoting.message_line`.
     """
 
     def __str__(self) -> str:

@@ -21,7 +21,7 @@ LARGEST_LOG = 25_000_000
 """Bytes of a log of events: some hours of a busy robot."""
 LONGEST_LINE = 1_000_000
 """Characters of an event."""
-_REMEDY = "delete this line, or record anew"
+_REMEDY = "delete this line, or record again"
 
 
 class EventLog:

@@ -79,7 +79,7 @@ def after_move(pose: Pose2D, x: float, y: float) -> Pose2D:
     """The pose after a relative move to the point (x, y) of the robot's own frame.
 
     Whatever way it took, the robot then faces along the straight line to there, and its axes are
-    drawn anew where it stands.
+    drawn again where it stands.
     """
     turned = math.atan2(y, x) if (x, y) != (0.0, 0.0) else 0.0
     return Pose2D(*placed(pose, x, y), pose.heading + turned)

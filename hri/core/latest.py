@@ -32,7 +32,7 @@ class Latest(Generic[T]):
 
     @property
     def spoken(self) -> float | None:
-        """When somebody outside, on whose word the value rests, spoke last; None: nobody."""
+        """When someone outside, on whose word the value rests, spoke last; None: nobody."""
         return self._spoken
 
     def clear(self) -> None:

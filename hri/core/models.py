@@ -215,9 +215,9 @@ def bring(name: str, source: Path, parts: tuple[Part, ...] = ()) -> Path:
         elif source.is_file() and zipfile.is_zipfile(source):  # A pipe or device may never end.
             unpack(source, target, parts)
         else:
-            raise HriError(f"{source}: neither a folder nor a ZIP archive - mend the path")
+            raise HriError(f"{source}: neither a folder nor a ZIP archive - fix the path")
     except (OSError, shutil.Error) as error:
-        raise HriError(f"{source}: {error} - mend the path, or make room") from error
+        raise HriError(f"{source}: {error} - fix the path, or make room") from error
     return target
 
 

@@ -31,9 +31,9 @@ def is_of_user(path: Path) -> bool:
 
 
 def require_of_user(path: Path, what: str) -> None:
-    """Raise HriError for a file or folder that somebody else may have written."""
+    """Raise HriError for a file or folder that someone else may have written."""
     if not is_of_user(path):
-        reason = f"somebody else may have written this {what}, so it is not used"
+        reason = f"someone else may have written this {what}, so it is not used"
         raise HriError(f"{path}: {reason} - look at it, then chown or chmod go-w it")
 
 
@@ -46,7 +46,7 @@ def own_cache(path: Path) -> Path | None:
     """A folder for what can be made again, for this user alone; None when there can be none.
 
     It is made if it is not there. One of the user's that others could write to is emptied first;
-    somebody else's is not used.
+    someone else's is not used.
     """
     with suppress(OSError):
         path.mkdir(mode=PRIVATE_FOLDER, parents=True, exist_ok=True)
@@ -62,7 +62,7 @@ def _is_owned(status: os.stat_result) -> bool:
 
 
 def _is_open(status: os.stat_result) -> bool:
-    """Whether somebody else may write it."""
+    """Whether someone else may write it."""
     if not hasattr(os, "getuid"):
         return False
     by_group = status.st_mode & stat.S_IWGRP and not _is_own_group(status.st_gid)

@@ -43,7 +43,7 @@ def private_folder(folder: Path) -> None:
 def folder_for(file: Path) -> None:
     """Make the folder of a private file, where it is missing; our own is closed to others.
 
-    One that somebody else made for more than this file stays as it is. Raises NotWritten.
+    One that someone else made for more than this file stays as it is. Raises NotWritten.
     """
     if file.parent in paths.own_folders():
         private_folder(file.parent)
@@ -66,7 +66,7 @@ def private_file(path: Path) -> None:
 def close_to_others(path: Path) -> None:
     """Take from the group and from all others what they may do with a file or a folder.
 
-    What is missing, belongs to somebody else, or is neither, such as a device, is left alone.
+    What is missing, belongs to someone else, or is neither, such as a device, is left alone.
     """
     with suppress(OSError):
         mode = path.stat().st_mode

@@ -45,14 +45,14 @@ def _told(path: Path) -> Iterator[None]:
         yield
     except SyntaxError as error:
         place = Place(Path(error.filename or path), error.lineno or 1, error.offset or 1)
-        raise AuthoringError(place, error.msg, "mend the Python here") from error
+        raise AuthoringError(place, error.msg, "fix the Python here") from error
     except ImportError as error:
-        raise HriError(f"{path}: {error} - install it, or mend the import") from error
+        raise HriError(f"{path}: {error} - install it, or fix the import") from error
     except SystemExit as error:
         what = "it ends the program while it is imported"
         raise HriError(f"{path}: {what} - leave that to the code that runs it") from error
     except Exception as error:
-        raise HriError(f"{path}: {type(error).__name__}: {error} - mend this file") from error
+        raise HriError(f"{path}: {type(error).__name__}: {error} - fix this file") from error
 
 
 def load_class(path: Path, name: str) -> Any:

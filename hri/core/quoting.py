@@ -1,4 +1,4 @@
-"""Text that somebody else wrote, as messages show it: one line that cannot command a terminal."""
+"""Text that someone else wrote, as messages show it: one line that cannot command a terminal."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Reading files that anybody may have written, within limits.
+"""Reading files that anyone may have written, within limits.
 
 Every reader begins here: what is not a regular file, is too large or is not text is refused in one
 line, before it takes memory or keeps the program waiting.

@@ -3,7 +3,7 @@
 A service is made once by a factory, in a child process, and answers one question after the other.
 Threads would not do: what holds the interpreter there keeps the loop waiting. The child sends its
 answers through a pipe; arrays (pictures) are not copied on their way into it. It ends with the
-program, however that ends, since its pipe is then closed; when it dies or hangs it is started anew.
+program, however that ends, since its pipe is then closed; when it dies or hangs it is restarted.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ PATIENCE = 5.0
 PATIENCE_AT_START = 30.0
 """Seconds to load libraries and models, on a slow machine."""
 FIRST_PAUSE, LONGEST_PAUSE = 0.5, 30.0
-"""Seconds before a dead child is started anew; doubled by each failure in a row."""
+"""Seconds before a dead child is started again; doubled by each failure in a row."""
 COMMAND = "from hri.core.service import serve; serve()"
 COURTESY = 5
 """How much the child yields to the robot loop where there are few processors (Unix `nice`)."""
@@ -62,7 +62,7 @@ class Service(ABC, Generic[Question, Answer]):
         """The answer, if it has come since the last call, else nothing; call it in every tick.
 
         Raises NotAvailable, once each time, when the question failed, or the service died; it is
-        started anew by itself, without its memory.
+        started again by itself, without its memory.
         """
 
     @abstractmethod
@@ -146,7 +146,7 @@ class ProcessService(Service[Question, Answer]):
             self._child = None
         pause = self._pause()
         self._start_at = now + pause
-        return f"{why} - it is started anew in {pause:g} s"
+        return f"{why} - it is started again in {pause:g} s"
 
     def close(self) -> None:
         self._is_closed = True
@@ -263,7 +263,7 @@ def serve() -> None:
 
 
 class _Expert(Generic[Question, Answer]):
-    """What the factory makes; made anew after a question that failed, whose trace it may bear."""
+    """What the factory makes; made again after a question that failed, whose trace it may bear."""
 
     def __init__(self, factory: Callable[[], Callable[[Question], Answer]]) -> None:
         self._factory = factory

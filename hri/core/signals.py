@@ -39,7 +39,7 @@ class Alternative:
 
     text: str
     share: float
-    """How likely it was said in place of the best, 0 to 1; all shares and the best's make 1."""
+    """How likely it was said instead of the best, 0 to 1; all shares and the best's make 1."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -217,7 +217,7 @@ class Gaze:
     x: float = 0.0
     y: float = 0.0
     point: tuple[float, float, float] | None = None
-    """What to look at in place of x and y: meters from between the eyes in the robot's axes, x
+    """What to look at instead of x and y: meters from between the eyes in the robot's axes, x
     ahead, y left, z up."""
 
 
@@ -278,7 +278,7 @@ class Countenance:
 
 @dataclass(frozen=True, slots=True)
 class Person:
-    """Somebody whom the camera sees, or saw a moment ago."""
+    """Someone whom the camera sees, or saw a moment ago."""
 
     id: str
     """"p1", "p2" ...; the same while they are seen and for some seconds after."""
@@ -311,7 +311,7 @@ class Person:
 
 @dataclass(frozen=True, slots=True)
 class People:
-    """Everybody whom the camera sees or saw a moment ago, in the order of their ids."""
+    """Everyone whom the camera sees or saw a moment ago, in the order of their ids."""
 
     time: float
     """Seconds, when the picture was taken."""
@@ -421,5 +421,5 @@ class Event:
             return float(value)  # type: ignore[return-value]
         if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
             what = f"is a {type(value).__name__}, no {kind.__name__}"
-            raise HriError(f'{self.name}: the property "{name}" {what} - mend who raises it')
+            raise HriError(f'{self.name}: the property "{name}" {what} - fix who raises it')
         return value

@@ -1,6 +1,6 @@
 """Where lies what is kept about people outside of the robot's own folders.
 
-A recording, a film of the camera, or a file of faces or feelings, lies where somebody wanted it. So
+A recording, a film of the camera, or a file of faces or feelings, lies where someone wanted it. So
 that all of it can be found and forgotten, its place is noted in the state folder, a JSON object a
 line:
 `{"kind": "recording", "place": "/home/ann/out"}`.

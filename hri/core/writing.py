@@ -213,7 +213,7 @@ def _made_beside(target: Path, mode: int | None, suffix: str) -> tuple[int, Path
     before = target.stat() if target.exists() else None
     if mode is None and before is not None:
         mode = stat.S_IMODE(before.st_mode)
-    with suppress(NotWritten):  # somebody else's, in a folder of all
+    with suppress(NotWritten):  # someone else's, in a folder of all
         delete_leftovers(target)
     handle, new = _made_locked(target, 0o666 if mode is None else mode & 0o777, suffix)
     if before is not None:

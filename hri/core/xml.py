@@ -147,7 +147,7 @@ class _Reader:
             self.parser.Parse(self.raw, True)
         except expat.ExpatError as error:
             place = Place(self.path, error.lineno, error.offset + 1)
-            remedy = "mend the XML here"
+            remedy = "fix the XML here"
             if self.stack and error.code in (3, 7):  # XML_ERROR_NO_ELEMENTS, _TAG_MISMATCH
                 unclosed = self.stack[-1]
                 remedy = f"close <{unclosed.tag}> of line {unclosed.place.line}"

@@ -23,7 +23,7 @@ class Act:
     """An emotion that is put on."""
 
     value: float
-    """0 to 1, shown in place of the felt intensity."""
+    """0 to 1, shown instead of the felt intensity."""
     until: float
     """Seconds of the clock at which it ends."""
 

@@ -115,7 +115,7 @@ OccEvent = GoalEvent | ActionEvent | ObjectEvent
 
 
 def people_of(event: OccEvent) -> set[str]:
-    """Everybody who has a part in it, beside the robot itself."""
+    """Everyone who has a part in it, beside the robot itself."""
     match event:
         case GoalEvent(owner=owner, agent=agent):
             return {person for person in (owner, agent) if person not in (None, SELF)}

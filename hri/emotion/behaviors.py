@@ -31,7 +31,7 @@ from hri.emotion.triggers import Triggers
 LOOK_EVERY_S = 1.0
 """Seconds between looks for ports to watch."""
 FAINT = 0.05
-"""An emotion of less than this is not felt, when somebody asks why it is."""
+"""An emotion of less than this is not felt, when someone asks why it is."""
 CLEAR = 0.25
 """From this on it is more than a little."""
 BATTERY_STEP = 0.01
@@ -45,7 +45,7 @@ class EmotionModel(Behavior):
 
     Raises `emotion.changed` (label, valence, arousal, dominance: the mood's) when the label changes
     or the valence has moved, `mood.changed` when the name of the mood changes, and `person.named`
-    (person, name) when somebody with a name first does something: it says who took part.
+    (person, name) when someone with a name first does something: it says who took part.
     """
 
     keeps_inputs = False
@@ -54,7 +54,7 @@ class EmotionModel(Behavior):
     personality = Param("neutral", "name of a file in emotions/personalities, or a path")
     memory = Param("", "file that keeps mood, relations and drives between runs; empty: none")
     memory_after_yes = Param(
-        "", "the same, but not before somebody allows it: `begin_keeping`; empty: nobody is asked"
+        "", "the same, but not before someone allows it: `begin_keeping`; empty: nobody is asked"
     )
     stimulus = Input[Stimulus](
         "stimulus", "felt at every tick in which it is sent", is_optional=True
@@ -63,7 +63,7 @@ class EmotionModel(Behavior):
         "double", "how full it is, 0 to 1: the drive for energy", is_optional=True
     )
     people = Input[People](
-        "people", "who is seen: what comes by the id of somebody with a name is theirs",
+        "people", "who is seen: what comes by the id of someone with a name is theirs",
         is_optional=True,
     )  # fmt: skip
     state = Output[EmotionState]("emotion", "what is felt now")
@@ -123,7 +123,7 @@ class EmotionModel(Behavior):
 
     @property
     def may_ask_to_keep(self) -> bool:
-        """Whether somebody may be asked to let it keep what it feels.
+        """Whether someone may be asked to let it keep what it feels.
 
         Not when it is kept already, nor when feelings of an earlier run would be overwritten.
         """
@@ -131,7 +131,7 @@ class EmotionModel(Behavior):
         return bool(named) and self._keeper is None and not traces(paths.expanded(named))
 
     def begin_keeping(self) -> None:
-        """Keep from now on what is felt, since somebody has allowed it. Raises `memory.begun`."""
+        """Keep from now on what is felt, since someone has allowed it. Raises `memory.begun`."""
         if self.may_ask_to_keep:
             path = paths.expanded(self.memory_after_yes)
             self._keeper = Keeper(path, self.personality, self._context)
@@ -192,7 +192,7 @@ class EmotionModel(Behavior):
         return why_words(feeling, causes, words, state.drives)
 
     def _meet(self, people: People) -> None:
-        """Put down to a name, once it is known, what was felt of the id of somebody who is seen."""
+        """Put down to a name, once it is known, what was felt of the id of someone who is seen."""
         if people is self._people:
             return
         names = {
@@ -206,13 +206,13 @@ class EmotionModel(Behavior):
             self._affect = self._dynamics.rename(self._affect, fresh)
 
     def _involve(self, person: str | None, name: str | None) -> None:
-        """Tell, once a run, that somebody with a name takes part."""
+        """Tell, once a run, that someone with a name takes part."""
         if name is not None and not is_unnamed(name) and name not in self._involved:
             self._involved.add(name)
             self._context.events.raise_event("person.named", person=person, name=name)
 
     def _name_of(self, person: str | None) -> str | None:
-        """The name of somebody who is seen, if it is known; else what they are called already."""
+        """The name of someone who is seen, if it is known; else what they are called already."""
         seen = self._people.person(person) if person else None
         return name_of(seen.name if seen is not None and seen.name else person)
 

@@ -239,7 +239,7 @@ class Dynamics:
         return self._fading.read(affect)[2]
 
     def relations(self, affect: Affect) -> dict[str, float]:
-        """What the robot thinks of everybody it knows, -1 to 1; see `relations`."""
+        """What the robot thinks of everyone it knows, -1 to 1; see `relations`."""
         return {
             person: relations.relation_of(trace.at(affect.time, _FADING_RATE).after)
             for person, trace in affect.imprint.relations.items()

@@ -24,7 +24,7 @@ FORGOTTEN = 1e-15
 """A charge below this is dropped when something new happens."""
 _UNFELT = dict.fromkeys(NAMES, 0.0)
 _NO_GAP = -1e-200
-"""In place of a gap of 0, so that (1 - exp(-gap t)) / gap is t as it ought to be."""
+"""Instead of a gap of 0, so that (1 - exp(-gap t)) / gap is t as it ought to be."""
 
 
 _Step = tuple[float, float, float, float]

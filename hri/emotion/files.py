@@ -1,4 +1,4 @@
-"""The emotion files of a running robot, read anew when one of them is saved: all or nothing."""
+"""The emotion files of a running robot, read again when one of them is saved: all or nothing."""
 
 from __future__ import annotations
 

@@ -75,7 +75,7 @@ class Keeper:
         return self._resumed(memory, dynamics, now)
 
     def forgotten(self, dynamics: Dynamics) -> Affect | None:
-        """What is still felt if somebody had the robot forget something; None if nobody had."""
+        """What is still felt if someone had the robot forget something; None if nobody had."""
         if not self._is_touched():
             return None
         try:
@@ -95,7 +95,7 @@ class Keeper:
         """Write it beside the loop, if the last time is a while ago: a short one if something has
         happened, else SIGN_OF_LIFE_S.
 
-        Not over a file that somebody has changed: what they had the robot forget comes first.
+        Not over a file that someone has changed: what they had the robot forget comes first.
         """
         self._poll()
         wait = SIGN_OF_LIFE_S if affect.imprint is self._kept else KEEP_EVERY_S
@@ -158,7 +158,9 @@ class Keeper:
 
     def _put_aside(self, problem: HriError) -> None:
         try:
-            reason = f"{problem} - it is kept as {put_aside(self._path)}, and the robot begins anew"
+            reason = (
+                f"{problem} - it is kept as {put_aside(self._path)}, and the robot starts afresh"
+            )
         except OSError as error:
             self._is_stuck = True  # or the end of this run would overwrite it
             reason = f"{problem} - nor can it be renamed ({error.strerror}): nothing is kept"

@@ -20,7 +20,7 @@ LEAD = 1.15
 """How many times the labeled charge another one must be to take over."""
 
 NOTHING = ""
-"""In place of an emotion's name: none stands out."""
+"""Instead of an emotion's name: none stands out."""
 
 CALM = "calm"
 CALM_RADIUS = 0.12

@@ -22,7 +22,7 @@ OLD_S = 60.0
 PROSPECTS = frozenset({"hope", "fear"})
 """What is felt for a goal until it is decided."""
 FORTUNES = frozenset({"happy_for", "resentment"})
-"""What is felt as long as the goal of somebody else goes well."""
+"""What is felt as long as the goal of someone else goes well."""
 MISFORTUNES = frozenset({"pity", "gloating"})
 """What is felt as long as it goes badly."""
 _OF_A_GOAL = PROSPECTS | FORTUNES | MISFORTUNES

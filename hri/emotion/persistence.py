@@ -126,7 +126,7 @@ def recall(path: Path) -> Memory | None:
     if not os.path.lexists(path):
         return None
     if not exists(path):
-        raise HriError(f"{path} links to {os.readlink(path)}, which is not there - mend the link")
+        raise HriError(f"{path} links to {os.readlink(path)}, which is not there - fix the link")
     require_of_user(path, "memory of feelings")
     return parse(read_text(path, "memory of feelings"))
 
@@ -178,7 +178,7 @@ def forget(path: Path, person: str | None = None) -> bool:
 
     With a person, what the robot thinks of them goes, and what they caused has no name any more. A
     robot that runs forgets it too, within a second. Files beside it (`traces`) go as well when all
-    is forgotten. Raises HriError for somebody it does not know, for a file that cannot be used, and
+    is forgotten. Raises HriError for someone it does not know, for a file that cannot be used, and
     for one that cannot be written or deleted.
     """
     if person is None:
@@ -197,7 +197,7 @@ def forget(path: Path, person: str | None = None) -> bool:
 
 
 def people(imprint: Imprint) -> set[str]:
-    """Everybody whose name is in it."""
+    """Everyone whose name is in it."""
     origins = (*imprint.ledger, *imprint.fresh, *imprint.habituation)
     named = {origin.person for origin in origins if origin.person is not None}
     return named | set(imprint.relations)
@@ -221,5 +221,5 @@ def without(imprint: Imprint, person: str) -> Imprint:
 
 
 def without_unnamed(imprint: Imprint) -> Imprint:
-    """The same without those who had but an id, which is somebody else's by now."""
+    """The same without those who had but an id, which is someone else's by now."""
     return renamed(imprint, dict.fromkeys(filter(is_unnamed, people(imprint))))

@@ -2,7 +2,7 @@
 
 It is the tanh of a regard that stimuli add to and that fades over a month, so that it stays within
 its range and things of the same instant commute. It changes what a person can do to the robot: what
-pleases counts for more from somebody it likes, what hurts for more from somebody it does not.
+pleases counts for more from someone it likes, what hurts for more from someone it does not.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ SIGNS = {emotion.name: 1.0 if emotion.is_positive else -1.0 for emotion in EMOTI
 
 
 def is_unnamed(person: str) -> bool:
-    """Whether this is no name but the id of somebody in sight: "p1", "p2" (see `Person.id`).
+    """Whether this is no name but the id of someone in sight: "p1", "p2" (see `Person.id`).
 
-    The next time it is somebody else's: what the robot thinks of them ends with its run.
+    The next time it is someone else's: what the robot thinks of them ends with its run.
     """
     return person[:1] == "p" and person[1:].isdecimal()
 

@@ -1,4 +1,4 @@
-"""The emotion files of a running behavior: read anew beside the loop when one of them is saved."""
+"""The emotion files of a running behavior: read again beside the loop when one of them is saved."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ class StimulusSpec:
     """Seconds in which that loss falls to 1/e."""
     trigger: str = ""
     """The event that brings it, "bumper.pressed", or the port of a behavior that does,
-    "battery.level"; empty: somebody feels it by name."""
+    "battery.level"; empty: someone feels it by name."""
     formula: Formula = _FULL
     """Its intensity, of the event's properties; of a port's `value`."""
     satisfies: Mapping[str, float] = field(default_factory=dict)
@@ -156,7 +156,7 @@ def _formula(table: Table) -> Formula:
         return parse_formula(text)
     except ValueError as error:
         what, _, remedy = str(error).partition(" - ")
-        raise table.error("intensity", what, remedy or "mend the formula") from error
+        raise table.error("intensity", what, remedy or "fix the formula") from error
 
 
 def _satisfied(table: Table) -> dict[str, float]:

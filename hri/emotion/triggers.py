@@ -18,7 +18,7 @@ from hri.core.signals import Event
 from hri.emotion.stimulus import StimulusSpec
 
 MOST_REFUSED = 100
-"""Stimuli whose refusal is told; somebody who sends nonsense does not fill the memory with it."""
+"""Stimuli whose refusal is told; someone who sends nonsense does not fill the memory with it."""
 
 Felt = Callable[[str, float, str | None], object]
 """Takes the name of a stimulus, its intensity and who it comes from."""
@@ -40,7 +40,7 @@ class Triggers:
     ) -> None:
         """`levels` are those of the triggers in whose place these come."""
         self.levels = dict(levels or {})
-        """How strong the stimuli of ports are, by name; what did not rise is not felt anew."""
+        """How strong the stimuli of ports are, by name; what did not rise is not felt again."""
         self._context = context
         self._feel = feel
         self._refused: set[str] = set()

@@ -1,6 +1,6 @@
 """Who may write to the ports of one behavior of the bridge.
 
-A port from which nothing moves, speaks or releases takes what anybody sends, as in 2003. Any other
+A port from which nothing moves, speaks or releases takes what anyone sends, as in 2003. Any other
 takes the values of a peer that has shown the token, and those for which whoever started the
 program has said `trusted`.
 """
@@ -37,14 +37,14 @@ class Door:
         """When the log was told of a port that was written to without the token."""
 
     def prepare(self) -> None:
-        """Make the token, if one may be needed, before anybody can connect."""
+        """Make the token, if one may be needed, before anyone can connect."""
         self.look()
-        # A task may begin to watch a port after somebody has connected.
+        # A task may begin to watch a port after someone has connected.
         if self._context.has_tasks and any(self._closed_outputs()):
             _make_token()
 
     def look(self) -> None:
-        """Find out anew what the outputs reach, if other networks run; call it in each tick."""
+        """Find out again what the outputs reach, if other networks run; call it in each tick."""
         context = self._context
         seen = [(runner, runner.watched) for runner in context.runners], context.has_tasks
         if seen == self._seen:

@@ -7,7 +7,7 @@ import socket
 
 
 def is_loopback(host: str) -> bool:
-    """Whether a host, by name or address, is this machine and nothing but this machine.
+    """Whether a host, by name or address, is this machine and only this machine.
 
     False for a name that stands for nothing.
     """

@@ -50,7 +50,7 @@ class Server(Link):
             # What waits would wake us at once, and for ever.
             self._selector.unregister(self._socket)
             self._rests_until = time.perf_counter() + REST
-            self._warn(f"cannot let anybody in: {error.strerror}")
+            self._warn(f"cannot let anyone in: {error.strerror}")
             return
         if len(self._peers) >= self._limits.peers + AT_THE_DOOR:
             connection.close()
@@ -106,7 +106,7 @@ class Server(Link):
         if not peer.is_authorized:
             peer.tell(control.refusal("this is not the token"))
             raise PeerError("it showed a wrong token")
-        peer.refused = frozenset()  # a refusal after the token has changed is told anew
+        peer.refused = frozenset()  # a refusal after the token has changed is told again
 
     def _turned_away(self, name: str) -> None:
         self._warn(f"turned {name} away: {self._limits.peers} peers")

@@ -144,7 +144,7 @@ class Link(ABC):
         return min(cared, self._tend(now))
 
     def _add(self, connection: socket.socket, name: str, first: bytes = b"") -> None:
-        """`first` goes before all that this program sends to everybody."""
+        """`first` goes before all that this program sends to everyone."""
         try:
             peer = Peer(connection, name, self._limits, time.perf_counter())
         except OSError as error:

@@ -37,7 +37,7 @@ _LOOK_EVERY = 0.05
 
 
 async def action(context: TaskContext, name: str) -> None:
-    """Play an animation of the face, such as "nod", in place of one that plays; does not wait.
+    """Play an animation of the face, such as "nod", instead of one that plays; does not wait.
 
     Raises HriError for one that the face does not know.
     """
@@ -67,7 +67,7 @@ async def set_emotion_increment(
 async def set_emotion_vector(
     context: TaskContext, duration: float, emotions: Mapping[str, float] | Sequence[float]
 ) -> None:
-    """Show nothing but these emotions for so long.
+    """Show only these emotions for so long.
 
     By name, those left out being 0, or a value for each in the order of `hri emotion list`. Raises
     HriError as `set_emotion_value` does, and for a list that is not of that length.

@@ -6,7 +6,7 @@ the same name.
 
     app.toml       what it consists of
     tasks.py       its tasks
-    grammar.jsgf   what its listeners hear, in place of what their network says
+    grammar.jsgf   what its listeners hear, instead of what their network says
     replies.toml   what it replies, where it extends the companion
     demo.toml      who visits with `--demo`
 """
@@ -48,7 +48,7 @@ class App:
     """Coroutine functions in the app's `tasks.py`, or names of the group `hri.tasks`; all run
     beside each other."""
     trusted: tuple[str, ...] = ()
-    """Ports of the bridge that anybody may write to (`hri.behavior.doors`)."""
+    """Ports of the bridge that anyone may write to (`hri.behavior.doors`)."""
     events: tuple[str, ...] = ()
     """Names of events that may come from outside, beside those of 2003."""
     on: Mapping[str, tuple[str, ...]] = field(default_factory=dict)

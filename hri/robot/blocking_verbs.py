@@ -84,7 +84,7 @@ class BlockingVerbs(ABC):
     def set_emotion_vector(
         self, duration: float, emotions: Mapping[str, float] | Sequence[float]
     ) -> None:
-        """Show nothing but these emotions for some seconds; see `hri.robot.acting`."""
+        """Show only these emotions for some seconds; see `hri.robot.acting`."""
         self.run(acting.set_emotion_vector, duration, emotions)
 
     def speak(self, phonemes: str | Sequence[str]) -> None:

@@ -1,4 +1,4 @@
-"""The last ten minutes of what a robot felt, as an SVG drawing that is written anew as it lives.
+"""The last ten minutes of what a robot felt, as an SVG drawing that is written again as it lives.
 
 It is text, so that no drawing library has to run beside the robot; any browser shows it.
 """

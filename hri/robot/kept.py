@@ -39,7 +39,7 @@ class Kept(ABC):
         """The files and folders that there are."""
 
     def people(self) -> set[str]:
-        """Everybody it knows by name; nobody where it holds nothing but texts."""
+        """Everyone it knows by name; nobody where it holds only texts."""
         return set()
 
     @abstractmethod
@@ -51,7 +51,7 @@ class Kept(ABC):
         """Erase what is kept of a person there. Raises HriError."""
 
     def needs_yes(self, person: str | None) -> bool:
-        """Whether somebody made it on purpose, so that it goes only after a yes."""
+        """Whether someone made it on purpose, so that it goes only after a yes."""
         return False
 
     def delete(self, place: Path) -> None:
@@ -213,7 +213,7 @@ class Recordings(Kept):
 
 
 class Pictures(Kept):
-    """Pictures and films of a camera that somebody asked for; who is on them is not known."""
+    """Pictures and films of a camera that someone asked for; who is on them is not known."""
 
     about = "a picture or film of the camera"
 
@@ -238,7 +238,7 @@ KEPT: tuple[Kept, ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Trace:
-    """What is kept at one place, of a person or of everybody."""
+    """What is kept at one place, of a person or of everyone."""
 
     kept: Kept
     place: Path
@@ -246,7 +246,7 @@ class Trace:
 
     @property
     def needs_yes(self) -> bool:
-        """Whether somebody made it on purpose, so that it goes only after a yes."""
+        """Whether someone made it on purpose, so that it goes only after a yes."""
         return self.kept.needs_yes(self.person)
 
     def erase(self) -> None:
@@ -269,7 +269,7 @@ def traces(person: str | None = None) -> list[Trace]:
 
 
 def people() -> set[str]:
-    """Everybody who is known by name."""
+    """Everyone who is known by name."""
     return set().union(*(kept.people() for kept in KEPT))
 
 

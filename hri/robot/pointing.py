@@ -1,4 +1,4 @@
-"""The task that goes to the place somebody points at in a picture: seeing and driving at once."""
+"""The task that goes to the place someone points at in a picture: seeing and driving at once."""
 
 from __future__ import annotations
 

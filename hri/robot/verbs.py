@@ -40,7 +40,7 @@ ANSWERS = {"yes": True, "no": False, "head.nodded": True, "head.shaken": False}
 """What counts as an answer: rules of the grammar and head gestures."""
 
 SHOWN = "expression.override"
-"""Slot of the board with the expression that is shown in place of the felt one."""
+"""Slot of the board with the expression that is shown instead of the felt one."""
 LOOK_EVERY = 0.02
 """Seconds between looks at whether a gesture has been made."""
 
@@ -182,7 +182,7 @@ def _plain_answer(context: TaskContext, event: Event) -> tuple[bool | None] | No
 
 
 def _is_asked(context: TaskContext, person: str) -> bool:
-    """Whether it is the one attended to; so is anybody while they are not told apart."""
+    """Whether it is the one attended to; so is anyone while they are not told apart."""
     tracker = context.find_behavior(PersonTracker)
     attended = tracker.last.attended if tracker is not None else ""
     return not person or not attended or person == attended

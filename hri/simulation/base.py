@@ -1,7 +1,7 @@
 """A base with two wheels: follows velocities within its limits, slips, and stops when it hits.
 
 All motion happens in steps of 10 ms that lie on an absolute grid, so where the base is at a time
-does not depend on how often anybody asked.
+does not depend on how often anyone asked.
 """
 
 from __future__ import annotations

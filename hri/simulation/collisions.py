@@ -1,6 +1,6 @@
 """Touches between a robot and people, by cause: who moved, from which side, and what was seen.
 
-A `Witness` is told, tick by tick, where the robot and everybody are and whom which sensor covers.
+A `Witness` is told, tick by tick, where the robot and everyone are and whom which sensor covers.
 It records one `Collision` for each touch, and what is known about its cause. Meters, seconds.
 """
 
@@ -86,7 +86,7 @@ class Witness:
             self._sights.setdefault(number, []).append((now, sensor))
 
     def watch(self, now: float, pose: Pose2D, speed: float, people: Sequence[Point]) -> None:
-        """Where the robot and everybody are now; `speed` is the robot's, m/s, below 0 backward."""
+        """Where the robot and everyone are now; `speed` is the robot's, m/s, below 0 backward."""
         for number, place in enumerate(people):
             sights = self._sights.get(number, [])
             sights[:] = [sight for sight in sights if now - sight[0] <= COVERED_S + 1e-6]

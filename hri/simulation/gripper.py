@@ -22,7 +22,7 @@ class SimulatedGripper(Gripper):
     def _open(self) -> None:
         super()._open()
         self.is_object_there = False
-        """Whether somebody has put something between the fingers."""
+        """Whether someone has put something between the fingers."""
         self._from, self._goal, self._began = 1.0, 1.0, 0.0
         self._pending: Pending[None] = completed(self.manager.clock, None)
         self._timer: Timer | None = None

@@ -2,9 +2,9 @@
 
 A room is a world file like any other (`text`), so it can be kept, edited and driven in. Its people
 are moved by a `Crowd`: they stroll between free places, stand there for a while, and look where
-they go: somebody who is `heedful` stops for a robot that stands in the next steps; somebody who is
+they go: someone who is `heedful` stops for a robot that stands in the next steps; someone who is
 not stops when they run into it. Nobody looks behind or to the side, so a robot that drives into
-somebody's flank has only itself to blame.
+someone's flank has only itself to blame.
 
 Meters, radians, seconds.
 """
@@ -38,7 +38,7 @@ LOOKS_AHEAD = 0.6
 POLITE = 0.1
 """What they keep free between themselves and the robot."""
 STAND_S = (1.0, 6.0)
-"""Least and most seconds that somebody stands at a place."""
+"""Least and most seconds that someone stands at a place."""
 _TRIES = 400
 
 
@@ -110,7 +110,7 @@ class Crowd:
         ]
 
     def step(self, now: float) -> None:
-        """Let everybody decide; to be called some ten times a second."""
+        """Let everyone decide; to be called some ten times a second."""
         for walker in self._walkers:
             walker.step(now, self)
 
@@ -267,7 +267,7 @@ def _is_inside(box: Box, x: float, y: float) -> bool:
 
 
 def _is_clear(room: Room, start: Point, goal: Point, margin: float) -> bool:
-    """Whether somebody can walk straight from one place to the other."""
+    """Whether someone can walk straight from one place to the other."""
     count = max(1, math.ceil(math.dist(start, goal) / CELL))
     parts = (number / count for number in range(count + 1))
     return all(

@@ -36,7 +36,7 @@ CAMERA = {
 }
 """Default, least and most of the camera's parameters: pixels, pictures a second, radians.
 
-The lens is narrow: the face of somebody 1.3 m away must fill a good part of the picture.
+The lens is narrow: the face of someone 1.3 m away must fill a good part of the picture.
 """
 LENS = {
     "noise": (2.0, 0.0, 50.0),
@@ -327,7 +327,7 @@ class SimulatedCamera(InWorld, Camera):
         return lambda: DrawnFrame(lens.take(render_people(shown, size), sequence), time, sequence)
 
     def _appearance(self, person: Person, time: float) -> Appearance | None:
-        """How somebody looks in the picture; None for who is beside or behind the camera."""
+        """How someone looks in the picture; None for who is beside or behind the camera."""
         held = person.posture(time)
         turn = self.pan(time) - self.world.bearing_of(person, time)
         distance = self.world.distance_to(person, time)

@@ -94,12 +94,12 @@ class Trip:
 
     @property
     def people_hit(self) -> int:
-        """Times it touched somebody while it moved."""
+        """Times it touched someone while it moved."""
         return sum(collision.is_moving for collision in self.collisions)
 
     @property
     def people_met(self) -> int:
-        """Times somebody touched it while it stood."""
+        """Times someone touched it while it stood."""
         return len(self.collisions) - self.people_hit
 
     @property

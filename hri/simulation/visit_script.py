@@ -67,7 +67,7 @@ MODIFIERS = ("at", "after", "within", "delay", "who")
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One thing that somebody does."""
+    """One thing that someone does."""
 
     at: float
     """Seconds from the start: when it is done, or from when on its event counts."""
@@ -93,7 +93,7 @@ class Visit:
     """Seconds."""
 
     def start(self, world: SimulatedWorld, clock: Clock, events: EventBus) -> VisitRun:
-        """Let the visit begin now. Raises HriError when it names somebody the world has not."""
+        """Let the visit begin now. Raises HriError when it names someone the world has not."""
         return VisitRun(self, world, clock, events)
 
 

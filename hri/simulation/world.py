@@ -29,9 +29,9 @@ from hri.simulation.sight import Sighting, seen
 from hri.simulation.world_file import Item, Layout, PersonStart, find_layout, load_layout
 
 BUMP_TIME = 0.3
-"""Seconds that somebody who pushes against the base presses the bumper."""
+"""Seconds that someone who pushes against the base presses the bumper."""
 _NEAREST = 1.0
-"""Meters; somebody who is nearer speaks more softly, so the voice gets no louder."""
+"""Meters; someone who is nearer speaks more softly, so the voice gets no louder."""
 
 
 class SimulatedWorld(Resource):
@@ -110,7 +110,7 @@ class SimulatedWorld(Resource):
         return bool(self._holders) or self.axle.is_held
 
     def push(self, way: float, now: float) -> None:
-        """Let somebody roll the base by hand, meters ahead; one that is held stays."""
+        """Let someone roll the base by hand, meters ahead; one that is held stays."""
         with self._lock:
             if not self.is_held:
                 self.base.push(way, now)
@@ -135,7 +135,7 @@ class SimulatedWorld(Resource):
         found = next((person for person in self.people if person.name == name), None)
         if found is None:
             names = [person.name for person in self.people if person.name]
-            remedy = did_you_mean(name, names, "give somebody this name in [[person]]")
+            remedy = did_you_mean(name, names, "give someone this name in [[person]]")
             raise HriError(f'nobody in this world is named "{name}" - {remedy}')
         return found
 
@@ -149,11 +149,11 @@ class SimulatedWorld(Resource):
         return spoken
 
     def bump(self, at: float) -> None:
-        """Let somebody push against the base."""
+        """Let someone push against the base."""
         self._bumps.append(at)
 
     def is_bumped(self, now: float) -> bool:
-        """Whether something, or somebody, presses the bumper."""
+        """Whether something, or someone, presses the bumper."""
         self.advance(now)
         is_pushed = any(at <= now < at + BUMP_TIME for at in self._bumps)
         return is_pushed or self.base.is_touching
@@ -178,7 +178,7 @@ class SimulatedWorld(Resource):
         return math.atan2(left, ahead)
 
     def stand_at(self, person: Person, distance: float, now: float) -> None:
-        """Let somebody walk straight until they are so many meters from the robot."""
+        """Let someone walk straight until they are so many meters from the robot."""
         (x, y), pose = person.place(now), self.base.pose
         part = distance / max(self.distance_to(person, now), RADIUS)
         person.go(pose.x + (x - pose.x) * part, pose.y + (y - pose.y) * part, now)
@@ -243,7 +243,7 @@ class SimulatedWorld(Resource):
         return Person(start.x, start.y, voice, seed, name=start.name, actor=start.actor)
 
     def _person_voice(self, start: PersonStart) -> Synthesizer | None:
-        """A person's voice; None, somebody who cannot speak, where there is no library."""
+        """A person's voice; None, someone who cannot speak, where there is no library."""
         if chosen := self.description.text("voice"):
             return self.manager.obtain(chosen, Synthesizer)
         own = Description(

@@ -188,7 +188,7 @@ def sequence(*parts: str | Condition, within: float = math.inf) -> Condition:
 
 
 def without(wanted: str | Condition, unwanted: str | Condition) -> Condition:
-    """The first has come and the second has not meanwhile; when it does, all begins anew."""
+    """The first has come and the second has not meanwhile; when it does, all begins again."""
     return _Without(*_conditions((wanted, unwanted)))
 
 
@@ -199,7 +199,7 @@ async def when(context: TaskContext, condition: str | Condition) -> Event:
 
 
 async def raise_when(context: TaskContext, condition: str | Condition, name: str) -> None:
-    """Raise an event each time a condition is met, for ever; each time begins anew.
+    """Raise an event each time a condition is met, for ever; each time begins again.
 
     Raises ValueError for an event that would set itself off.
     """

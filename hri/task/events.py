@@ -172,4 +172,4 @@ def _check_length(text: str) -> None:
 
 
 def _wrong(text: str, why: str) -> HriError:
-    return HriError(f'"{text[:60]}" is no event: {why} - mend the text')
+    return HriError(f'"{text[:60]}" is no event: {why} - fix the text')

@@ -12,7 +12,7 @@ class Counter(Primitive):
             self.set_status(TaskStatus.SUCCESS, count)
 
 `Counter` is now a task like any other. Its network is `primitive/Examples/Counter.xml`, in the
-first search folder that has it; it runs from `start` to `finish`. When somebody else stops or swaps
+first search folder that has it; it runs from `start` to `finish`. When someone else stops or swaps
 the network, the task ends with Interrupted.
 """
 
@@ -104,7 +104,7 @@ class Primitive:
         return self._result
 
     def _stop(self) -> None:
-        """Stop the network, unless somebody else has."""
+        """Stop the network, unless someone else has."""
         networks, name = self.context.networks, self.network.name
         if networks.runners.get(name) is self._runner:
             networks.stop(name)

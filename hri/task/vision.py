@@ -35,7 +35,7 @@ async def GetImage(context: TaskContext, camera_id: str = "") -> Frame:
 async def SwitchCamera(context: TaskContext, on: bool, camera_id: str = "") -> None:
     """Turn a camera on or off, the first one without an id; off lets the device go.
 
-    It stays off for everybody until it is turned on. Fails when it cannot be opened again.
+    It stays off for everyone until it is turned on. Fails when it cannot be opened again.
     """
     camera = _camera(context, camera_id)
     try:

@@ -272,7 +272,7 @@ def test_all_mistakes_of_the_replies_are_told_at_once(own_app):
     assert all(line.startswith(f"{replies}:") for line in told.splitlines())
     assert len(told.splitlines()) == 4
     assert 'no expression "hapy" - did you mean "happy"?' in told
-    assert 'the grammar has no rule "weather" - delete this table, or mend the grammar' in told
+    assert 'the grammar has no rule "weather" - delete this table, or fix the grammar' in told
     assert "no reply to the rules <yes>, <no> of the grammar - add a table [reply.yes]" in told
     assert '"bump" is missing in [unasked]' in told
 

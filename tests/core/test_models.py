@@ -235,7 +235,7 @@ def test_the_user_brings_a_folder_or_an_archive(home):
 def test_what_is_neither_folder_nor_archive_is_not_taken(home):
     (home / "text").write_text("no archive")
     for source in (home / "text", home / "nowhere"):
-        with pytest.raises(HriError, match="mend the path"):
+        with pytest.raises(HriError, match="fix the path"):
             bring("mine", source)
     assert fetched() == []
 

@@ -1,4 +1,4 @@
-"""Caches and state that somebody else may have written are not used."""
+"""Caches and state that someone else may have written are not used."""
 
 import os
 import stat
@@ -87,7 +87,7 @@ def test_state_that_somebody_else_may_have_written_is_not_used(tmp_path):
         path = tmp_path / name
         path.write_text("{}")
         path.chmod(0o666)
-        with pytest.raises(HriError, match=r"somebody else may have written this .* chmod go-w it"):
+        with pytest.raises(HriError, match=r"someone else may have written this .* chmod go-w it"):
             load(path)
 
 
@@ -97,7 +97,7 @@ def test_so_is_a_model_that_was_fetched(tmp_path, monkeypatch):
     folder.mkdir(parents=True)
     assert models.Catalog(()).find("mine") == folder
     folder.chmod(0o777)
-    with pytest.raises(HriError, match="somebody else may have written this model"):
+    with pytest.raises(HriError, match="someone else may have written this model"):
         models.Catalog(()).find("mine")
 
 

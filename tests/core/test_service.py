@@ -119,7 +119,7 @@ def test_a_question_that_fails_is_one_line_and_the_memory_is_made_anew(asker):
 def test_a_service_that_dies_is_told_once_and_comes_back(asker):
     before = asker.service.process_id
     answers, told = asker.ask("die")
-    assert (answers, told) == ([], ["its process ended - it is started anew in 0.5 s"])
+    assert (answers, told) == ([], ["its process ended - it is started again in 0.5 s"])
     answers, told = asker.ask("count")
     assert (answers, told) == ([11], [])
     assert asker.service.process_id != before
@@ -130,7 +130,7 @@ def test_a_service_that_hangs_is_ended_and_comes_back(asker, monkeypatch):
     monkeypatch.setattr("hri.core.service.PATIENCE", 0.05)
     os.kill(asker.service.process_id, signal.SIGSTOP)
     _, told = asker.ask("count")
-    assert told == ["its process did not answer - it is started anew in 0.5 s"]
+    assert told == ["its process did not answer - it is started again in 0.5 s"]
     monkeypatch.undo()
     assert asker.ask("count")[0] == [11]
 
@@ -149,10 +149,10 @@ def test_a_service_that_cannot_be_made_tells_so_and_is_tried_again_later():
     clock = RealClock()
     asker = Asker(clock, clock.service(broken_factory, 0.0))
     _, told = asker.until(lambda answers, told: told)
-    assert told == ["no model - fetch it - it is started anew in 0.5 s"]
+    assert told == ["no model - fetch it - it is started again in 0.5 s"]
     assert asker.service.is_busy
     _, told = asker.until(lambda answers, told: told)
-    assert told == ["no model - fetch it - it is started anew in 1 s"]
+    assert told == ["no model - fetch it - it is started again in 1 s"]
     asker.service.close()
 
 

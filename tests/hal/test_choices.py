@@ -54,7 +54,7 @@ def test_a_spoilt_choice_is_told_with_its_place():
 def test_a_choice_that_somebody_else_may_have_written_is_not_used():
     path = save_choices({"microphone": "USB Audio"})
     path.chmod(0o666)
-    with pytest.raises(HriError, match=r"devices.toml: somebody else may have written this choice"):
+    with pytest.raises(HriError, match=r"devices.toml: someone else may have written this choice"):
         load_choices()
     path.chmod(0o600)
     assert load_choices() == {"microphone": "USB Audio"}

@@ -441,7 +441,7 @@ def test_a_server_without_a_file_left_rests_and_takes_those_who_waited(
         assert time.process_time() - before < 0.25
     assert here.wait_for_peers(3, WITHIN)
     assert [r.message for r in caplog.records] == [
-        f"{here.address}: cannot let anybody in: Too many open files"
+        f"{here.address}: cannot let anyone in: Too many open files"
     ]
     for peer in waiting:
         peer.close()

@@ -71,7 +71,7 @@ class Smooth(Behavior):
 
     y += (x - y) (1 - exp(-dt / time_constant)), the closed form of a first-order low pass for a
     step: how often it ticks makes no difference. The first number passes as it is. Infinity passes
-    too, and smoothing begins anew, so that it hides no obstacle that comes into range.
+    too, and smoothing begins again, so that it hides no obstacle that comes into range.
     """
 
     category = "operators"
@@ -96,7 +96,7 @@ class Smooth(Behavior):
 
 
 class RateLimit(Behavior):
-    """Lets a number change no faster than allowed; after a tick without one it starts anew.
+    """Lets a number change no faster than allowed; after a tick without one it starts again.
 
     So it does with infinity, which passes as it is: it hides no obstacle that comes into range.
     """

@@ -36,7 +36,7 @@ class Share(_OnBoard):
     twist = Input[Any]("twist", "a velocity")
     pose = Input[Any]("pose", "a pose")
     head = Input[Any]("headpose", "the head that is seen")
-    people = Input[Any]("people", "everybody who is seen")
+    people = Input[Any]("people", "everyone who is seen")
 
     def start(self, context: Context) -> None:
         self._slot: Latest[Any] = context.board.slot(self.slot)
@@ -70,7 +70,7 @@ class Shared(_OnBoard):
     twist = Output[Any]("twist", "a velocity")
     pose = Output[Any]("pose", "a pose")
     head = Output[Any]("headpose", "the head that is seen")
-    people = Output[Any]("people", "everybody who is seen")
+    people = Output[Any]("people", "everyone who is seen")
 
     def start(self, context: Context) -> None:
         self._slot: Latest[Any] = context.board.slot(self.slot)

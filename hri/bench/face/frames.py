@@ -23,7 +23,7 @@ SOUND_S = 0.085
 MOODS = ("neutral", "happy", "surprised", "sad", "excited")
 MOOD_S = 4.0
 LOOKS = (Gaze(0.0, 0.0), Gaze(0.12, -0.05), Gaze(0.0, 0.0), Gaze(-0.1, 0.06))
-"""Where it looks meanwhile: at somebody in front of it who moves a little."""
+"""Where it looks meanwhile: at someone in front of it who moves a little."""
 TARGETS = 50
 BLEND_MS, FRAME_MS, SLOWEST_MS = 0.03, 6.0, 9.0
 

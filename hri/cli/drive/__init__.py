@@ -48,7 +48,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Drive until somebody quits, or draw a run. Exit status 0."""
+    """Drive until someone quits, or draw a run. Exit status 0."""
     if options.port == replay.NAME:
         return replay.run(options)
     keyboard, screen = own_terminal()

@@ -39,7 +39,7 @@ WORDS = cv2.FONT_HERSHEY_SIMPLEX, 0.5, INK, 1, cv2.LINE_AA
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """Where everybody was at a time, seconds; meters and radians in the room."""
+    """Where everyone was at a time, seconds; meters and radians in the room."""
 
     time: float
     robot: Pose2D

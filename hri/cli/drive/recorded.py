@@ -85,7 +85,7 @@ def _of_events(path: Path, lines: list[Mapping[str, Any]]) -> Run:
             x, y = float(line["x_cm"]) / 100, float(line["y_cm"]) / 100
             moments.append(_at(line["t"], (x, y, line["heading_rad"])))
         except UNREADABLE as error:
-            raise HriError(f"{path}:{number}: no pose in it: {error} - record it anew") from error
+            raise HriError(f"{path}:{number}: no pose in it: {error} - record it again") from error
     return Run(tuple(moments), title=path.parent.name)
 
 
@@ -97,7 +97,7 @@ def _of_moments(path: Path, lines: list[Mapping[str, Any]]) -> Run:
         try:
             moments.append(_moment(line))
         except UNREADABLE as error:
-            raise HriError(f"{path}:{number}: no moment: {error} - record it anew") from error
+            raise HriError(f"{path}:{number}: no moment: {error} - record it again") from error
     goal = first.get("goal")
     try:
         obstacles = _obstacles(path, str(first["world"])) if first.get("world") else ()
@@ -106,7 +106,7 @@ def _of_moments(path: Path, lines: list[Mapping[str, Any]]) -> Run:
         if not 0 < radius <= MOST_RADIUS:
             raise ValueError(f"a radius of {radius} m")
     except UNREADABLE as error:
-        raise HriError(f"{path}:1: no description: {error} - record it anew") from error
+        raise HriError(f"{path}:1: no description: {error} - record it again") from error
     return Run(tuple(moments), obstacles, place, radius, str(first.get("title", "")))
 
 

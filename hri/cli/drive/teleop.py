@@ -20,7 +20,7 @@ PERIOD = 0.05
 
 
 class Teleop:
-    """Turns keys into velocities until somebody quits.
+    """Turns keys into velocities until someone quits.
 
     The supervisor has the last word: it forgets a velocity after 0.2 s, so that the base also
     stops when this program stands still.
@@ -38,7 +38,7 @@ class Teleop:
         self._is_asking = False
 
     def run(self, clock: Clock, is_asked_to_end: Callable[[], bool] = lambda: False) -> None:
-        """Drive until a key quits, or somebody else asks for the end."""
+        """Drive until a key quits, or someone else asks for the end."""
         while True:
             now = clock.now()
             keys = [key for view in self._views for key in view.read_keys()]

@@ -115,7 +115,7 @@ def _flags(flags: Mapping[str, bool], word: str) -> str:
 
 
 def _buttons(buttons: Mapping[str, bool]) -> str:
-    """Those that somebody presses; most bases have more than anybody wants to read of."""
+    """Those that someone presses; most bases have more than anyone wants to read of."""
     pressed = "   ".join(f"{_name(name)} PRESSED" for name, is_held in buttons.items() if is_held)
     return pressed or ("." if buttons else "")
 

@@ -32,4 +32,4 @@ class View(ABC):
 
     @abstractmethod
     def show(self, moment: Snapshot) -> None:
-        """Show the base in place of what was shown before."""
+        """Show the base instead of what was shown before."""

@@ -84,7 +84,7 @@ def _warnings(stimuli: Mapping[str, StimulusSpec]) -> Iterator[str]:
     for problem in unreachable_stimuli(stimuli, mentioned, _found(_BEHAVIOR, sources)):
         yield f"warning: {problem}"
     if named := felt_by_name(stimuli, mentioned):
-        yield f"note: felt only when somebody raises stimulus.felt with it: {', '.join(named)}"
+        yield f"note: felt only when someone raises stimulus.felt with it: {', '.join(named)}"
 
 
 def _sources() -> Iterator[bytes]:

@@ -20,7 +20,7 @@ COMMANDS = {
 }
 """Each is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
 LIVE = ("show",)
-"""Those that somebody looks at while they run, or answers."""
+"""Those that someone looks at while they run, or answers."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -162,7 +162,7 @@ class FaceWindow:
         self.refusal = ""
         self.look = self._known(self.look)
         self._before = self._known(self._before)
-        print(f"{self.folder}: loaded anew", flush=True)
+        print(f"{self.folder}: loaded again", flush=True)
 
     def _refuse(self, reason: str) -> None:
         if reason != self.refusal:

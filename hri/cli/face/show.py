@@ -16,7 +16,7 @@ from hri.hal.screen import Screen
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("face", nargs="?", default="robot", metavar="NAME", help=f"{FACE} (%(default)s)")
-    add("--watch", action="store_true", help="load its drawings anew whenever they are saved")
+    add("--watch", action="store_true", help="load its drawings again whenever they are saved")
     add("--size", type=pixels, default=(800, 600), metavar="WxH", help="of the window, in pixels")
     add("--seed", type=int, default=0, metavar="N", help="of its idle life")
 

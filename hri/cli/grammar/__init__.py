@@ -22,7 +22,7 @@ COMMANDS = {
     "watch": "check a grammar, and test it, each time it is saved",
     "listen": "hear with a grammar: a microphone, recordings or typed lines",
     "confuse": "find sentences of different meaning that sound alike",
-    "pronounce": "tell and mend how words are said",
+    "pronounce": "tell and fix how words are said",
     "lexicon": "list how the words of a grammar are said",
     "calibrate": "choose the strictness from recordings or synthetic speech",
 }

@@ -31,7 +31,7 @@ Status 0: fine. 1: with --strict, there are warnings. 2: there are errors.
 A rule whose comment has @answer may be short: it counts only while a question is open."""
 
 MOST_SHOWN = 3
-"""Errors that are shown at once; mending the first often mends the rest."""
+"""Errors that are shown at once; fixing the first often fixes the rest."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -121,7 +121,7 @@ def _show(grammar: Grammar, findings: list[Finding], is_all: bool) -> None:
         _print(finding, excerpts, sys.stderr)
     if len(errors) > most_errors:
         more = _counted(len(errors) - most_errors, "more error")
-        print(f"{grammar.path}: {more} - mend these, or see --all", file=sys.stderr)
+        print(f"{grammar.path}: {more} - fix these, or see --all", file=sys.stderr)
     for finding in others:
         if is_all or finding.severity != "note":
             _print(finding, excerpts, sys.stdout)

@@ -92,7 +92,7 @@ def _row(columns: list[str], place: Place, grammar: Grammar) -> Row:
         return Row(path, said, read_meaning(more[0], place))
     found = parse(grammar, said)
     if found is None:
-        remedy = "mend the one or the other, or write - in its place"
+        remedy = "fix the one or the other, or write - in its place"
         raise AuthoringError(place, f'the grammar does not allow "{said}"', remedy)
     return Row(path, said, meaning_of(found))
 

@@ -1,4 +1,4 @@
-"""`hri grammar pronounce`: how words are said, and how to mend it."""
+"""`hri grammar pronounce`: how words are said, and how to fix it."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--add",
         action="append",
         metavar="PHONES",
-        help="write these into your lexicon, in place of what it says of the word; more than once "
+        help="write these into your lexicon, instead of what it says of the word; more than once "
         "for a word that is said in several ways",
     )
     parser.add_argument("--say", action="store_true", help="speak the words")

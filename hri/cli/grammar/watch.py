@@ -31,7 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Until Ctrl-C; what is wrong with the files is shown, and waited for to be mended."""
+    """Until Ctrl-C; what is wrong with the files is shown, and waited for to be fixed."""
     return watch(paths.find("grammars", options.file), options.sentences, RealClock())
 
 

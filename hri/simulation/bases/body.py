@@ -47,7 +47,7 @@ class Body:
         self.hanging: set[str] = set()
         """Wheels in the air."""
         self.held: set[str] = set()
-        """Buttons that somebody presses."""
+        """Buttons that someone presses."""
         self.near: dict[str, float] = {}
         """Meters from the rim to what is there."""
         self.is_on_charger = False
@@ -140,7 +140,7 @@ class RoomBody(Body):
         right = any(angle < BOTH_SIDES for angle in felt)
         sides = {side for side, is_felt in (("left", left), ("right", right)) if is_felt}
         if not felt and self._world.is_bumped(now) and not self.base.is_touching:
-            sides = {"left", "right"}  # somebody pushes against it
+            sides = {"left", "right"}  # someone pushes against it
         return self.pressed | sides
 
     def is_over_edge(self, place: str) -> bool:

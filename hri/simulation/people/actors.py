@@ -97,7 +97,7 @@ ACTORS: Mapping[str, Looks] = {
 
 @dataclass(frozen=True, slots=True)
 class Appearance:
-    """Somebody in a picture. Angles as in HeadPose, radians, all 0 face the camera."""
+    """Someone in a picture. Angles as in HeadPose, radians, all 0 face the camera."""
 
     actor: str = DEFAULT_ACTOR
     """A key of `ACTORS`."""
@@ -121,7 +121,7 @@ class Appearance:
 HEAD_HEIGHT = 0.24
 """Meters from chin to crown, of an adult."""
 NEAREST = 0.4
-"""Meters; somebody who is nearer leans back."""
+"""Meters; someone who is nearer leans back."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,7 +142,7 @@ class Optics:
     def show(
         self, actor: str, held: Posture, right: float, distance: float, lids: float = 1.0
     ) -> Appearance:
-        """How somebody appears who stands so many meters ahead and to the right at eye level."""
+        """How someone appears who stands so many meters ahead and to the right at eye level."""
         focal = self.width / 2 / math.tan(self.field_of_view / 2)
         meter = focal / max(NEAREST, distance - held.nearer)
         return Appearance(

@@ -42,7 +42,7 @@ LAUGH_HZ = 4.8
 
 @dataclass(frozen=True, slots=True)
 class Posture:
-    """How somebody holds themselves, against how they stand at rest."""
+    """How someone holds themselves, against how they stand at rest."""
 
     pitch: float = 0.0
     """Radians, as in HeadPose."""

@@ -1,4 +1,4 @@
-"""What somebody looks like: the measures and the colors of a drawn person.
+"""What someone looks like: the measures and the colors of a drawn person.
 
 Lengths are in half heads (chin to crown is 2); colors are red, green, blue, 0 to 255.
 """

@@ -1,7 +1,7 @@
 """A person: where they are, how they hold themselves, what they say.
 
 What is asked of them is put on a schedule; from then on every answer is a function of time, so
-pictures and sound do not depend on how often anybody looked or listened.
+pictures and sound do not depend on how often anyone looked or listened.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ WALK_TIME = 1.5
 WALK_WAY = 1.0
 """Meters between the person's place and where they are out of view."""
 SPEED = 0.7
-"""Meters a second of somebody who comes nearer or steps back."""
+"""Meters a second of someone who comes nearer or steps back."""
 PAUSE = 0.3
 """Seconds between two sentences that were asked for at the same time."""
 

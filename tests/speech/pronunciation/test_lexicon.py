@@ -246,5 +246,5 @@ def test_a_lexicon_that_somebody_else_may_have_written_is_not_used(tmp_path, mon
     add_to_lexicon(user_lexicon(), "zorb", ("Z", "AO"))
     assert load_lexicon().known("zorb") == (("Z", "AO"),)
     user_lexicon().chmod(0o666)
-    with pytest.raises(HriError, match=r"lexicon.txt: somebody else may have written this lexicon"):
+    with pytest.raises(HriError, match=r"lexicon.txt: someone else may have written this lexicon"):
         load_lexicon()
