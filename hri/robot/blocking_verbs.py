@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from typing import Any
 
 from hri.core.signals import Event, Utterance
 from hri.emotion.appraisal import OccEvent
-from hri.robot import acting, calls, verbs
+from hri.robot import calls, verbs
 from hri.task.context import TaskContext
 from hri.task.task import Job, Task
 from hri.task.task_manager import TaskManager
@@ -68,33 +68,6 @@ class BlockingVerbs(ABC):
         """What it feels and why, in a sentence; `about` is a feeling such as "sad"."""
         words: str = self.run(verbs.why, about)
         return words
-
-    def action(self, name: str) -> None:
-        """Play an animation of the face, such as "nod"; does not wait for its end."""
-        self.run(acting.action, name)
-
-    def set_emotion_value(self, duration: float, emotion: str, value: float) -> None:
-        """Show an emotion at a value, 0 to 1, for some seconds, whatever is felt."""
-        self.run(acting.set_emotion_value, duration, emotion, value)
-
-    def set_emotion_increment(self, duration: float, emotion: str, value: float) -> None:
-        """Show an emotion by so much more than now, -1 to 1, for some seconds."""
-        self.run(acting.set_emotion_increment, duration, emotion, value)
-
-    def set_emotion_vector(
-        self, duration: float, emotions: Mapping[str, float] | Sequence[float]
-    ) -> None:
-        """Show only these emotions for some seconds; see `hri.robot.acting`."""
-        self.run(acting.set_emotion_vector, duration, emotions)
-
-    def speak(self, phonemes: str | Sequence[str]) -> None:
-        """Move the lips to phonemes such as "h @ l oU", without a sound, and wait for the end."""
-        self.run(acting.speak, phonemes)
-
-    def wait_for_emotional_change(self, timeout: float = float("inf")) -> bool:
-        """Wait until emotions that were set are over; whether they are within `timeout` seconds."""
-        is_over: bool = self.run(acting.wait_for_emotional_change, timeout)
-        return is_over
 
     def move(self, distance: float, speed: float | None = None) -> float:
         """Drive straight ahead by meters, back when negative; the meters really traveled.

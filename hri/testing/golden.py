@@ -15,7 +15,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from hri.core.picture_file import write_picture
+from hri.core.picture_writer import write_picture
 from hri.core.signals import Image
 
 TILE = 32

@@ -10,8 +10,8 @@ from hri.face.model import FaceModel, load_face
 from hri.face.renderers.renderer import Renderer
 from hri.face.scene import scene_of
 from hri.face.still import still_vector
-from hri.hal.manager import ResourceManager
 from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.speech.synthesizers.espeak import EspeakVoice
 
 SIZE = (320, 240)

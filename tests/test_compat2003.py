@@ -2,6 +2,7 @@
 
 import pytest
 
+from hri.compat2003 import FaceInterface
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.emotion.appraisal import GoalEvent
@@ -52,7 +53,7 @@ def feeling(robot):
 @pytest.mark.proves("B24", "R04")
 def test_a_set_emotion_shows_for_its_duration_and_is_not_felt(robot):
     before = weights(robot, 0.2).get("mouthSmileLeft", 0.0)
-    robot.set_emotion_value(3.0, "joy", 1.0)
+    FaceInterface(robot).set_emotion_value(3.0, "joy", 1.0)
     assert weights(robot, 2.9)["mouthSmileLeft"] > before + 0.3
     assert feeling(robot).label == "calm"
     robot.wait(2.5)
@@ -62,7 +63,7 @@ def test_a_set_emotion_shows_for_its_duration_and_is_not_felt(robot):
 def test_more_of_an_emotion_shows_more(robot):
     smiles = []
     for _ in range(3):
-        robot.set_emotion_increment(60.0, "joy", 0.2)
+        FaceInterface(robot).set_emotion_increment(60.0, "joy", 0.2)
         robot.wait(1.5)
         smiles.append(weights(robot, 0.1).get("mouthSmileLeft", 0.0))
     assert smiles[0] < smiles[1] < smiles[2]
@@ -71,7 +72,7 @@ def test_more_of_an_emotion_shows_more(robot):
 def test_a_vector_hides_what_is_felt(robot):
     robot.feel("scold")
     assert weights(robot, 2.0)["mouthFrownLeft"] > 0.2
-    robot.set_emotion_vector(5.0, {"joy": 0.8})
+    FaceInterface(robot).set_emotion_vector(5.0, {"joy": 0.8})
     robot.wait(2.0)
     shown = weights(robot, 0.2)
     assert shown["mouthSmileLeft"] > 0.3
@@ -81,12 +82,12 @@ def test_a_vector_hides_what_is_felt(robot):
 
 def test_the_end_of_what_was_put_on_can_be_waited_for(robot):
     start = robot.clock.now()
-    assert robot.wait_for_emotional_change()
+    assert FaceInterface(robot).wait_for_emotional_change()
     assert robot.clock.now() == start
-    robot.set_emotion_value(2.0, "fear", 0.7)
-    assert not robot.wait_for_emotional_change(timeout=0.5)
+    FaceInterface(robot).set_emotion_value(2.0, "fear", 0.7)
+    assert not FaceInterface(robot).wait_for_emotional_change(timeout=0.5)
     assert robot.clock.now() - start == pytest.approx(0.5)
-    assert robot.wait_for_emotional_change(timeout=5.0)
+    assert FaceInterface(robot).wait_for_emotional_change(timeout=5.0)
     assert robot.clock.now() - start == pytest.approx(2.0, abs=0.06)
 
 
@@ -101,7 +102,7 @@ def test_an_action_is_played_while_the_script_goes_on(robot):
     events = []
     robot.events.subscribe("gesture.*", lambda event: events.append(event.name))
     start = robot.clock.now()
-    robot.action("nod")
+    FaceInterface(robot).action("nod")
     assert robot.clock.now() == start
     robot.wait(4.0)
     assert events == ["gesture.started", "gesture.ended"]
@@ -120,7 +121,7 @@ def test_lips_follow_phonemes_for_as_long_as_they_last(robot, phonemes):
         context.networks.watch("emotion", "face", "weights", note)
 
     robot.run(watch)
-    robot.speak(phonemes)
+    FaceInterface(robot).speak(phonemes)
     assert robot.clock.now() - start == pytest.approx(0.3 + 6 * 0.08, abs=0.05)
     assert max(jaw for _, jaw in seen) > 0.15
     robot.wait(0.6)
@@ -140,5 +141,5 @@ def test_lips_follow_phonemes_for_as_long_as_they_last(robot, phonemes):
 )
 def test_mistakes_are_told(robot, verb, arguments, told):
     with pytest.raises(HriError) as error:
-        getattr(robot, verb)(*arguments)
+        getattr(FaceInterface(robot), verb)(*arguments)
     assert told in str(error.value)
