@@ -11,7 +11,7 @@ from hri.behavior.effects import NOTHING
 from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
 from hri.core.event_bus import EventBus
 from hri.core.signals import RangeReading, Twist
-from hri.drive.gate import VelocityGate
+from hri.drive.gate import ANGULAR_FACTOR, VelocityGate
 from hri.drive.velocity_limits import GateLimits, safe_speed
 from hri.drive.watch import Watch, stopping_time
 from hri.hal.helm import Rank
@@ -111,6 +111,11 @@ class CommandGate(Behavior):
     @property
     def is_moving(self) -> bool:
         return self._gate.is_moving
+
+    @property
+    def braking(self) -> Twist:
+        """How fast it slows down, m/s² and rad/s²."""
+        return Twist(self.deceleration, self.deceleration * ANGULAR_FACTOR)
 
     def _limits(self) -> GateLimits:
         return GateLimits(

@@ -9,7 +9,7 @@ from hri.drive.velocity_limits import GateLimits
 from hri.hal.motion import REST
 from hri.hal.motion_profile import toward
 
-_ANGULAR_FACTOR = 4.0
+ANGULAR_FACTOR = 4.0
 """Turning may change this many times as fast, in radians, as driving does in meters: on a base with
 wheels half a meter apart both ask the same of the wheels."""
 _LEAST_LINEAR = 0.005
@@ -109,7 +109,7 @@ class VelocityGate:
     def _approached(self, dt: float) -> Twist:
         up, down = self.limits.acceleration * dt, self.limits.deceleration * dt
         linear = approach(self.current.linear, self.target.linear, up, down)
-        up, down = up * _ANGULAR_FACTOR, down * _ANGULAR_FACTOR
+        up, down = up * ANGULAR_FACTOR, down * ANGULAR_FACTOR
         return Twist(linear, approach(self.current.angular, self.target.angular, up, down))
 
 

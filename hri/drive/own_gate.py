@@ -21,26 +21,28 @@ AHEAD = math.radians(10)
 """A range sensor that looks to the side by more does not say what is ahead."""
 
 
-def see_to_gate(context: TaskContext) -> None:
-    """Start a gate with a drive, bumpers and what looks ahead, unless a gate runs.
+def see_to_gate(context: TaskContext) -> CommandGate:
+    """The gate that runs, or a new one with a drive, bumpers, and the sensors that look ahead.
 
-    It runs on for the tasks to come. Raises HriError without a drive, and where a network steers it
-    that has no gate.
+    A new one runs on for the tasks to come. Raises HriError without a drive, and where a network
+    steers it that has no gate.
     """
-    if context.find_behavior(CommandGate) is not None:
-        return
+    if (gate := context.find_behavior(CommandGate)) is not None:
+        return gate
     if context.find_behavior(DriveCommand) is not None:
         what = "the network that steers the drive takes no commands of tasks"
         raise HriError(f"{what} - put an Hri.CommandGate before its Hri.DriveSystem")
     drives = context.resources.ids(DriveSystem)
     if not drives:
         raise HriError("no drive in the configuration - add one")
-    context.networks.start(_network(context, drives[0]))
+    gate = CommandGate("gate")
+    context.networks.start(_network(context, gate, drives[0]))
+    return gate
 
 
-def _network(context: TaskContext, drive_id: str) -> Network:
+def _network(context: TaskContext, gate: CommandGate, drive_id: str) -> Network:
     resources = context.resources
-    gate, drive = CommandGate("gate"), DriveCommand("drive", drive_id=drive_id)
+    drive = DriveCommand("drive", drive_id=drive_id)
     sensors: list[Behavior] = []
     for id in range_sensors(resources):
         if abs(resources.pose_of(id).yaw) <= AHEAD:

@@ -3,6 +3,10 @@
 A motion claims "drive" and writes velocities to the board, where the command gate reads them.
 Starting one ends the one before; `stop`, `CommandGate.halt` and a bump end it too. It ends by
 itself at the goal, or when it gets nowhere.
+
+Its velocity follows from the way that is left, so the gate and the supervisor may hold it up. A
+motion of `hri.hal.motion` follows a plan in time, to the millimeter, and fails when it is held up:
+that is for programs that command the drive itself. Both use `hri.hal.motion_profile`.
 """
 
 from __future__ import annotations
@@ -11,13 +15,15 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import ClassVar
 
+from hri.core.errors import HriError
 from hri.core.geometry import wrapped
 from hri.core.signals import Pose2D, Twist
-from hri.drive.behaviors import COMMAND, MOTION
+from hri.drive.behaviors import COMMAND, MOTION, CommandGate
 from hri.drive.own_gate import see_to_gate
 from hri.drive.progress import Patience
-from hri.hal.drive import DriveSystem, Odometry, longest_move, too_long
+from hri.hal.drive import DriveSystem, Odometry, Stop, longest_move, too_long
 from hri.hal.motion import REST
 from hri.hal.motion_profile import velocity_for
 from hri.hal.pending import Interrupted
@@ -30,8 +36,8 @@ TURN_RATE = 1.0
 """Radians a second."""
 
 _PERIOD = 0.05
-_LINEAR_DECELERATION = 0.3
-_ANGULAR_DECELERATION = 1.0
+_HEADROOM = 0.8
+"""Share of what the gate slows down with that a motion counts on."""
 _HEADING_GAIN = 2.0
 """Radians a second for each radian off the heading."""
 _PATIENCE_S = 2.0
@@ -41,34 +47,60 @@ _STANDING = 0.005
 """A base that is slower, in m/s and rad/s, will stand by the next look."""
 
 
-async def move(context: TaskContext, distance_m: float, speed: float | None = None) -> float:
-    """Drive straight ahead, backward when negative; the distance really travelled, with its sign.
+async def move(
+    context: TaskContext,
+    distance_m: float,
+    speed: float | None = None,
+    acceleration: float | None = None,
+) -> float:
+    """Drive straight ahead, backward when negative; the distance really traveled, with its sign.
 
-    Raises ValueError for a distance that is not finite or a speed (m/s) that is not above 0,
-    HriError for a distance beyond `longest_move` of the drive.
+    With an `acceleration` (m/s²) it speeds up and slows down no harder than that; the command gate
+    and the supervisor may allow less. Raises ValueError for a distance that is not finite, or a
+    speed (m/s) or acceleration that is not above 0, HriError for a distance beyond `longest_move`
+    of the drive.
     """
     refuse_too_long(
         context, distance_m, f"{distance_m:g} m", f"give {distance_m / 100:g} if you meant cm"
     )
-    way = _Straight(distance_m, _above_0(speed, CRUISE, "m/s"))
-    with motion_of(context) as motion:
-        return await motion.run(way)
+    way = _Straight(distance_m, _above_0(speed, CRUISE, "m/s"), acceleration)
+    with piloting(context) as pilot:
+        return await pilot.follow(way)
 
 
-async def turn(context: TaskContext, angle_rad: float, rate: float | None = None) -> float:
+async def turn(
+    context: TaskContext,
+    angle_rad: float,
+    rate: float | None = None,
+    acceleration: float | None = None,
+) -> float:
     """Turn on the spot, left when positive, also more than once round; the angle really turned.
 
-    Raises ValueError for an angle that is not finite or a rate (rad/s) that is not above 0.
+    With an `acceleration` (rad/s²) it speeds up and slows down no harder than that; the command
+    gate and the supervisor may allow less. Raises ValueError for an angle that is not finite, or a
+    rate (rad/s) or acceleration that is not above 0.
     """
-    way = _Turn(angle_rad, _above_0(rate, TURN_RATE, "rad/s"))
-    with motion_of(context) as motion:
-        return await motion.run(way)
+    way = _Turn(angle_rad, _above_0(rate, TURN_RATE, "rad/s"), acceleration)
+    with piloting(context) as pilot:
+        return await pilot.follow(way)
 
 
 async def stop(context: TaskContext) -> None:
-    """End any motion and wait until the base is at rest, two seconds at most."""
-    with motion_of(context) as motion:
-        await motion.stop()
+    """End any motion and wait until the base is at rest, two seconds at most.
+
+    Where no command gate runs, no task moves the base; then the drive itself comes to rest.
+    """
+    if context.find_behavior(CommandGate) is not None:
+        with piloting(context) as pilot:
+            await pilot.stop()
+        return
+    drive = context.resources.find(DriveSystem)
+    if drive is None:
+        raise HriError("no drive in the configuration - add one")
+    try:
+        await drive.halt(Stop.SMOOTH)
+    finally:
+        context.resources.release(drive)
 
 
 def refuse_too_long(context: TaskContext, distance_m: float, given: str, remedy: str) -> None:
@@ -86,98 +118,106 @@ def refuse_too_long(context: TaskContext, distance_m: float, given: str, remedy:
 def _above_0(value: float | None, default: float, unit: str) -> float:
     value = default if value is None else value
     if not math.isfinite(value) or value <= 0:
-        raise ValueError(f"cannot move at {value} {unit} - give a speed above 0")
+        raise ValueError(f"cannot move at {value} {unit} - give a number above 0")
     return value
 
 
 class _Way(ABC):
-    """Where a motion leads: meters or radians from where it begins."""
+    """Where a motion leads: meters or radians from where it is first looked at."""
 
-    near: float
+    near: ClassVar[float]
     """So close to the goal it is over; the base rolls out a little."""
+    deceleration: ClassVar[float]
+    """The usual one, in `unit`."""
+    unit: ClassVar[str]
 
-    def __init__(self, goal: float) -> None:
+    def __init__(self, goal: float, speed: float, acceleration: float | None) -> None:
         if not math.isfinite(goal):
             raise ValueError(f"cannot go {goal} - give a finite number")
         self.goal = goal
         self.gone = 0.0
-        """How much of it has been travelled, as far as `look` has seen."""
-
-    def begin(self, pose: Pose2D) -> None:
-        self._start = pose
+        """How much of it has been traveled, as far as `look` has seen."""
+        self._speed = speed
+        self._down = _above_0(acceleration, self.deceleration, self.unit)
+        # Without an acceleration, how fast it speeds up is the gate's part alone.
+        self._up = math.inf if acceleration is None else acceleration
+        self._asked = 0.0
 
     @abstractmethod
     def look(self, pose: Pose2D) -> None:
         """Take note of how far it got."""
 
     @abstractmethod
-    def steered(self, pose: Pose2D) -> Twist:
-        """What to ask the base for on the way."""
+    def steered(self, pose: Pose2D, braking: Twist) -> Twist:
+        """What to ask the base for on the way; `braking` is what the gate slows down with."""
+
+    def _toward_goal(self, braking: float) -> float:
+        """The velocity for the next period."""
+        down = min(self._down, _HEADROOM * braking)
+        wanted = velocity_for(self.goal - self.gone, self._speed, down, _PERIOD)
+        self._asked = min(abs(wanted), self._asked + self._up * _PERIOD)
+        return math.copysign(self._asked, wanted)
 
 
 class _Straight(_Way):
     near = 0.005
-
-    def __init__(self, goal: float, cruise: float) -> None:
-        super().__init__(goal)
-        self._cruise = cruise
+    deceleration, unit = 0.3, "m/s²"
+    _start: Pose2D | None = None
 
     def look(self, pose: Pose2D) -> None:
-        ahead, left = math.cos(self._start.heading), math.sin(self._start.heading)
-        self.gone = (pose.x - self._start.x) * ahead + (pose.y - self._start.y) * left
+        self._start = start = self._start or pose
+        ahead, left = math.cos(start.heading), math.sin(start.heading)
+        self.gone = (pose.x - start.x) * ahead + (pose.y - start.y) * left
 
-    def steered(self, pose: Pose2D) -> Twist:
-        linear = velocity_for(self.goal - self.gone, self._cruise, _LINEAR_DECELERATION, _PERIOD)
-        return Twist(linear, _HEADING_GAIN * wrapped(self._start.heading - pose.heading))
+    def steered(self, pose: Pose2D, braking: Twist) -> Twist:
+        astray = wrapped((self._start or pose).heading - pose.heading)
+        return Twist(self._toward_goal(braking.linear), _HEADING_GAIN * astray)
 
 
 class _Turn(_Way):
     near = math.radians(0.5)
-
-    def __init__(self, goal: float, rate: float) -> None:
-        super().__init__(goal)
-        self._rate = rate
-
-    def begin(self, pose: Pose2D) -> None:
-        self._heading = pose.heading
+    deceleration, unit = 1.0, "rad/s²"
+    _last: Pose2D | None = None
 
     def look(self, pose: Pose2D) -> None:
         # Counted on, through whole turns.
-        self.gone += wrapped(pose.heading - self._heading)
-        self._heading = pose.heading
+        self.gone += wrapped(pose.heading - (self._last or pose).heading)
+        self._last = pose
 
-    def steered(self, pose: Pose2D) -> Twist:
-        remaining = self.goal - self.gone
-        return Twist(0.0, velocity_for(remaining, self._rate, _ANGULAR_DECELERATION, _PERIOD))
+    def steered(self, pose: Pose2D, braking: Twist) -> Twist:
+        return Twist(0.0, self._toward_goal(braking.angular))
 
 
-class Motion:
-    """The one motion that may write commands, until another task claims the drive or a halt."""
+class Pilot:
+    """The one that may write commands, until another motion takes the drive or a halt."""
 
-    def __init__(self, context: TaskContext, odometry: Odometry) -> None:
+    def __init__(self, context: TaskContext, gate: CommandGate, odometry: Odometry) -> None:
         self._context = context
         self._clock = context.clock
+        self._gate = gate
         self._odometry = odometry
         self._command = context.board.slot(COMMAND)
         self._current = context.board.slot(MOTION)
 
-    async def run(self, way: _Way) -> float:
-        """Steer until the goal is near; how far it got."""
-        try:
-            async with self._context.claim("drive"):
-                self._current.set(self, self._clock.now())
-                way.begin(self._pose())
-                await self._steer(way)
-                await self._roll_out()
-                way.look(self._pose())
-        except Interrupted:
-            return way.gone  # the caller sees that it is not the whole way
-        return way.gone
+    async def follow(self, way: _Way) -> float:
+        """Steer until the goal is near or comes no nearer; how far it got."""
+        patience = Patience(_PATIENCE_S, way.near)
+
+        def steer(now: float, pose: Pose2D) -> Twist | None:
+            way.look(pose)
+            remaining = abs(way.goal - way.gone)
+            if remaining <= way.near or patience.is_over(now, remaining):
+                return None
+            return way.steered(pose, self._gate.braking)
+
+        await self.lead(steer)
+        way.look(self._pose())
+        return way.gone  # the caller sees whether it is the whole way
 
     async def lead(self, steer: Callable[[float, Pose2D], Twist | None]) -> bool:
         """Send what `steer` says for a time and a pose, until it says None.
 
-        Whether it came to that; False when another motion, a stop or a bump ended it.
+        False when another motion, a stop or a bump ended it before.
         """
         try:
             async with self._context.claim("drive"):
@@ -187,6 +227,12 @@ class Motion:
         except Interrupted:
             return False
         return is_over
+
+    async def stop(self) -> None:
+        """End whatever motion goes on, and come to rest."""
+        self._current.set(self, self._clock.now())
+        self._end()
+        await self._roll_out()
 
     async def _led(self, steer: Callable[[float, Pose2D], Twist | None]) -> bool:
         try:
@@ -200,26 +246,6 @@ class Motion:
         finally:
             self._end()
         return False
-
-    async def stop(self) -> None:
-        """End whatever motion goes on, and come to rest."""
-        self._current.set(self, self._clock.now())
-        self._end()
-        await self._roll_out()
-
-    async def _steer(self, way: _Way) -> None:
-        patience = Patience(_PATIENCE_S, way.near)
-        try:
-            while self._current.value is self:
-                pose, now = self._pose(), self._clock.now()
-                way.look(pose)
-                remaining = abs(way.goal - way.gone)
-                if remaining <= way.near or patience.is_over(now, remaining):
-                    break
-                self._command.set(way.steered(pose), now)
-                await self._clock.sleep(_PERIOD)
-        finally:
-            self._end()
 
     def _pose(self) -> Pose2D:
         return self._odometry.pose(self._clock.now())
@@ -241,11 +267,11 @@ class Motion:
 
 
 @contextmanager
-def motion_of(context: TaskContext) -> Iterator[Motion]:
-    """A motion, with the odometry for as long as it lasts; a gate of its own where none runs."""
-    see_to_gate(context)
+def piloting(context: TaskContext) -> Iterator[Pilot]:
+    """A pilot, with the odometry for as long as it lasts; its own gate where none runs."""
+    gate = see_to_gate(context)
     odometry = context.resources.obtain("odometry", Odometry)
     try:
-        yield Motion(context, odometry)
+        yield Pilot(context, gate, odometry)
     finally:
         context.resources.release(odometry)

@@ -32,7 +32,7 @@ from hri.drive.mechanics import mechanics_of, range_sensors
 from hri.drive.navigation import checked
 from hri.drive.own_gate import see_to_gate
 from hri.drive.progress import Approach, Patience
-from hri.drive.tasks import motion_of
+from hri.drive.tasks import piloting
 from hri.drive.wandering import Wandering
 from hri.hal.drive import Odometry
 from hri.hal.motion import REST
@@ -76,8 +76,8 @@ async def _why_not_gone_to(context: TaskContext, goal: Pose2D, faces: bool) -> s
             distance = math.dist((pose.x, pose.y), (goal.x, goal.y))
             return None if is_there or patience.is_over(now, distance) else twist
 
-        with motion_of(context) as motion:
-            await motion.lead(steer)
+        with piloting(context) as pilot:
+            await pilot.lead(steer)
         return "" if is_there else await traveler.why_not(context, goal)
 
 
@@ -128,8 +128,8 @@ async def _followed(context: TaskContext, person: str, distance: float, seconds:
 
         stops = context.events.subscribe("drive.stopped", note)
         try:
-            with motion_of(context) as motion:
-                await motion.lead(steer)
+            with piloting(context) as pilot:
+                await pilot.lead(steer)
         finally:
             stops.cancel()
         is_in_sight = following.pursuit is Pursuit.FOLLOWING
@@ -167,8 +167,8 @@ async def come_here(context: TaskContext, person: str = "", distance: float = 1.
             is_there = is_there and following.pursuit is Pursuit.FOLLOWING
             return None if is_there else twist
 
-        with motion_of(context) as motion:
-            await motion.lead(steer)
+        with piloting(context) as pilot:
+            await pilot.lead(steer)
         return is_there
 
 
@@ -183,8 +183,8 @@ async def _look_around(context: TaskContext, traveler: _Traveler, person: str) -
         is_seen = sight_of(traveler.people, person, now) is not None
         return None if is_seen or turned >= math.tau else Twist(0.0, SEARCH_RATE)
 
-    with motion_of(context) as motion:
-        await motion.lead(steer)
+    with piloting(context) as pilot:
+        await pilot.lead(steer)
     return is_seen
 
 
@@ -202,8 +202,8 @@ async def wander(context: TaskContext, seconds: float = math.inf, seed: int = 0)
                 return None
             return traveler.toward(now, pose, wandering.goal(now, pose), False)[0]
 
-        with motion_of(context) as motion:
-            await motion.lead(steer)
+        with piloting(context) as pilot:
+            await pilot.lead(steer)
 
 
 @task("Hri.GoTo")

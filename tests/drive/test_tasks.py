@@ -34,6 +34,19 @@ def test_move_takes_a_speed_and_a_mood() -> None:
     assert course.fastest == pytest.approx(0.12)
 
 
+def test_move_takes_an_acceleration_for_both_ends() -> None:
+    course = Course()
+    moved = course.run(lambda context: move(context, 1.0, speed=0.2, acceleration=0.1))
+    assert moved == pytest.approx(1.0, abs=0.01)
+    assert course.clock.now() == pytest.approx(1.0 / 0.2 + 0.2 / 0.1, abs=0.4)
+
+
+def test_an_acceleration_beyond_the_gates_carries_it_no_farther() -> None:
+    course = Course(deceleration=0.2)
+    assert course.run(lambda context: move(context, 1.0, 0.4, 5.0)) == pytest.approx(1.0, abs=0.01)
+    assert course.base.way == pytest.approx(1.0, abs=0.01), "it did not come back"
+
+
 def test_move_holds_its_heading_on_slipping_wheels() -> None:
     course = Course(slip=0.01)
     course.run(lambda context: move(context, 10.0))
@@ -125,6 +138,8 @@ def test_move_refuses_what_it_cannot_do(distance: float) -> None:
         trio.run(move, course.task, distance)
     with pytest.raises(ValueError, match="above 0"):
         trio.run(move, course.task, 1.0, 0.0)
+    with pytest.raises(ValueError, match=r"-1 m/s² - give a number above 0"):
+        trio.run(move, course.task, 1.0, 0.2, -1)
 
 
 def test_the_guides_fifty_given_in_meters_is_refused_with_both_readings() -> None:
