@@ -12,7 +12,7 @@ from functools import partial
 from typing import TypeVar
 
 from hri.core.errors import HriError
-from hri.core.units import Quantity
+from hri.core.quantities import Quantity
 from hri.drive import tasks as verbs
 from hri.task.context import TaskContext
 from hri.task.task import task
