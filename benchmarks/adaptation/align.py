@@ -20,7 +20,7 @@ from hri.core.errors import HriError
 from hri.hal.word_graph import WordGraph
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.confidence import scores_of
-from hri.speech.recognizers.ctc.conformer import Network
+from hri.speech.recognizers.ctc.conformer import Conformer
 from hri.speech.recognizers.ctc.habits import Habits
 from hri.speech.recognizers.ctc.lattice import Walk
 from hri.speech.recognizers.ctc.phone_graph import compile
@@ -89,9 +89,9 @@ def habits() -> Habits:
 
 
 @cache
-def teacher() -> Network:
+def teacher() -> Conformer:
     """The network as it comes."""
-    return Network(read_tensors(find_weights()))
+    return Conformer(read_tensors(find_weights()))
 
 
 def phones_of(text: str, clip: NDArray[np.int16]) -> tuple[Phones, bool]:

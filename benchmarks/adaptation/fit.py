@@ -37,7 +37,7 @@ from hri.speech.grammar.matching import parse
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.adaptation import adapted
 from hri.speech.recognizers.ctc.confidence import Fit, fit_of, scores_of, shares
-from hri.speech.recognizers.ctc.conformer import Network
+from hri.speech.recognizers.ctc.conformer import Conformer
 from hri.speech.recognizers.ctc.decoder import BEAM, MOST_SENTENCES
 from hri.speech.recognizers.ctc.habits import Habits
 from hri.speech.recognizers.ctc.lattice import Walk
@@ -181,7 +181,7 @@ def pieces_of(
     said: Sequence[Said], talkers: Sequence[Samples], grammars: dict[str, Decoder]
 ) -> Iterator[Piece]:
     """Every clip in every noise, decoded by its own grammar and by others."""
-    network = Network(adapted(read_tensors(find_weights(""))))
+    network = Conformer(adapted(read_tensors(find_weights(""))))
     rivals = Rivals(Habits(load_lexicon()))
     chance = random.Random(1)
     for clip in said:

@@ -14,7 +14,7 @@ from hri.bench.table import Row, amount, at_most
 from hri.core.clock import RealClock
 from hri.core.signals import Speech
 from hri.face.animator import Animator
-from hri.face.lips.lipsync import PhonemeTrack, Segment, spoken
+from hri.face.lips.lipsync import PhonemeTrack, VisemeSpan, spoken
 from hri.face.model import FaceModel
 from hri.face.regions import region_of
 from hri.hal.resource import Description
@@ -80,7 +80,7 @@ def lip_timing(
     return LipTiming(_shapes(segments, sounds, times, away), _changes(segments, times, away))
 
 
-def _distances(model: FaceModel, segment: Segment, frames: Values) -> Values:
+def _distances(model: FaceModel, segment: VisemeSpan, frames: Values) -> Values:
     """How far each channel of each frame is from a shape, squared."""
     shape = segment.strength * model.vector(model.viseme(segment.viseme)).astype(float)
     squares: Values = (frames - shape) ** 2
@@ -88,8 +88,8 @@ def _distances(model: FaceModel, segment: Segment, frames: Values) -> Values:
 
 
 def _shapes(
-    segments: Sequence[Segment],
-    sounds: Sequence[Segment],
+    segments: Sequence[VisemeSpan],
+    sounds: Sequence[VisemeSpan],
     times: Values,
     away: Sequence[Values],
 ) -> list[float]:
@@ -108,7 +108,7 @@ def _shapes(
     return errors
 
 
-def _heard(segment: Segment, sounds: Sequence[Segment]) -> tuple[float, float]:
+def _heard(segment: VisemeSpan, sounds: Sequence[VisemeSpan]) -> tuple[float, float]:
     """From when to when the sounds of a shape are heard, as the voice gave the times.
 
     The shape itself may have been given time of neighbors that are too short to be seen.
@@ -122,7 +122,7 @@ def _heard(segment: Segment, sounds: Sequence[Segment]) -> tuple[float, float]:
     return own[0].start, own[-1].end
 
 
-def _changes(segments: Sequence[Segment], times: Values, away: Sequence[Values]) -> list[float]:
+def _changes(segments: Sequence[VisemeSpan], times: Values, away: Sequence[Values]) -> list[float]:
     """Between the middles of two sounds, at the straight line through two frames."""
     changes = []
     for number, (one, other) in enumerate(pairwise(segments)):

@@ -27,7 +27,7 @@ from benchmarks.vision.recordings import (
 )
 from hri.bench.table import Row as Figure, amount, at_least, at_most, share
 from hri.vision.gestures.angle_noise import Noise
-from hri.vision.gestures.gesture_patterns import ANSWERS, Pattern, Row, answer_patterns
+from hri.vision.gestures.gesture_patterns import ANSWERS, Pattern, PatternRow, answer_patterns
 from hri.vision.gestures.gesture_recognizer import Movement
 
 FOLDS, DIVISIONS, SEEDS = 5, 3, 3
@@ -157,18 +157,18 @@ def tell(recordings: Sequence[Recording], patterns: Sequence[Pattern]) -> Told:
     return Told(kinds, np.array(numbers), {kind: np.array(m) for kind, m in moments.items()})
 
 
-def _asked(pattern: Pattern, swings: int) -> Row:
+def _asked(pattern: Pattern, swings: int) -> PatternRow:
     return next(row for row in pattern.rows if row.swings == swings and True in row.prompted)
 
 
-def _nod_choices(row: Row) -> list[Row]:
+def _nod_choices(row: PatternRow) -> list[PatternRow]:
     return [
         replace(row, rest=rest, dominance={**row.dominance, "yaw": yaw})
         for rest, yaw in NOD_CHOICES
     ]
 
 
-def _shake_choices(row: Row) -> list[Row]:
+def _shake_choices(row: PatternRow) -> list[PatternRow]:
     return [
         replace(row, duration=duration, rest=rest, slowing=slowing)
         for duration, rest, slowing in SHAKE_CHOICES

@@ -36,7 +36,7 @@ LONGEST_AWAY = 2.6
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class CrossingVerdict:
     """What became of the ids in a case."""
 
     is_swapped: bool
@@ -63,13 +63,13 @@ def rows(quick: bool, workers: int) -> Iterator[Row]:
     yield {"what": f"the same, {SLOW_RATE:g} a second", "count": kept, "of": len(slow)}
 
 
-def _judged(count: int, rate: float, workers: int) -> list[Verdict]:
+def _judged(count: int, rate: float, workers: int) -> list[CrossingVerdict]:
     with worker_pool(workers) as pool:
         verdicts = pool.map(partial(judge, rate=rate), range(count))
         return list(progress(verdicts, count, f"crossing, {rate:g} a second"))
 
 
-def judge(number: int, rate: float = RATE) -> Verdict:
+def judge(number: int, rate: float = RATE) -> CrossingVerdict:
     """Case of a number: every other one has someone who leaves and returns."""
     roles = crossing_roles(number) if number % 2 == 0 else _returning(number)
     lens = Lens(noise=4.0, seed=SEED + number)
@@ -88,7 +88,7 @@ def judge(number: int, rate: float = RATE) -> Verdict:
                     at_once[role].add(id)
                     if people.time - close >= SETTLED:
                         settled[role].add(id)
-    return Verdict(
+    return CrossingVerdict(
         is_swapped=bool(settled[0] & settled[1]),
         is_mixed_up=bool(at_once[0] & at_once[1]),
         is_lost=any(len(own) > 1 for own in settled),

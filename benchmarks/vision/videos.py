@@ -18,7 +18,7 @@ from hri.bench.workers import worker_pool
 from hri.core.signals import HeadGesture, HeadPose, Person
 from hri.vision.detectors.detector_choice import AUTO, HAAR
 from hri.vision.face_models import find_face_models
-from hri.vision.gestures.gesture_fusion import AgreeingRecognizer
+from hri.vision.gestures.gesture_fusion import GestureFusion
 from hri.vision.gestures.gesture_patterns import answer_patterns
 from hri.vision.gestures.gesture_recognizer import GestureRecognizer
 
@@ -102,7 +102,7 @@ class _Recognizers:
 
     def __init__(self) -> None:
         patterns = answer_patterns()
-        self._agreeing, self._prompted = AgreeingRecognizer(patterns), AgreeingRecognizer(patterns)
+        self._agreeing, self._prompted = GestureFusion(patterns), GestureFusion(patterns)
         self._pose, self._flow = GestureRecognizer(patterns), GestureRecognizer(patterns)
         self.found: dict[str, list[HeadGesture]] = {
             name: [] for name in (AGREEING, PROMPTED, POSE, FLOW)

@@ -35,7 +35,7 @@ CLIPPED_DBFS = -1.0
 
 
 @dataclass(frozen=True)
-class Finding:
+class Diagnosis:
     """What became of one check."""
 
     is_well: bool
@@ -72,7 +72,7 @@ class Doctor:
     def examine(self) -> int:
         """Run all checks; each prints a line. Raises AuthoringError for a wrong configuration."""
         self.resources.check()
-        checks: dict[str, Callable[[], Finding]] = {
+        checks: dict[str, Callable[[], Diagnosis]] = {
             "microphone": self._microphone,
             "speaker": self._speaker,
             "camera": self._camera,
@@ -87,7 +87,7 @@ class Doctor:
             try:
                 finding = check()
             except NotAvailable as error:
-                finding = Finding(False, str(error).removeprefix(f"{name}: "))
+                finding = Diagnosis(False, str(error).removeprefix(f"{name}: "))
             mark = "ok     " if finding.is_well else "MISSING"
             print(f"{name:<11} {mark}  {finding.says}", flush=True)
             failures += not finding.is_well
@@ -95,7 +95,7 @@ class Doctor:
             print(f"\n{failures} missing: the companion runs all the same, with stand-ins.")
         return 1 if failures else 0
 
-    def _microphone(self) -> Finding:
+    def _microphone(self) -> Diagnosis:
         microphone = self.resources.obtain("microphone", Microphone)
         ear = microphone.listen()
         loudest = -120.0
@@ -110,12 +110,14 @@ class Doctor:
         if sys.stdout.isatty():
             print("\r" + " " * (METER_WIDTH + 20) + "\r", end="")
         if loudest < QUIET_DBFS:
-            return Finding(False, f"silent ({loudest:.0f} dBFS) - unmute it, or run with --choose")
+            return Diagnosis(
+                False, f"silent ({loudest:.0f} dBFS) - unmute it, or run with --choose"
+            )
         if loudest > CLIPPED_DBFS:
-            return Finding(False, "too loud, it clips - lower its level in the sound settings")
-        return Finding(True, f"{microphone.describe()}, loudest {loudest:.0f} dBFS")
+            return Diagnosis(False, "too loud, it clips - lower its level in the sound settings")
+        return Diagnosis(True, f"{microphone.describe()}, loudest {loudest:.0f} dBFS")
 
-    def _speaker(self) -> Finding:
+    def _speaker(self) -> Diagnosis:
         speaker = self.resources.obtain("speaker", Speaker)
         times = np.arange(11025) / 22050
         tone = (8000 * np.sin(2 * np.pi * 660 * times) * np.hanning(len(times))).astype(np.int16)
@@ -123,9 +125,9 @@ class Doctor:
         deadline = self.clock.now() + 2.0
         while speaker.position(self.clock.now()) is not None and self.clock.now() < deadline:
             time.sleep(0.05)  # noqa: TID251 - the tone is heard meanwhile
-        return Finding(True, f"{speaker.describe()}, played a tone")
+        return Diagnosis(True, f"{speaker.describe()}, played a tone")
 
-    def _camera(self) -> Finding:
+    def _camera(self) -> Diagnosis:
         camera = self.resources.obtain("camera", Camera)
         deadline = self.clock.now() + 3.0
         frame = None
@@ -133,42 +135,42 @@ class Doctor:
             time.sleep(0.05)  # noqa: TID251 - a camera needs a moment
             frame = camera.read(self.clock.now())
         if frame is None:
-            return Finding(False, "it gives no picture - unplug it and plug it in again")
+            return Diagnosis(False, "it gives no picture - unplug it and plug it in again")
         height, width = frame.image.shape[:2]
         if frame.image.max() < 16:
-            return Finding(False, f"{width} x {height}, but black - take off the lens cover")
-        return Finding(True, camera.describe())
+            return Diagnosis(False, f"{width} x {height}, but black - take off the lens cover")
+        return Diagnosis(True, camera.describe())
 
-    def _screen(self) -> Finding:
+    def _screen(self) -> Diagnosis:
         screen = self.resources.obtain("screen", Screen)
-        return Finding(True, f"{screen.describe()}, {screen.width} x {screen.height}")
+        return Diagnosis(True, f"{screen.describe()}, {screen.width} x {screen.height}")
 
-    def _base(self) -> Finding:
+    def _base(self) -> Diagnosis:
         drive = self.resources.obtain("drive", DriveSystem)
         odometry = self.resources.obtain("odometry", Odometry)
         drive.set_velocity(Twist(), self.clock.now())
         pose = odometry.pose(self.clock.now())
-        return Finding(True, f"{drive.describe()}, at x {pose.x:.2f} m, y {pose.y:.2f} m")
+        return Diagnosis(True, f"{drive.describe()}, at x {pose.x:.2f} m, y {pose.y:.2f} m")
 
-    def _voice(self) -> Finding:
+    def _voice(self) -> Diagnosis:
         voice = self.resources.obtain("voice", Synthesizer)
         speech = voice.synthesize("Hello.")
-        return Finding(True, f"{voice.describe()}, {speech.duration:.1f} s of speech")
+        return Diagnosis(True, f"{voice.describe()}, {speech.duration:.1f} s of speech")
 
-    def _recognizer(self) -> Finding:
+    def _recognizer(self) -> Diagnosis:
         from hri.speech.grammar import load_grammar
 
         recognizer = self.resources.obtain("recognizer", Recognizer)
         recognizer.start(load_grammar(paths.find("grammars", "companion.jsgf")))
-        return Finding(True, f"{recognizer.describe()}, its model loads")
+        return Diagnosis(True, f"{recognizer.describe()}, its model loads")
 
-    def _faces(self) -> Finding:
+    def _faces(self) -> Diagnosis:
         from hri.vision.detectors.detector_choice import load_detectors
 
         problems = load_detectors().problems
         if problems:
-            return Finding(False, f"{problems[0]} (until then boxes and coarse motion only)")
-        return Finding(True, "BlazeFace and the face mesh, both load")
+            return Diagnosis(False, f"{problems[0]} (until then boxes and coarse motion only)")
+        return Diagnosis(True, "BlazeFace and the face mesh, both load")
 
 
 def _dbfs(samples: Any) -> float:

@@ -27,7 +27,7 @@ PATIENCE = 300.0
 
 
 @dataclass(frozen=True, slots=True)
-class Film:
+class FaceFilm:
     """How a scene is filmed."""
 
     rate: float = 30.0

@@ -12,7 +12,7 @@ from typing import Any
 
 import trio
 
-from hri.cli.face_film import Film
+from hri.cli.face_film import FaceFilm
 from hri.cli.voice_options import NO_FILE, PLAIN_VOICE, open_voice
 from hri.core.clock import RealClock
 from hri.core.errors import AuthoringError, HriError, did_you_mean
@@ -109,7 +109,7 @@ def _written(speech: Speech, options: argparse.Namespace) -> bool:
         write_wav(options.wav, speech.samples, speech.rate)
     if options.face_video is not None:
         scene = scene_of(speech, expression_of(options.emotion, options.intensity))
-        film = Film(captions=options.captions)
+        film = FaceFilm(captions=options.captions)
         film.shoot(scene, load_face(options.face), options.face_video, options.wav)
     files = (options.phonemes, options.visemes, options.wav, options.face_video)
     return any(file is not None for file in files)

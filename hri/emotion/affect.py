@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from hri.emotion.emotions import OPPOSITES_OF, OPPOSITES_OF_THE_SAME
 from hri.emotion.label import Course
-from hri.emotion.ledger import Axes, Ledger, Origin, Row, merged, summed
+from hri.emotion.ledger import Axes, Ledger, LedgerRow, Origin, merged, summed
 
 Fresh = Mapping[Origin, Mapping[str, float]]
 """Charges by cause and emotion."""
@@ -105,9 +105,9 @@ def without(ledger: Ledger, cause: str, emotions: Collection[str]) -> Ledger:
     }
 
 
-def _without(row: Row, emotions: Collection[str]) -> Row:
+def _without(row: LedgerRow, emotions: Collection[str]) -> LedgerRow:
     charges = {name: charge for name, charge in row.charges.items() if name not in emotions}
-    return Row(charges, row.mood, row.time)
+    return LedgerRow(charges, row.mood, row.time)
 
 
 def driven_out(ledger: Ledger, fresh: Fresh) -> Ledger:
@@ -133,14 +133,14 @@ def driven_out(ledger: Ledger, fresh: Fresh) -> Ledger:
     }
 
 
-def _less(row: Row, against: Mapping[str, float]) -> Row:
+def _less(row: LedgerRow, against: Mapping[str, float]) -> LedgerRow:
     if against.keys().isdisjoint(row.charges):
         return row
     charges = {
         name: charge * exp(-against[name]) if name in against else charge
         for name, charge in row.charges.items()
     }
-    return Row(charges, row.mood, row.time)
+    return LedgerRow(charges, row.mood, row.time)
 
 
 def sums(imprint: Imprint, older: Ledger) -> tuple[dict[str, float], Axes]:
@@ -175,7 +175,7 @@ def renamed(imprint: Imprint, names: Mapping[str, str | None]) -> Imprint:
     def named(origin: Origin) -> Origin:
         return Origin(origin.name, names.get(origin.person or "", origin.person))
 
-    ledger: dict[Origin, Row] = {}
+    ledger: dict[Origin, LedgerRow] = {}
     for origin, row in imprint.ledger.items():
         other = named(origin)
         ledger[other] = merged(ledger[other], row) if other in ledger else row
@@ -206,7 +206,7 @@ def shifted(imprint: Imprint, seconds: float) -> Imprint:
     return Imprint(
         imprint.time + seconds,
         {
-            origin: Row(row.charges, row.mood, row.time + seconds)
+            origin: LedgerRow(row.charges, row.mood, row.time + seconds)
             for origin, row in imprint.ledger.items()
         },
         imprint.fresh,

@@ -41,7 +41,7 @@ _ALMOST = 1 - 1e-12
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class EmotionLook:
     """What a label looks like and is called."""
 
     expression: str
@@ -90,7 +90,7 @@ class DisplayRule:
 class Display:
     """The whole file: a look for every label, a rule for each thing that follows the feelings."""
 
-    looks: Mapping[str, Look]
+    looks: Mapping[str, EmotionLook]
     rate: Rule
     pitch: Rule
     volume: Rule
@@ -215,19 +215,20 @@ def load_display(path: Path | None = None) -> Display:
     return display
 
 
-def _looks(table: Table) -> dict[str, Look]:
+def _looks(table: Table) -> dict[str, EmotionLook]:
     """A look for every label; one that the file leaves out shows as the mood alone."""
     for name in table.data:
         if known_as(name) not in LABELS:
             raise table.error(name, f'no label "{name}"', did_you_mean(name, LABELS))
     written = {known_as(name): _look(table.table(name)) for name in table.data}
     return {
-        label: written.get(label, Look("neutral", 1.0, label.replace("_", " "))) for label in LABELS
+        label: written.get(label, EmotionLook("neutral", 1.0, label.replace("_", " ")))
+        for label in LABELS
     }
 
 
-def _look(table: Table) -> Look:
-    look = Look(
+def _look(table: Table) -> EmotionLook:
+    look = EmotionLook(
         expression=table.string("expression", among=EXPRESSIONS),
         gain=table.number("gain", 1.0, minimum=0.0, maximum=5.0),
         words=table.string("words"),

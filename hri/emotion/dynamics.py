@@ -43,8 +43,8 @@ from hri.emotion.ledger import (
     Axes,
     Cause,
     Ledger,
+    LedgerRow,
     Origin,
-    Row,
     pruned,
     summed,
     total_mood,
@@ -254,9 +254,9 @@ class Dynamics:
         stands for the baseline, "drive.NAME" for a drive.
         """
         rows = self._fading.rows(affect.imprint, affect.outlook, affect.age)
-        rows[Origin(TEMPERAMENT)] = Row({}, self._fading.baseline, affect.time)
+        rows[Origin(TEMPERAMENT)] = LedgerRow({}, self._fading.baseline, affect.time)
         for name, need in self._fading.needs(affect.imprint.needs, affect.age).items():
-            rows[Origin(cause_of(name))] = Row({}, need.mood, affect.time)
+            rows[Origin(cause_of(name))] = LedgerRow({}, need.mood, affect.time)
         return rows
 
     def why(self, affect: Affect, about: str = "") -> tuple[Cause, ...]:

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from hri.emotion.affect import Affect, Imprint, Need, Outlook
 from hri.emotion.emotions import EMOTIONS, NAMES
-from hri.emotion.ledger import STILL, Axes, Origin, Row, merged
+from hri.emotion.ledger import STILL, Axes, LedgerRow, Origin, merged
 from hri.emotion.personality import Personality
 
 FORGOTTEN = 1e-15
@@ -122,7 +122,7 @@ class Fading:
         pleasure, arousal, dominance = self.baseline
         return intensities, (tanh(pleasure + p), tanh(arousal + a), tanh(dominance + d)), levels
 
-    def rows(self, imprint: Imprint, outlook: Outlook, seconds: float) -> dict[Origin, Row]:
+    def rows(self, imprint: Imprint, outlook: Outlook, seconds: float) -> dict[Origin, LedgerRow]:
         """The same cause by cause: what is left of its charges, and its pull on the mood."""
         kept = exp(-self._return_rate * seconds)
         steps = self._steps(self._emotions, outlook.charges, kept, seconds)
@@ -168,7 +168,7 @@ class Fading:
 
 def _evolved(
     charges: Mapping[str, float], steps: Mapping[str, _Step], mood: Axes, time: float
-) -> Row:
+) -> LedgerRow:
     """A row after the steps; of its mood this is left."""
     p, a, d = mood
     evolved = {}
@@ -180,4 +180,4 @@ def _evolved(
         charge *= decay
         if charge > FORGOTTEN:
             evolved[name] = charge
-    return Row(evolved, (p, a, d), time)
+    return LedgerRow(evolved, (p, a, d), time)

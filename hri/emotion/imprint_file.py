@@ -10,7 +10,7 @@ from hri.core.errors import HriError, did_you_mean
 from hri.emotion.affect import Imprint, Need, Trace
 from hri.emotion.emotions import NAMES
 from hri.emotion.label import NOTHING
-from hri.emotion.ledger import Axes, Origin, Row
+from hri.emotion.ledger import Axes, LedgerRow, Origin
 
 T = TypeVar("T")
 
@@ -52,7 +52,7 @@ def decoded(data: object) -> Imprint:
     return Imprint(
         time=time,
         ledger={
-            _origin(entry): Row(_charges(entry), _axes(entry), entry.number("time", time))
+            _origin(entry): LedgerRow(_charges(entry), _axes(entry), entry.number("time", time))
             for entry in causes
         },
         fresh={_origin(entry): _charges(entry) for entry in fields.entries("fresh")},

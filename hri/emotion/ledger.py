@@ -51,7 +51,7 @@ class Origin(NamedTuple):
 REST = Origin(OTHER)
 
 
-class Row(NamedTuple):
+class LedgerRow(NamedTuple):
     """What is left of a cause."""
 
     charges: Mapping[str, float]
@@ -82,13 +82,13 @@ class Cause:
     """Who did it."""
 
 
-Ledger = Mapping[Origin, Row]
+Ledger = Mapping[Origin, LedgerRow]
 
 
-def merged(one: Row, other: Row) -> Row:
+def merged(one: LedgerRow, other: LedgerRow) -> LedgerRow:
     """Both causes as one."""
     charges = summed(one.charges, other.charges)
-    return Row(charges, added(one.mood, other.mood), max(one.time, other.time))
+    return LedgerRow(charges, added(one.mood, other.mood), max(one.time, other.time))
 
 
 def pruned(ledger: Ledger, now: float) -> Ledger:
@@ -139,7 +139,7 @@ def summed(one: Mapping[str, float], other: Mapping[str, float]) -> dict[str, fl
     return both
 
 
-def total_mood(rows: Iterable[Row]) -> Axes:
+def total_mood(rows: Iterable[LedgerRow]) -> Axes:
     """The sum of all rows, each axis."""
     total = STILL
     for row in rows:

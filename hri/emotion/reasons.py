@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from hri.emotion.display import Look
+from hri.emotion.display import EmotionLook
 from hri.emotion.ledger import TEMPERAMENT, Cause
 from hri.emotion.relations import is_unnamed
 
@@ -74,7 +74,7 @@ def why_words(
     return f"I am {feeling} because {first}, and because {second}."
 
 
-def labels_called(word: str, looks: Mapping[str, Look]) -> list[str]:
+def labels_called(word: str, looks: Mapping[str, EmotionLook]) -> list[str]:
     """The labels that people mean by a word such as "sad": it is their name, or says their look."""
     meant = ALSO_CALLED.get(word, word)
     return [

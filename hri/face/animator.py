@@ -8,14 +8,14 @@ import numpy as np
 
 from hri.core.signals import Expression, FaceWeights, Gaze, Speech
 from hri.face.drawing.baking import Vector
-from hri.face.lips.lip_player import PICTURE_LEAD, Speaking
+from hri.face.lips.lip_player import PICTURE_LEAD, LipPlayer
 from hri.face.model import FaceModel
 from hri.face.motion import idle
-from hri.face.motion.expression_blender import Expressing, bounded
-from hri.face.motion.gaze import Look, Looking
-from hri.face.motion.gesture_player import Gestured, Gesturing, Playing
+from hri.face.motion.expression_blender import ExpressionBlender, bounded
+from hri.face.motion.gaze import GazeAngles, GazeController
+from hri.face.motion.gesture_player import Gestured, GesturePlayer, Playing
 from hri.face.motion.gesture_tracks import Gesture, Track
-from hri.face.motion.idle_state import Alive, Living, check_state
+from hri.face.motion.idle_state import IdlePose, IdleState, check_state
 from hri.face.motion.lids import Lids
 from hri.face.motion.mixer import Layers, Mixer
 from hri.face.motion.spring import Follower
@@ -40,11 +40,11 @@ class Animator:
         self.model = model
         self._now = 0.0
         self._state = ""
-        self._expressing = Expressing(model)
-        self._speaking = Speaking(model, latency)
-        self._gesturing = Gesturing(model)
-        self._looking = Looking(model.settings)
-        self._living = Living(model, seed)
+        self._expressing = ExpressionBlender(model)
+        self._speaking = LipPlayer(model, latency)
+        self._gesturing = GesturePlayer(model)
+        self._looking = GazeController(model.settings)
+        self._living = IdleState(model, seed)
         self._mixer = Mixer(model)
         # An override is its weights times how much they win, then how much they win.
         self._override = Follower(np.zeros(2 * len(model.channels)))
@@ -184,7 +184,7 @@ class Animator:
             return self._expressing.label
         return self._state or ("resting" if self._speaking.speech is None else "talking")
 
-    def _moves(self, look: Look, alive: Alive) -> dict[str, float]:
+    def _moves(self, look: GazeAngles, alive: IdlePose) -> dict[str, float]:
         """What moves by itself, and the head that follows the eyes."""
         moves = alive.moves
         for name, weight in zip(self._turns, (look.yaw, look.pitch), strict=False):
@@ -192,7 +192,7 @@ class Animator:
         return moves
 
 
-def _gaze(look: Look, alive: Alive, gesture: Gestured, left: float) -> Gaze:
+def _gaze(look: GazeAngles, alive: IdlePose, gesture: Gestured, left: float) -> Gaze:
     """Of the eyes; `left` is what a gesture leaves of where they look without it."""
     x = left * (look.eyes.x + alive.drift.x) + float(gesture.gaze[0])
     y = left * (look.eyes.y + alive.drift.y) + float(gesture.gaze[1])

@@ -16,7 +16,7 @@ from hri.core.token import load_token
 from hri.net import control
 from hri.net.malleable_protocol import Message
 from hri.net.peer import Peer, PeerLimits
-from hri.net.tcp_port import Link
+from hri.net.tcp_port import TcpPort
 
 log = logging.getLogger("hri.net")
 
@@ -26,7 +26,7 @@ TO_CONNECT = 5.0
 """Seconds that one attempt may take."""
 
 
-class Client(Link):
+class Client(TcpPort):
     """Connects to a server, and again whenever the connection is lost."""
 
     def __init__(

@@ -22,7 +22,7 @@ from hri.net.loopback import is_loopback
 from hri.net.malleable_protocol import LONGEST, Item, Message, Sender, checked_name, split
 from hri.net.port_pool import borrow, give_back
 from hri.net.server import Server
-from hri.net.tcp_port import Link
+from hri.net.tcp_port import TcpPort
 
 log = logging.getLogger("hri.net")
 
@@ -85,7 +85,7 @@ class MalleableBehavior(Behavior):
         self._link.subscribe(self.tag_name, self._receive)
         self._link.subscribe(control.TAG, self._obey)
 
-    def _opened(self, allows_remote: bool) -> Link:
+    def _opened(self, allows_remote: bool) -> TcpPort:
         """Raises HriError when it would let other machines in and nobody has allowed it."""
         port = int(self.tcp_port)
         if self.tcp_host:

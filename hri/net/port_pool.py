@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 from hri.net.client import Client
 from hri.net.server import Server
-from hri.net.tcp_port import Link
+from hri.net.tcp_port import TcpPort
 
 
 @dataclass
@@ -18,14 +18,14 @@ class _Shared:
     """What is open, and how many use it."""
 
     lock: threading.Lock = field(default_factory=threading.Lock)
-    links: dict[tuple[type[Link], str, int], Link] = field(default_factory=dict)
-    users: dict[Link, int] = field(default_factory=dict)
+    links: dict[tuple[type[TcpPort], str, int], TcpPort] = field(default_factory=dict)
+    users: dict[TcpPort, int] = field(default_factory=dict)
 
 
 _shared = _Shared()
 
 
-def borrow(kind: type[Client] | type[Server], host: str, port: int, **options: bool) -> Link:
+def borrow(kind: type[Client] | type[Server], host: str, port: int, **options: bool) -> TcpPort:
     """The link of this process to a port; give it back. Raises HriError when it cannot be had.
 
     `options` are for the one who opens it.
@@ -42,7 +42,7 @@ def borrow(kind: type[Client] | type[Server], host: str, port: int, **options: b
         return link
 
 
-def give_back(link: Link) -> None:
+def give_back(link: TcpPort) -> None:
     """End one use of a link; with the last it is closed."""
     with _shared.lock:
         _shared.users[link] -= 1

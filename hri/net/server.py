@@ -15,7 +15,7 @@ from hri.core.token import Grant
 from hri.net import control
 from hri.net.malleable_protocol import Message
 from hri.net.peer import Peer, PeerError, PeerLimits
-from hri.net.tcp_port import Link
+from hri.net.tcp_port import TcpPort
 
 log = logging.getLogger("hri.net")
 
@@ -25,7 +25,7 @@ REST = 1.0
 """Seconds without a new peer, when this process has no file left for one."""
 
 
-class Server(Link):
+class Server(TcpPort):
     """Listens on a port; port 0 takes any free one, `port` tells which."""
 
     def __init__(self, host: str, port: int, limits: PeerLimits | None = None) -> None:

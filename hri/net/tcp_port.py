@@ -37,7 +37,7 @@ TO_STOP = 2.0
 """Seconds that `close` waits for the thread; only the search for a host's address takes longer."""
 
 
-class Link(ABC):
+class TcpPort(ABC):
     """What servers and clients share: peers, subscribers, and the thread that serves them."""
 
     def __init__(self, host: str, port: int, limits: PeerLimits | None = None) -> None:

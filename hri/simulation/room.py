@@ -20,7 +20,7 @@ _NEARLY_PARALLEL = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
-class Segment:
+class Wall:
     """A straight wall from (x1, y1) to (x2, y2)."""
 
     x1: float
@@ -49,7 +49,7 @@ class Box:
     width: float
     heading: float = 0.0
 
-    def sides(self) -> list[Segment]:
+    def sides(self) -> list[Wall]:
         """The four sides, counterclockwise."""
         cos, sin = math.cos(self.heading), math.sin(self.heading)
         corners = [
@@ -61,10 +61,10 @@ class Box:
                 (self.length / 2, -self.width / 2),
             )
         ]
-        return [Segment(*corners[i - 1], *corners[i]) for i in range(4)]
+        return [Wall(*corners[i - 1], *corners[i]) for i in range(4)]
 
 
-Obstacle = Segment | Circle | Box
+Obstacle = Wall | Circle | Box
 
 
 class Room:
@@ -136,9 +136,9 @@ def _rounds(obstacles: Iterable[Obstacle]) -> Array:
     return np.array(circles, float).reshape(-1, 3).T.copy()
 
 
-def _sides(obstacle: Obstacle) -> list[Segment]:
+def _sides(obstacle: Obstacle) -> list[Wall]:
     match obstacle:
-        case Segment():
+        case Wall():
             return [obstacle]
         case Box():
             return obstacle.sides()

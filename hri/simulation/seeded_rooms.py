@@ -17,8 +17,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from hri.simulation.people.person import RADIUS as PERSON, Person
-from hri.simulation.room import Box, Circle, Obstacle, Room, Segment
+from hri.simulation.people.person import RADIUS as PERSON, SimulatedPerson
+from hri.simulation.room import Box, Circle, Obstacle, Room, Wall
 from hri.simulation.world import SimulatedWorld
 
 Point = tuple[float, float]
@@ -146,7 +146,7 @@ class Crowd:
 class _Walker:
     """One of them."""
 
-    def __init__(self, person: Person, dice: random.Random) -> None:
+    def __init__(self, person: SimulatedPerson, dice: random.Random) -> None:
         self.person, self._dice = person, dice
         self._goal: Point | None = None
         self._stands_until = dice.uniform(0.0, STAND_S[1])
@@ -175,15 +175,15 @@ class _Walker:
 def _step(place: Point, ahead: tuple[float, ...]) -> Obstacle:
     if math.dist(place, ahead) < 1e-6:
         return Circle(*place, 0.0)
-    return Segment(*place, *ahead)
+    return Wall(*place, *ahead)
 
 
 def _walls(length: float, width: float) -> list[Obstacle]:
     return [
-        Segment(0.0, 0.0, length, 0.0),
-        Segment(length, 0.0, length, width),
-        Segment(length, width, 0.0, width),
-        Segment(0.0, width, 0.0, 0.0),
+        Wall(0.0, 0.0, length, 0.0),
+        Wall(length, 0.0, length, width),
+        Wall(length, width, 0.0, width),
+        Wall(0.0, width, 0.0, 0.0),
     ]
 
 
@@ -280,7 +280,7 @@ def _is_clear(room: Room, start: Point, goal: Point, margin: float) -> bool:
 def _told(obstacle: Obstacle) -> list[str]:
     """An obstacle as a table of a world file."""
     match obstacle:
-        case Segment(x1, y1, x2, y2):
+        case Wall(x1, y1, x2, y2):
             ends = f"from = [{x1:.3f}, {y1:.3f}]", f"to = [{x2:.3f}, {y2:.3f}]"
             return ["[[wall]]", *ends]
         case Circle(x, y, radius):

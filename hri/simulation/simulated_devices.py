@@ -26,7 +26,7 @@ from hri.simulation.acoustics import RATE, Source
 from hri.simulation.in_world import InWorld, world_id
 from hri.simulation.people.actors import Appearance, Optics, render_people
 from hri.simulation.people.lens import Lens
-from hri.simulation.people.person import Person
+from hri.simulation.people.person import SimulatedPerson
 
 CAMERA = {
     "width": (320.0, 64.0, 1920.0),
@@ -326,7 +326,7 @@ class SimulatedCamera(InWorld, Camera):
         size, lens = self._optics.size, self._lens
         return lambda: DrawnFrame(lens.take(render_people(shown, size), sequence), time, sequence)
 
-    def _appearance(self, person: Person, time: float) -> Appearance | None:
+    def _appearance(self, person: SimulatedPerson, time: float) -> Appearance | None:
         """How someone looks in the picture; None for who is beside or behind the camera."""
         held = person.posture(time)
         turn = self.pan(time) - self.world.bearing_of(person, time)

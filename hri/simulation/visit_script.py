@@ -30,7 +30,7 @@ from hri.core.event_bus import EventBus, Subscription, matches
 from hri.core.signals import Event
 from hri.core.toml import REQUIRED, Table, load_toml
 from hri.simulation.people.body_motion import MOTIONS
-from hri.simulation.people.person import Person
+from hri.simulation.people.person import SimulatedPerson
 from hri.simulation.world import SimulatedWorld
 
 LONGEST = 24 * 3600.0
@@ -41,7 +41,7 @@ _ENDING = 5.0
 """Seconds that a visit lasts after its last step when the file gives no duration."""
 
 Value = str | float | bool
-Deed = Callable[[SimulatedWorld, Person, Value, float], object]
+Deed = Callable[[SimulatedWorld, SimulatedPerson, Value, float], object]
 
 
 def _moves(name: str) -> Deed:

@@ -23,10 +23,10 @@ from hri.simulation.axle import Axle
 from hri.simulation.base import Base, HardwareLimits
 from hri.simulation.battery import Charge
 from hri.simulation.beams import Beams
-from hri.simulation.people.person import RADIUS, Person, Spoken
+from hri.simulation.people.person import RADIUS, SimulatedPerson, Spoken
 from hri.simulation.room import Circle, Room
 from hri.simulation.sight import Sighting, seen
-from hri.simulation.world_file import Item, Layout, PersonStart, find_layout, load_layout
+from hri.simulation.world_file import Item, PersonStart, WorldLayout, find_layout, load_layout
 
 BUMP_TIME = 0.3
 """Seconds that someone who pushes against the base presses the bumper."""
@@ -42,7 +42,7 @@ class SimulatedWorld(Resource):
     room: Room
     base: Base
     axle: Axle
-    people: tuple[Person, ...]
+    people: tuple[SimulatedPerson, ...]
     """The camera follows the first; none in a bare room."""
     sound: Sound
     beams: Beams
@@ -120,7 +120,7 @@ class SimulatedWorld(Resource):
         return any(math.dist((x, y), (drop.x, drop.y)) < drop.radius for drop in self._drops)
 
     @property
-    def person(self) -> Person:
+    def person(self) -> SimulatedPerson:
         """The first of the people. Raises HriError in a world without any."""
         if not self.people:
             raise HriError(
@@ -128,7 +128,7 @@ class SimulatedWorld(Resource):
             )
         return self.people[0]
 
-    def find_person(self, name: str) -> Person:
+    def find_person(self, name: str) -> SimulatedPerson:
         """The one of this name; without one, the first. Raises HriError when there is none."""
         if not name:
             return self.person
@@ -139,7 +139,7 @@ class SimulatedWorld(Resource):
             raise HriError(f'nobody in this world is named "{name}" - {remedy}')
         return found
 
-    def say(self, text: str, at: float, person: Person | None = None) -> Spoken | None:
+    def say(self, text: str, at: float, person: SimulatedPerson | None = None) -> Spoken | None:
         """Let a person speak, or the first; it gets quieter with the distance to the robot."""
         speaker = person or self.person
         spoken = speaker.say(text, at)
@@ -168,16 +168,16 @@ class SimulatedWorld(Resource):
         self.advance(now)
         self._charge = Charge(level, now, self.base.way)
 
-    def distance_to(self, person: Person, now: float) -> float:
+    def distance_to(self, person: SimulatedPerson, now: float) -> float:
         """Meters from the middle of the robot."""
         return math.hypot(*seen_from(self.base.pose, *person.place(now)))
 
-    def bearing_of(self, person: Person, now: float) -> float:
+    def bearing_of(self, person: SimulatedPerson, now: float) -> float:
         """Radians from the robot's straight ahead to the left."""
         ahead, left = seen_from(self.base.pose, *person.place(now))
         return math.atan2(left, ahead)
 
-    def stand_at(self, person: Person, distance: float, now: float) -> None:
+    def stand_at(self, person: SimulatedPerson, distance: float, now: float) -> None:
         """Let someone walk straight until they are so many meters from the robot."""
         (x, y), pose = person.place(now), self.base.pose
         part = distance / max(self.distance_to(person, now), RADIUS)
@@ -237,10 +237,10 @@ class SimulatedWorld(Resource):
         for voice in self._voices:
             voice.deactivate()
 
-    def _person(self, start: PersonStart) -> Person:
+    def _person(self, start: PersonStart) -> SimulatedPerson:
         seed = self.seed_for(f"person {start.name}" if start.name else "person")
         voice = self._person_voice(start)
-        return Person(start.x, start.y, voice, seed, name=start.name, actor=start.actor)
+        return SimulatedPerson(start.x, start.y, voice, seed, name=start.name, actor=start.actor)
 
     def _person_voice(self, start: PersonStart) -> Synthesizer | None:
         """A person's voice; None, someone who cannot speak, where there is no library."""
@@ -261,7 +261,7 @@ class SimulatedWorld(Resource):
         return voice
 
 
-def _layout(description: Description) -> Layout:
+def _layout(description: Description) -> WorldLayout:
     """The layout the parameters ask for: a file beside the configuration, or a name.
 
     Raises AuthoringError, also for a name nobody knows.

@@ -14,7 +14,7 @@ from hri.core.toml import Table, load_toml
 from hri.simulation.people.actors import ACTORS
 from hri.simulation.people.looks import DEFAULT_ACTOR
 from hri.simulation.people.person import RADIUS
-from hri.simulation.room import Box, Circle, Obstacle, Room, Segment
+from hri.simulation.room import Box, Circle, Obstacle, Room, Wall
 
 KIND = "config/worlds"
 MOST_OBSTACLES = 500
@@ -63,7 +63,7 @@ class Item:
 
 
 @dataclass(frozen=True)
-class Layout:
+class WorldLayout:
     """What a world file says."""
 
     room: Room
@@ -82,12 +82,12 @@ def find_layout(name: str) -> Path:
     return paths.find(KIND, name if Path(name).suffix else f"{name}.toml")
 
 
-def load_layout(path: Path) -> Layout:
+def load_layout(path: Path) -> WorldLayout:
     """Read a world file. Raises AuthoringError with the place of what is wrong."""
     root = load_toml(path, "world file")
     root.string("about", "")
     obstacles = _obstacles(root)
-    layout = Layout(
+    layout = WorldLayout(
         room=Room(obstacles),
         robot=_robot(root.table("robot")),
         people=tuple(_person(table) for table in _people(root)),
@@ -127,11 +127,11 @@ def _drop(table: Table) -> Circle:
     return drop
 
 
-def _wall(table: Table) -> Segment:
+def _wall(table: Table) -> Wall:
     (x1, y1), (x2, y2) = _point(table, "from"), _point(table, "to")
     if math.hypot(x2 - x1, y2 - y1) < _SMALLEST:
         raise table.error("to", "this wall has no length", "move one of its ends")
-    return Segment(x1, y1, x2, y2)
+    return Wall(x1, y1, x2, y2)
 
 
 def _box(table: Table) -> Box:
@@ -213,7 +213,7 @@ def _angle(table: Table, name: str) -> float:
     return float(table.number(name, 0.0, minimum=-2 * math.pi, maximum=2 * math.pi))
 
 
-def _check_start(layout: Layout, root: Table) -> None:
+def _check_start(layout: WorldLayout, root: Table) -> None:
     pose, radius = layout.robot.pose, layout.robot.radius
     if layout.room.clearance(pose.x, pose.y) <= radius:
         remedy = "move the robot's start or what stands there"

@@ -20,7 +20,7 @@ QUESTION = Turn(is_question_open=True)
 
 
 @dataclass(frozen=True, eq=False)
-class Clip:
+class RecordedClip:
     """A recording with one thing said in it."""
 
     name: str
@@ -59,7 +59,7 @@ class Attempt:
         return len(accepted) == 1 and self.meaning.fits(accepted[0])
 
 
-def attempt(clip: Clip, engine: Recognizer, grammar: Grammar) -> Attempt:
+def attempt(clip: RecordedClip, engine: Recognizer, grammar: Grammar) -> Attempt:
     """Hear a clip as `hri grammar listen --wav` does; `engine` was started with the grammar."""
     heard = hear(clip.samples, clip.rate, engine, grammar, strictness=0.0, turn=QUESTION)
     found = ((parse(grammar, one.text), one.confidence) for one in heard)

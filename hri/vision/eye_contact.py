@@ -26,7 +26,7 @@ def looking_score(pitch: float, yaw: float) -> float:
     return min(1.0, max(0.0, (AWAY - away) / (AWAY - SURE)))
 
 
-class Looking:
+class EyeContact:
     """One person's looking, with a start and a stop that do not flutter."""
 
     def __init__(self) -> None:

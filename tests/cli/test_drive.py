@@ -14,7 +14,7 @@ from hri.cli.drive import add_arguments, base_of, keys, opened, run
 from hri.cli.drive.keys import DEAD_MAN, KeyReader, Steering
 from hri.cli.drive.teleop import Teleop
 from hri.cli.drive.terminal_view import FORMER_SCREEN, TerminalView
-from hri.cli.drive.text_map import COLUMNS, ROWS, Picture
+from hri.cli.drive.text_map import COLUMNS, ROWS, TextMap
 from hri.cli.drive.view import Snapshot, View
 from hri.cli.drive.window_view import ALARM, WindowView
 from hri.core import registry
@@ -135,7 +135,7 @@ def test_the_picture_tells_pose_sensors_and_why_it_stands():
     )
     state = State(1.0, report=report, is_open=True, faults=("my left bumper is stuck",))
     moment = Snapshot(state, Pose2D(1.0, -0.5, 0.0), Twist(0.2, 0.0), 0.5, 1.0)
-    shown = "\n".join(Picture("A base").lines(moment))
+    shown = "\n".join(TextMap("A base").lines(moment))
     for words in (
         "A base",
         "x +1.00 m   y -0.50 m   +0 degrees",
@@ -152,7 +152,7 @@ def test_the_picture_tells_pose_sensors_and_why_it_stands():
 
 
 def test_the_map_shows_where_the_base_came_from():
-    picture = Picture("A base")
+    picture = TextMap("A base")
     for step in range(11):
         lines = picture.lines(standing(Pose2D(step * 0.1, 0.0, math.pi / 2)))
     middle = lines[2 + ROWS // 2]
@@ -162,13 +162,13 @@ def test_the_map_shows_where_the_base_came_from():
 
 @given(st.floats(-1e6, 1e6), st.floats(-1e6, 1e6), st.floats(-1e6, 1e6))
 def test_the_map_is_of_one_size_wherever_the_base_is(x, y, heading):
-    lines = Picture("A base").lines(standing(Pose2D(x, y, heading)))
+    lines = TextMap("A base").lines(standing(Pose2D(x, y, heading)))
     assert [len(line) for line in lines[1 : ROWS + 3]] == [COLUMNS + 2] * (ROWS + 2)
 
 
 @pytest.mark.parametrize("most", [5, 12, 24, 60])
 def test_the_map_leaves_room_for_what_is_known(most):
-    lines = Picture("A base").lines(standing(Pose2D()), most)
+    lines = TextMap("A base").lines(standing(Pose2D()), most)
     assert any("its port is closed" in line for line in lines)
     assert len(lines) <= max(most, 8)
 
@@ -198,7 +198,7 @@ class Script(View):
     def __init__(self, script, clock):
         self._left = sorted(script.items())
         self._clock, self._begun = clock, clock.now()
-        self._picture = Picture("A base")
+        self._picture = TextMap("A base")
         self.shown = []
 
     def read_keys(self):

@@ -5,7 +5,7 @@ import tomllib
 from pathlib import Path
 
 from hri.core import paths
-from hri.vision.gestures.gesture_patterns import FILE, Row, load_patterns
+from hri.vision.gestures.gesture_patterns import FILE, PatternRow, load_patterns
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs/gestures.md").read_text()
@@ -27,7 +27,7 @@ def test_the_table_has_every_key_of_a_row() -> None:
     used = tomllib.loads(paths.find("config", FILE).read_text())
     keys = {key for gesture in used.values() for row in gesture["row"] for key in row}
     assert keys <= table
-    assert len(table & {"when", "first", "widest_deg", *keys}) == len(Row.__slots__)
+    assert len(table & {"when", "first", "widest_deg", *keys}) == len(PatternRow.__slots__)
 
 
 def test_the_program_of_the_page_runs() -> None:

@@ -16,7 +16,7 @@ from hri.drive.progress import Progress
 from hri.hal.configuration import Shape, load_configuration
 from hri.hal.motion import REST
 from hri.hal.resource_manager import ResourceManager
-from hri.simulation.room import Box, Circle, Room, Segment
+from hri.simulation.room import Box, Circle, Room, Wall
 
 MECHANICS = Mechanics(
     0.25,
@@ -107,9 +107,9 @@ def test_it_goes_around_a_thing_without_touching_it(thing: Circle | Box) -> None
 
 def test_it_gets_out_of_a_dead_end() -> None:
     walls = [
-        Segment(0.5, -0.9, 1.6, -0.9),
-        Segment(1.6, -0.9, 1.6, 0.9),
-        Segment(1.6, 0.9, 0.5, 0.9),
+        Wall(0.5, -0.9, 1.6, -0.9),
+        Wall(1.6, -0.9, 1.6, 0.9),
+        Wall(1.6, 0.9, 0.5, 0.9),
     ]
     trial = Trial(Room(walls))
     assert trial.go(Pose2D(3.0, 0.0), 120.0)
@@ -117,7 +117,7 @@ def test_it_gets_out_of_a_dead_end() -> None:
 
 
 def test_before_a_wall_without_an_end_it_does_not_touch() -> None:
-    trial = Trial(Room([Segment(1.5, -50, 1.5, 50)]))
+    trial = Trial(Room([Wall(1.5, -50, 1.5, 50)]))
     assert not trial.go(Pose2D(3.0, 0.0), 20.0)
     assert trial.closest > 0.0
 

@@ -8,15 +8,15 @@ from hri.emotion.ledger import (
     OTHER,
     REST,
     STILL,
+    LedgerRow,
     Origin,
-    Row,
     pruned,
     total_mood,
 )
 
 
-def row(charge: float, time: float = 0.0) -> Row:
-    return Row({"joy": charge}, (charge, 0.0, -charge), time)
+def row(charge: float, time: float = 0.0) -> LedgerRow:
+    return LedgerRow({"joy": charge}, (charge, 0.0, -charge), time)
 
 
 def test_what_counts_least_goes_to_the_rest() -> None:
@@ -42,17 +42,19 @@ def test_what_explains_nothing_any_more_goes_to_the_rest() -> None:
 
 def test_goals_that_are_hoped_for_or_feared_are_kept_apart_whatever_else_counts() -> None:
     strong = {Origin(f"cause {n}"): row(5.0) for n in range(MOST)}
-    hopes = {Origin(f"goal.{n}"): Row({"hope": 0.1}, STILL, 0.0) for n in range(3)}
+    hopes = {Origin(f"goal.{n}"): LedgerRow({"hope": 0.1}, STILL, 0.0) for n in range(3)}
     ledger = {**strong, **hopes}
     assert pruned(ledger, 0.0) == ledger
     left = pruned({**ledger, Origin("weak"): row(1.0)}, 0.0)
     assert left == {**ledger, REST: row(1.0)}
-    many = {Origin(f"goal.{n}"): Row({"fear": 0.1 + n}, STILL, 0.0) for n in range(2 * MOST_OPEN)}
+    many = {
+        Origin(f"goal.{n}"): LedgerRow({"fear": 0.1 + n}, STILL, 0.0) for n in range(2 * MOST_OPEN)
+    }
     left = pruned(many, 0.0)
     assert len(left) == MOST_OPEN + 1
     assert left[REST].charges["fear"] == pytest.approx(sum(0.1 + n for n in range(MOST_OPEN)))
 
 
 def test_the_rest_stays_the_rest() -> None:
-    ledger = {REST: Row({}, STILL, 0.0)}
+    ledger = {REST: LedgerRow({}, STILL, 0.0)}
     assert pruned(ledger, 1e9) == ledger

@@ -5,7 +5,7 @@ from hypothesis import given, settings, strategies as st
 
 from hri.core.signals import Pose2D, Twist
 from hri.simulation.base import STEP, WATCHDOG, Base, HardwareLimits, reachable
-from hri.simulation.room import Room, Segment
+from hri.simulation.room import Room, Wall
 
 
 def base_in(room: Room, **options: float) -> Base:
@@ -66,7 +66,7 @@ def test_braking_is_faster_than_slowing_down() -> None:
 
 
 def test_a_wall_stops_it_and_presses_the_bumper() -> None:
-    base = base_in(Room([Segment(1.0, -1.0, 1.0, 1.0)]))
+    base = base_in(Room([Wall(1.0, -1.0, 1.0, 1.0)]))
     drive(base, Twist(0.4), 0.0, 2.0)
     assert not base.is_touching
     drive(base, Twist(0.4), 2.0, 5.0)
@@ -78,7 +78,7 @@ def test_a_wall_stops_it_and_presses_the_bumper() -> None:
 
 
 def test_it_can_turn_and_leave_where_it_touches() -> None:
-    base = base_in(Room([Segment(0.1, -1.0, 0.1, 1.0)]))  # the wall has come into the body
+    base = base_in(Room([Wall(0.1, -1.0, 0.1, 1.0)]))  # the wall has come into the body
     drive(base, Twist(0.3, 1.0), 0.0, 1.0)
     assert base.pose.x == 0.0
     assert base.pose.heading > 0.5
@@ -101,7 +101,7 @@ def test_the_wheels_never_go_faster_than_they_can(linear: float, angular: float)
 @settings(max_examples=25, deadline=None)
 @given(st.lists(st.floats(0.001, 0.7), min_size=1, max_size=30))
 def test_where_it_is_does_not_depend_on_how_often_it_is_asked(slices: list[float]) -> None:
-    room = Room([Segment(1.5, -2.0, 1.5, 2.0)])
+    room = Room([Wall(1.5, -2.0, 1.5, 2.0)])
     asked, left_alone = base_in(room, slip=0.01, seed=3), base_in(room, slip=0.01, seed=3)
     commands = {0.0: Twist(0.4, 0.3), 0.437: Twist(0.5, -0.2), 0.9: Twist(0.2, 1.0)}
     times = sorted({*commands, *(sum(slices[:i]) for i in range(len(slices))), 3.0})

@@ -13,7 +13,7 @@ from hri.simulation.bases.emulated_base import ArduinoLine
 from hri.simulation.bases.emulated_create2 import GROUPS, PASSIVE, SAFE, EmulatedCreate2
 from hri.simulation.bases.emulated_line import EmulatedPort, Faults, Line
 from hri.simulation.bases.emulator import Wire
-from hri.simulation.room import Circle, Room, Segment
+from hri.simulation.room import Circle, Room, Wall
 from hri.simulation.world import SimulatedWorld
 from tests.drive.bases.talk import Talk
 
@@ -24,7 +24,7 @@ SIZES = {"b": 1, "B": 1, "h": 2, "H": 2}
 def world(build):
     """A room with a wall one meter ahead."""
     world = build().obtain("world", SimulatedWorld)
-    world._furnished = world.room = Room([Segment(1.0, -5.0, 1.0, 5.0)])
+    world._furnished = world.room = Room([Wall(1.0, -5.0, 1.0, 5.0)])
     return world
 
 

@@ -14,7 +14,7 @@ from hri.core.signals import Image
 from hri.hal.camera import Camera
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource_manager import ResourceManager
-from hri.simulation.people.person import Person
+from hri.simulation.people.person import SimulatedPerson
 from hri.simulation.visit_script import load_visit
 from hri.simulation.world import SimulatedWorld
 from hri.simulation.world_file import load_layout
@@ -146,7 +146,7 @@ def test_every_deed_moves_the_picture_and_ends(build: Build, deed: str) -> None:
     manager = build(None, camera={"noise": "0", "rate": "10"})
     world = manager.obtain("world", SimulatedWorld)
     world.person.move(deed, at=0.55)
-    still = Person(seed=world.seed_for("person"))
+    still = SimulatedPerson(seed=world.seed_for("person"))
     moved = [i for i in range(80) if world.person.posture(i / 10) != still.posture(i / 10)]
     assert moved
     assert 6 <= moved[0] < 12

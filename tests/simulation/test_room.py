@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from hri.simulation.room import Box, Circle, Room, Segment
+from hri.simulation.room import Box, Circle, Room, Wall
 
-WALL_AHEAD = Segment(2.0, -5.0, 2.0, 5.0)
+WALL_AHEAD = Wall(2.0, -5.0, 2.0, 5.0)
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.3, -0.7, 1.1])
@@ -55,5 +55,5 @@ coordinates = st.floats(-5, 5)
 
 @given(coordinates, coordinates, st.floats(-math.pi, math.pi))
 def test_no_ray_ends_nearer_than_the_clearance(x: float, y: float, angle: float) -> None:
-    room = Room([Circle(20, 1, 2), Box(-9, 3, 4, 1, 0.3), Segment(-8, -7, 8, -7)])
+    room = Room([Circle(20, 1, 2), Box(-9, 3, 4, 1, 0.3), Wall(-8, -7, 8, -7)])
     assert room.cast(x, y, angle) >= room.clearance(x, y) - 1e-9

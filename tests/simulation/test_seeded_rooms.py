@@ -6,7 +6,7 @@ import pytest
 from hri.core.clock import FakeClock
 from hri.hal.resource_manager import ResourceManager
 from hri.simulation.people.person import RADIUS
-from hri.simulation.room import Segment
+from hri.simulation.room import Wall
 from hri.simulation.seeded_rooms import ROBOT, Crowd, furnished
 from hri.simulation.trips import SENSORS, devices
 from hri.simulation.world import SimulatedWorld
@@ -17,7 +17,7 @@ from hri.simulation.world_file import load_layout
 def test_a_room_has_furniture_a_start_and_a_goal_far_away(seed: int) -> None:
     room = furnished(seed)
     assert math.dist(room.start, room.goal) > 3.0
-    assert sum(not isinstance(thing, Segment) for thing in room.obstacles) >= 8
+    assert sum(not isinstance(thing, Wall) for thing in room.obstacles) >= 8
     for place in (room.start, room.goal):
         assert room.room.clearance(*place) > ROBOT + 0.1
 

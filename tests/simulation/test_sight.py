@@ -5,7 +5,7 @@ from hypothesis import given, strategies as st
 
 from hri.core.errors import AuthoringError
 from hri.core.signals import Pose2D
-from hri.simulation.room import Room, Segment
+from hri.simulation.room import Room, Wall
 from hri.simulation.sight import seen
 from hri.simulation.world_file import Item, load_layout
 
@@ -24,7 +24,7 @@ def test_the_nearest_comes_first_with_its_distance() -> None:
 
 
 def test_a_wall_hides_what_is_behind_it() -> None:
-    wall = Room([Segment(1.0, -1.0, 1.0, 1.0)])
+    wall = Room([Wall(1.0, -1.0, 1.0, 1.0)])
     assert names([Item("far", 1.5, 0.0), Item("near", 0.5, 0.0)], wall) == ["near"]
 
 

@@ -26,7 +26,7 @@ from hri.speech.pronunciation.dictionary import cmu_dictionary
 from hri.speech.pronunciation.lexicon import Lexicon
 from hri.speech.recognizers import pocketsphinx
 from hri.speech.recognizers.automatic import AutomaticRecognizer
-from hri.speech.recognizers.consensus import VetoRecognizer
+from hri.speech.recognizers.consensus import ConsensusRecognizer
 from hri.speech.recognizers.pocketsphinx import PocketSphinxRecognizer
 from hri.speech.recognizers.vosk import PARTS, VoskRecognizer
 from hri.speech.synthesizers.espeak import EspeakVoice
@@ -254,4 +254,4 @@ def test_pocketsphinx_says_words_as_the_user_s_lexicon_does():
 def test_two_recognizers_are_needed_for_a_veto():
     manager = ResourceManager((Description("both", "Hri.Veto", {"first": "both"}),), FakeClock())
     with pytest.raises(HriError, match="name another recognizer"):
-        VetoRecognizer(manager.descriptions["both"], manager).activate()
+        ConsensusRecognizer(manager.descriptions["both"], manager).activate()

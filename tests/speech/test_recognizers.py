@@ -16,7 +16,7 @@ from hri.hal.resource_manager import ResourceManager
 from hri.speech.acceptance import judge
 from hri.speech.grammar import load_grammar
 from hri.speech.recognizers.automatic import AutomaticRecognizer
-from hri.speech.recognizers.consensus import VetoRecognizer
+from hri.speech.recognizers.consensus import ConsensusRecognizer
 from hri.speech.recognizers.ctc.decoder import CtcRecognizer
 from hri.speech.recognizers.pocketsphinx import PocketSphinxRecognizer
 from hri.speech.recognizers.typed import TypedRecognizer
@@ -286,7 +286,9 @@ def test_what_one_of_two_engines_refuses_is_in_force_for_neither(
     for engine in engines:
         engine.activate()
         resources.substitute(engine.id, engine)
-    veto = VetoRecognizer(Description("ears", "Hri.Veto", {"first": "a", "second": "b"}), resources)
+    veto = ConsensusRecognizer(
+        Description("ears", "Hri.Veto", {"first": "a", "second": "b"}), resources
+    )
     veto.activate()
     veto.start(companion)
     with pytest.raises(HriError, match="too large"):
@@ -313,7 +315,9 @@ def test_a_second_engine_vetoes_what_it_does_not_hear(
         engine.words = words
         engine.activate()
         resources.substitute(id, engine)
-    veto = VetoRecognizer(Description("ears", "Hri.Veto", {"first": "a", "second": "b"}), resources)
+    veto = ConsensusRecognizer(
+        Description("ears", "Hri.Veto", {"first": "a", "second": "b"}), resources
+    )
     veto.activate()
     veto.start(companion)
 

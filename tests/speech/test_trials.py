@@ -13,7 +13,7 @@ from hri.speech.grammar.matching import parse
 from hri.speech.trials import (
     QUESTION,
     Attempt,
-    Clip,
+    RecordedClip,
     Score,
     attempt,
     confusions,
@@ -46,7 +46,7 @@ def test_a_clip_is_heard_as_it_would_be_live(grammar, resources):
     engine = ScriptedEars(Description("ears", "Test.Ears"), resources)
     engine.activate()
     engine.script = {1.0: ("turn left", 0.7), 2.0: ("turn up", 0.9)}
-    clip = Clip("x.wav", np.zeros(48000, np.int16), 16000, "turn left", Meaning("a"))
+    clip = RecordedClip("x.wav", np.zeros(48000, np.int16), 16000, "turn left", Meaning("a"))
 
     found = attempt(clip, engine, grammar)
 

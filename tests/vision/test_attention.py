@@ -10,7 +10,7 @@ from hypothesis import given, strategies as st
 from hri.core.signals import HeadPose, People, Person
 from hri.vision.attention import Attending
 from hri.vision.engagement import DISENGAGING, ENGAGED, ENGAGING, UNENGAGED, Engagement, Zones
-from hri.vision.eye_contact import Looking, looking_score
+from hri.vision.eye_contact import EyeContact, looking_score
 from hri.vision.tracking.presence import Presence
 
 ANN = Person("p1", HeadPose(0.0, 0.0, 0.0), distance=1.2, looking=1.0, is_looking=True)
@@ -33,7 +33,7 @@ def test_who_faces_the_camera_looks_and_who_shows_the_cheek_does_not():
 
 
 def test_looking_begins_and_ends_after_a_moment_and_does_not_flutter():
-    looking = Looking()
+    looking = EyeContact()
     told = [looking.update(i / 10, score) for i, score in enumerate([1.0] * 5)]
     assert told == [False, False, True, True, True]
     told = [looking.update(0.5 + i / 10, 0.45) for i in range(20)]

@@ -50,7 +50,7 @@ BEAT = 0.02
 TAG = "steering"
 
 
-class Steering(MalleableBehavior):
+class VelocityFromPeer(MalleableBehavior):
     """Takes a velocity from a peer."""
 
     velocity = Output[float]("double", "cm/s", LINEAR_VELOCITY)
@@ -153,7 +153,7 @@ def steered(path: str, by: str) -> None:
     signal.signal(signal.SIGUSR1, lambda *_: stick.fall_silent(lent.clock.now()))
     signal.signal(signal.SIGUSR2, lambda *_: stick.hold((0.0, -1.0)))
     network = {
-        "peer": lambda: _network(Steering(tcp_port=0, tag_name=TAG), "linear_velocity"),
+        "peer": lambda: _network(VelocityFromPeer(tcp_port=0, tag_name=TAG), "linear_velocity"),
         "joystick": lambda: _network(JoystickSticks(max_linear=SPEED), "velocity"),
     }[by]()
     runner = Runner(network, lent)

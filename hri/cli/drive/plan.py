@@ -11,7 +11,7 @@ import numpy as np
 
 from hri.core.signals import Image, Pose2D
 from hri.simulation.people.person import RADIUS as PERSON_RADIUS
-from hri.simulation.room import Box, Circle, Obstacle, Segment
+from hri.simulation.room import Box, Circle, Obstacle, Wall
 
 Point = tuple[float, float]
 Color = tuple[int, int, int]
@@ -150,7 +150,7 @@ class Plan:
 
     def _obstacle(self, picture: Image, obstacle: Obstacle) -> None:
         match obstacle:
-            case Segment(x1, y1, x2, y2):
+            case Wall(x1, y1, x2, y2):
                 self._line(picture, [(x1, y1), (x2, y2)], EDGE, 3)
             case Circle(x, y, radius):
                 self._disc(picture, (x, y), radius, THING)
@@ -205,7 +205,7 @@ def legend(run: Run, width: int) -> list[tuple[str, int, int]]:
         "person": has_people,
         "person's way": has_people,
         "seen": any(moment.seen for moment in run.moments),
-        "thing": any(not isinstance(obstacle, Segment) for obstacle in run.obstacles),
+        "thing": any(not isinstance(obstacle, Wall) for obstacle in run.obstacles),
     }
     places, x, row = [], 8, 0
     for name in (name for name, is_shown in signs.items() if is_shown):
@@ -224,7 +224,7 @@ def _bounds(run: Run) -> tuple[float, float, float, float]:
     points += [run.goal] if run.goal is not None else []
     for obstacle in run.obstacles:
         match obstacle:
-            case Segment(x1, y1, x2, y2):
+            case Wall(x1, y1, x2, y2):
                 points += [(x1, y1), (x2, y2)]
             case Circle(x, y, radius):
                 points += [(x - radius, y - radius), (x + radius, y + radius)]

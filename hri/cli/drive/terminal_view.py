@@ -12,7 +12,7 @@ from types import TracebackType
 from typing import Self
 
 from hri.cli.drive.keys import HELP, KeyReader
-from hri.cli.drive.text_map import Picture
+from hri.cli.drive.text_map import TextMap
 from hri.cli.drive.view import Snapshot, View
 from hri.core.errors import HriError
 
@@ -36,7 +36,7 @@ class TerminalView(View):
     def __init__(self, input: int, output: int, title: str) -> None:
         """Descriptors of the keyboard and of what shows the picture."""
         self._input, self._output = input, output
-        self._picture = Picture(title)
+        self._picture = TextMap(title)
         self._reader = KeyReader()
 
     def __enter__(self) -> Self:

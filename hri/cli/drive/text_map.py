@@ -47,7 +47,7 @@ def rows(moment: Snapshot) -> list[str]:
     ]
 
 
-class Picture:
+class TextMap:
     """Draws lines of text; remembers where the base was."""
 
     def __init__(self, title: str) -> None:

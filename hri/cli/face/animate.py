@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from hri.cli.face.options import FACE, pixels
-from hri.cli.face_film import Film
+from hri.cli.face_film import FaceFilm
 from hri.cli.voice_options import PLAIN_VOICE, open_voice
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
@@ -62,6 +62,6 @@ def run(options: argparse.Namespace) -> int:
         if sound is None:
             raise HriError(f"{options.wav}: nothing is said in {options.script} - leave out --wav")
         write_wav(options.wav, *sound)
-    film = Film(options.fps, options.size, options.seed, options.captions, options.csv)
+    film = FaceFilm(options.fps, options.size, options.seed, options.captions, options.csv)
     film.shoot(scene, model, options.out, options.wav)
     return 0

@@ -36,7 +36,7 @@ TURNED = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, 0.0), (-1.0, -
 
 
 @dataclass(frozen=True)
-class Look:
+class ShownFace:
     """What is shown."""
 
     expression: str = "neutral"
@@ -62,7 +62,7 @@ class FaceWindow:
     has_legend: bool = True
     refusal: str = ""
     """Why the drawings are refused as they are now; the last good ones are shown."""
-    look: Look = field(default_factory=Look)
+    look: ShownFace = field(default_factory=ShownFace)
 
     def __post_init__(self) -> None:
         self._model = load_face(self.folder)
@@ -101,20 +101,22 @@ class FaceWindow:
         elif key == "space":
             self.is_cycling = not self.is_cycling
         elif key == "tab":
-            self._hold(Look(look.expression, look.viseme, (look.turn + 1) % len(TURNED)))
+            self._hold(ShownFace(look.expression, look.viseme, (look.turn + 1) % len(TURNED)))
         elif key in ("left", "right"):
             step = 1 if key == "right" else -1
-            self._hold(Look(_beside(expressions, look.expression, step), look.viseme, look.turn))
+            self._hold(
+                ShownFace(_beside(expressions, look.expression, step), look.viseme, look.turn)
+            )
         elif key in ("up", "down"):
             step = 1 if key == "down" else -1
-            self._hold(Look(look.expression, _beside(visemes, look.viseme, step), look.turn))
+            self._hold(ShownFace(look.expression, _beside(visemes, look.viseme, step), look.turn))
         elif key.isdigit() and len(key) == 1:
             number = (int(key) or 10) % len(visemes)
-            self._hold(Look(look.expression, visemes[number], look.turn))
+            self._hold(ShownFace(look.expression, visemes[number], look.turn))
         elif len(key) == 1:
             fitting = [label for label in expressions if label.startswith(key)]
             if fitting:
-                self._hold(Look(_beside(fitting, look.expression, 1), look.viseme, look.turn))
+                self._hold(ShownFace(_beside(fitting, look.expression, 1), look.viseme, look.turn))
 
     @property
     def _expressions(self) -> list[str]:
@@ -126,19 +128,19 @@ class FaceWindow:
         """None first, which lets the expression have the mouth."""
         return ["", *self._model.visemes]
 
-    def _hold(self, look: Look) -> None:
+    def _hold(self, look: ShownFace) -> None:
         """Show something the user chose."""
         self.is_cycling = False
         self._turn_to(look)
 
-    def _turn_to(self, look: Look) -> None:
+    def _turn_to(self, look: ShownFace) -> None:
         self._before, self.look, self._changed = self.look, look, self.clock.now()
 
-    def _next_of_all(self) -> Look:
+    def _next_of_all(self) -> ShownFace:
         """All expressions, then all visemes on the neutral face, then from the start."""
-        looks = [Look(label) for label in self._expressions]
-        looks += [Look(viseme=viseme) for viseme in self._model.visemes]
-        here = Look(self.look.expression, self.look.viseme)
+        looks = [ShownFace(label) for label in self._expressions]
+        looks += [ShownFace(viseme=viseme) for viseme in self._model.visemes]
+        here = ShownFace(self.look.expression, self.look.viseme)
         return looks[(looks.index(here) + 1) % len(looks)] if here in looks else looks[0]
 
     def _watch(self) -> None:
@@ -172,9 +174,9 @@ class FaceWindow:
     def _new_renderer(self) -> Renderer:
         return Renderer(self._model, (self.screen.width, self.screen.height))
 
-    def _known(self, look: Look) -> Look:
+    def _known(self, look: ShownFace) -> ShownFace:
         """The look, or neutral when the face has lost it."""
-        return look if look.expression in self._model.expressions else Look()
+        return look if look.expression in self._model.expressions else ShownFace()
 
     def _picture(self, now: float) -> Image:
         share = min(max((now - self._changed) / FADE_S, 0.0), 1.0)
@@ -189,7 +191,7 @@ class FaceWindow:
             return add_caption(picture, self.refusal.replace(f"{self.folder}/", ""), SMALL)
         return add_caption(picture, LEGEND, SMALL) if self.has_legend else picture
 
-    def _vector(self, look: Look, now: float) -> Vector:
+    def _vector(self, look: ShownFace, now: float) -> Vector:
         weights = {
             name: share
             for name, share in zip(TURNS, TURNED[look.turn], strict=True)

@@ -18,7 +18,7 @@ from hri.core.statistics import told
 from hri.speech.acceptance import STRICTNESS
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.matching import parse
-from hri.speech.trials import NEARLY, Attempt, Clip, Score, attempt, recommended, score
+from hri.speech.trials import NEARLY, Attempt, RecordedClip, Score, attempt, recommended, score
 
 EXAMPLES = """\
 examples:
@@ -109,7 +109,7 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _clips(options: argparse.Namespace, grammar: Grammar) -> Iterable[Clip]:
+def _clips(options: argparse.Namespace, grammar: Grammar) -> Iterable[RecordedClip]:
     """The recordings of a manifest, and what synthetic voices say."""
     if options.audio is not None:
         rows = read_manifest(options.audio, grammar)

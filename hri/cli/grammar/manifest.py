@@ -33,7 +33,7 @@ from hri.speech.grammar.lint.expectations import Meaning, meaning_of, read_meani
 from hri.speech.grammar.matching import parse
 from hri.speech.synthesizers import flite
 from hri.speech.synthesizers.espeak import EspeakVoice
-from hri.speech.trials import Clip
+from hri.speech.trials import RecordedClip
 
 ESPEAK_VOICES = ("en-us", "en-gb", "en-us+f3", "en-gb+m3")
 FLITE = "flite:"
@@ -45,26 +45,26 @@ LEAD, TAIL = 0.4, 0.8
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class ManifestRow:
     """One line of a manifest."""
 
     path: Path
     said: str
     meaning: Meaning | None
 
-    def clip(self) -> Clip:
+    def clip(self) -> RecordedClip:
         """The recording itself. Raises HriError when it cannot be read."""
         samples, rate = load_sound(self.path)
-        return Clip(str(self.path), samples, rate, self.said, self.meaning)
+        return RecordedClip(str(self.path), samples, rate, self.said, self.meaning)
 
 
-def read_manifest(path: Path, grammar: Grammar) -> list[Row]:
+def read_manifest(path: Path, grammar: Grammar) -> list[ManifestRow]:
     """The lines of a manifest.
 
     Raises AuthoringError for a line that cannot be read, or whose sentence the grammar refuses, and
     where there is none.
     """
-    rows: list[Row] = []
+    rows: list[ManifestRow] = []
     most = 3
     for number, line in enumerate(read_text(path, "manifest").splitlines(), start=1):
         columns = [column.strip() for column in line.split("\t")]
@@ -80,21 +80,21 @@ def read_manifest(path: Path, grammar: Grammar) -> list[Row]:
     return rows
 
 
-def _row(columns: list[str], place: Place, grammar: Grammar) -> Row:
+def _row(columns: list[str], place: Place, grammar: Grammar) -> ManifestRow:
     if len(columns) < 2:
         remedy = "write a tab and the sentence behind the file, or - for none of the grammar"
         raise AuthoringError(place, "no sentence", remedy)
     name, said, *more = columns
     path = place.path.parent / name
     if said == "-":
-        return Row(path, "-", None)
+        return ManifestRow(path, "-", None)
     if more and more[0]:
-        return Row(path, said, read_meaning(more[0], place))
+        return ManifestRow(path, said, read_meaning(more[0], place))
     found = parse(grammar, said)
     if found is None:
         remedy = "fix the one or the other, or write - in its place"
         raise AuthoringError(place, f'the grammar does not allow "{said}"', remedy)
-    return Row(path, said, meaning_of(found))
+    return ManifestRow(path, said, meaning_of(found))
 
 
 class Voices(AbstractContextManager["Voices"]):
@@ -150,7 +150,9 @@ def usual_voices() -> tuple[str, ...]:
     return ESPEAK_VOICES + of_flite
 
 
-def spoken(grammar: Grammar, sentences: Sequence[str], voices: Sequence[str]) -> Iterator[Clip]:
+def spoken(
+    grammar: Grammar, sentences: Sequence[str], voices: Sequence[str]
+) -> Iterator[RecordedClip]:
     """Each sentence in each voice, made when it is asked for; those the grammar refuses, too."""
     with Voices() as speakers:
         for sentence in sentences:
@@ -158,4 +160,4 @@ def spoken(grammar: Grammar, sentences: Sequence[str], voices: Sequence[str]) ->
             meaning = None if found is None else meaning_of(found)
             for voice in voices:
                 samples, rate = speakers.speak(sentence, voice)
-                yield Clip(f"{voice}: {sentence}", samples, rate, sentence, meaning)
+                yield RecordedClip(f"{voice}: {sentence}", samples, rate, sentence, meaning)

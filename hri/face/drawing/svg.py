@@ -71,7 +71,7 @@ class Drawing:
 
 def load_drawing(path: Path) -> Drawing:
     """Read a drawing. Raises AuthoringError with the place, HriError when it is unreadable."""
-    return _Reader(path, load_xml(path, "drawing")).read()
+    return _SvgReader(path, load_xml(path, "drawing")).read()
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ class _State:
     styles: Mapping[str, str] = field(default_factory=dict)
 
 
-class _Reader:
+class _SvgReader:
     def __init__(self, path: Path, root: Element) -> None:
         self.path = path
         self.root = root

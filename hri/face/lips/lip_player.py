@@ -8,7 +8,7 @@ import numpy as np
 
 from hri.core.signals import Speech
 from hri.face.lips.lipsync import LipTrack, lip_track
-from hri.face.lips.viseme_shapes import Articulation
+from hri.face.lips.viseme_shapes import VisemeShapes
 from hri.face.model import FaceModel
 from hri.face.motion.spring import Follower, Spring, Values
 
@@ -24,7 +24,7 @@ _TALKING = 30.0
 """Of how speech takes the mouth over, and gives it back."""
 
 
-class Speaking:
+class LipPlayer:
     """The mouth of one face."""
 
     def __init__(self, model: FaceModel, latency: float) -> None:
@@ -34,7 +34,7 @@ class Speaking:
         self._latency = latency
         self._track: LipTrack | None = None
         self._followed: LipTrack | None = None
-        self._articulation = Articulation(model)
+        self._articulation = VisemeShapes(model)
         there = {name: weight for name, weight in RAISED.items() if name in model.names}
         self._raised = model.vector(there).astype(float)
         self._rest = np.zeros(len(model.channels))

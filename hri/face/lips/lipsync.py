@@ -123,7 +123,7 @@ def lip_track(speech: Speech) -> LipTrack:
 
 
 @dataclass(frozen=True, slots=True)
-class Segment:
+class VisemeSpan:
     """A viseme that the mouth is at over some time."""
 
     viseme: str
@@ -151,8 +151,8 @@ class PhonemeTrack:
         self.segments = tuple(shown(spoken(phonemes)))
         """The shapes in order, without overlaps."""
         rest = (
-            Segment("sil", -1e9, self.segments[0].start - 0.05),
-            Segment("sil", self.segments[-1].end + 0.02, 1e9),
+            VisemeSpan("sil", -1e9, self.segments[0].start - 0.05),
+            VisemeSpan("sil", self.segments[-1].end + 0.02, 1e9),
         )
         shut = closures(self.segments)
         self._closures = tuple(shut.values())
@@ -211,7 +211,7 @@ class PhonemeTrack:
         return shapes
 
 
-def _blended(segments: Sequence[Segment], times: Values, articulator: str) -> Values:
+def _blended(segments: Sequence[VisemeSpan], times: Values, articulator: str) -> Values:
     """The weighted mean of all shapes, [times, visemes]."""
     before, after = FADE[articulator]
     lead = ROUND_LEAD if articulator == "lips" else 0.0
@@ -230,7 +230,7 @@ def _blended(segments: Sequence[Segment], times: Values, articulator: str) -> Va
     return blended
 
 
-def closures(segments: Sequence[Segment]) -> dict[int, Segment]:
+def closures(segments: Sequence[VisemeSpan]) -> dict[int, VisemeSpan]:
     """When the lips must be shut, or on the teeth, by the number of the segment.
 
     Those on the teeth give way, and are left out where there is no way.
@@ -251,20 +251,20 @@ def closures(segments: Sequence[Segment]) -> dict[int, Segment]:
     return kept
 
 
-def _closure(segment: Segment) -> Segment:
+def _closure(segment: VisemeSpan) -> VisemeSpan:
     """From when until when the lips must be shut; what a short sound lacks comes before it."""
     end = segment.end - min(YIELD, segment.duration / 4)
-    return Segment(segment.viseme, min(segment.start + YIELD, end - CLOSURE), end)
+    return VisemeSpan(segment.viseme, min(segment.start + YIELD, end - CLOSURE), end)
 
 
-def _between(closure: Segment, earliest: float, latest: float) -> Segment:
+def _between(closure: VisemeSpan, earliest: float, latest: float) -> VisemeSpan:
     """The closure, cut to these times, and moved where that would leave too little of it."""
     start = max(min(max(closure.start, earliest), latest - CLOSURE), earliest)
     end = min(max(min(closure.end, latest), start + CLOSURE), latest)
     return replace(closure, start=start, end=end)
 
 
-def _closed(shape: Values, shut: Sequence[Segment], times: Values) -> Values:
+def _closed(shape: Values, shut: Sequence[VisemeSpan], times: Values) -> Values:
     """The shape, with nothing but the closure wherever the lips must meet."""
     for closure in shut:
         within = (closure.start <= times) & (times <= closure.end)
@@ -273,7 +273,7 @@ def _closed(shape: Values, shut: Sequence[Segment], times: Values) -> Values:
     return shape
 
 
-def _part(shape: Values, shut: Sequence[Segment], times: Values) -> None:
+def _part(shape: Values, shut: Sequence[VisemeSpan], times: Values) -> None:
     """Let each closure push the other kind out, as fast as lips move."""
     for closure in shut:
         away = np.maximum(closure.start - times, times - closure.end) / CHANGE
@@ -300,7 +300,7 @@ def _limited(shape: Values, articulator: str) -> Values:
     return np.asarray(limited)
 
 
-def spoken(phonemes: Sequence[Phoneme]) -> Iterator[Segment]:
+def spoken(phonemes: Sequence[Phoneme]) -> Iterator[VisemeSpan]:
     """Every sound as a shape: gliding sounds split, an `h` shaped by what follows it.
 
     In order, without overlaps and gaps, whatever the order and the lengths of the phonemes.
@@ -321,12 +321,12 @@ def spoken(phonemes: Sequence[Phoneme]) -> Iterator[Segment]:
         for place, viseme in enumerate(sound.visemes):
             start, stop = bounds[place : place + 2]
             stressed = phoneme.stressed and place == 0
-            yield Segment(viseme, start, stop, sound.strength, stressed)
+            yield VisemeSpan(viseme, start, stop, sound.strength, stressed)
         if number + 1 < len(ordered) and end < following.start:
-            yield Segment("sil", end, following.start)
+            yield VisemeSpan("sil", end, following.start)
 
 
-def shown(segments: Iterator[Segment]) -> list[Segment]:
+def shown(segments: Iterator[VisemeSpan]) -> list[VisemeSpan]:
     """The shapes that there is time for: equal ones joined, those that are too short left out.
 
     The weakest go first, and their time goes to their neighbors, so that of many short shapes
@@ -356,17 +356,17 @@ def shown(segments: Iterator[Segment]) -> list[Segment]:
     return [segment for segment, stays in zip(left, is_left, strict=True) if stays]
 
 
-def _rank(segment: Segment) -> tuple[bool, float]:
+def _rank(segment: VisemeSpan) -> tuple[bool, float]:
     """How dear a shape is: short pauses are left out first."""
     return segment.viseme != "sil", PULL[segment.viseme][0] * segment.duration
 
 
-def _joined(segments: Iterator[Segment]) -> list[Segment]:
+def _joined(segments: Iterator[VisemeSpan]) -> list[VisemeSpan]:
     """Neighbors of the same viseme made one."""
     joined = []
     for _, equal in groupby(segments, key=lambda segment: segment.viseme):
         run = list(equal)
         strength = max(segment.strength for segment in run)
         stressed = any(segment.stressed for segment in run)
-        joined.append(Segment(run[0].viseme, run[0].start, run[-1].end, strength, stressed))
+        joined.append(VisemeSpan(run[0].viseme, run[0].start, run[-1].end, strength, stressed))
     return joined

@@ -10,7 +10,7 @@ from hri.face.model import FaceModel
 from hri.face.vocabulary import VISEMES
 
 
-class Articulation:
+class VisemeShapes:
     """What a face does to make the visemes, by articulator."""
 
     def __init__(self, model: FaceModel) -> None:

@@ -28,7 +28,7 @@ _CHANGE = 8.0
 """Least stiffness of an expression that grows stronger or weaker."""
 
 
-class Expressing:
+class ExpressionBlender:
     """What a face shows of what it feels."""
 
     def __init__(self, model: FaceModel) -> None:

@@ -32,7 +32,7 @@ _EYES, _HEAD = 60.0, 8.0
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class GazeAngles:
     """Where eyes and head are turned now."""
 
     eyes: Gaze
@@ -44,7 +44,7 @@ class Look:
     """What each eye turns to the nose, of its range to the side."""
 
 
-class Looking:
+class GazeController:
     """Eyes that lead and a head that follows, for one face."""
 
     def __init__(self, settings: Settings) -> None:
@@ -66,13 +66,13 @@ class Looking:
         self._goal, self._inward = self._angles(gaze)
         return float(np.hypot(*(self._goal - before)))
 
-    def follow(self, now: float, dt: float) -> Look:
+    def follow(self, now: float, dt: float) -> GazeAngles:
         """Where eyes and head are `dt` seconds after the last call."""
         wanted = self._eyes.follow(np.append(self._goal, self._inward), dt, _EYES)
         head = self._head.follow(self._head_goal(now), dt, _HEAD)
         x, y = np.clip((wanted[:2] - head) / self._eye_range, -1, 1)
         yaw, pitch = head / np.maximum(self._head_range, 1e-9)
-        return Look(Gaze(float(x), float(y)), float(yaw), float(pitch), float(wanted[2]))
+        return GazeAngles(Gaze(float(x), float(y)), float(yaw), float(pitch), float(wanted[2]))
 
     def _angles(self, gaze: Gaze) -> tuple[Values, float]:
         values = (gaze.x, gaze.y) if gaze.point is None else gaze.point

@@ -50,7 +50,7 @@ class Gestured:
     """What it adds to where the eyes look: right, up."""
 
 
-class Gesturing:
+class GesturePlayer:
     """The gestures of one face."""
 
     def __init__(self, model: FaceModel) -> None:

@@ -19,7 +19,7 @@ _STATE, _AROUSAL = 5.0, 1.5
 
 
 @dataclass(frozen=True, slots=True)
-class Alive:
+class IdlePose:
     """What life adds now."""
 
     moves: dict[str, float]
@@ -30,7 +30,7 @@ class Alive:
     """How far the lids are shut, 0 to 1."""
 
 
-class Living:
+class IdleState:
     """Blinks, eyes, breath and pupils of one face."""
 
     def __init__(self, model: FaceModel, seed: int) -> None:
@@ -55,7 +55,7 @@ class Living:
         """Something happened that may bring a blink; see `Blinks.cause`."""
         self._blinks.cause(why, now)
 
-    def follow(self, now: float, dt: float, *, shutting: bool = False) -> Alive:
+    def follow(self, now: float, dt: float, *, shutting: bool = False) -> IdlePose:
         """What life adds `dt` seconds after the last call; no blink while `shutting` the eyes."""
         arousal = float(self._arousal.follow(self._arousal_goal, dt, _AROUSAL))
         shares = self._shares.follow(self._goal, dt, _STATE)
@@ -69,7 +69,7 @@ class Living:
             for name, weight in self._body(now, state).items():
                 moves[name] = moves.get(name, 0.0) + share * weight
         rate *= 1 + 0.5 * arousal
-        return Alive(moves, Gaze(x, y), self._blinks.closure(now, rate, shutting=shutting))
+        return IdlePose(moves, Gaze(x, y), self._blinks.closure(now, rate, shutting=shutting))
 
     def _body(self, now: float, state: str) -> dict[str, float]:
         moves = idle.sway(self._settings.idle, self._seed, now, state)

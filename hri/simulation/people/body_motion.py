@@ -240,7 +240,7 @@ def still(time: float, seed: int = 0) -> Posture:
 
 
 @dataclass(frozen=True, slots=True)
-class Motion:
+class BodyMotion:
     """Something that people do."""
 
     duration: float
@@ -253,18 +253,18 @@ class Motion:
         return self.posture(time, seed) if 0 <= time <= self.duration else REST
 
 
-MOTIONS: Mapping[str, Motion] = {
-    "nod": Motion(NOD_TIME, nod),
-    "shake": Motion(SHAKE_TIME, shake),
-    "look_aside": Motion(2.0, look_aside),
-    "look_down": Motion(2.4, look_down),
-    "look_around": Motion(5.0, look_around),
-    "talk": Motion(4.0, talk),
-    "walk": Motion(5.0, walk),
-    "laugh": Motion(2.5, laugh),
-    "tilt": Motion(2.2, tilt),
-    "lean": Motion(3.5, lean),
-    "still": Motion(3.0, still),
+MOTIONS: Mapping[str, BodyMotion] = {
+    "nod": BodyMotion(NOD_TIME, nod),
+    "shake": BodyMotion(SHAKE_TIME, shake),
+    "look_aside": BodyMotion(2.0, look_aside),
+    "look_down": BodyMotion(2.4, look_down),
+    "look_around": BodyMotion(5.0, look_around),
+    "talk": BodyMotion(4.0, talk),
+    "walk": BodyMotion(5.0, walk),
+    "laugh": BodyMotion(2.5, laugh),
+    "tilt": BodyMotion(2.2, tilt),
+    "lean": BodyMotion(3.5, lean),
+    "still": BodyMotion(3.0, still),
 }
 """By name."""
 GESTURES = ("nod", "shake")

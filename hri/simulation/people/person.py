@@ -16,7 +16,7 @@ import numpy as np
 from hri.core.signals import HeadPose, Speech
 from hri.hal.synthesizer import Synthesizer
 from hri.simulation.people import body_motion
-from hri.simulation.people.body_motion import MOTIONS, Motion, Posture
+from hri.simulation.people.body_motion import MOTIONS, BodyMotion, Posture
 from hri.simulation.people.looks import DEFAULT_ACTOR
 
 RADIUS = 0.22
@@ -41,7 +41,7 @@ class Movement:
     """A movement that begins at a time and ends where it began."""
 
     start: float
-    motion: Motion
+    motion: BodyMotion
     seed: int
 
     def at(self, time: float) -> Posture:
@@ -89,7 +89,7 @@ class Spoken:
         return min(1.0, float(np.sqrt(np.mean(heard.astype(np.float64) ** 2))) / _OPEN_MOUTH)
 
 
-class Person:
+class SimulatedPerson:
     """Stands somewhere, faces the robot, and does what is put on the schedule."""
 
     def __init__(

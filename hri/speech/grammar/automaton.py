@@ -24,7 +24,7 @@ from hri.speech.grammar.expressions import (
     Repeat,
     RuleReference,
     Sequence,
-    Span,
+    SourceSpan,
     Tagged,
     Token,
 )
@@ -41,7 +41,7 @@ NESTED_DEPTH = 5
 """How often a rule may stand inside itself, other than at its end; more than `expansion` goes."""
 
 START, FINAL = 0, 1
-_NOWHERE = Span(1, 1, 1, 1)
+_NOWHERE = SourceSpan(1, 1, 1, 1)
 _SILENCE = Sequence((), _NOWHERE)
 _HALF = math.log(0.5)
 """JSGF gives no odds for what is optional or repeated: both ways are equally likely."""

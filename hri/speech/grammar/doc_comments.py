@@ -15,7 +15,7 @@ import re
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from hri.speech.grammar.expressions import Span
+from hri.speech.grammar.expressions import SourceSpan
 from hri.speech.grammar.lexemes import Lines
 
 MARKS = MappingProxyType(
@@ -45,7 +45,7 @@ class DocTag:
     name: str
     text: str
     """What follows up to the next tag, in one line."""
-    span: Span
+    span: SourceSpan
     """Of the "@" and the name."""
 
 

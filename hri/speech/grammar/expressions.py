@@ -14,7 +14,7 @@ from hri.speech.grammar.tags import TagEntry, spell_entries
 _PLAIN = re.compile(r"""[^\s=;|*+<>()\[\]{}/"\\]+(?:/[^\s=;|*+<>()\[\]{}/"\\]+)*""")
 
 
-class Span(NamedTuple):
+class SourceSpan(NamedTuple):
     """Where something stands in its file; line and column count from 1, the end is past it."""
 
     line: int
@@ -28,7 +28,7 @@ class Token:
     """One word, lower case."""
 
     text: str
-    span: Span
+    span: SourceSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +36,7 @@ class RuleReference:
     """`<name>`; after loading, the key of the rule in `Grammar.rules`."""
 
     name: str
-    span: Span
+    span: SourceSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +44,7 @@ class Sequence:
     """One thing after the other; without items it is `<NULL>`, which is silent."""
 
     items: tuple[Expression, ...]
-    span: Span
+    span: SourceSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ class Alternative:
     choices: tuple[Expression, ...]
     weights: tuple[float, ...]
     """How likely each choice is, against the others; as many as choices."""
-    span: Span
+    span: SourceSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +62,7 @@ class Optional:
     """`[item]`."""
 
     item: Expression
-    span: Span
+    span: SourceSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +72,7 @@ class Repeat:
     item: Expression
     minimum: int
     """0 or 1."""
-    span: Span
+    span: SourceSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +81,7 @@ class Tagged:
 
     item: Expression
     entries: tuple[TagEntry, ...]
-    span: Span
+    span: SourceSpan
 
 
 Expression = Token | RuleReference | Sequence | Alternative | Optional | Repeat | Tagged

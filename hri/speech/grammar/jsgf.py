@@ -28,7 +28,7 @@ from hri.speech.grammar.expressions import (
     Repeat,
     RuleReference,
     Sequence,
-    Span,
+    SourceSpan,
     Tagged,
     Token,
     depth,
@@ -76,7 +76,7 @@ class RuleDefinition:
     name: str
     expression: Expression
     is_public: bool
-    span: Span
+    span: SourceSpan
     """From its first word to its name."""
     doc: DocComment = NO_DOC
     """The /** */ comment before it."""
@@ -89,7 +89,7 @@ class Import:
     grammar: str
     rule: str
     """"*" for all public rules."""
-    span: Span
+    span: SourceSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +98,7 @@ class NameListImport:
 
     file: str
     name: str
-    span: Span
+    span: SourceSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +106,7 @@ class Extension:
     """`/** @extends companion */ grammar mine;`: its commands are understood as well."""
 
     grammar: str
-    span: Span
+    span: SourceSpan
 
 
 @dataclass(slots=True)
@@ -128,7 +128,7 @@ class Document:
 
 def read_jsgf(text: str, path: Path) -> Document:
     """The rules of a grammar's text; mistakes are collected in `errors`, none is raised."""
-    return _Reader(text, path).read()
+    return _JsgfReader(text, path).read()
 
 
 def write_jsgf(document: Document) -> str:
@@ -150,7 +150,7 @@ class _Mistake(Exception):
     """Leads from the mistake to the place where reading goes on."""
 
 
-class _Reader:
+class _JsgfReader:
     def __init__(self, text: str, path: Path) -> None:
         self.text = text
         self.document = Document(path)
@@ -160,10 +160,10 @@ class _Reader:
 
     # Places and mistakes
 
-    def _span(self, lexeme: Lexeme) -> Span:
+    def _span(self, lexeme: Lexeme) -> SourceSpan:
         return self._lines.span(lexeme.start, lexeme.end)
 
-    def _span_from(self, start: int) -> Span:
+    def _span_from(self, start: int) -> SourceSpan:
         return self._lines.span(start, self._lexemes[max(self._position - 1, 0)].end)
 
     def _report(self, offset: int, what: str, remedy: str) -> _Mistake:

@@ -6,7 +6,7 @@ import re
 from bisect import bisect_right
 from typing import NamedTuple
 
-from hri.speech.grammar.expressions import Span
+from hri.speech.grammar.expressions import SourceSpan
 
 MOST_LEXEMES = 300_000
 """Words and signs of one file; a file of 4 MB of sensible text has about as many."""
@@ -49,11 +49,11 @@ class Lines:
         line = bisect_right(self._starts, offset)
         return line, offset - self._starts[line - 1] + 1
 
-    def span(self, start: int, end: int) -> Span:
+    def span(self, start: int, end: int) -> SourceSpan:
         line, column = self.place(start)
         if line == len(self._starts) or end < self._starts[line]:
-            return Span(line, column, line, column + end - start)
-        return Span(line, column, *self.place(end))
+            return SourceSpan(line, column, line, column + end - start)
+        return SourceSpan(line, column, *self.place(end))
 
 
 class Lexemes(NamedTuple):

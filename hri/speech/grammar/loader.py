@@ -25,7 +25,7 @@ from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 from hri.core.reading import read_bytes, read_text
 from hri.speech.grammar import analysis
-from hri.speech.grammar.expressions import RuleReference, Span, rename
+from hri.speech.grammar.expressions import RuleReference, SourceSpan, rename
 from hri.speech.grammar.jsgf import Document, Import, NameListImport, read_jsgf
 from hri.speech.grammar.name_lists import read_names
 from hri.speech.grammar.rules import Grammar, Rule
@@ -109,7 +109,7 @@ class _File:
     lost: list[str] = field(default_factory=list)
     """Imported grammars that are missing; any name may be theirs."""
 
-    def place(self, span: Span) -> Place:
+    def place(self, span: SourceSpan) -> Place:
         return Place(self.document.path, span.line, span.column)
 
     def idle_imports(self) -> tuple[Import | NameListImport, ...]:
@@ -169,7 +169,7 @@ class _Loader:
         self._broken.update(file.own[name] for name in document.broken)
         return file
 
-    def _report(self, file: _File, span: Span, what: str, remedy: str) -> None:
+    def _report(self, file: _File, span: SourceSpan, what: str, remedy: str) -> None:
         self._errors.append(AuthoringError(file.place(span), what, remedy))
 
     # Other grammars
@@ -204,7 +204,7 @@ class _Loader:
         file.brought.append((use, set(public.values())))
         self._bring(file, use.grammar, public)
 
-    def _miss(self, file: _File, grammar: str, span: Span) -> None:
+    def _miss(self, file: _File, grammar: str, span: SourceSpan) -> None:
         near = did_you_mean(grammar, _grammars_near(file), "")
         where = f"put {grammar.rpartition('.')[2]}.jsgf into the same folder"
         remedy = near if near.startswith("did you mean") else where
@@ -258,7 +258,7 @@ class _Loader:
             )
             self._add(file, definition.span, rule)
 
-    def _add(self, file: _File, span: Span, rule: Rule | None) -> None:
+    def _add(self, file: _File, span: SourceSpan, rule: Rule | None) -> None:
         if rule is None:
             return
         first = self._rules.setdefault(rule.key, rule)

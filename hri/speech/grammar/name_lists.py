@@ -18,7 +18,14 @@ from pathlib import Path
 
 from hri.core.errors import AuthoringError, Place
 from hri.core.reading import read_text
-from hri.speech.grammar.expressions import Alternative, Expression, Sequence, Span, Tagged, Token
+from hri.speech.grammar.expressions import (
+    Alternative,
+    Expression,
+    Sequence,
+    SourceSpan,
+    Tagged,
+    Token,
+)
 from hri.speech.grammar.tags import TagEntry, TagError, Value, read_value
 from hri.speech.grammar.words import normalize
 
@@ -55,7 +62,7 @@ def read_names(path: Path, tag: str) -> tuple[Expression, list[AuthoringError]]:
             break
     if not choices and not errors:
         errors.append(AuthoringError(Place(path), "no name in this list", "write one a line"))
-    whole = Span(1, 1, text.count("\n") + 1, 1)
+    whole = SourceSpan(1, 1, text.count("\n") + 1, 1)
     return Alternative(tuple(choices), (1.0,) * len(choices), whole), errors
 
 
@@ -93,6 +100,6 @@ def _name(line: str) -> tuple[list[str], Value]:
 
 
 def _choice(words: list[str], entry: TagEntry, line: int, column: int, length: int) -> Tagged:
-    span = Span(line, column, line, column + length)
+    span = SourceSpan(line, column, line, column + length)
     tokens = tuple([Token(word, span) for word in words])
     return Tagged(tokens[0] if len(tokens) == 1 else Sequence(tokens, span), (entry,), span)

@@ -21,7 +21,7 @@ from hri.speech.grammar.expressions import (
     Repeat,
     RuleReference,
     Sequence,
-    Span,
+    SourceSpan,
     Tagged,
     Token,
     rename,
@@ -41,7 +41,7 @@ class Rule:
     """Its name in `Grammar.rules`: short in the main file, `grammar.name` when imported."""
     expression: Expression
     is_public: bool
-    span: Span
+    span: SourceSpan
     path: Path
     doc: str = ""
     """The words of the doc comment before it."""
@@ -68,7 +68,7 @@ class Rule:
         """Sentences that its comment promises to be understood."""
         return tuple(tag.text for tag in self.doc_tags if tag.name == "example")
 
-    def place(self, span: Span | None = None) -> Place:
+    def place(self, span: SourceSpan | None = None) -> Place:
         """The spot of a node of this rule; without one, of the rule itself."""
         span = span or self.span
         return Place(self.path, span.line, span.column)

@@ -12,7 +12,7 @@ from hri.speech.grammar.matching import parse
 from hri.speech.recognizers.delegating import DelegatingRecognizer
 
 
-class VetoRecognizer(DelegatingRecognizer):
+class ConsensusRecognizer(DelegatingRecognizer):
     """Hears what the recognizer `first` hears, as far as the recognizer `second` hears it as well.
 
     Words of the second that mean something else, or none, are an alternative of share 1: nothing

@@ -12,7 +12,7 @@ from hri.speech.endpoint import PAUSE, Endpointer
 from hri.speech.recognizers.voice_activity import voice_detector
 
 
-class SoundRecognizer(Recognizer):
+class EndpointedRecognizer(Recognizer):
     """Decodes the sound of pieces; a subclass says how, and its `_open` calls this one.
 
     `pause` is the seconds of quiet that end a piece: 0.2 to 3.

@@ -19,7 +19,7 @@ from hri.hal.recognizer import Grammar, HeardWord, Hypothesis, Segment
 from hri.speech.engine_models import find_pocketsphinx
 from hri.speech.path_confidence import FRAME, PathFigures, confidence
 from hri.speech.pronunciation.lexicon import Lexicon, load_lexicon
-from hri.speech.recognizers.endpointed import SoundRecognizer
+from hri.speech.recognizers.endpointed import EndpointedRecognizer
 
 NOISE_FLOOR = 20.0
 """Standard deviation of the noise laid under all sound, of 32767."""
@@ -30,7 +30,7 @@ PATIENCE = 30.0
 _PROGRAM = Path(__file__).with_name("decoding_process.py")
 
 
-class PocketSphinxRecognizer(SoundRecognizer):
+class PocketSphinxRecognizer(EndpointedRecognizer):
     """Decodes finished pieces of speech in a process of its own, so that nothing waits for it."""
 
     def _open(self) -> None:

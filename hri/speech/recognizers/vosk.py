@@ -15,7 +15,7 @@ from hri.core.models import models_folder
 from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, HeardWord, Hypothesis, Segment
 from hri.speech.engine_models import DOWNLOADS, find_vosk
-from hri.speech.recognizers.endpointed import SoundRecognizer
+from hri.speech.recognizers.endpointed import EndpointedRecognizer
 
 VARIABLE = "HRI_VOSK_MODEL"
 DEFAULT_FOLDER = Path("~/.local/share/hri/vosk")
@@ -34,10 +34,10 @@ def find_model(folder: str = "") -> Path | None:
     return find_vosk()
 
 
-class VoskRecognizer(SoundRecognizer):
+class VoskRecognizer(EndpointedRecognizer):
     """Decodes finished pieces of speech; Vosk lets go of the interpreter while it works."""
 
-    parameters = (*SoundRecognizer.parameters, "model")
+    parameters = (*EndpointedRecognizer.parameters, "model")
 
     def _open(self) -> None:
         super()._open()

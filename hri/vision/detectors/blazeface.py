@@ -20,7 +20,7 @@ import numpy as np
 
 from hri.core.signals import FaceBox, Image
 from hri.vision.detectors.face import FoundFace, Places, merged
-from hri.vision.detectors.opencv_network import Network, Tensor
+from hri.vision.detectors.opencv_network import OpenCvNetwork, Tensor
 from hri.vision.detectors.preprocessing import evened, is_picture
 from hri.vision.face_models import DETECTOR, REMEDY
 
@@ -59,7 +59,7 @@ class BlazeFace:
     """
 
     def __init__(self, file: Path) -> None:
-        self._network = Network(file, DETECTOR.sha256, REMEDY)
+        self._network = OpenCvNetwork(file, DETECTOR.sha256, REMEDY)
         self._anchors = _anchors()
 
     def find(self, image: Image, turn: int = 0) -> list[FoundFace]:

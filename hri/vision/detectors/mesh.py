@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from hri.core.signals import Image, Landmarks
 from hri.vision.detectors.face import FoundFace
-from hri.vision.detectors.opencv_network import Network
+from hri.vision.detectors.opencv_network import OpenCvNetwork
 from hri.vision.detectors.preprocessing import darkness, evened, is_picture
 from hri.vision.face_models import MESH, REMEDY
 
@@ -68,7 +68,7 @@ class FaceMesh:
     """
 
     def __init__(self, file: Path) -> None:
-        self._network = Network(file, MESH.sha256, REMEDY)
+        self._network = OpenCvNetwork(file, MESH.sha256, REMEDY)
 
     def fit(self, image: Image, region: Region) -> FittedFace | None:
         """The mesh of the face in a region.

@@ -27,7 +27,7 @@ def read_network_file(file: Path, remedy: str) -> bytes:
         raise NotAvailable(f"{error}, or {remedy}") from error
 
 
-class Network:
+class OpenCvNetwork:
     """A TensorFlow Lite network that takes one square picture."""
 
     def __init__(self, file: Path, sha256: str, remedy: str) -> None:

@@ -9,9 +9,9 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
 from hri.core import paths
 from hri.core.signals import HeadGesture, HeadPose, People, Person, Pose2D
-from hri.vision.gestures.gesture_fusion import AgreeingRecognizer
+from hri.vision.gestures.gesture_fusion import GestureFusion
 from hri.vision.gestures.gesture_patterns import ANSWERS, FILE, Pattern, chosen, load_patterns
-from hri.vision.tracking.egomotion import OwnMotion, Steadied
+from hri.vision.tracking.egomotion import Egomotion, Steadied
 
 MOST = 16
 """Gestures that wait to be sent."""
@@ -20,10 +20,10 @@ MOST = 16
 class PeopleGestures:
     """Recognizes the gestures of each person by themselves."""
 
-    def __init__(self, patterns: Iterable[Pattern], own: OwnMotion | None = None) -> None:
+    def __init__(self, patterns: Iterable[Pattern], own: Egomotion | None = None) -> None:
         """`own` tells where the camera looked."""
-        self._patterns, self._own = tuple(patterns), own or OwnMotion()
-        self._watched: dict[str, tuple[Steadied, AgreeingRecognizer]] = {}
+        self._patterns, self._own = tuple(patterns), own or Egomotion()
+        self._watched: dict[str, tuple[Steadied, GestureFusion]] = {}
 
     def update(self, people: People, prompted: bool = False) -> list[HeadGesture]:
         """The gestures that are complete now. `prompted`: an answer is expected.
@@ -41,7 +41,7 @@ class PeopleGestures:
 
     def _gesture(self, person: Person, prompted: bool) -> HeadGesture | None:
         if person.id not in self._watched:
-            pair = Steadied(self._own), AgreeingRecognizer(self._patterns)
+            pair = Steadied(self._own), GestureFusion(self._patterns)
             self._watched[person.id] = pair
         steadied, recognizer = self._watched[person.id]
         steady = steadied.update(person)
@@ -76,7 +76,7 @@ class HeadGestures(Behavior):
         names = known if self.gestures.strip() == "all" else self.gestures.split()
         self._patterns: Sequence[Pattern] = chosen(known, names)
         self._told = {pattern.gesture: pattern.event for pattern in self._patterns}
-        self._own = OwnMotion()
+        self._own = Egomotion()
         self._recognizer = PeopleGestures(self._patterns, self._own)
         self._unsent: deque[HeadGesture] = deque(maxlen=MOST)
 

@@ -23,7 +23,7 @@ ROLL = AXES.index("roll")
 """The motion tells nothing of it, so that the pose alone decides."""
 
 
-class AgreeingRecognizer:
+class GestureFusion:
     """Takes one person as they were seen in each picture."""
 
     def __init__(self, patterns: Iterable[Pattern]) -> None:

@@ -31,7 +31,7 @@ MOST_ROWS = 20
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class PatternRow:
     """One way to make a gesture: what a run of swings of one angle must satisfy."""
 
     swings: int
@@ -93,7 +93,7 @@ class Pattern:
     event: str
     """Name of the event that tells of it."""
     about: str
-    rows: tuple[Row, ...]
+    rows: tuple[PatternRow, ...]
 
 
 def load_patterns(path: Path | None = None) -> dict[str, Pattern]:
@@ -142,7 +142,7 @@ def _pattern(name: str, table: Table) -> Pattern:
     return pattern
 
 
-def _row(axis: str, table: Table) -> Row:
+def _row(axis: str, table: Table) -> PatternRow:
     swings = table.number("swings", minimum=1, maximum=6)
     if swings != int(swings):
         raise table.error("swings", f"swings is {swings:g}", "write a whole number")
@@ -152,7 +152,7 @@ def _row(axis: str, table: Table) -> Row:
     width = table.number("width_deg", minimum=1.0, maximum=90.0)
     widest = table.number("widest_deg", 360.0, minimum=width)
     first = table.string("first", "either", among=("either", *DIRECTIONS[axis]))
-    row = Row(
+    row = PatternRow(
         swings=int(swings),
         width=math.radians(width),
         widest=math.radians(widest),

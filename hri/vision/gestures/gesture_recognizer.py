@@ -18,7 +18,7 @@ from itertools import pairwise
 
 from hri.core.signals import HeadGesture, HeadPose
 from hri.vision.gestures.angle_noise import Angles, Noise, Steadying
-from hri.vision.gestures.gesture_patterns import AXES, Pattern, Row
+from hri.vision.gestures.gesture_patterns import AXES, Pattern, PatternRow
 from hri.vision.gestures.oscillation import Swing, ZigZag, resting, slowing
 
 TURN: Angles = (math.radians(2.5), math.radians(4.0), math.radians(3.0))
@@ -155,7 +155,7 @@ class Movement:
                     return self._found(pattern, row)
         return None
 
-    def makes(self, row: Row, axis: int, since: float = -math.inf) -> bool:
+    def makes(self, row: PatternRow, axis: int, since: float = -math.inf) -> bool:
         """Whether the latest swings of an angle, all begun after some seconds, satisfy a row."""
         swings = self._zigzags[axis].swings()[-row.swings :]
         if not swings or swings[0].start < since or not row.fits(swings, self._least[axis]):
@@ -174,7 +174,7 @@ class Movement:
             and 2 * sum(self._leaps(swing, axis) for swing in swings) <= len(swings)
         )
 
-    def _found(self, pattern: Pattern, row: Row) -> HeadGesture:
+    def _found(self, pattern: Pattern, row: PatternRow) -> HeadGesture:
         swings = self._zigzags[pattern.axis].swings()
         now, least = self._times[-1], max(row.width, self._least[pattern.axis])
         onset = swings[-row.swings].start
@@ -185,7 +185,7 @@ class Movement:
         sure = confidence(swings[-row.swings :], least)
         return HeadGesture(pattern.gesture, now, sure, latency=now - onset)
 
-    def _dominates(self, row: Row, axis: int, swings: Sequence[Swing]) -> bool:
+    def _dominates(self, row: PatternRow, axis: int, swings: Sequence[Swing]) -> bool:
         """Whether the other angles move little enough during each swing.
 
         During each by itself: who nods while the head turns to the side nods all the same.

@@ -27,7 +27,7 @@ WALK_GROWTH = 0.25
 
 
 @dataclass
-class Swinging:
+class OpticalFlowSwing:
     """Pitch and yaw of a head from the motion of its face, without the walk of the person."""
 
     pitch: float = 0.0

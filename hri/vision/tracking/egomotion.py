@@ -26,7 +26,7 @@ MOST = 1000
 """Headings that are kept."""
 
 
-class OwnMotion:
+class Egomotion:
     """Where the camera looked lately."""
 
     def __init__(self) -> None:
@@ -72,7 +72,7 @@ class OwnMotion:
 class Steadied:
     """One person without the robot's own motion."""
 
-    def __init__(self, own: OwnMotion) -> None:
+    def __init__(self, own: Egomotion) -> None:
         self._own = own
         self._time = -math.inf
         self._yaw = 0.0

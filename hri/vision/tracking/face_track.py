@@ -24,7 +24,7 @@ from hri.vision.detectors.mesh import (
     region_of_landmarks,
 )
 from hri.vision.detectors.preprocessing import Gray
-from hri.vision.gestures.optical_flow_swing import Swinging
+from hri.vision.gestures.optical_flow_swing import OpticalFlowSwing
 from hri.vision.head_pose import head_pose
 
 PRESENT = 0.5
@@ -71,7 +71,7 @@ class Sight:
         return self.image.shape[1], self.image.shape[0]
 
 
-class FollowedFace:
+class FaceTrack:
     """A face from when it was found until it is lost."""
 
     def __init__(self, sight: Sight, found: FoundFace, landmarks: Landmarks | None) -> None:
@@ -82,7 +82,7 @@ class FollowedFace:
         """Seconds, when the mesh fitted, or the face was found, last."""
         self.pose = HeadPose(sight.time, 0.0, 0.0, 0.0, self.box)
         self.motion: HeadPose | None = None
-        self._flow, self._swinging = FaceFlow(), Swinging()
+        self._flow, self._swinging = FaceFlow(), OpticalFlowSwing()
         if landmarks is not None:
             self._take(landmarks, sight.time)
         self._renew(sight)

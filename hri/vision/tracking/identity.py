@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from hri.vision.tracking.appearance import Look, blended, difference
-from hri.vision.tracking.face_track import FollowedFace
+from hri.vision.tracking.face_track import FaceTrack
 
 STRANGER = 0.165
 """A face that costs more is somebody else."""
@@ -49,7 +49,7 @@ class Identity:
         """Whether they were ever seen where they could not be taken for anybody else."""
         return self._time > -math.inf
 
-    def place(self, time: float, face: FollowedFace) -> None:
+    def place(self, time: float, face: FaceTrack) -> None:
         """See them at a time in seconds."""
         (x, y), elapsed = face.middle, time - self._time
         if 0 < elapsed < COASTING:
@@ -72,7 +72,7 @@ class Identity:
         coasting = min(COASTING, max(0.0, time - self._time))
         return self._x + self._pace[0] * coasting, self._y + self._pace[1] * coasting
 
-    def cost(self, time: float, face: FollowedFace, look: Look) -> float:
+    def cost(self, time: float, face: FaceTrack, look: Look) -> float:
         """How unlikely it is that this face is theirs; above STRANGER it is not."""
         unlike = math.inf if self._look is None else difference(self._look, look)
         if unlike == math.inf:
@@ -80,7 +80,7 @@ class Identity:
         known = math.exp(-max(0.0, time - self._time) / PLACE_MEMORY)
         return unlike + known * self.misfit(time, face)
 
-    def misfit(self, time: float, face: FollowedFace) -> float:
+    def misfit(self, time: float, face: FaceTrack) -> float:
         """How far a face is from where and how large theirs should be; the most when never seen."""
         x, y = self.expected(time)
         away = math.hypot(face.middle[0] - x, face.middle[1] - y) / max(self._breadth, 1.0)

@@ -24,9 +24,9 @@ from hri.vision.detectors.preprocessing import gray_picture
 from hri.vision.engagement import Zones
 from hri.vision.tracking.appearance import Look, look_of
 from hri.vision.tracking.assignment import assigned
-from hri.vision.tracking.face_track import MAX_GAP, FollowedFace, Sight, is_face
+from hri.vision.tracking.face_track import MAX_GAP, FaceTrack, Sight, is_face
 from hri.vision.tracking.identity import STRANGER, STRANGER_IN_CROWD
-from hri.vision.tracking.person_track import Somebody, number_of
+from hri.vision.tracking.person_track import PersonTrack, number_of
 
 log = logging.getLogger("hri.vision")
 
@@ -105,7 +105,7 @@ class PeopleTracker:
         return self._described(sight)
 
     def _forget(self) -> None:
-        self._known: list[Somebody] = []
+        self._known: list[PersonTrack] = []
         self._mixed: set[frozenset[int]] = set()
         """Numbers of each two whose faces may have been mixed up."""
         self._candidates: list[FoundFace] = []
@@ -120,7 +120,7 @@ class PeopleTracker:
             somebody.face = None
         self._searched = -math.inf
 
-    def _seen(self) -> Iterator[tuple[Somebody, FollowedFace]]:
+    def _seen(self) -> Iterator[tuple[PersonTrack, FaceTrack]]:
         """Who is in sight, with their faces."""
         for somebody in self._known:
             if somebody.face is not None:
@@ -137,7 +137,7 @@ class PeopleTracker:
             if face.is_lost(sight.time) or not _is_inside(face.middle, sight.size):
                 somebody.face = None
 
-    def _urgency(self, seen: tuple[Somebody, FollowedFace]) -> tuple[bool, float, int]:
+    def _urgency(self, seen: tuple[PersonTrack, FaceTrack]) -> tuple[bool, float, int]:
         """Whose mesh comes first: that of the one attended to, then who has waited longest."""
         somebody = seen[0]
         return somebody.id != self._attending.chosen, somebody.fitted, somebody.number
@@ -165,7 +165,7 @@ class PeopleTracker:
         room = MOST - sum(1 for _ in self._seen())
         self._welcome(sight, self._confirmed(sight, strangers)[: max(0, room)])
 
-    def _owner(self, found: FoundFace) -> FollowedFace | None:
+    def _owner(self, found: FoundFace) -> FaceTrack | None:
         """The face that is followed already where one was found."""
         region = region_of(found)
         for _, face in self._seen():
@@ -174,10 +174,10 @@ class PeopleTracker:
                 return face
         return None
 
-    def _confirmed(self, sight: Sight, strangers: list[FoundFace]) -> list[FollowedFace]:
+    def _confirmed(self, sight: Sight, strangers: list[FoundFace]) -> list[FaceTrack]:
         """Those that are faces: a mesh fits, or without one, found twice at the same place."""
         before, self._candidates = self._candidates, strangers
-        faces: list[FollowedFace] = []
+        faces: list[FaceTrack] = []
         for found in strangers[:MOST]:
             known = [*faces, *(other for _, other in self._seen())]
             if any(other.hides(found) for other in known):
@@ -189,7 +189,7 @@ class PeopleTracker:
                     continue
             elif not any(overlap(found.box, other.box) > SAME_BOX for other in before):
                 continue
-            face = FollowedFace(sight, found, landmarks)
+            face = FaceTrack(sight, found, landmarks)
             if all(_between(face, other) > SAME_FACE for other in known):
                 faces.append(face)
         return faces
@@ -200,7 +200,7 @@ class PeopleTracker:
         fitted = self._mesh.fit(sight.image, region)
         return fitted.landmarks if fitted is not None and is_face(fitted, region) else None
 
-    def _welcome(self, sight: Sight, faces: list[FollowedFace]) -> None:
+    def _welcome(self, sight: Sight, faces: list[FaceTrack]) -> None:
         """Give each new face to whoever of the missing it fits, else to a new person."""
         missing = [somebody for somebody in self._known if somebody.face is None]
         looks = [look_of(sight.image, face.region) for face in faces]
@@ -210,14 +210,14 @@ class PeopleTracker:
         ]
         for face, look, index in zip(faces, looks, assigned(costs), strict=True):
             if index is None:
-                somebody = Somebody(next(self._numbers), sight.time, self._zones)
+                somebody = PersonTrack(next(self._numbers), sight.time, self._zones)
                 somebody.identity.learn(look)
                 self._known.append(somebody)
             else:
                 somebody = missing[index]
             somebody.face, somebody.fitted = face, sight.time
 
-    def _cost(self, time: float, somebody: Somebody, face: FollowedFace, look: Look) -> float:
+    def _cost(self, time: float, somebody: PersonTrack, face: FaceTrack, look: Look) -> float:
         """How unlikely it is that a new face is that of somebody missing; infinite for no.
 
         Of those who are mixed up, each may be taken for another: a face that fits any of them will
@@ -242,7 +242,7 @@ class PeopleTracker:
             if one.face and other.face and _between(one.face, other.face) < SAME_FACE:
                 self._part(time, one, other)
 
-    def _part(self, time: float, one: Somebody, other: Somebody) -> None:
+    def _part(self, time: float, one: PersonTrack, other: PersonTrack) -> None:
         """Of two who have the same face, one is covered: the one whom place and size fit less."""
         face = one.face
         assert face is not None
@@ -262,7 +262,7 @@ class PeopleTracker:
                 numbers = {somebody.number for somebody in group}
                 self._mixed = {pair for pair in self._mixed if not pair & numbers}
 
-    def _groups(self) -> list[list[Somebody]]:
+    def _groups(self) -> list[list[PersonTrack]]:
         """Those who are mixed up with each other."""
         groups: list[set[int]] = []
         for pair in sorted(self._mixed, key=sorted):
@@ -271,7 +271,7 @@ class PeopleTracker:
             groups.append(set(pair).union(*touching))
         return [[s for s in self._known if s.number in group] for group in groups]
 
-    def _sort_out(self, sight: Sight, group: list[Somebody]) -> None:
+    def _sort_out(self, sight: Sight, group: list[PersonTrack]) -> None:
         """Give each face of a group to whom it fits best."""
         faces = [somebody.face for somebody in group if somebody.face is not None]
         looks = [look_of(sight.image, face.region) for face in faces]
@@ -343,7 +343,7 @@ class Seeing:
             self.first = max(self.first, number_of(person.id) + 1)
 
 
-def _gap(time: float, one: Somebody, other: Somebody) -> float:
+def _gap(time: float, one: PersonTrack, other: PersonTrack) -> float:
     """Between two, in sizes of the face; of who is out of sight, from where they should be."""
     places = [s.face.middle if s.face else s.identity.expected(time) for s in (one, other)]
     sizes = [s.face.breadth for s in (one, other) if s.face is not None]
@@ -352,7 +352,7 @@ def _gap(time: float, one: Somebody, other: Somebody) -> float:
     return gap if math.isfinite(gap) else math.inf
 
 
-def _between(one: FollowedFace, other: FollowedFace) -> float:
+def _between(one: FaceTrack, other: FaceTrack) -> float:
     """From one face to another, in sizes of the smaller."""
     away = math.hypot(one.region.x - other.region.x, one.region.y - other.region.y)
     return away / min(one.breadth, other.breadth)

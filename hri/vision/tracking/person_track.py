@@ -11,21 +11,21 @@ from hri.core.signals import Person
 from hri.vision.blendshapes import PUPILS, Expressiveness
 from hri.vision.camera_view import EYE_DISTANCE, FACE_SIZE, CameraView
 from hri.vision.engagement import Engagement, Zones
-from hri.vision.eye_contact import Looking, looking_score
-from hri.vision.tracking.face_track import FollowedFace
+from hri.vision.eye_contact import EyeContact, looking_score
+from hri.vision.tracking.face_track import FaceTrack
 from hri.vision.tracking.identity import Identity
 
 DISTANCE_SMOOTHING = 0.25
 """Seconds over which the distance is averaged."""
 
 
-class Somebody:
+class PersonTrack:
     """Who they are, which face is theirs now, and what they are doing."""
 
     def __init__(self, number: int, time: float, zones: Zones) -> None:
         self.number = number
         self.id = f"p{number}"
-        self.face: FollowedFace | None = None
+        self.face: FaceTrack | None = None
         self.identity = Identity()
         self.seen = time
         """Seconds, when they were in sight last."""
@@ -34,7 +34,7 @@ class Somebody:
         self.person: Person | None = None
         self._distance = math.nan
         self._distance_time = time
-        self._looking, self._engagement = Looking(), Engagement(zones)
+        self._looking, self._engagement = EyeContact(), Engagement(zones)
         self._expressiveness = Expressiveness()
 
     def describe(self, time: float, size: tuple[int, int], view: CameraView) -> Person:
@@ -46,7 +46,7 @@ class Somebody:
         return self.person
 
     def _visible(
-        self, time: float, face: FollowedFace, size: tuple[int, int], view: CameraView
+        self, time: float, face: FaceTrack, size: tuple[int, int], view: CameraView
     ) -> Person:
         x, y, pixels, meters = _gauge(face)
         distance = self._smoothed(time, view.distance(x, y, pixels, meters, size))
@@ -95,7 +95,7 @@ def number_of(id: str) -> int:
     return int(id[1:])
 
 
-def _gauge(face: FollowedFace) -> tuple[float, float, float, float]:
+def _gauge(face: FaceTrack) -> tuple[float, float, float, float]:
     """Where the eyes are, in pixels, and a length to measure the distance by: pixels and meters.
 
     With a mesh it is the distance of the pupils in all three directions, which turning the head

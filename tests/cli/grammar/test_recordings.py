@@ -17,7 +17,7 @@ from hri.hal.resource_manager import ResourceManager
 from hri.speech.grammar.lint.expectations import meaning_of
 from hri.speech.grammar.matching import parse
 from hri.speech.synthesizers import flite
-from hri.speech.trials import Clip
+from hri.speech.trials import RecordedClip
 
 RULES = "public <a> = turn left | turn right {right};\npublic <b> = go to the (ball | wall {far});"
 WORDS = [("turn left", 0.9), ("turn right", 0.9), ("turn left", 0.3), ("go to the wall", 0.6)]
@@ -198,7 +198,7 @@ def coded_voices(monkeypatch):
             answer = 3 if "ball" in sentence or "wall" in sentence else int("right" in sentence)
             for voice in voices:
                 samples = np.full(1600, answer if meaning else 2, np.int16)
-                yield Clip(voice, samples, 16000, sentence, meaning)
+                yield RecordedClip(voice, samples, 16000, sentence, meaning)
 
     monkeypatch.setattr(confuse, "spoken", spoken)
     monkeypatch.setattr(calibrate, "spoken", spoken)

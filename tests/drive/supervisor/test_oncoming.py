@@ -7,7 +7,7 @@ from hri.core.geometry import along_arc, placed
 from hri.core.signals import Pose2D
 from hri.drive.supervisor.oncoming import NEAR_PEOPLE, Oncoming
 from hri.hal.motion import Way
-from hri.simulation.room import Box, Circle, Obstacle, Room, Segment
+from hri.simulation.room import Box, Circle, Obstacle, Room, Wall
 
 BODY = 0.2
 PERSON = 0.22
@@ -73,7 +73,7 @@ def test_it_stands_when_somebody_who_walked_in_along_a_beam_touches_it(
 @pytest.mark.parametrize("turn", [0.0, 0.3, -0.3])
 @pytest.mark.parametrize(
     "thing",
-    [Segment(-5.0, 0.4, 9.0, 0.4), Segment(-5.0, 0.6, 9.0, -0.6), Box(1.5, 0.9, 0.5, 0.8, 0.4)],
+    [Wall(-5.0, 0.4, 9.0, 0.4), Wall(-5.0, 0.6, 9.0, -0.6), Box(1.5, 0.9, 0.5, 0.8, 0.4)],
 )
 def test_what_stands_still_is_nobody(thing: Obstacle, turn: float) -> None:
     watched = Watched([thing])

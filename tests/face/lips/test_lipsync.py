@@ -29,7 +29,7 @@ from hri.face.lips.phonemes import (
     is_arpabet,
     sound_of,
 )
-from hri.face.lips.viseme_shapes import Articulation
+from hri.face.lips.viseme_shapes import VisemeShapes
 from hri.face.vocabulary import VISEMES
 from tests.face.pixels import MODEL
 
@@ -253,7 +253,7 @@ def test_a_track_may_be_asked_in_any_order() -> None:
 
 @pytest.mark.proves("R05")
 def test_a_closed_mouth_is_closed_on_the_face() -> None:
-    articulation = Articulation(MODEL)
+    articulation = VisemeShapes(MODEL)
     track = lip_track(saying("a", "m", "a", each=0.12))
     weights = MODEL.weights(articulation.vector(track, 0.18))
     assert weights.get("jawOpen", 0.0) < 0.02

@@ -10,7 +10,7 @@ from hypothesis import given, settings, strategies as st
 from hri.core.errors import HriError
 from hri.core.geometry import Pose3D
 from hri.core.signals import Gaze
-from hri.face.motion.gaze import HEAD_DELAY, Looking, direction, from_camera
+from hri.face.motion.gaze import HEAD_DELAY, GazeController, direction, from_camera
 from hri.face.settings import HeadSettings, Settings
 from tests.face.pixels import MODEL
 
@@ -24,7 +24,9 @@ def turning() -> Settings:
     return replace(MODEL.settings, head=head, gaze=gaze)
 
 
-def looks(looking: Looking, seconds: float, start: float = 0.0) -> list[tuple[float, float, float]]:
+def looks(
+    looking: GazeController, seconds: float, start: float = 0.0
+) -> list[tuple[float, float, float]]:
     """Time, degrees of the eyes and degrees of the head to the right, step by step."""
     found = []
     for number in range(round(seconds / STEP)):
@@ -48,7 +50,7 @@ def test_a_point_of_the_camera_is_a_point_before_the_face() -> None:
 
 
 def test_the_eyes_lead_the_head_follows_and_the_look_stays() -> None:
-    looking = Looking(turning())
+    looking = GazeController(turning())
     looks(looking, 1.0)
     assert looking.look(Gaze(point=(1.0, math.tan(math.radians(20)), 0.0))) == pytest.approx(20.0)
     seen = looks(looking, 2.0, 1.0)
@@ -64,7 +66,7 @@ def test_the_eyes_lead_the_head_follows_and_the_look_stays() -> None:
 
 
 def test_the_head_takes_what_the_eyes_cannot_up_to_its_limit() -> None:
-    looking = Looking(turning())
+    looking = GazeController(turning())
     looking.look(Gaze(point=(1.0, math.tan(math.radians(45)), 0.0)))
     *_, (_, eyes, head) = looks(looking, 3.0)
     assert (eyes, head) == pytest.approx((25.0, 20.0), abs=0.2)
@@ -76,7 +78,7 @@ def test_the_head_takes_what_the_eyes_cannot_up_to_its_limit() -> None:
 def test_eyes_turn_inward_to_what_is_near() -> None:
     inward = {}
     for distance in (0.01, 0.2, 0.5, 5.0):
-        looking = Looking(turning())
+        looking = GazeController(turning())
         looking.look(Gaze(point=(distance, 0.0, 0.0)))
         for number in range(500):
             look = looking.follow(number * STEP, STEP)
@@ -91,7 +93,7 @@ def test_eyes_turn_inward_to_what_is_near() -> None:
 def test_wherever_it_looks_nothing_jumps_or_leaves_its_range(
     points: list[tuple[float, float, float]],
 ) -> None:
-    looking = Looking(turning())
+    looking = GazeController(turning())
     last, now = None, 0.0
     for point in points:
         looking.look(Gaze(point=point))
@@ -106,7 +108,7 @@ def test_wherever_it_looks_nothing_jumps_or_leaves_its_range(
 
 
 def test_a_face_without_a_neck_looks_with_its_eyes_alone() -> None:
-    looking = Looking(replace(turning(), head=None))
+    looking = GazeController(replace(turning(), head=None))
     looking.look(Gaze(1.0, 0.0))
     *_, (_, eyes, head) = looks(looking, 1.0)
     assert (eyes, head) == pytest.approx((25.0, 0.0), abs=0.01)
@@ -115,4 +117,4 @@ def test_a_face_without_a_neck_looks_with_its_eyes_alone() -> None:
 def test_a_look_at_nowhere_is_refused() -> None:
     for gaze in (Gaze(math.nan, 0.0), Gaze(point=(1.0, math.inf, 0.0))):
         with pytest.raises(HriError, match="is not finite"):
-            Looking(turning()).look(gaze)
+            GazeController(turning()).look(gaze)

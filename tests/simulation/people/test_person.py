@@ -2,17 +2,17 @@ import math
 
 import pytest
 
-from hri.simulation.people.person import WALK_TIME, Person
+from hri.simulation.people.person import WALK_TIME, SimulatedPerson
 from hri.simulation.world import SimulatedWorld
 
 TIMES = [i / 100 for i in range(300)]
 
 
-def pitches(person: Person) -> list[float]:
+def pitches(person: SimulatedPerson) -> list[float]:
     return [math.degrees(person.head(time).pitch) for time in TIMES]
 
 
-def yaws(person: Person) -> list[float]:
+def yaws(person: SimulatedPerson) -> list[float]:
     return [math.degrees(person.head(time).yaw) for time in TIMES]
 
 
@@ -29,30 +29,30 @@ def turns(angles: list[float], least: float) -> int:
 
 
 def test_a_head_at_rest_only_sways() -> None:
-    person = Person(seed=3)
+    person = SimulatedPerson(seed=3)
     assert max(map(abs, pitches(person) + yaws(person))) < 2.5
 
 
 def test_a_nod_swings_up_and_down_and_a_shake_to_both_sides() -> None:
-    person = Person()
+    person = SimulatedPerson()
     person.nod(1.0)
     assert turns(pitches(person), 4) >= 3
     assert turns(yaws(person), 4) == 0
-    person = Person()
+    person = SimulatedPerson()
     person.shake(1.0)
     assert turns(yaws(person), 6) >= 3
     assert turns(pitches(person), 4) == 0
 
 
 def test_a_glance_goes_aside_and_comes_back() -> None:
-    person = Person()
+    person = SimulatedPerson()
     person.look_aside(0.5)
     assert max(map(abs, yaws(person))) > 20
     assert turns(yaws(person), 6) == 2
 
 
 def test_a_movement_changes_nothing_before_and_after_itself() -> None:
-    still, moved = Person(seed=1), Person(seed=1)
+    still, moved = SimulatedPerson(seed=1), SimulatedPerson(seed=1)
     moved.nod(1.0)
     assert still.head(0.99) == moved.head(0.99)
     assert still.head(2.8) == moved.head(2.8)
@@ -60,7 +60,7 @@ def test_a_movement_changes_nothing_before_and_after_itself() -> None:
 
 
 def test_coming_and_going_takes_a_walk() -> None:
-    person = Person(starts_present=False)
+    person = SimulatedPerson(starts_present=False)
     person.enter(1.0)
     person.enter(2.0)  # is there already
     person.leave(5.0)
@@ -83,11 +83,11 @@ def test_sentences_follow_each_other_and_move_the_mouth(world: SimulatedWorld) -
 
 
 def test_without_a_voice_nothing_is_said() -> None:
-    assert Person().say("hello", 1.0) is None
+    assert SimulatedPerson().say("hello", 1.0) is None
 
 
 def test_the_eyes_blink_now_and_then() -> None:
-    person = Person(seed=2)
+    person = SimulatedPerson(seed=2)
     lids = [person.lids(time / 50) for time in range(60 * 50)]
     assert min(lids) < 0.2
     assert sum(lids) / len(lids) == pytest.approx(1.0, abs=0.05)

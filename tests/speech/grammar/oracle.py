@@ -18,13 +18,13 @@ from hri.speech.grammar.expressions import (
     Repeat,
     RuleReference,
     Sequence,
-    Span,
+    SourceSpan,
     Tagged,
     Token,
 )
 from hri.speech.grammar.tags import TagEntry, evaluate
 
-SPAN = Span(1, 1, 1, 1)
+SPAN = SourceSpan(1, 1, 1, 1)
 Reading = tuple[tuple[object, ...], tuple[tuple[TagEntry, ...], ...]]
 """The words and rules of a tree, and the tags in order."""
 

@@ -17,7 +17,7 @@ from hri.speech.grammar.expressions import (
     Repeat,
     RuleReference,
     Sequence,
-    Span,
+    SourceSpan,
     Tagged,
     Token,
 )
@@ -363,7 +363,7 @@ def test_no_file_whatever_crashes_the_loader(tmp_path_factory, pieces):
         assert len(list(grammar.sentences(20))) >= 1
 
 
-SPAN = Span(1, 1, 1, 1)
+SPAN = SourceSpan(1, 1, 1, 1)
 VALUES = st.one_of(
     st.floats(allow_nan=False, allow_infinity=False),
     st.booleans(),
@@ -401,7 +401,7 @@ EXPRESSIONS = st.recursive(
 
 def without_spans(node):
     match node:
-        case Span():
+        case SourceSpan():
             return None
         case tuple():
             return tuple(map(without_spans, node))

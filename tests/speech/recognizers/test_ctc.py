@@ -25,7 +25,7 @@ from hri.speech.recognizers.ctc.confidence import (
     shares,
 )
 from hri.speech.recognizers.ctc.decoder import CtcRecognizer
-from hri.speech.recognizers.ctc.lattice import Path, Span
+from hri.speech.recognizers.ctc.lattice import Path, WordSpan
 from hri.speech.recognizers.ctc.loudness import KEPT, noise_of, sounding
 from tests.recorded import spoken_by_a_person
 from tests.speech.recognizers.speaking import spoken
@@ -267,7 +267,7 @@ def test_what_is_heard_clearly_is_trusted_more(one, other):
 
 
 def test_a_fit_counts_phones_and_looks_at_each_where_it_is_heard_best():
-    word = Span(0, 1, 7, (0, 0, -1, 1, 2, -3))
+    word = WordSpan(0, 1, 7, (0, 0, -1, 1, 2, -3))
     scores = np.full((9, 4), -9.0, np.float32)
     scores[1, 1], scores[2, 1], scores[4, 2] = -3.0, -1.0, -2.0
     phones = np.array([1, 2, 3])  # Class 3 is heard nowhere.
@@ -281,7 +281,7 @@ def test_a_fit_counts_phones_and_looks_at_each_where_it_is_heard_best():
 
 
 def test_the_same_sound_in_two_words_counts_twice():
-    words = (Span(0, 0, 2, (0, 0)), Span(1, 2, 4, (0, -1)))
+    words = (WordSpan(0, 0, 2, (0, 0)), WordSpan(1, 2, 4, (0, -1)))
     scores = np.zeros((4, 4), np.float32)
 
     fit = fit_of(Path(0.0, ("a", "a"), words), 0.0, scores, np.array([1]))
@@ -291,7 +291,7 @@ def test_the_same_sound_in_two_words_counts_twice():
 
 def test_a_long_sentence_is_asked_for_no_more_than_one_that_is_long_enough():
     def fit(count):
-        word = Span(0, 0, count, tuple(range(count)))
+        word = WordSpan(0, 0, count, tuple(range(count)))
         scores = np.full((count, 2), -1.0, np.float32)
         path = Path(-1.0 * count, ("word",), (word,))
         return fit_of(path, -3.0 * count, scores, np.ones(count, np.intp))

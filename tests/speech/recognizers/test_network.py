@@ -172,7 +172,7 @@ def test_one_thread_does_the_arithmetic_unless_the_user_says_otherwise(chosen, t
 
 
 def test_tensors_of_another_shape_are_refused(tensors):
-    from hri.speech.recognizers.ctc.conformer import Network
+    from hri.speech.recognizers.ctc.conformer import Conformer
 
     with pytest.raises(HriError, match="another network"):
-        Network({**tensors, "mel_fb": np.zeros((2, 2), np.float32)})
+        Conformer({**tensors, "mel_fb": np.zeros((2, 2), np.float32)})

@@ -19,10 +19,10 @@ from hri.hal.resource_manager import ResourceManager
 from hri.simulation.people.body_motion import nod_angles, shake_angles
 from hri.vision.camera_view import FACE_SIZE
 from hri.vision.gestures.gesture_behaviors import HeadGestures, PeopleGestures
-from hri.vision.gestures.gesture_fusion import AgreeingRecognizer
+from hri.vision.gestures.gesture_fusion import GestureFusion
 from hri.vision.gestures.gesture_patterns import Pattern, answer_patterns, load_patterns
 from hri.vision.gestures.optical_flow_swing import FADE, RADIUS
-from hri.vision.tracking.egomotion import OwnMotion, Steadied
+from hri.vision.tracking.egomotion import Egomotion, Steadied
 
 RATE = 30
 PATTERNS = answer_patterns()
@@ -58,7 +58,7 @@ def watched(
     prompted: bool = False,
     patterns: Iterable[Pattern] = PATTERNS,
 ) -> list[HeadGesture]:
-    recognizer = AgreeingRecognizer(patterns)
+    recognizer = GestureFusion(patterns)
     times = [number / RATE for number in range(4 * RATE)]
     found = [recognizer.update(person(time, pose, motion), prompted) for time in times]
     return [gesture for gesture in found if gesture is not None]
@@ -101,7 +101,7 @@ def test_without_motion_the_pose_alone_decides() -> None:
 
 
 def test_motion_that_is_missing_for_a_moment_does_not_leave_it_to_the_pose() -> None:
-    recognizer = AgreeingRecognizer(PATTERNS)
+    recognizer = GestureFusion(PATTERNS)
     for number in range(4 * RATE):
         time = number / RATE
         motion = still if time < 1 else None
@@ -159,7 +159,7 @@ def seen_while_turning(distance: float = 1.0) -> list[Person]:
 
 
 def test_the_robots_own_turning_is_no_shake() -> None:
-    own = OwnMotion()
+    own = Egomotion()
     plain, steadied = PeopleGestures(PATTERNS), PeopleGestures(PATTERNS, own)
     told: list[list[HeadGesture]] = [[], []]
     for each in seen_while_turning(distance=1.5):
@@ -171,7 +171,7 @@ def test_the_robots_own_turning_is_no_shake() -> None:
 
 
 def test_own_turning_is_taken_at_the_time_of_the_picture() -> None:
-    own = OwnMotion()
+    own = Egomotion()
     for number in range(20):
         own.add(number / 10, 0.1 * number)
     assert own.turned(0.55, 1.25) == pytest.approx(0.7)
@@ -180,14 +180,14 @@ def test_own_turning_is_taken_at_the_time_of_the_picture() -> None:
 
 
 def test_a_full_turn_is_no_jump() -> None:
-    own = OwnMotion()
+    own = Egomotion()
     own.add(0.0, math.pi - 0.1)
     own.add(1.0, -math.pi + 0.1)
     assert own.turned(0.0, 1.0) == pytest.approx(0.2)
 
 
 def test_pictures_of_a_fast_turn_are_not_believed() -> None:
-    own = OwnMotion()
+    own = Egomotion()
     steadied = Steadied(own)
     assert steadied.update(person(0.0)) is not None
     own.add(0.0, 0.0)
@@ -197,7 +197,7 @@ def test_pictures_of_a_fast_turn_are_not_believed() -> None:
 
 
 def test_a_pose_from_the_mesh_is_left_as_it_is() -> None:
-    own = OwnMotion()
+    own = Egomotion()
     steadied, mesh = Steadied(own), np.zeros((468, 3), np.float32)
     for number in range(10):
         own.add(number / 10, 0.005 * number)
@@ -209,7 +209,7 @@ def test_a_pose_from_the_mesh_is_left_as_it_is() -> None:
 
 
 def test_own_turning_is_taken_out_of_motion_though_no_mesh_was_fitted_to_the_picture() -> None:
-    own = OwnMotion()
+    own = Egomotion()
     steadied, mesh = Steadied(own), np.zeros((468, 3), np.float32)
     for number in range(10):
         own.add(number / 10, 0.005 * number)
@@ -226,7 +226,7 @@ numbers = st.floats(-1e3, 1e3) | st.sampled_from([math.nan, math.inf, -math.inf,
 @given(st.lists(st.tuples(numbers, numbers, numbers, numbers), max_size=40))
 @settings(max_examples=30, deadline=None)
 def test_nothing_breaks_it(rows: list[tuple[float, float, float, float]]) -> None:
-    own = OwnMotion()
+    own = Egomotion()
     recognizer = PeopleGestures(PATTERNS, own)
     for time, pitch, yaw, heading in rows:
         own.add(time, heading)
@@ -318,7 +318,7 @@ def test_a_network_chooses_its_gestures() -> None:
 def nodding(pose_noise: float = 0.6, late: float = 0.1) -> list[HeadGesture]:
     """Twenty nods after a turn of the head, as mesh and motion tell of them, 15 times a second."""
     dice, nods = np.random.default_rng(0), bench.nods(0)
-    recognizer, found = AgreeingRecognizer(PATTERNS), []
+    recognizer, found = GestureFusion(PATTERNS), []
     for number in range(round(15 * bench.DURATION)):
         time = number / 15
         held, moved = nods(time), nods(time - late)
@@ -364,7 +364,7 @@ def test_still_pictures_one_switched_for_another_are_no_gesture(
     seed: int, rate: int, prompted: bool
 ) -> None:
     shown, dice = bench.pictures(seed), np.random.default_rng(seed)
-    recognizer = AgreeingRecognizer(PATTERNS)
+    recognizer = GestureFusion(PATTERNS)
     for number in range(10 * rate):
         held = shown(number / rate)
         down, left = np.radians(dice.normal(0.0, 0.4, 2))

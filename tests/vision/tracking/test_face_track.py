@@ -12,7 +12,7 @@ from hri.core.signals import Frame, HeadGesture, People, Person
 from hri.simulation.people.actors import Appearance, render_people
 from hri.simulation.people.body_motion import Angles, nod_angles, shake_angles
 from hri.vision.detectors.detector_choice import Detectors, load_detectors
-from hri.vision.gestures.gesture_fusion import AgreeingRecognizer
+from hri.vision.gestures.gesture_fusion import GestureFusion
 from hri.vision.gestures.gesture_patterns import answer_patterns
 from hri.vision.gestures.gesture_recognizer import GestureRecognizer
 from hri.vision.tracking.people import PeopleTracker
@@ -93,7 +93,7 @@ def test_walking_through_the_picture_makes_no_gesture(chain: Detectors) -> None:
     persons = seen(film(duration=2.5, rate=12, place=walk), chain)
     assert len(persons) > 10
     assert len({person.id for person in persons}) == 1
-    recognizer = AgreeingRecognizer(answer_patterns())
+    recognizer = GestureFusion(answer_patterns())
     assert [recognizer.update(person, False) for person in persons] == [None] * len(persons)
 
 

@@ -50,7 +50,7 @@ Frames = NDArray[np.float32]
 """Shape [frames, width of the layer]."""
 
 
-class Network:
+class Conformer:
     """The loaded weights, in the order that numpy multiplies fastest; it never changes.
 
     Raises HriError when the tensors are those of another network.
@@ -306,7 +306,7 @@ def _gelu(values: Frames) -> Frames:
 _ERF = np.array([1.061405429, -1.453152027, 1.421413741, -0.284496736, 0.254829592], np.float32)
 
 
-def load_network(path: str = "") -> Network:
+def load_network(path: str = "") -> Conformer:
     """The network of a weight file (`find_weights` tells which). Raises NotAvailable, HriError."""
     file: Path = find_weights(path)
-    return Network(read_tensors(file))
+    return Conformer(read_tensors(file))

@@ -19,16 +19,16 @@ from hri.speech.recognizers.ctc.confidence import (
     scores_of,
     shares,
 )
-from hri.speech.recognizers.ctc.conformer import FRAME, Network
+from hri.speech.recognizers.ctc.conformer import FRAME, Conformer
 from hri.speech.recognizers.ctc.habits import Habits
 from hri.speech.recognizers.ctc.lattice import Path, Walk
 from hri.speech.recognizers.ctc.loudness import noise_of, sounding
 from hri.speech.recognizers.ctc.phone_graph import Floats, compile
-from hri.speech.recognizers.ctc.posterior_stream import Stream
+from hri.speech.recognizers.ctc.posterior_stream import PosteriorStream
 from hri.speech.recognizers.ctc.rivals import Rivals
 from hri.speech.recognizers.ctc.search import Search
 from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
-from hri.speech.recognizers.endpointed import SoundRecognizer
+from hri.speech.recognizers.endpointed import EndpointedRecognizer
 
 MOST_SENTENCES = 8
 """Sentences that are told: the best and its alternatives."""
@@ -42,7 +42,7 @@ class Progress:
 
     number: int
     rules: frozenset[str] | None
-    stream: Stream
+    stream: PosteriorStream
     search: Search
     taken: int = 0
     """Samples."""
@@ -68,7 +68,7 @@ class Early:
         )
 
 
-class CtcRecognizer(SoundRecognizer):
+class CtcRecognizer(EndpointedRecognizer):
     """Hears what the grammar allows, by the network of the `hama` wheel.
 
     `weights` names another file of the same network. Everything but the grammar's own graph is
@@ -78,12 +78,12 @@ class CtcRecognizer(SoundRecognizer):
     the voice stays silent, the result is there as soon as the pause is over.
     """
 
-    parameters = ("weights", *SoundRecognizer.parameters)
+    parameters = ("weights", *EndpointedRecognizer.parameters)
 
     def _open(self) -> None:
         super()._open()
         weights = find_weights(self.description.text("weights"))
-        self._network = Network(adapted(read_tensors(weights)))
+        self._network = Conformer(adapted(read_tensors(weights)))
         self._work = threading.Lock()
         self._search: Search | None = None
         self._progress: Progress | None = None
@@ -118,7 +118,7 @@ class CtcRecognizer(SoundRecognizer):
         progress = self._progress
         if progress is None or progress.number != segment.number or progress.rules != rules:
             search.begin(rules)
-            progress = Progress(segment.number, rules, Stream(self._network), search)
+            progress = Progress(segment.number, rules, PosteriorStream(self._network), search)
             self._progress = progress
         return progress
 

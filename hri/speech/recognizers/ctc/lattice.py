@@ -76,7 +76,7 @@ class Trellis:
 
 
 @dataclass(frozen=True, slots=True)
-class Span:
+class WordSpan:
     """A word of a path, or a part of it."""
 
     place: int
@@ -95,7 +95,7 @@ class Path:
 
     score: float
     words: tuple[str, ...]
-    spans: tuple[Span, ...]
+    spans: tuple[WordSpan, ...]
 
 
 class Walk:
@@ -105,9 +105,9 @@ class Walk:
         self._trellis = trellis
         self._graph = trellis.graph
         self._doubled = set(trellis.graph.doubled.tolist())
-        self._known: dict[tuple[int, int], Span] = {}
+        self._known: dict[tuple[int, int], WordSpan] = {}
 
-    def span(self, state: int, end: int) -> Span:
+    def span(self, state: int, end: int) -> WordSpan:
         """The best way to be in a state after `end` frames, back to the beginning of the word."""
         key = (state, end)
         known = self._known.get(key)
@@ -115,7 +115,7 @@ class Walk:
             known = self._known[key] = self._back(state, end)
         return known
 
-    def _back(self, state: int, end: int) -> Span:
+    def _back(self, state: int, end: int) -> WordSpan:
         trellis, parents, size = self._trellis, self._graph.parents, self._graph.size
         visited: list[int] = []
         frame = end
@@ -131,7 +131,7 @@ class Walk:
                 continue
             parent = int(parents[state])
             if parent >= size:
-                return Span(parent - size, frame, end, tuple(reversed(visited)))
+                return WordSpan(parent - size, frame, end, tuple(reversed(visited)))
             rests = state in self._doubled or trellis.rests(parent, frame)
             state = parent
 
@@ -207,13 +207,13 @@ class _Rest:
     """A path from some word to the end."""
 
     exit: int
-    span: Span
+    span: WordSpan
     rest: _Rest | None
 
 
 def _path(graph: PhoneGraph, score: float, rest: _Rest | None) -> Path:
     words: list[str] = []
-    spans: list[Span] = []
+    spans: list[WordSpan] = []
     while rest is not None:
         words.append(graph.words[graph.exit_words[rest.exit]])
         spans.append(rest.span)

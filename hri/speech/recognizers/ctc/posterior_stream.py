@@ -6,8 +6,8 @@ rougher frames: where either says a phone, both say the same one in 86 % of the 
 commands and in 73 % under babble at 6 dB (90 and 80 % when it looks 0.5 s ahead, 94 and 88 % with
 1 s). Of 260 commands the right words were found in them 258 times clean, 237 times under babble at
 12 dB and 174 times at 6 dB, 259, 242 and 194 times by the network as a whole. So chunks are for
-words on a display, and the finished piece goes through `Network.posteriors` once more, best as soon
-as the voice falls silent.
+words on a display, and the finished piece goes through `Conformer.posteriors` once more, best as
+soon as the voice falls silent.
 
 A second of sound costs 9 ms of one core in chunks, 4 ms as a whole.
 """
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from hri.core.signals import Samples
 from hri.speech.recognizers.ctc.classes import CLASSES
-from hri.speech.recognizers.ctc.conformer import STRIDE, Network
+from hri.speech.recognizers.ctc.conformer import STRIDE, Conformer
 from hri.speech.recognizers.ctc.features import HOP, WIDTH
 
 CHUNK = 25
@@ -28,13 +28,13 @@ AHEAD = 15
 """Frames (0.3 s) that a chunk looks ahead."""
 
 
-class Stream:
+class PosteriorStream:
     """The posteriors of one piece of speech, chunk by chunk.
 
     Memory stays bounded however long it goes on. Chunks of other sizes are for measuring.
     """
 
-    def __init__(self, network: Network, chunk: int = CHUNK, ahead: int = AHEAD) -> None:
+    def __init__(self, network: Conformer, chunk: int = CHUNK, ahead: int = AHEAD) -> None:
         self._network = network
         self._chunk = chunk
         self._needed = STRIDE * (chunk + ahead) * HOP + WIDTH
