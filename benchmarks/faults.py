@@ -25,11 +25,11 @@ from hri.drive.bases.create2 import (
 )
 from hri.drive.bases.protocol import BaseProtocol
 from hri.drive.supervisor.controller import TURN, Controller
-from hri.drive.supervisor.governor import Body
+from hri.drive.supervisor.free_space import Body
 from hri.drive.supervisor.link import Ask, Order, Release
-from hri.drive.supervisor.multiplexer import Level
 from hri.drive.supervisor.process import rules
 from hri.drive.supervisor.supervisor import Supervisor
+from hri.drive.supervisor.velocity_arbiter import Level
 from hri.drive.velocity_limits import BaseLimits
 from hri.simulation.bases.emulated_arduino import EmulatedArduino
 from hri.simulation.bases.emulated_base import AUTO_STOP

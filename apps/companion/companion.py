@@ -12,9 +12,9 @@ from hri.core import paths
 from hri.core.errors import NotAvailable
 from hri.core.latest import Latest
 from hri.core.signals import Person
-from hri.drive import travel
+from hri.drive import navigation_tasks
 from hri.drive.behaviors import CommandGate
-from hri.drive.guard import BaseGuard
+from hri.drive.supervisor_relay import SupervisorRelay
 from hri.emotion.behaviors import EmotionModel
 from hri.emotion.stimulus import load_stimuli
 from hri.face.behaviors import FaceRenderer
@@ -72,7 +72,7 @@ class Companion:
         self.listener = context.behavior(Listener)
         self.voice = context.behavior(Voice)
         self.gate = context.behavior(CommandGate)
-        self.guard = context.behavior(BaseGuard)
+        self.guard = context.behavior(SupervisorRelay)
         self.emotion = context.behavior(EmotionModel)
         self.camera = context.resources.obtain("camera", Camera)
         self.replies = authored_replies(context)
@@ -240,11 +240,11 @@ class Companion:
         return self._drive(self._go_along)
 
     async def _come_here(self, context: TaskContext) -> None:
-        if not self.camera.is_on or not await travel.come_here(context):
+        if not self.camera.is_on or not await navigation_tasks.come_here(context):
             self.say(self.replies.unasked["nobody"])
 
     async def _go_along(self, context: TaskContext) -> None:
-        if self.person() is None or not await travel.follow(context):
+        if self.person() is None or not await navigation_tasks.follow(context):
             self.say(self.replies.unasked["nobody"])
 
     def _stop(self, tags: dict[str, Any]) -> None:

@@ -24,7 +24,7 @@ from hri.behavior.schema import Port, Schema, subclass
 from hri.core.clock import FakeClock, RealClock
 from hri.core.event_bus import EventBus
 from hri.core.signals import Event
-from hri.drive.navigation import drive_move_delta, drive_turn_delta
+from hri.drive.tasks_2003 import drive_move_delta, drive_turn_delta
 from hri.hal.pending import Interrupted
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager

@@ -21,11 +21,11 @@ from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.core.signals import Twist
 from hri.drive.bases.create2 import BUMPS_AND_DROPS, STREAMED, Create2, PacketParser
-from hri.drive.supervisor.connection import BEAT
 from hri.drive.supervisor.link import Ask, Release
-from hri.drive.supervisor.multiplexer import Level
 from hri.drive.supervisor.process import Settings
 from hri.drive.supervisor.remote import Remote
+from hri.drive.supervisor.supervisor_connection import BEAT
+from hri.drive.supervisor.velocity_arbiter import Level
 from hri.simulation.bases.emulated_create2 import EmulatedCreate2
 from hri.simulation.bases.emulated_line import Line
 from hri.simulation.bases.pseudo_terminal import PseudoTerminal

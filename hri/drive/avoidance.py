@@ -18,9 +18,12 @@ import numpy as np
 
 from hri.core.geometry import wrapped
 from hri.core.signals import People, Pose2D, RangeReading, Twist
-from hri.drive.closing import Closing
-from hri.drive.company import Company
-from hri.drive.histogram import (
+from hri.drive.approach_detector import ApproachDetector
+from hri.drive.leaning import Leaning, back_off
+from hri.drive.mechanics import Mechanics
+from hri.drive.path_planner import Route, find_route, narrow_way
+from hri.drive.people_tracker import PeopleTracker
+from hri.drive.polar_histogram import (
     WIDTH,
     Array,
     Histogram,
@@ -29,10 +32,7 @@ from hri.drive.histogram import (
     sector,
     valleys,
 )
-from hri.drive.leaning import Leaning, back_off
-from hri.drive.mechanics import Mechanics
 from hri.drive.progress import Progress
-from hri.drive.route import Route, find_route, narrow_way
 from hri.drive.velocity_limits import safe_speed
 from hri.hal.motion import REST
 
@@ -145,8 +145,8 @@ class Avoidance:
         self._replan_at = -math.inf
         self._side = 0
         self._discs: Sequence[tuple[float, float, float]] = ()
-        self._company = Company()
-        self._closing = Closing(mechanics.mounts)
+        self._people = PeopleTracker()
+        self._approaching = ApproachDetector(mechanics.mounts)
         self._seen = self._fresh = self.memory.points
         self._chosen = 0.0
         self._startled_until = self._backing_until = -math.inf
@@ -167,8 +167,8 @@ class Avoidance:
         """
         self.memory.see(now, pose, readings, self.mechanics)
         reach = PERSON_RADIUS + self.manner.person_gap
-        self._discs = [(x, y, reach) for x, y in self._company.see(now, pose, people)]
-        self._closing.see(now, readings)
+        self._discs = [(x, y, reach) for x, y in self._people.see(now, pose, people)]
+        self._approaching.see(now, readings)
         self._leaning.see(now, pose, readings)
         known = (readings.get(id) for id in self.mechanics.mounts)
         self._is_blind = not all(_is_sound(reading, now) for reading in known)
@@ -335,7 +335,7 @@ class Avoidance:
             return 0.0
         ahead = self._free(pose, AHEAD_ANGLES[:1], self._reach)
         aside = self._free(pose, AHEAD_ANGLES[1:], self.mechanics.radius)
-        closing = self._safe(self._closing.nearest - CLOSEST)
+        closing = self._safe(self._approaching.nearest - CLOSEST)
         return min(self._safe(ahead), max(min(self._safe(aside), closing), CREEPING))
 
     def _free(self, pose: Pose2D, angles: Array, reach: float) -> float:

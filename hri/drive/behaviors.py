@@ -12,8 +12,8 @@ from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
 from hri.core.event_bus import EventBus
 from hri.core.signals import RangeReading, Twist
 from hri.drive.gate import ANGULAR_FACTOR, VelocityGate
+from hri.drive.oncoming_watch import Watch, stopping_time
 from hri.drive.velocity_limits import GateLimits, safe_speed
-from hri.drive.watch import Watch, stopping_time
 from hri.hal.helm import Rank
 from hri.hal.motion import REST
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from hri.core.geometry import wrapped
 from hri.core.signals import Pose2D, RangeReading, Twist
-from hri.drive.histogram import DIRECTIONS, WIDTH, Array, sector
+from hri.drive.polar_histogram import DIRECTIONS, WIDTH, Array, sector
 from hri.hal.motion import REST
 
 LEANS = 0.12

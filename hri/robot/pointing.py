@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hri.core.errors import HriError
 from hri.core.geometry import after_move
-from hri.drive.travel import go_to_point
+from hri.drive.navigation_tasks import go_to_point
 from hri.hal.camera import Camera
 from hri.hal.drive import Odometry
 from hri.task.context import TaskContext

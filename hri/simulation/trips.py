@@ -18,7 +18,7 @@ from hri.core.clock import FakeClock
 from hri.core.event_bus import EventBus
 from hri.core.geometry import placed, seen_from
 from hri.core.signals import Pose2D
-from hri.drive.going import PEOPLE
+from hri.drive.goal_behaviors import PEOPLE
 from hri.hal.configuration import Shape
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Description

@@ -22,9 +22,9 @@ from hri.core.clock import FakeClock
 from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Pose2D, Twist
 from hri.drive.bases.protocol import BaseReport
-from hri.drive.supervisor.bus import BaseBus
-from hri.drive.supervisor.devices import BaseOdometry
-from hri.drive.supervisor.kinds import Create2Bus
+from hri.drive.supervisor.base_bus import BaseBus
+from hri.drive.supervisor.base_devices import BaseOdometry
+from hri.drive.supervisor.base_registry import Create2Bus
 from hri.drive.supervisor.link import State
 from hri.hal.drivers.memory import OffscreenScreen
 from hri.hal.motion import REST, Way

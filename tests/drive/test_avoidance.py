@@ -8,8 +8,8 @@ from hri.core import paths
 from hri.core.clock import FakeClock
 from hri.core.geometry import along_arc, seen_from
 from hri.core.signals import HeadPose, People, Person, Pose2D, RangeReading, Twist
+from hri.drive.approach_detector import ApproachDetector
 from hri.drive.avoidance import Avoidance, Manner, straight_to, turn_to
-from hri.drive.closing import Closing
 from hri.drive.leaning import WAITS_S
 from hri.drive.mechanics import Mechanics, mechanics_of, swept_radius
 from hri.drive.progress import Progress
@@ -280,13 +280,13 @@ def test_straight_on_it_slows_down_before_the_goal() -> None:
 
 
 def test_a_beam_that_gets_shorter_is_noticed() -> None:
-    closing = Closing(MECHANICS.mounts)
+    detector = ApproachDetector(MECHANICS.mounts)
     for tick in range(10):
-        closing.see(tick * TICK, {"left": RangeReading("left", 0.6 - 0.02 * tick, tick * TICK)})
-    assert closing.nearest == pytest.approx(0.42)
+        detector.see(tick * TICK, {"left": RangeReading("left", 0.6 - 0.02 * tick, tick * TICK)})
+    assert detector.nearest == pytest.approx(0.42)
     for tick in range(10, 20):
-        closing.see(tick * TICK, {"left": RangeReading("left", 0.42, tick * TICK)})
-    assert closing.nearest == math.inf
+        detector.see(tick * TICK, {"left": RangeReading("left", 0.42, tick * TICK)})
+    assert detector.nearest == math.inf
 
 
 def test_standing_still_is_noticed_and_turning_once_around_is_not() -> None:

@@ -15,7 +15,7 @@ from hri.core.errors import AuthoringError, HriError
 from hri.core.event_bus import EventBus
 from hri.core.signals import Event, Twist
 from hri.drive.behaviors import COMMAND
-from hri.drive.supervisor.bus import BaseBus
+from hri.drive.supervisor.base_bus import BaseBus
 from hri.hal.drive import DriveSystem
 from hri.hal.emergency_stop import EmergencyStop
 from hri.hal.helm import Outranked

@@ -7,7 +7,7 @@ import pytest
 from hri.core import paths
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
-from hri.drive.supervisor.bus import BaseBus
+from hri.drive.supervisor.base_bus import BaseBus
 from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
 from hri.hal.configuration import load_configuration

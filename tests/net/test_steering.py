@@ -15,7 +15,7 @@ from hri.behavior.ports import LINEAR_VELOCITY, Input, Output
 from hri.behavior.runner import Runner
 from hri.core.signals import Twist
 from hri.drive.behaviors import CommandGate
-from hri.drive.going import Beeline
+from hri.drive.goal_behaviors import Beeline
 from hri.hal.drive import PATIENCE, DriveSystem
 from hri.hal.joystick import Joystick
 from hri.hal.resource import Description

@@ -31,7 +31,7 @@ from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.core.event_bus import EventBus
 from hri.core.signals import Twist
-from hri.drive.supervisor.bus import BaseBus
+from hri.drive.supervisor.base_bus import BaseBus
 from hri.hal.drive import DriveSystem
 from hri.hal.drivers.memory import MemoryJoystick
 from hri.hal.resource import Description

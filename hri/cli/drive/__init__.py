@@ -18,7 +18,7 @@ from hri.cli.probe import KINDS, ask_ports
 from hri.core import paths
 from hri.core.clock import Clock, RealClock
 from hri.core.errors import HriError
-from hri.drive.supervisor.bus import SIMULATED, BaseBus
+from hri.drive.supervisor.base_bus import SIMULATED, BaseBus
 from hri.hal.configuration import load_configuration
 from hri.hal.drive import Odometry
 from hri.hal.resource import Description

@@ -10,8 +10,8 @@ from hri.cli.drive.view import Snapshot, View
 from hri.core.clock import Clock
 from hri.core.errors import NotAvailable
 from hri.core.signals import Twist
-from hri.drive.supervisor.bus import BaseBus
-from hri.drive.supervisor.multiplexer import Level
+from hri.drive.supervisor.base_bus import BaseBus
+from hri.drive.supervisor.velocity_arbiter import Level
 from hri.hal.drive import Odometry
 from hri.hal.motion import REST
 

@@ -5,8 +5,8 @@ A letter, arguments, a carriage return; an answer in one line. Facts are from it
 tutorials use; `config/firmware/` has a sketch of our own. Such a base speaks only when it is asked,
 so `poll` asks for all sensors in one go, and the answers come back in that order.
 
-Our firmware answers a line that carries a check (`hri.drive.bases.check`) with one that does. The
-greeting has such a line, which all others take for one without; once an answer comes with its
+Our firmware answers a line that carries a check (`hri.drive.bases.line_check`) with one that does.
+The greeting has such a line, which all others take for one without; once an answer comes with its
 check, all lines carry one, and what comes without it makes no sense.
 """
 
@@ -19,7 +19,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Self
 
 from hri.core.signals import Twist
-from hri.drive.bases.check import checked, without_check
+from hri.drive.bases.line_check import checked, without_check
 from hri.drive.bases.odometer import Encoders, Odometer
 from hri.drive.bases.protocol import BaseProtocol, BaseReport, Greeting, Sensors
 from hri.hal.resource import Description

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 
 from hri.core.event_bus import EventBus
-from hri.drive.supervisor.bus import BaseBus, Watcher
+from hri.drive.supervisor.base_bus import BaseBus, Watcher
 from hri.drive.supervisor.cause import Cause
 from hri.drive.supervisor.link import State
 

@@ -29,9 +29,9 @@ from hri.drive.supervisor.link import (
     State,
     Trip,
 )
-from hri.drive.supervisor.multiplexer import Command, Level
 from hri.drive.supervisor.noise import Noise
 from hri.drive.supervisor.supervisor import Supervisor
+from hri.drive.supervisor.velocity_arbiter import Command, Level
 from hri.hal.drivers.serial_port import Port
 from hri.hal.motion import REST, Way
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from hri.core.signals import Twist
 from hri.drive.supervisor.cause import Cause
-from hri.drive.supervisor.multiplexer import Level
+from hri.drive.supervisor.velocity_arbiter import Level
 
 
 @dataclass(frozen=True, slots=True)

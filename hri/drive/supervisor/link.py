@@ -18,7 +18,7 @@ from typing import Any, Final, TypeVar
 from hri.core.signals import Twist
 from hri.drive.bases.protocol import BaseReport, Note
 from hri.drive.supervisor.cause import POWER_UP, Cause
-from hri.drive.supervisor.multiplexer import Level
+from hri.drive.supervisor.velocity_arbiter import Level
 from hri.drive.velocity_limits import Cap
 from hri.hal.motion import REST, Way
 

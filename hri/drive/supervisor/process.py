@@ -24,11 +24,11 @@ from hri.core.clock import Clock, RealClock
 from hri.core.errors import NotAvailable
 from hri.core.signals import Pose2D
 from hri.drive.bases.protocol import BaseProtocol
+from hri.drive.supervisor.base_rules import Rules
 from hri.drive.supervisor.cause import NO_PROGRAM, NO_WATCHDOG, POWER_UP, Cause
 from hri.drive.supervisor.controller import TURN, Controller
-from hri.drive.supervisor.governor import Body
+from hri.drive.supervisor.free_space import Body
 from hri.drive.supervisor.link import Packets, decoded_order, encoded
-from hri.drive.supervisor.rules import Rules
 from hri.drive.supervisor.standby import Lifeline
 from hri.drive.supervisor.supervisor import Supervisor
 from hri.drive.supervisor.watchdog import Watchdog

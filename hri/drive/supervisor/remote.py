@@ -17,7 +17,6 @@ from hri.core import child
 from hri.core.clock import Clock
 from hri.core.errors import NotAvailable
 from hri.drive.supervisor.cause import NO_SUPERVISOR
-from hri.drive.supervisor.connection import BEAT, Connection
 from hri.drive.supervisor.link import (
     Heartbeat,
     Numbered,
@@ -28,9 +27,10 @@ from hri.drive.supervisor.link import (
     encoded,
     pair,
 )
-from hri.drive.supervisor.multiplexer import Level
 from hri.drive.supervisor.process import Settings
 from hri.drive.supervisor.standby import Standby
+from hri.drive.supervisor.supervisor_connection import BEAT, Connection
+from hri.drive.supervisor.velocity_arbiter import Level
 from hri.hal.drivers.serial_port import Backoff
 from hri.hal.motion import REST, Way
 

@@ -12,6 +12,7 @@ from dataclasses import replace
 
 from hri.core.signals import Twist
 from hri.drive.bases.protocol import BaseReport
+from hri.drive.supervisor.base_rules import Rules
 from hri.drive.supervisor.cause import (
     DISOBEYS,
     DONE,
@@ -27,7 +28,7 @@ from hri.drive.supervisor.cause import (
 )
 from hri.drive.supervisor.cliffs import Floor
 from hri.drive.supervisor.decision import Decision
-from hri.drive.supervisor.governor import Room, room
+from hri.drive.supervisor.free_space import Room, room
 from hri.drive.supervisor.hazards import (
     Fault,
     Hazard,
@@ -41,13 +42,12 @@ from hri.drive.supervisor.hazards import (
 from hri.drive.supervisor.lag import Lag
 from hri.drive.supervisor.latch import Latch
 from hri.drive.supervisor.limiter import Limiter
-from hri.drive.supervisor.multiplexer import Command, Level, Multiplexer
 from hri.drive.supervisor.nearness import Nearness
 from hri.drive.supervisor.oncoming import Oncoming
 from hri.drive.supervisor.plausibility import Plausibility
 from hri.drive.supervisor.reflex import Reflex
-from hri.drive.supervisor.rules import Rules
 from hri.drive.supervisor.silences import Silences
+from hri.drive.supervisor.velocity_arbiter import Command, Level, VelocityArbiter
 from hri.drive.velocity_limits import Cap, safe_speed, within_hardware
 from hri.hal.motion import REST
 
@@ -80,7 +80,7 @@ class Supervisor:
         """What is free before the body."""
         self.is_watched = True
         """Whether the watchdog answers; without it the base rests."""
-        self._multiplexer = Multiplexer(rules.fastest)
+        self._arbiter = VelocityArbiter(rules.fastest)
         self._limiter = Limiter(rules.limits)
         # On the spot, the wheels run as fast as straight on, half the track from the middle.
         half_track = rules.fastest.linear / rules.fastest.angular
@@ -120,7 +120,7 @@ class Supervisor:
 
     def waiting(self, now: float) -> list[Level]:
         """The sources that ask for something, the most important first."""
-        return self._multiplexer.waiting(now)
+        return self._arbiter.waiting(now)
 
     # --- what happens to it ---
 
@@ -128,7 +128,7 @@ class Supervisor:
         """Stop at once, until somebody releases the base."""
         if self.latch.trip(cause):
             self._news = cause
-        self._multiplexer.clear()
+        self._arbiter.clear()
         self._reflex.cancel()
 
     def release(self, now: float) -> None:
@@ -148,12 +148,12 @@ class Supervisor:
             self._refuse(f"I cannot be released while somebody presses my {self._pressed[0]}")
             return
         self.latch.release()
-        self._multiplexer.clear()
+        self._arbiter.clear()
         self._was_released = True
 
     def brake(self) -> None:
         """Stand still at once and forget what was asked, without latching."""
-        self._multiplexer.clear()
+        self._arbiter.clear()
         self._limiter.halt()
 
     def hear_person(self, distance: float, now: float) -> None:
@@ -191,7 +191,7 @@ class Supervisor:
         self._lag.forget()
         # Nobody watched; a base that still goes was stopped meanwhile, or is now.
         self._limiter.halt()
-        self._multiplexer.clear()
+        self._arbiter.clear()
         if self._sent != REST:
             self._news, self._sent = FROZEN, REST
         if not 0 <= dt <= LOST and not self.latch.is_closed:
@@ -202,7 +202,7 @@ class Supervisor:
         """The last refusal among these commands; what is refused again and again is told once."""
         refused = None
         for command in commands:
-            refused = self._multiplexer.offer(command)
+            refused = self._arbiter.offer(command)
             if refused is not None and refused != self._refused:
                 self._refuse(refused)
             self._refused = refused
@@ -309,7 +309,7 @@ class Supervisor:
         return any(moving < 0 if h.is_behind else moving > 0 for h in self._hazards)
 
     def _obeyed(self, now: float, dt: float, refused: str | None) -> Decision:
-        command = self._multiplexer.chosen(now)
+        command = self._arbiter.chosen(now)
         if command is None or command.twist is None:
             return self._unasked(now, dt, refused)
         cap, cause = self._cap(), DONE
@@ -324,7 +324,7 @@ class Supervisor:
 
     def _unasked(self, now: float, dt: float, refused: str | None) -> Decision:
         """Nobody asks for anything: at once when somebody fell silent, else gently."""
-        silent = self._multiplexer.silent(now)
+        silent = self._arbiter.silent(now)
         if silent is not None:
             return self._rest(Level.NOBODY, Cause("timeout", f"my {silent} fell silent"))
         if refused is not None:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping
 
 from hri.drive.bases.arduino import BUMPER_PRESSED, BUTTON_PRESSED, SHAPE, STOP, Wiring
-from hri.drive.bases.check import checked, has_check, without_check
+from hri.drive.bases.line_check import checked, has_check, without_check
 from hri.simulation.base import HardwareLimits
 from hri.simulation.bases.body import Body
 from hri.simulation.bases.emulator import Emulator, Wire

@@ -8,7 +8,7 @@ from hypothesis import given, strategies as st
 from hri.core.errors import AuthoringError
 from hri.core.signals import Twist
 from hri.drive.bases.arduino import ArduinoBridge, Wiring
-from hri.drive.bases.check import checked, without_check
+from hri.drive.bases.line_check import checked, without_check
 from hri.hal.resource import Description
 from hri.simulation.bases.emulated_arduino import EmulatedArduino
 from hri.simulation.bases.emulated_line import Line

@@ -10,7 +10,7 @@ import pytest
 
 from hri.core.signals import Twist
 from hri.drive.bases.arduino import SHAPE, ArduinoBridge, Wiring
-from hri.drive.bases.check import checked, without_check
+from hri.drive.bases.line_check import checked, without_check
 from hri.simulation.bases.emulated_arduino import EmulatedArduino
 from hri.simulation.bases.emulated_line import Line
 from hri.simulation.bases.emulator import Emulator

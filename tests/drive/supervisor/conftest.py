@@ -10,7 +10,7 @@ from hri.core.clock import FakeClock
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 
-DEVICES, KINDS = "hri.drive.supervisor.devices", "hri.drive.supervisor.kinds"
+DEVICES, KINDS = "hri.drive.supervisor.base_devices", "hri.drive.supervisor.base_registry"
 NAMES = {
     "Hri.Create2": f"{KINDS}:Create2Bus",
     "Hri.ArduinoBridge": f"{KINDS}:ArduinoBus",

@@ -13,7 +13,7 @@ from hri.drive.bases.create2 import CLIFFS
 from hri.drive.bases.protocol import Note
 from hri.drive.supervisor.cause import POWER_UP, Cause
 from hri.drive.supervisor.link import Ask, Dock, Heartbeat, Nearest, Release, Song, Trip
-from hri.drive.supervisor.multiplexer import Level
+from hri.drive.supervisor.velocity_arbiter import Level
 from hri.hal.motion import REST
 from hri.simulation.bases.emulated_create2 import PASSIVE
 from hri.simulation.bases.emulated_line import Faults

@@ -26,7 +26,7 @@ from hri.drive.supervisor.link import (
     encoded,
     pair,
 )
-from hri.drive.supervisor.multiplexer import Level
+from hri.drive.supervisor.velocity_arbiter import Level
 from hri.drive.velocity_limits import Cap
 from hri.hal.motion import Way
 

@@ -20,14 +20,14 @@ from hri.core.clock import FakeClock
 from hri.core.errors import NotAvailable
 from hri.core.signals import Twist
 from hri.drive.supervisor import remote
-from hri.drive.supervisor.bus import BaseBus
+from hri.drive.supervisor.base_bus import BaseBus
+from hri.drive.supervisor.base_devices import BaseDrive, BaseOdometry
 from hri.drive.supervisor.cause import Cause
-from hri.drive.supervisor.connection import BEAT
-from hri.drive.supervisor.devices import BaseDrive, BaseOdometry
 from hri.drive.supervisor.link import Ask, Release, State, Trip
-from hri.drive.supervisor.multiplexer import Level
 from hri.drive.supervisor.process import Settings
 from hri.drive.supervisor.remote import Remote
+from hri.drive.supervisor.supervisor_connection import BEAT
+from hri.drive.supervisor.velocity_arbiter import Level
 from hri.hal.drivers.serial_port import Backoff
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager

@@ -6,11 +6,11 @@ from hypothesis import given, settings, strategies as st
 
 from hri.core.signals import Pose2D, Twist
 from hri.drive.bases.protocol import BaseReport, Sensors
+from hri.drive.supervisor.base_rules import Rules
 from hri.drive.supervisor.cause import Cause
-from hri.drive.supervisor.governor import Body
-from hri.drive.supervisor.multiplexer import SOURCES, Command, Level
-from hri.drive.supervisor.rules import Rules
+from hri.drive.supervisor.free_space import Body
 from hri.drive.supervisor.supervisor import Supervisor
+from hri.drive.supervisor.velocity_arbiter import SOURCES, Command, Level
 from hri.drive.velocity_limits import BaseLimits
 from hri.hal.motion import REST, Way
 

@@ -8,10 +8,10 @@ from typing import Any
 
 from hri.core.signals import Twist
 from hri.drive.bases.protocol import BaseReport, Sensors
+from hri.drive.supervisor.base_rules import Rules
 from hri.drive.supervisor.decision import Decision
-from hri.drive.supervisor.multiplexer import Command, Level
-from hri.drive.supervisor.rules import Rules
 from hri.drive.supervisor.supervisor import Supervisor
+from hri.drive.supervisor.velocity_arbiter import Command, Level
 from hri.hal.motion import Way
 
 STEP = 0.01

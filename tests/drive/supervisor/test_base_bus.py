@@ -13,8 +13,8 @@ from hri.core.event_bus import EventBus
 from hri.core.signals import Event, Twist
 from hri.drive.bases.protocol import Note
 from hri.drive.supervisor.announcement import announce
-from hri.drive.supervisor.bus import BaseBus
-from hri.drive.supervisor.devices import (
+from hri.drive.supervisor.base_bus import BaseBus
+from hri.drive.supervisor.base_devices import (
     BaseBattery,
     BaseBumper,
     BaseCliffSensor,

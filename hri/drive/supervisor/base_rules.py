@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from hri.core.signals import Pose2D, Twist
 from hri.drive.bases.protocol import Sensors
-from hri.drive.supervisor.governor import Body
+from hri.drive.supervisor.free_space import Body
 from hri.drive.velocity_limits import BaseLimits
 
 

@@ -25,9 +25,8 @@ from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Pose2D, Twist
 from hri.drive.bases.protocol import BaseProtocol, BaseReport, Note
 from hri.drive.supervisor.cause import NO_SUPERVISOR, Cause
-from hri.drive.supervisor.connection import BEAT, Connection, Inline
 from hri.drive.supervisor.controller import Controller
-from hri.drive.supervisor.governor import Body
+from hri.drive.supervisor.free_space import Body
 from hri.drive.supervisor.line import BaseLine
 from hri.drive.supervisor.link import (
     LONGEST_WORDS,
@@ -42,10 +41,11 @@ from hri.drive.supervisor.link import (
     State,
     Trip,
 )
-from hri.drive.supervisor.multiplexer import Level
 from hri.drive.supervisor.process import Settings, rules
 from hri.drive.supervisor.remote import Remote
 from hri.drive.supervisor.supervisor import Supervisor
+from hri.drive.supervisor.supervisor_connection import BEAT, Connection, Inline
+from hri.drive.supervisor.velocity_arbiter import Level
 from hri.drive.velocity_limits import BaseLimits
 from hri.hal.emergency_stop import EmergencyStop
 from hri.hal.range_sensor import RangeSensor

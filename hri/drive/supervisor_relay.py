@@ -13,7 +13,7 @@ from hri.core.event_bus import Subscription
 from hri.core.signals import Event, People
 from hri.drive.behaviors import COMMAND, MOTION
 from hri.drive.supervisor.announcement import announce
-from hri.drive.supervisor.bus import BaseBus
+from hri.drive.supervisor.base_bus import BaseBus
 from hri.hal.emergency_stop import EmergencyStop
 
 TELL_EVERY = 0.5
@@ -24,7 +24,7 @@ SEEN = 1.0
 log = logging.getLogger("hri.drive")
 
 
-class BaseGuard(Behavior):
+class SupervisorRelay(Behavior):
     """Latches the emergency stop of a base when somebody says stop, and tells why it stopped.
 
     "Stop" is a rule of that name that was heard, the event `drive.halt` (its `because` says why),

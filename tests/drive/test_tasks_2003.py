@@ -7,7 +7,7 @@ import pytest
 from hri.core.errors import HriError
 from hri.core.signals import Twist
 from hri.drive import tasks as verbs
-from hri.drive.navigation import drive_move_delta, drive_turn_delta, stop
+from hri.drive.tasks_2003 import drive_move_delta, drive_turn_delta, stop
 from hri.hal.drive import DriveSystem, Odometry
 from hri.hal.resource import Description
 from hri.simulation.trips import SENSORS, devices

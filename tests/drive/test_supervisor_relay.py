@@ -14,8 +14,8 @@ from hri.core.errors import HriError
 from hri.core.event_bus import EventBus
 from hri.core.signals import Event, HeadPose, People, Person, Twist
 from hri.drive.behaviors import COMMAND, MOTION
-from hri.drive.guard import BaseGuard, nearest
-from hri.drive.supervisor.bus import BaseBus
+from hri.drive.supervisor.base_bus import BaseBus
+from hri.drive.supervisor_relay import SupervisorRelay, nearest
 from hri.hal.drive import DriveSystem
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
@@ -38,7 +38,7 @@ class Guarded:
         self.events.subscribe("drive.*", self.told.append)
         self.context = Context(self.clock, self.events, resources)
         self.sees = OutputPort[People]()
-        self.guard = BaseGuard("guard", base_id=base_id)
+        self.guard = SupervisorRelay("guard", base_id=base_id)
         self.guard.people.sources.append(self.sees)
 
     def started(self) -> Guarded:

@@ -3,7 +3,7 @@ import math
 import pytest
 
 from hri.core.signals import Pose2D
-from hri.drive.supervisor.governor import Body, room
+from hri.drive.supervisor.free_space import Body, room
 
 FRONT = {"front": Pose2D(0.17, 0.0, 0.0)}
 BODY = Body()

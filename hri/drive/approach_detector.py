@@ -18,7 +18,7 @@ LEAST = 0.1
 """Meters a second by which a beam must get shorter; less is noise."""
 
 
-class Closing:
+class ApproachDetector:
     """Remembers the last readings of the beams that look ahead."""
 
     def __init__(self, mounts: Mapping[str, Pose2D]) -> None:

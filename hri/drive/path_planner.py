@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.signals import Pose2D
-from hri.drive.histogram import CORE, Array, reaches
+from hri.drive.polar_histogram import CORE, Array, reaches
 
 CELL = 0.1
 """Side of a cell."""

@@ -13,9 +13,9 @@ from typing import ClassVar
 from hri.core.errors import did_you_mean
 from hri.core.geometry import along_arc
 from hri.core.signals import Pose2D, RangeReading, Twist
-from hri.drive.supervisor.bus import STALE, BaseBus
+from hri.drive.supervisor.base_bus import STALE, BaseBus
 from hri.drive.supervisor.link import State
-from hri.drive.supervisor.multiplexer import Level
+from hri.drive.supervisor.velocity_arbiter import Level
 from hri.drive.velocity_limits import Cap, within_hardware
 from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper

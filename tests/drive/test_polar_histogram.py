@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given, strategies as st
 
 from hri.core.signals import Pose2D, RangeReading
-from hri.drive.histogram import (
+from hri.drive.mechanics import Mechanics
+from hri.drive.polar_histogram import (
     DIRECTIONS,
     SECTORS,
     Histogram,
@@ -14,7 +15,6 @@ from hri.drive.histogram import (
     sector,
     valleys,
 )
-from hri.drive.mechanics import Mechanics
 
 ONE_BEAM = Mechanics(0.2, {"front": Pose2D(0.1, 0.0, 0.0)})
 HERE = Pose2D()

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from hri.drive.bases.arduino import ArduinoBridge
 from hri.drive.bases.create2 import Create2
-from hri.drive.supervisor.bus import BaseBus
+from hri.drive.supervisor.base_bus import BaseBus
 
 
 class Create2Bus(BaseBus):

@@ -42,7 +42,7 @@ class Command:
     """Seconds, the latest at which the source can have said it."""
 
 
-class Multiplexer:
+class VelocityArbiter:
     """Keeps the last word of each source, and drops it when it is too old."""
 
     def __init__(self, fastest: Twist) -> None:

@@ -5,7 +5,7 @@ from hypothesis import given, settings, strategies as st
 
 from hri.core.geometry import seen_from
 from hri.core.signals import HeadPose, People, Person, Pose2D
-from hri.drive.company import REMEMBERED_S, SEEN_S, Company
+from hri.drive.people_tracker import REMEMBERED_S, SEEN_S, PeopleTracker
 
 TICK = 0.1
 
@@ -18,56 +18,56 @@ def sight(time: float, pose: Pose2D, place: tuple[float, float], **more: float) 
 
 
 def test_somebody_who_stands_is_where_they_were_seen_whatever_the_robot_does() -> None:
-    company = Company()
+    tracker = PeopleTracker()
     place = (2.0, 1.0)
     for tick in range(10):
         pose = Pose2D(0.03 * tick, 0.0, 0.1 * tick)
-        (found,) = company.see(tick * TICK, pose, sight(tick * TICK, pose, place))
+        (found,) = tracker.see(tick * TICK, pose, sight(tick * TICK, pose, place))
         assert found == pytest.approx(place)
-    (still,) = company.see(1.5, Pose2D(0.3, 0.0, 3.0), None)
+    (still,) = tracker.see(1.5, Pose2D(0.3, 0.0, 3.0), None)
     assert still == pytest.approx(place)
 
 
 def test_what_is_told_late_is_placed_by_the_pose_of_the_picture() -> None:
-    company, place = Company(), (2.0, 1.0)
+    tracker, place = PeopleTracker(), (2.0, 1.0)
     poses = [Pose2D(heading=0.15 * tick) for tick in range(10)]
     for tick in range(2, 10):
         late = sight((tick - 2) * TICK, poses[tick - 2], place)
-        company.see(tick * TICK - 2 * TICK, poses[tick - 2], None)
-        company.see(tick * TICK - TICK, poses[tick - 1], None)
-        (found,) = company.see(tick * TICK, poses[tick], late)
+        tracker.see(tick * TICK - 2 * TICK, poses[tick - 2], None)
+        tracker.see(tick * TICK - TICK, poses[tick - 1], None)
+        (found,) = tracker.see(tick * TICK, poses[tick], late)
         assert found == pytest.approx(place)
 
 
 def test_somebody_who_walks_out_of_the_picture_is_taken_to_walk_on() -> None:
-    company = Company()
+    tracker = PeopleTracker()
     for tick in range(11):
         now = tick * TICK
-        company.see(now, Pose2D(), sight(now, Pose2D(), (2.0, -1.0 + 0.8 * now)))
-    (gone,) = company.see(2.0, Pose2D(), People(2.0))
+        tracker.see(now, Pose2D(), sight(now, Pose2D(), (2.0, -1.0 + 0.8 * now)))
+    (gone,) = tracker.see(2.0, Pose2D(), People(2.0))
     assert gone == pytest.approx((2.0, 0.6), abs=0.05)
-    assert company.see(1.0 + REMEMBERED_S + 0.1, Pose2D(), None) == []
+    assert tracker.see(1.0 + REMEMBERED_S + 0.1, Pose2D(), None) == []
 
 
 def test_an_error_of_the_distance_is_no_walk() -> None:
-    company = Company()
+    tracker = PeopleTracker()
     for tick in range(20):
         now, error = tick * TICK, 0.05 * (-1) ** tick
-        company.see(now, Pose2D(), sight(now, Pose2D(), (2.0 + error, 0.0)))
-    (found,) = company.see(3.0, Pose2D(), None)
+        tracker.see(now, Pose2D(), sight(now, Pose2D(), (2.0 + error, 0.0)))
+    (found,) = tracker.see(3.0, Pose2D(), None)
     assert found == pytest.approx((2.0, 0.0), abs=0.06)
 
 
 def test_what_was_said_long_ago_is_in_nobodys_way() -> None:
-    company = Company()
+    tracker = PeopleTracker()
     old = sight(0.0, Pose2D(), (1.0, 0.0))
-    assert company.see(SEEN_S + 0.1, Pose2D(), old) == []
+    assert tracker.see(SEEN_S + 0.1, Pose2D(), old) == []
 
 
 @pytest.mark.parametrize("distance", [math.nan, math.inf])
 def test_who_is_at_no_known_distance_is_nowhere(distance: float) -> None:
     people = sight(0.0, Pose2D(), (1.0, 0.0), distance=distance)
-    assert Company().see(0.0, Pose2D(), people) == []
+    assert PeopleTracker().see(0.0, Pose2D(), people) == []
 
 
 numbers = st.floats(-1e6, 1e6)
@@ -78,7 +78,7 @@ numbers = st.floats(-1e6, 1e6)
 def test_whatever_the_camera_says_places_are_numbers(
     told: list[tuple[float, float, float]],
 ) -> None:
-    company = Company()
+    tracker = PeopleTracker()
     for tick, (time, x, y) in enumerate(told):
-        for place in company.see(tick * TICK, Pose2D(), sight(time, Pose2D(), (x, y))):
+        for place in tracker.see(tick * TICK, Pose2D(), sight(time, Pose2D(), (x, y))):
             assert all(map(math.isfinite, place))

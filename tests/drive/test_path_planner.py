@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from hri.core.signals import Pose2D
-from hri.drive.route import find_route, narrow_way
+from hri.drive.path_planner import find_route, narrow_way
 
 REACH = 0.3
 EMPTY = np.zeros((0, 2))

@@ -27,12 +27,12 @@ from hri.drive.following import (
     tell,
     tell_ending,
 )
-from hri.drive.going import PEOPLE
+from hri.drive.goal_behaviors import PEOPLE
 from hri.drive.mechanics import mechanics_of, range_sensors
-from hri.drive.navigation import checked
 from hri.drive.own_gate import see_to_gate
 from hri.drive.progress import Approach, Patience
 from hri.drive.tasks import piloting
+from hri.drive.tasks_2003 import checked
 from hri.drive.wandering import Wandering
 from hri.hal.drive import Odometry
 from hri.hal.motion import REST

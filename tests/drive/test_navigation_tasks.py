@@ -19,11 +19,10 @@ from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.geometry import seen_from
 from hri.core.signals import HeadPose, People, Person, Pose2D, Twist
-from hri.drive import travel
+from hri.drive import navigation_tasks
 from hri.drive.behaviors import CommandGate
 from hri.drive.following import Ending, Reason
-from hri.drive.goals import DeadReckoning, FollowTarget
-from hri.drive.going import ObstacleAvoidance
+from hri.drive.goal_behaviors import DeadReckoning, FollowTarget, ObstacleAvoidance
 from hri.simulation.people.person import RADIUS
 from hri.simulation.seeded_rooms import furnished
 from hri.simulation.trips import BODY, SENSORS, Journey, devices
@@ -123,8 +122,8 @@ def test_a_goal_far_beyond_the_grid_is_gone_to_around_a_thing(tmp_path: Path) ->
 def test_a_goal_inside_a_thing_is_given_up_in_time_with_a_sentence(tmp_path: Path) -> None:
     stage = Set(tmp_path)
     with pytest.raises(TaskFailed, match="did not get to"):
-        stage.run(travel.go_to_task, 160.0, 0.0)
-    assert stage.clock.now() < 4.0 / 0.3 + travel.PATIENCE_S
+        stage.run(navigation_tasks.go_to_task, 160.0, 0.0)
+    assert stage.clock.now() < 4.0 / 0.3 + navigation_tasks.PATIENCE_S
     assert "bumper.pressed" not in stage.names()
     assert not stage.world.base.is_touching
 
@@ -158,7 +157,7 @@ to = [2.5, 3.4]
 def test_who_cannot_pass_a_door_says_how_wide_it_is_and_must_be(tmp_path: Path) -> None:
     stage = Set(tmp_path, DOOR)
     with pytest.raises(TaskFailed, match=r"0\.61 m - widen it, or") as why:
-        stage.run(travel.go_to_task, 300.0, 0.0)
+        stage.run(navigation_tasks.go_to_task, 300.0, 0.0)
     width = float(re.search(r"about ([\d.]+) m", str(why.value))[1])
     assert width == pytest.approx(0.45, abs=0.1)
     assert not stage.world.base.is_touching
@@ -179,7 +178,7 @@ def test_without_range_sensors_it_goes_slowly_until_its_bumper_ends_the_motion(
                     await context.clock.sleep(0.05)
 
             nursery.start_soon(watch)
-            is_there = await travel.go_to(context, Pose2D(3.0, 0.0))
+            is_there = await navigation_tasks.go_to(context, Pose2D(3.0, 0.0))
             nursery.cancel_scope.cancel()
         return is_there
 
@@ -190,7 +189,7 @@ def test_without_range_sensors_it_goes_slowly_until_its_bumper_ends_the_motion(
 
 
 async def _go(context: TaskContext, goal: Pose2D) -> bool:
-    return await travel.go_to(context, goal, faces=True)
+    return await navigation_tasks.go_to(context, goal, faces=True)
 
 
 def test_a_goal_that_is_no_place_is_refused(tmp_path: Path) -> None:
@@ -203,7 +202,7 @@ def test_going_ends_when_it_is_cancelled(tmp_path: Path) -> None:
 
     async def cancelled(context: TaskContext) -> None:
         with context.clock.move_on_after(2.0):
-            await travel.go_to(context, Pose2D(3.0, 0.0))
+            await navigation_tasks.go_to(context, Pose2D(3.0, 0.0))
         await context.clock.sleep(1.0)
 
     stage.run(cancelled)
@@ -216,7 +215,7 @@ def test_a_halt_ends_going(tmp_path: Path) -> None:
 
     async def halted(context: TaskContext) -> bool:
         context.clock.call_at(2.0, stage.gate.halt)
-        return await travel.go_to(context, Pose2D(3.0, 0.0))
+        return await navigation_tasks.go_to(context, Pose2D(3.0, 0.0))
 
     assert stage.run(halted) is False
     assert stage.clock.now() < 5.0
@@ -229,12 +228,12 @@ def test_another_motion_takes_the_drive(tmp_path: Path) -> None:
         results = []
 
         async def far() -> None:
-            results.append(await travel.go_to(context, Pose2D(3.0, 0.6)))
+            results.append(await navigation_tasks.go_to(context, Pose2D(3.0, 0.6)))
 
         async with trio.open_nursery() as nursery:
             nursery.start_soon(far)
             await context.clock.sleep(2.0)
-            results.append(await travel.go_to(context, Pose2D(0.2, 0.0)))
+            results.append(await navigation_tasks.go_to(context, Pose2D(0.2, 0.0)))
         return results
 
     assert stage.run(both) == [False, True]
@@ -242,7 +241,7 @@ def test_another_motion_takes_the_drive(tmp_path: Path) -> None:
 
 def test_go_by_uses_the_frame_of_the_robot_and_the_units_of_tasks(tmp_path: Path) -> None:
     stage = Set(tmp_path)
-    stage.run(travel.go_by, 60.0, -60.0)
+    stage.run(navigation_tasks.go_by, 60.0, -60.0)
     assert stage.place == pytest.approx((1.6, 1.4), abs=0.15)
     assert stage.world.base.pose.heading == pytest.approx(-math.pi / 4, abs=0.15)
 
@@ -250,7 +249,7 @@ def test_go_by_uses_the_frame_of_the_robot_and_the_units_of_tasks(tmp_path: Path
 @pytest.mark.proves("R06", "B25")
 def test_come_here_stops_before_the_person_and_faces(tmp_path: Path) -> None:
     stage = Set(tmp_path)
-    assert stage.run(lambda context: stage.watching(travel.come_here, context))
+    assert stage.run(lambda context: stage.watching(navigation_tasks.come_here, context))
     assert math.dist(stage.place, (4.5, 2.0)) == pytest.approx(1.2, abs=0.25)
     x, y = seen_from(stage.world.base.pose, 4.5, 2.0)
     assert math.atan2(y, x) == pytest.approx(0.0, abs=0.15)
@@ -258,14 +257,14 @@ def test_come_here_stops_before_the_person_and_faces(tmp_path: Path) -> None:
 
 def test_who_asks_it_to_come_too_near_gets_it_as_near_as_it_may(tmp_path: Path) -> None:
     stage = Set(tmp_path)
-    come = partial(travel.come_here, distance=0.4)
+    come = partial(navigation_tasks.come_here, distance=0.4)
     assert stage.run(lambda context: stage.watching(come, context))
     assert 1.0 < math.dist(stage.place, (4.5, 2.0)) < 1.4
 
 
 def test_come_here_gives_up_where_nobody_is_seen_all_around(tmp_path: Path) -> None:
     stage = Set(tmp_path)
-    assert stage.run(travel.come_here) is False
+    assert stage.run(navigation_tasks.come_here) is False
     assert stage.place == pytest.approx((1.0, 2.0), abs=0.05)
     assert abs(stage.world.base.pose.heading) > math.radians(340)
 
@@ -273,7 +272,7 @@ def test_come_here_gives_up_where_nobody_is_seen_all_around(tmp_path: Path) -> N
 def test_who_calls_from_behind_is_looked_for(tmp_path: Path) -> None:
     stage = Set(tmp_path, ROOM.replace("start = [1, 2]", "start = [1, 1]\nheading = 3.14"))
     stage.field_of_view = math.radians(60)
-    assert stage.run(lambda context: stage.watching(travel.come_here, context))
+    assert stage.run(lambda context: stage.watching(navigation_tasks.come_here, context))
     assert math.dist(stage.place, (4.5, 2.0)) == pytest.approx(1.2, abs=0.25)
 
 
@@ -283,7 +282,7 @@ def test_follow_keeps_up_with_somebody_who_walks(tmp_path: Path) -> None:
     stage.world.person.go(4.5, 0.8, 4.0)
     followed = stage.run(
         lambda context: stage.watching(
-            lambda context: travel.follow(context, seconds=30.0), context
+            lambda context: navigation_tasks.follow(context, seconds=30.0), context
         )
     )
     assert followed
@@ -296,7 +295,7 @@ def test_follow_tells_when_it_has_lost_somebody(tmp_path: Path) -> None:
 
     async def lost(context: TaskContext) -> bool:
         stage.see()
-        return await travel.follow(context)
+        return await navigation_tasks.follow(context)
 
     assert stage.run(lost) is False
     assert [e.properties["given_up"] for e in stage.events if e.name == "target.lost"] == [
@@ -307,7 +306,7 @@ def test_follow_tells_when_it_has_lost_somebody(tmp_path: Path) -> None:
 
 def test_wandering_touches_nothing(tmp_path: Path) -> None:
     stage = Set(tmp_path)
-    stage.run(lambda context: travel.wander(context, 15.0))
+    stage.run(lambda context: navigation_tasks.wander(context, 15.0))
     assert stage.world.base.way > 1.5
     assert "bumper.pressed" not in stage.names()
     assert not stage.world.base.is_touching
@@ -400,7 +399,7 @@ def test_where_somebody_was_long_ago_is_in_nobodys_way(tmp_path: Path) -> None:
         who = Person("p1", HeadPose(0.0, 0, 0), distance=0.6, bearing=0.0)
         context.board.slot("people").set(People(0.0, (who,), "p1"), 0.0)
         await context.clock.sleep(2.0)
-        return await travel.go_to(context, Pose2D(0.6, 0.8))
+        return await navigation_tasks.go_to(context, Pose2D(0.6, 0.8))
 
     assert stage.run(later)
 
@@ -408,10 +407,10 @@ def test_where_somebody_was_long_ago_is_in_nobodys_way(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "verb",
     [
-        partial(travel.follow, distance=math.nan),
-        partial(travel.follow, seconds=math.nan),
-        partial(travel.come_here, distance=math.nan),
-        partial(travel.wander, seconds=math.nan),
+        partial(navigation_tasks.follow, distance=math.nan),
+        partial(navigation_tasks.follow, seconds=math.nan),
+        partial(navigation_tasks.come_here, distance=math.nan),
+        partial(navigation_tasks.wander, seconds=math.nan),
     ],
 )
 def test_what_is_no_number_moves_nothing(tmp_path: Path, verb: Callable[..., Any]) -> None:
@@ -423,7 +422,7 @@ def test_what_is_no_number_moves_nothing(tmp_path: Path, verb: Callable[..., Any
 
 def test_a_task_refuses_what_is_no_number_as_the_mistake_of_its_caller(tmp_path: Path) -> None:
     with pytest.raises(HriError, match="finite"):
-        Set(tmp_path).run(travel.go_to_task, math.nan, 0.0)
+        Set(tmp_path).run(navigation_tasks.go_to_task, math.nan, 0.0)
 
 
 def test_a_goal_of_the_network_that_is_no_place_is_refused(tmp_path: Path) -> None:
@@ -438,7 +437,7 @@ def test_a_goal_of_the_network_that_is_no_place_is_refused(tmp_path: Path) -> No
 
 def _end(stage: Set, **arguments: Any) -> Ending:
     """How following somebody whom the camera sees ended."""
-    job = partial(travel.follow_person, **arguments)
+    job = partial(navigation_tasks.follow_person, **arguments)
     ending: Ending = stage.run(lambda context: stage.watching(job, context))
     left = next(event for event in stage.events if event.name == "target.left")
     assert left.properties["reason"] == ending.reason.value
@@ -453,7 +452,7 @@ def test_following_says_who_was_followed_until_the_time_was_over(tmp_path: Path)
 
 
 def test_following_says_that_nobody_was_seen(tmp_path: Path) -> None:
-    ending = Set(tmp_path).run(travel.follow_person, "", 0.0, 3.0)
+    ending = Set(tmp_path).run(navigation_tasks.follow_person, "", 0.0, 3.0)
     assert not ending
     assert str(ending).startswith("saw nobody for 3 s")
 
@@ -463,7 +462,7 @@ def test_following_says_whom_it_lost(tmp_path: Path) -> None:
 
     async def lost(context: TaskContext) -> Ending:
         stage.see()
-        return await travel.follow_person(context)
+        return await navigation_tasks.follow_person(context)
 
     ending = stage.run(lost)
     assert (ending.reason, ending.person) == (Reason.LOST, "p1")
