@@ -198,7 +198,6 @@ def run_of_robot(path: Path) -> object:
 @cache
 def _replies_of_companion() -> tuple[Any, Any]:
     """The companion's module of replies, and the names that they may use."""
-    from hri.core import paths
     from hri.emotion.stimulus import load_stimuli
     from hri.face.model import load_face
     from hri.face.motion.gesture_tracks import load_gestures
@@ -208,7 +207,7 @@ def _replies_of_companion() -> tuple[Any, Any]:
     app = load_app("companion")
     app.load_tasks()
     module = importlib.import_module("hri_app_companion.replies")
-    grammar, face = load_grammar(paths.find("grammars", "companion")), load_face("robot")
+    grammar, face = load_grammar("companion"), load_face("robot")
     return module, module.Vocabulary(
         grammar, load_stimuli(), face.expressions, load_gestures(face), app
     )

@@ -161,7 +161,7 @@ class Doctor:
         from hri.speech.grammar import load_grammar
 
         recognizer = self.resources.obtain("recognizer", Recognizer)
-        recognizer.start(load_grammar(paths.find("grammars", "companion.jsgf")))
+        recognizer.start(load_grammar("companion.jsgf"))
         return Diagnosis(True, f"{recognizer.describe()}, its model loads")
 
     def _faces(self) -> Diagnosis:

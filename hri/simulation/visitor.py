@@ -32,6 +32,10 @@ class Visitor:
         """Walk to a place of the room, in meters."""
         self._person.go(x, y, self._clock.now() + after)
 
+    def bump(self, after: float = 0.0) -> None:
+        """Push against the base, so that its bumper is pressed."""
+        self._world.bump(self._clock.now() + after)
+
     def enter(self, after: float = 0.0) -> None:
         """Come in."""
         self._person.enter(self._clock.now() + after)

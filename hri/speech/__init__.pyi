@@ -1,8 +1,10 @@
 from .behaviors import SpeakOn as SpeakOn
 from .grammar import (
     Grammar as Grammar,
+    Parse as Parse,
     Rule as Rule,
     load_grammar as load_grammar,
+    parse as parse,
     read_grammar as read_grammar,
 )
 from .listener import Listener as Listener

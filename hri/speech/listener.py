@@ -96,7 +96,7 @@ class Listener(Behavior):
     """What was heard last."""
 
     def check(self) -> None:
-        load_grammar(paths.find("grammars", self.grammar))
+        load_grammar(self.grammar)
 
     def start(self, context: Context) -> None:
         path = paths.find("grammars", self.grammar)

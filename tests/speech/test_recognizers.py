@@ -5,7 +5,6 @@ import itertools
 import numpy as np
 import pytest
 
-from hri.core import paths
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import HeardWord, Utterance
@@ -196,7 +195,7 @@ def test_vosk_is_not_told_single_words_of_sentences_that_it_cannot_hear(write):
 
 
 def test_vosk_is_told_every_word_of_a_grammar_with_more_sentences_than_it_is_told():
-    companion = load_grammar(paths.find("grammars", "companion"))
+    companion = load_grammar("companion")
 
     told = known_sentences(companion, lambda word: word != "slowly")
 

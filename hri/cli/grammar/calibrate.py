@@ -12,7 +12,6 @@ from hri.cli.grammar.engine import add_engine_arguments, started_engine
 from hri.cli.grammar.manifest import read_manifest, spoken, usual_voices
 from hri.cli.messages import Within
 from hri.cli.progress_line import progress
-from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.statistics import told
 from hri.speech.acceptance import STRICTNESS
@@ -95,7 +94,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    grammar = load_grammar(paths.find("grammars", options.file))
+    grammar = load_grammar(options.file)
     with started_engine(options, grammar) as engine:
         heard = [attempt(clip, engine, grammar) for clip in _clips(options, grammar)]
     if not any(tried.meaning is None for tried in heard):

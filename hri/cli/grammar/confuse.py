@@ -11,7 +11,6 @@ from hri.cli.grammar.expand import in_words
 from hri.cli.grammar.manifest import spoken, usual_voices
 from hri.cli.messages import Within
 from hri.cli.progress_line import progress, waiting
-from hri.core import paths
 from hri.core.statistics import told
 from hri.speech.acceptance import STRICTNESS
 from hri.speech.grammar import Grammar, load_grammar
@@ -63,7 +62,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    grammar = load_grammar(paths.find("grammars", options.file))
+    grammar = load_grammar(options.file)
     most = options.sentences or (MOST_SPOKEN if options.speak else MOST_COMPARED)
     sentences = grammar.sample(most)
     if options.speak:

@@ -11,7 +11,6 @@ from functools import partial
 from hri.cli.grammar import FILE_HELP
 from hri.cli.messages import Within
 from hri.cli.progress_line import waiting
-from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.expansion import (
@@ -56,7 +55,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    grammar = load_grammar(paths.find("grammars", options.file))
+    grammar = load_grammar(options.file)
     rules = _rules(grammar, options.rule)
     if options.count:
         with waiting("counting"):

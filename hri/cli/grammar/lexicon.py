@@ -7,7 +7,6 @@ import sys
 from pathlib import Path
 
 from hri.cli.grammar import FILE_HELP
-from hri.core import paths
 from hri.core.errors import HriError
 from hri.speech.grammar import load_grammar
 from hri.speech.pronunciation.lexicon import load_lexicon, user_lexicon
@@ -30,7 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    grammar = load_grammar(paths.find("grammars", options.file))
+    grammar = load_grammar(options.file)
     lexicon = load_lexicon(*options.add)
     words = sorted(word for word in grammar.words() if not options.missing or word not in lexicon)
     width = max(map(len, words), default=0)

@@ -18,7 +18,7 @@ import numpy as np
 from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
 from hri.cli.messages import Within
-from hri.core import paths, registry
+from hri.core import registry
 from hri.core.clock import RealClock
 from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Rejection, Samples, Utterance
@@ -86,7 +86,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    grammar = load_grammar(paths.find("grammars", options.file))
+    grammar = load_grammar(options.file)
     show = _show_json if options.json else _show
     turn = Turn(is_question_open=options.question)
     if options.typed:

@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.arguments import legible
 from hri.cli.progress_line import waiting
-from hri.core import paths
 from hri.core.quoting import escaped, message_line
 from hri.speech.grammar import load_grammar
 from hri.speech.grammar.matching import (
@@ -66,7 +65,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     with waiting("reading the grammar"):
-        grammar = load_grammar(paths.find("grammars", options.file))
+        grammar = load_grammar(options.file)
         parses(grammar, "")  # Gets it ready.
     status = 0
     for text in _sentences(options.texts):

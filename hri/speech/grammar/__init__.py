@@ -1,6 +1,7 @@
 """Grammars: what can be heard, and what it means."""
 
 from hri.speech.grammar.loader import load_grammar, read_grammar
+from hri.speech.grammar.matching import Parse, parse
 from hri.speech.grammar.rules import Grammar, Rule
 
-__all__ = ["Grammar", "Rule", "load_grammar", "read_grammar"]
+__all__ = ["Grammar", "Parse", "Rule", "load_grammar", "parse", "read_grammar"]

@@ -40,11 +40,12 @@ _KNOWN_ENCODINGS = re.compile(
 """Python's names of encodings of text; others are transformations, and some take for ever."""
 
 
-def load_grammar(path: Path) -> Grammar:
-    """The grammar of a file and of all it imports, ready to be used.
+def load_grammar(name: str | Path) -> Grammar:
+    """The grammar of a file and of all it imports, by path or by name over the search folders.
 
     Raises AuthoringError for the first mistake in it, HriError when it cannot be read.
     """
+    path = name if isinstance(name, Path) else paths.find("grammars", name)
     grammar, errors = read_grammar(path)
     errors = errors or analysis.errors(grammar)
     if errors:

@@ -2,7 +2,6 @@
 
 import pytest
 
-from hri.core import paths
 from hri.speech.grammar import load_grammar
 from hri.speech.grammar.matching import parse, refusal
 from hri.speech.grammar.tolerance import nearest
@@ -10,7 +9,7 @@ from hri.speech.grammar.tolerance import nearest
 
 @pytest.fixture(scope="module")
 def companion():
-    return load_grammar(paths.find("grammars", "companion"))
+    return load_grammar("companion")
 
 
 @pytest.fixture

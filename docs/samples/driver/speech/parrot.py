@@ -1,6 +1,6 @@
 """Speaks sentences, and lets the recognizer hear what the voice said: no air in between."""
 
-from hri.core import Clock, RealClock, paths
+from hri.core import Clock, RealClock
 from hri.hal import Recognizer, ResourceManager, Synthesizer
 from hri.hal.drivers.resampling import resample
 from hri.speech import load_grammar
@@ -13,7 +13,7 @@ def main(clock: Clock) -> None:
     with ResourceManager.load("resource-config", clock) as resources:
         voice = resources.obtain("voice", Synthesizer)
         recognizer = resources.obtain("recognizer", Recognizer)
-        recognizer.start(load_grammar(paths.find("grammars", "companion")))
+        recognizer.start(load_grammar("companion"))
         end = 0.0
         for sentence in SENTENCES:
             speech = voice.synthesize(sentence)
