@@ -21,11 +21,11 @@ from hri.hal.synthesizer import Synthesizer
 from hri.simulation.acoustics import Sound
 from hri.simulation.axle import Axle
 from hri.simulation.base import Base, HardwareLimits
-from hri.simulation.battery import Charge
 from hri.simulation.beams import Beams
 from hri.simulation.people.person import RADIUS, SimulatedPerson, Spoken
 from hri.simulation.room import Circle, Room
 from hri.simulation.sight import Sighting, seen
+from hri.simulation.simulated_battery import Charge
 from hri.simulation.world_file import Item, PersonStart, WorldLayout, find_layout, load_layout
 
 BUMP_TIME = 0.3

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from hri.hal.audio_level import AudioLevel
-from hri.hal.drivers.audio_level import MicrophoneLevel
 from hri.hal.drivers.memory import MemoryMicrophone
+from hri.hal.drivers.microphone_level import MicrophoneLevel
 from hri.hal.microphone import Microphone
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager

@@ -4,8 +4,8 @@ import pytest
 
 from hri.core.clock import RealClock
 from hri.core.errors import NotAvailable
-from hri.hal.drivers.joystick import PygameJoystick
 from hri.hal.drivers.memory import MemoryJoystick
+from hri.hal.drivers.pygame_joystick import PygameJoystick
 from hri.hal.joystick import Joystick
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager

@@ -18,13 +18,13 @@ from hri.hal.pending import Interrupted
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
-from hri.simulation.gripper import SimulatedGripper
 from hri.simulation.simulated_devices import (
     SimulatedBattery,
     SimulatedBumper,
     SimulatedCamera,
     SimulatedRangeSensor,
 )
+from hri.simulation.simulated_gripper import SimulatedGripper
 from hri.simulation.world import SimulatedWorld
 
 from .conftest import Build

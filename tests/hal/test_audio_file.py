@@ -9,7 +9,7 @@ from hypothesis import given, strategies as st
 from hri.core.errors import AuthoringError, HriError, NotAvailable
 from hri.hal.audio_file import AudioFilePlayer, AudioFileRecorder
 from hri.hal.drivers import sound_decoder
-from hri.hal.drivers.audio_file import MicrophoneFileRecorder, SpeakerFilePlayer
+from hri.hal.drivers.sound_files import MicrophoneFileRecorder, SpeakerFilePlayer
 from hri.hal.drivers.wav_file import WavMicrophone, load_sound, read_wav, write_wav
 from hri.hal.pending import Interrupted
 from hri.hal.resource import Description

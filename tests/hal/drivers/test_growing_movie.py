@@ -15,8 +15,7 @@ from hri.hal.drivers.video_file import VideoFileScreen
 from hri.hal.drivers.wav_file import WavSpeaker, read_wav
 from hri.hal.tee import TeeSpeaker
 from tests.disk import full_disk
-
-from .sounds import tone
+from tests.hal.sounds import tone
 
 RATE = 10.0
 SIZE = 64, 48

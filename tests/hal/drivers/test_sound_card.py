@@ -12,8 +12,7 @@ from hri.hal.drivers.sound_card import SoundCardMicrophone, SoundCardSpeaker
 from hri.hal.microphone import Microphone
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
-
-from .sounds import tone
+from tests.hal.sounds import tone
 
 
 class FakePortAudio:
