@@ -43,12 +43,19 @@ def worker_pool(count: int) -> Iterator[ProcessPoolExecutor]:
         yield pool
 
 
+_END_WITH_PARENT = """\
+import os, sys, threading
+threading.Thread(target=lambda: (sys.stdin.read(), os._exit(0)), daemon=True).start()
+"""
+"""The parent's end of this pipe closes however the parent ends."""
+
+
 @contextmanager
 def running(code: str, stdout: int | None = None) -> Iterator[subprocess.Popen[str]]:
-    """A process that runs this Python code, without input; it is killed when the block ends."""
-    command, environment = child.command("-c", code), child.environment()
+    """A process that runs this Python code; it ends with the block, and with this process."""
+    command, environment = child.command("-c", _END_WITH_PARENT + code), child.environment()
     with subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=stdout, text=True, env=environment
+        command, stdin=subprocess.PIPE, stdout=stdout, text=True, env=environment
     ) as process:
         try:
             yield process
