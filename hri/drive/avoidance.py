@@ -22,7 +22,6 @@ from hri.drive.approach_detector import ApproachDetector
 from hri.drive.leaning import Leaning, back_off
 from hri.drive.mechanics import Mechanics
 from hri.drive.path_planner import Route, find_route, narrow_way
-from hri.drive.people_tracker import PeopleTracker
 from hri.drive.polar_histogram import (
     WIDTH,
     Array,
@@ -34,6 +33,7 @@ from hri.drive.polar_histogram import (
 )
 from hri.drive.progress import Progress
 from hri.drive.velocity_limits import safe_speed
+from hri.drive.walker_tracker import WalkerTracker
 from hri.hal.motion import REST
 
 PERSON_RADIUS = 0.25
@@ -145,7 +145,7 @@ class Avoidance:
         self._replan_at = -math.inf
         self._side = 0
         self._discs: Sequence[tuple[float, float, float]] = ()
-        self._people = PeopleTracker()
+        self._walkers = WalkerTracker()
         self._approaching = ApproachDetector(mechanics.mounts)
         self._seen = self._fresh = self.memory.points
         self._chosen = 0.0
@@ -167,7 +167,7 @@ class Avoidance:
         """
         self.memory.see(now, pose, readings, self.mechanics)
         reach = PERSON_RADIUS + self.manner.person_gap
-        self._discs = [(x, y, reach) for x, y in self._people.see(now, pose, people)]
+        self._discs = [(x, y, reach) for x, y in self._walkers.see(now, pose, people)]
         self._approaching.see(now, readings)
         self._leaning.see(now, pose, readings)
         known = (readings.get(id) for id in self.mechanics.mounts)

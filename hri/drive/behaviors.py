@@ -12,7 +12,7 @@ from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
 from hri.core.event_bus import EventBus
 from hri.core.signals import RangeReading, Twist
 from hri.drive.gate import ANGULAR_FACTOR, VelocityGate
-from hri.drive.oncoming_watch import Watch, stopping_time
+from hri.drive.oncoming_watch import OncomingWatch, stopping_time
 from hri.drive.velocity_limits import GateLimits, safe_speed
 from hri.hal.helm import Rank
 from hri.hal.motion import REST
@@ -80,7 +80,7 @@ class CommandGate(Behavior):
         self._was_bumped = False
         self._must_let_go = False
         self._subscription = context.events.subscribe("drive.halt", lambda event: self.halt())
-        self._watch = Watch(context.resources)
+        self._watch = OncomingWatch(context.resources)
         self._brakes_until = -math.inf
 
     def compute(self, now: float, dt: float) -> None:

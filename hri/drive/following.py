@@ -37,7 +37,7 @@ class Pursuit(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Manner:
+class FollowingManner:
     """How somebody is followed."""
 
     distance: float = 1.2
@@ -95,8 +95,8 @@ class Ending:
 class Following:
     """Where to go and what to face, tick by tick."""
 
-    def __init__(self, manner: Manner | None = None) -> None:
-        self.manner = manner or Manner()
+    def __init__(self, manner: FollowingManner | None = None) -> None:
+        self.manner = manner or FollowingManner()
         self.pursuit = Pursuit.WAITING
         self.person = ""
         """Id of who was seen last by `look`; empty before."""

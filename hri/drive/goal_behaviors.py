@@ -18,7 +18,7 @@ from hri.core.errors import HriError
 from hri.core.geometry import seen_from
 from hri.core.signals import People, Pose2D, Twist
 from hri.drive.avoidance import Avoidance, Manner, straight_to, turn_to
-from hri.drive.following import Following, Manner as FollowingManner, Pursuit, tell
+from hri.drive.following import Following, FollowingManner, Pursuit, tell
 from hri.drive.mechanics import mechanics_of, range_sensors
 from hri.drive.odometry import Estimate, Wheels, arc_between, rolled_on
 from hri.drive.wandering import Wandering

@@ -20,7 +20,7 @@ from hri.drive.avoidance import PERSON_RADIUS, Avoidance, Manner, turn_to
 from hri.drive.following import (
     Ending,
     Following,
-    Manner as FollowingManner,
+    FollowingManner,
     Pursuit,
     Reason,
     sight_of,

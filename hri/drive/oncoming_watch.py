@@ -18,7 +18,7 @@ BRAKES = 1.0
 log = logging.getLogger("hri.drive")
 
 
-class Watch:
+class OncomingWatch:
     """Reads all range sensors there are, until it is released; one that is missing is left out."""
 
     def __init__(self, resources: ResourceManager) -> None:

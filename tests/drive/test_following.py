@@ -7,7 +7,7 @@ from hypothesis import given, strategies as st
 from hri.core.geometry import along_arc, seen_from
 from hri.core.signals import HeadPose, People, Person, Pose2D
 from hri.drive.avoidance import Manner as Going, straight_to, turn_to
-from hri.drive.following import Following, Manner, Pursuit, sight_of
+from hri.drive.following import Following, FollowingManner, Pursuit, sight_of
 from hri.drive.wandering import Wandering
 
 TICK = 0.05
@@ -17,7 +17,7 @@ class Chase:
     """A robot that follows at once, and somebody whom it sees, or not."""
 
     def __init__(self, x: float, y: float) -> None:
-        self.following = Following(Manner(distance=1.2))
+        self.following = Following(FollowingManner(distance=1.2))
         self.pose, self.now = Pose2D(), 0.0
         self.target = (x, y)
         self.is_seen = True

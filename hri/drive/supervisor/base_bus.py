@@ -44,7 +44,7 @@ from hri.drive.supervisor.link import (
 from hri.drive.supervisor.process import Settings, rules
 from hri.drive.supervisor.remote import Remote
 from hri.drive.supervisor.supervisor import Supervisor
-from hri.drive.supervisor.supervisor_connection import BEAT, Connection, Inline
+from hri.drive.supervisor.supervisor_connection import BEAT, Inline, SupervisorConnection
 from hri.drive.supervisor.velocity_arbiter import Level
 from hri.drive.velocity_limits import BaseLimits
 from hri.hal.emergency_stop import EmergencyStop
@@ -230,7 +230,7 @@ class BaseBus(EmergencyStop):
             self._timer = None
         self._connection.close()
 
-    def _connected(self, port: str) -> Connection:
+    def _connected(self, port: str) -> SupervisorConnection:
         clock = self.manager.clock
         limits, body, mounts = self.limits, self._body(), self._mounts()
         if port == SIMULATED:

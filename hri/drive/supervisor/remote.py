@@ -29,7 +29,7 @@ from hri.drive.supervisor.link import (
 )
 from hri.drive.supervisor.process import Settings
 from hri.drive.supervisor.standby import Standby
-from hri.drive.supervisor.supervisor_connection import BEAT, Connection
+from hri.drive.supervisor.supervisor_connection import BEAT, SupervisorConnection
 from hri.drive.supervisor.velocity_arbiter import Level
 from hri.hal.drivers.serial_port import Backoff
 from hri.hal.motion import REST, Way
@@ -91,7 +91,7 @@ class Child:
         self._standby.wait()
 
 
-class Remote(Connection):
+class Remote(SupervisorConnection):
     """A supervisor over a socket pair that its process inherits, and others after it."""
 
     def __init__(self, clock: Clock, settings: Settings) -> None:

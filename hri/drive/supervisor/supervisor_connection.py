@@ -21,7 +21,7 @@ LONGEST_NAP = 5.0
 """Seconds of a simulated base that are made up for when the program stood still."""
 
 
-class Connection(ABC):
+class SupervisorConnection(ABC):
     """Orders down, the newest state up."""
 
     def __init__(self, clock: Clock) -> None:
@@ -52,7 +52,7 @@ class Connection(ABC):
         self.state, self.heard_at = state, self.clock.now()
 
 
-class Inline(Connection):
+class Inline(SupervisorConnection):
     """The supervisor on the program's own clock: for simulated bases, the same in every run.
 
     It protects from nothing that happens to the program itself.

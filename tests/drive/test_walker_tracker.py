@@ -5,7 +5,7 @@ from hypothesis import given, settings, strategies as st
 
 from hri.core.geometry import seen_from
 from hri.core.signals import HeadPose, People, Person, Pose2D
-from hri.drive.people_tracker import REMEMBERED_S, SEEN_S, PeopleTracker
+from hri.drive.walker_tracker import REMEMBERED_S, SEEN_S, WalkerTracker
 
 TICK = 0.1
 
@@ -18,7 +18,7 @@ def sight(time: float, pose: Pose2D, place: tuple[float, float], **more: float) 
 
 
 def test_somebody_who_stands_is_where_they_were_seen_whatever_the_robot_does() -> None:
-    tracker = PeopleTracker()
+    tracker = WalkerTracker()
     place = (2.0, 1.0)
     for tick in range(10):
         pose = Pose2D(0.03 * tick, 0.0, 0.1 * tick)
@@ -29,7 +29,7 @@ def test_somebody_who_stands_is_where_they_were_seen_whatever_the_robot_does() -
 
 
 def test_what_is_told_late_is_placed_by_the_pose_of_the_picture() -> None:
-    tracker, place = PeopleTracker(), (2.0, 1.0)
+    tracker, place = WalkerTracker(), (2.0, 1.0)
     poses = [Pose2D(heading=0.15 * tick) for tick in range(10)]
     for tick in range(2, 10):
         late = sight((tick - 2) * TICK, poses[tick - 2], place)
@@ -40,7 +40,7 @@ def test_what_is_told_late_is_placed_by_the_pose_of_the_picture() -> None:
 
 
 def test_somebody_who_walks_out_of_the_picture_is_taken_to_walk_on() -> None:
-    tracker = PeopleTracker()
+    tracker = WalkerTracker()
     for tick in range(11):
         now = tick * TICK
         tracker.see(now, Pose2D(), sight(now, Pose2D(), (2.0, -1.0 + 0.8 * now)))
@@ -50,7 +50,7 @@ def test_somebody_who_walks_out_of_the_picture_is_taken_to_walk_on() -> None:
 
 
 def test_an_error_of_the_distance_is_no_walk() -> None:
-    tracker = PeopleTracker()
+    tracker = WalkerTracker()
     for tick in range(20):
         now, error = tick * TICK, 0.05 * (-1) ** tick
         tracker.see(now, Pose2D(), sight(now, Pose2D(), (2.0 + error, 0.0)))
@@ -59,7 +59,7 @@ def test_an_error_of_the_distance_is_no_walk() -> None:
 
 
 def test_what_was_said_long_ago_is_in_nobodys_way() -> None:
-    tracker = PeopleTracker()
+    tracker = WalkerTracker()
     old = sight(0.0, Pose2D(), (1.0, 0.0))
     assert tracker.see(SEEN_S + 0.1, Pose2D(), old) == []
 
@@ -67,7 +67,7 @@ def test_what_was_said_long_ago_is_in_nobodys_way() -> None:
 @pytest.mark.parametrize("distance", [math.nan, math.inf])
 def test_who_is_at_no_known_distance_is_nowhere(distance: float) -> None:
     people = sight(0.0, Pose2D(), (1.0, 0.0), distance=distance)
-    assert PeopleTracker().see(0.0, Pose2D(), people) == []
+    assert WalkerTracker().see(0.0, Pose2D(), people) == []
 
 
 numbers = st.floats(-1e6, 1e6)
@@ -78,7 +78,7 @@ numbers = st.floats(-1e6, 1e6)
 def test_whatever_the_camera_says_places_are_numbers(
     told: list[tuple[float, float, float]],
 ) -> None:
-    tracker = PeopleTracker()
+    tracker = WalkerTracker()
     for tick, (time, x, y) in enumerate(told):
         for place in tracker.see(tick * TICK, Pose2D(), sight(time, Pose2D(), (x, y))):
             assert all(map(math.isfinite, place))

@@ -53,7 +53,7 @@ class _Track:
         return float(x.mean()) + vx * way, float(y.mean()) + vy * way
 
 
-class PeopleTracker:
+class WalkerTracker:
     """The people around one robot."""
 
     def __init__(self) -> None:
