@@ -31,7 +31,8 @@ from hri.speech.recognizers.typed import TypedRecognizer
 from hri.speech.tasks import hears_people
 from hri.task.context import TaskContext
 from hri.task.lane import Lane
-from hri.task.task import Job, TaskType
+from hri.task.task import TaskType
+from hri.task.task_run import Job
 from hri.vision.tasks import people_of
 
 from .replies import FILE, Question, Replies, Reply, Vocabulary, load_replies

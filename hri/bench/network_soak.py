@@ -29,8 +29,8 @@ from hri.hal.pending import Interrupted
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.task.context import TaskContext
-from hri.task.task import TaskStatus
 from hri.task.task_manager import TaskManager
+from hri.task.task_run import TaskStatus
 
 INTERVAL = 0.1
 """Seconds between ticks of the large network."""

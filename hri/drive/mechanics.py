@@ -10,9 +10,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from hri.core.signals import Pose2D
-from hri.hal.configuration import Shape
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource_manager import ResourceManager
+from hri.hal.shape import Shape
 
 UNKNOWN_RADIUS = 0.25
 """Meters, of a robot whose configuration has no dimensions."""

@@ -6,17 +6,14 @@ import math
 from abc import abstractmethod
 from collections import deque
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import trio
 from numpy.typing import NDArray
 
 from hri.core.signals import Frame
 from hri.hal.picture import TURNS, as_picture, oriented
-from hri.hal.resource import Description, Resource
-
-if TYPE_CHECKING:
-    from hri.hal.resource_manager import ResourceManager
+from hri.hal.resource import Description, Resource, Resources
 
 LOOK = 0.01
 """Seconds between looks for the next picture."""
@@ -80,7 +77,7 @@ class Camera(Resource):
     is_recording: bool = False
     """True when its times are those of a recording, which may be ahead of the clock."""
 
-    def __init__(self, description: Description, manager: ResourceManager) -> None:
+    def __init__(self, description: Description, manager: Resources) -> None:
         super().__init__(description, manager)
         self._is_on = True
         self._log = _Log()

@@ -15,31 +15,13 @@ from hri.core.errors import AuthoringError, Place, did_you_mean
 from hri.core.registry import canonical
 from hri.core.xml import Element, load_xml
 from hri.hal.resource import POSE, Description
+from hri.hal.shape import Shape
 
 SIZES = ("lx", "ly", "lz")
 """Parameters of a shape beside its pose: its size in centimeters."""
 MOST_DEVICES = 2000
 """Devices, groups and shapes of one configuration."""
 LARGEST_CM = 1000.0
-
-
-@dataclass(frozen=True, slots=True)
-class Shape:
-    """A box on the robot: meters and radians in the robot's frame, (x, y, z) its middle."""
-
-    lx: float = 0.0
-    ly: float = 0.0
-    lz: float = 0.0
-    x: float = 0.0
-    y: float = 0.0
-    z: float = 0.0
-    roll: float = 0.0
-    pitch: float = 0.0
-    yaw: float = 0.0
-
-
-NO_SHAPE = Shape()
-"""The robot of a configuration without dimensions: a point."""
 
 
 @dataclass(frozen=True)

@@ -5,15 +5,11 @@ from __future__ import annotations
 import threading
 from abc import abstractmethod
 from collections import deque
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hri.core.signals import Samples
-from hri.hal.resource import Description, Resource
-
-if TYPE_CHECKING:
-    from hri.hal.resource_manager import ResourceManager
+from hri.hal.resource import Description, Resource, Resources
 
 LONGEST_BACKLOG = 10.0
 """Seconds of sound kept for an ear that does not read; older sound is dropped."""
@@ -27,7 +23,7 @@ class Microphone(Resource):
     rate: int = 16000
     """Samples a second."""
 
-    def __init__(self, description: Description, manager: ResourceManager) -> None:
+    def __init__(self, description: Description, manager: Resources) -> None:
         super().__init__(description, manager)
         self._ears: list[Ear] = []
 

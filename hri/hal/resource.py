@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import threading
 from abc import ABC
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar, TypeVar
+from typing import ClassVar, Protocol, TypeVar
 
+from hri.core.clock import Clock
 from hri.core.errors import AuthoringError, NotAvailable, Place, did_you_mean
 from hri.core.expression import evaluate
 from hri.core.geometry import Pose3D
-
-if TYPE_CHECKING:
-    from hri.hal.resource_manager import ResourceManager
+from hri.hal.shape import Shape
 
 POSE = ("link", "x", "y", "z", "roll", "pitch", "yaw")
 """Parameters that every device may have: the frame it is fixed to and where (cm, radians)."""
@@ -22,6 +21,7 @@ ORIGIN = "origin"
 """The frame of the robot itself."""
 
 R = TypeVar("R", bound="Resource")
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -96,6 +96,22 @@ class Description:
         return value
 
 
+class Resources(Protocol):
+    """What a resource may ask of the `ResourceManager` that made it."""
+
+    clock: Clock
+    descriptions: dict[str, Description]
+    dimensions: Shape
+    notice: Callable[[str], object]
+
+    def declare(self, description: Description) -> None: ...
+    def ids(self, interface: type[Resource]) -> list[str]: ...
+    def obtain(self, id: str, interface: type[R]) -> R: ...
+    def pose_of(self, id: str) -> Pose3D: ...
+    def release(self, resource: Resource) -> None: ...
+    def shared(self, kind: type[T], ids: tuple[str, ...], make: Callable[[], T]) -> T: ...
+
+
 class Resource(ABC):  # noqa: B024 - what must be written is named by each interface
     """Base of all drivers. A subclass fills in `_open` and `_close`, and its interface."""
 
@@ -104,7 +120,7 @@ class Resource(ABC):  # noqa: B024 - what must be written is named by each inter
     is_hardware: ClassVar[bool] = False
     """True for what lives in real time: not used on a fake clock, its stand-in is."""
 
-    def __init__(self, description: Description, manager: ResourceManager) -> None:
+    def __init__(self, description: Description, manager: Resources) -> None:
         self.description = description
         self.manager = manager
         self.id = description.id

@@ -18,10 +18,11 @@ from hri.core.errors import HriError, NotAvailable, did_you_mean
 from hri.core.geometry import Pose3D
 from hri.core.python_file import load_class
 from hri.hal.choices import apply_choices, load_choices
-from hri.hal.configuration import NO_SHAPE, Shape, load_configuration, spec_folders
+from hri.hal.configuration import load_configuration, spec_folders
 from hri.hal.ids_2003 import IDS
 from hri.hal.interface_2003 import IDriveSystem, interface_named, resource_of
 from hri.hal.resource import ORIGIN, Description, Resource
+from hri.hal.shape import NO_SHAPE, Shape
 
 log = logging.getLogger("hri.resources")
 

@@ -15,7 +15,6 @@ from abc import abstractmethod
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from hri.core.errors import HriError
 from hri.core.signals import Twist
@@ -36,10 +35,7 @@ from hri.hal.motion import (
     Way,
 )
 from hri.hal.pending import Interrupted, Pending
-from hri.hal.resource import Description
-
-if TYPE_CHECKING:
-    from hri.hal.resource_manager import ResourceManager
+from hri.hal.resource import Description, Resources
 
 log = logging.getLogger("hri.resources")
 
@@ -58,7 +54,7 @@ class SteeredBase(DriveSystem, EmergencyStop):
     response: Response = PROMPT
     """How the base follows what it is told."""
 
-    def __init__(self, description: Description, manager: ResourceManager) -> None:
+    def __init__(self, description: Description, manager: Resources) -> None:
         super().__init__(description, manager)
         self._here = _Here()
 

@@ -18,7 +18,7 @@ from hri.net.values import unquoted
 from hri.task.context import TaskContext
 from hri.task.events import parse_query, write_event
 from hri.task.primitive import Primitive, primitive
-from hri.task.task import TaskStatus
+from hri.task.task_run import TaskStatus
 
 log = logging.getLogger("hri.net")
 

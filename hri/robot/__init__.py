@@ -40,8 +40,8 @@ from hri.robot.recording import Recording
 from hri.simulation.visitor import Visitor
 from hri.simulation.world import SimulatedWorld
 from hri.task import script
-from hri.task.task import Job
 from hri.task.task_manager import TaskManager
+from hri.task.task_run import Job
 from hri.task.thread import LoopThread
 
 __all__ = ["App", "Job", "Robot", "load_app"]

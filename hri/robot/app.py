@@ -30,7 +30,8 @@ from hri.core.toml import Table, load_toml
 from hri.robot.starting import start_on
 from hri.speech.behaviors import Listener
 from hri.task.context import TaskContext
-from hri.task.task import Job, TaskType, find_task
+from hri.task.task import TaskType, find_task
+from hri.task.task_run import Job
 
 GRAMMAR = "grammar.jsgf"
 SLOT = "app"

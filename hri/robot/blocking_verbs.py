@@ -10,8 +10,8 @@ from hri.core.signals import Event, Utterance
 from hri.emotion.appraisal import OccEvent
 from hri.robot import calls, verbs
 from hri.task.context import TaskContext
-from hri.task.task import Job, Task
 from hri.task.task_manager import TaskManager
+from hri.task.task_run import Job, Task
 
 
 class BlockingVerbs(ABC):

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from hri.core.signals import Event
 from hri.task.context import TaskContext
-from hri.task.task import Task, TaskType
+from hri.task.task import TaskType
+from hri.task.task_run import Task
 
 
 async def start_on(pattern: str, jobs: Sequence[TaskType], context: TaskContext) -> None:

@@ -11,8 +11,7 @@ none, all of them share one that is made for them, the world "home".
 from __future__ import annotations
 
 from hri.core import registry
-from hri.hal.resource import Description, Resource
-from hri.hal.resource_manager import ResourceManager
+from hri.hal.resource import Description, Resource, Resources
 from hri.simulation.world import SimulatedWorld
 
 TYPE = "Hri.SimulatedWorld"
@@ -30,7 +29,7 @@ class InWorld(Resource):
         self.world = self.use(world_id(self.manager, self.description.bus), SimulatedWorld)
 
 
-def world_id(manager: ResourceManager, bus: str = "") -> str:
+def world_id(manager: Resources, bus: str = "") -> str:
     """Id of the simulated world for what sits on that bus; one is declared where there is none."""
     kinds = {d.id: registry.canonical(d.type) for d in list(manager.descriptions.values())}
     worlds = [id for id, kind in kinds.items() if kind == TYPE]

@@ -19,10 +19,10 @@ from hri.core.event_bus import EventBus
 from hri.core.geometry import placed, seen_from
 from hri.core.signals import Pose2D
 from hri.drive.goal_behaviors import PEOPLE
-from hri.hal.configuration import Shape
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
+from hri.hal.shape import Shape
 from hri.simulation.collisions import CONTACT, MOVING, Collision, Witness, hit_by
 from hri.simulation.lookout import Lookout
 from hri.simulation.people.person import RADIUS as PERSON

@@ -19,8 +19,9 @@ units           the units of the tasks in navigation, net, resource, speech, uti
 from hri.task.context import TaskContext
 from hri.task.parallel import Parallel
 from hri.task.script import get_task_manager, use
-from hri.task.task import TaskStatus, find_task
+from hri.task.task import find_task
 from hri.task.task_manager import TaskManager
+from hri.task.task_run import TaskStatus
 from hri.task.units import (
     UNIT_ANGLE,
     UNIT_DISTANCE,

@@ -8,20 +8,28 @@ from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
 from contextvars import ContextVar
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import trio
 
-from hri.core.clock import FakeClock
+from hri.core.clock import Clock, FakeClock
+from hri.core.event_bus import EventBus
 
-if TYPE_CHECKING:
-    from hri.task.task_manager import TaskManager
+
+class Loop(Protocol):
+    """The robot loop, as all that runs in it or beside it sees its `TaskManager`."""
+
+    clock: Clock
+    events: EventBus
+
+    def call(self, function: Callable[..., Any], *arguments: Any) -> Any: ...
+    def await_or_block(self, job: Callable[..., Awaitable[Any]], *arguments: Any) -> Any: ...
 
 
 class Aside:
     """A function that runs beside the loop of a task manager."""
 
-    def __init__(self, manager: TaskManager) -> None:
+    def __init__(self, manager: Loop) -> None:
         self.manager = manager
         self._clock = manager.clock if isinstance(manager.clock, FakeClock) else None
         self._scopes: set[trio.CancelScope] = set()

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractAsyncContextManager, contextmanager
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
+from dataclasses import dataclass, replace
+from typing import Any, NoReturn, Protocol, TypeVar
 
-from hri.behavior.behavior import Behavior, Context
+from hri.behavior.behavior import Behavior
 from hri.behavior.running import Networks
 from hri.core.clock import Clock
 from hri.core.errors import HriError
@@ -15,12 +15,10 @@ from hri.core.event_bus import EventBus
 from hri.core.latest import Board
 from hri.core.signals import Event
 from hri.hal.resource_manager import ResourceManager
-from hri.task.aside import Aside
+from hri.task.aside import Aside, Loop
+from hri.task.claims import Claims
 from hri.task.queue import EventQueue
-
-if TYPE_CHECKING:
-    from hri.task.task import Task
-    from hri.task.task_manager import TaskManager
+from hri.task.task_run import Job, Task
 
 B = TypeVar("B", bound=Behavior)
 T = TypeVar("T")
@@ -43,6 +41,23 @@ class Answer:
         return self.is_yes
 
 
+class Tasks(Loop, Protocol):
+    """What a task may ask of the `TaskManager` that runs it."""
+
+    claims: Claims
+    running: list[Task]
+
+    @property
+    def installed(self) -> tuple[Task, ...]: ...
+    def make(self, job: Job, *arguments: Any) -> Task: ...
+    def install(self, job: Job, *arguments: Any) -> Task: ...
+    def run(self, job: Job, *arguments: Any) -> Any: ...
+    def raise_event(self, event: str | Event, /, **properties: Any) -> Event: ...
+    def wait(self) -> Any: ...
+    def take_away(self, name: str) -> None: ...
+    def shutdown(self) -> None: ...
+
+
 @dataclass
 class TaskContext:
     """Lent to every task; made by the TaskManager."""
@@ -53,18 +68,15 @@ class TaskContext:
     board: Board
     networks: Networks
     """The networks that run, to start, stop, swap, watch and inject into."""
-    manager: TaskManager
+    manager: Tasks
     task: Task
     """The task that this is lent to."""
     planned: Mapping[str, Behavior]
     """Behaviors by `network.id` of networks that have not been started yet."""
 
-    @classmethod
-    def of(cls, context: Context, behaviors: Mapping[str, Behavior] | None = None) -> TaskContext:
-        """A context with a task manager of its own."""
-        from hri.task.task_manager import TaskManager
-
-        return TaskManager(context, behaviors).context
+    def lent_to(self, task: Task) -> TaskContext:
+        """The same for another task."""
+        return replace(self, task=task)
 
     @property
     def behaviors(self) -> dict[str, Behavior]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from hri.task.context import TaskContext
-from hri.task.task import Job, Task
+from hri.task.task_run import Job, Task
 
 
 class Lane:

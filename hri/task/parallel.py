@@ -17,7 +17,7 @@ import trio
 
 from hri.task.context import TaskContext
 from hri.task.script import get_task_manager
-from hri.task.task import Job, Task
+from hri.task.task_run import Job, Task
 
 
 class Parallel:

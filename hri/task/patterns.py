@@ -7,7 +7,7 @@ from typing import Any
 from hri.core.errors import HriError
 from hri.hal.pending import Interrupted
 from hri.task.context import TaskContext
-from hri.task.task import Job, name_of
+from hri.task.task_run import Job, name_of
 
 
 class TooSlow(HriError):

@@ -32,7 +32,8 @@ from hri.core import paths
 from hri.core.errors import HriError
 from hri.hal.pending import Interrupted
 from hri.task.context import TaskContext
-from hri.task.task import TaskStatus, TaskType, declared
+from hri.task.task import TaskType, declared
+from hri.task.task_run import TaskStatus
 
 
 class Primitive:

@@ -27,6 +27,7 @@ from hri.hal.resource_manager import ResourceManager
 from hri.hal.speaker import Speaker
 from hri.task.aside import here
 from hri.task.context import TaskContext
+from hri.task.task import run_scripts_on
 from hri.task.task_manager import TaskManager
 from hri.task.thread import LoopThread
 
@@ -112,6 +113,7 @@ def get_task_manager() -> TaskManager:
     when the configuration is wrong.
     """
     if (aside := here()) is not None:
+        assert isinstance(aside.manager, TaskManager)
         return aside.manager
     with _lock:
         if _current is None:
@@ -165,3 +167,4 @@ def _refuse_second() -> None:
 
 
 _make = partial(_started, "resource-config", None, None)
+run_scripts_on(get_task_manager)

@@ -14,7 +14,8 @@ from hri.task.aside import here
 from hri.task.claims import Claims, forget_claims
 from hri.task.context import TaskContext
 from hri.task.hold_up import HoldUpWatch
-from hri.task.task import Job, Task, TaskType
+from hri.task.task import TaskType
+from hri.task.task_run import Job, Task
 from hri.task.thread import LoopThread
 
 

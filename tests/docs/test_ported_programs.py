@@ -18,7 +18,8 @@ from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.task.events import event, write_event
 from hri.task.parallel import Parallel
-from hri.task.task import TaskStatus, find_task, task
+from hri.task.task import find_task, task
+from hri.task.task_run import TaskStatus
 from hri.testing import context as lend
 from tests.task.stage import Stage
 

@@ -19,6 +19,7 @@ from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.simulation.base import Base
 from hri.task.context import TaskContext
+from hri.task.task_manager import TaskManager
 
 TICK = 0.02
 RADIUS = 0.2
@@ -61,7 +62,7 @@ class Course:
         self.gate.speed.sources.append(self.hurries)
         self.gate.start(self.context)
         self.sensor_speaks = self.switch_speaks = True
-        self.task = TaskContext.of(self.context, {"moving.gate": self.gate})
+        self.task = TaskManager(self.context, {"moving.gate": self.gate}).context
         self.fastest = 0.0
 
     def tick(self) -> None:

@@ -13,9 +13,10 @@ from hri.drive.avoidance import Avoidance, Manner, straight_to, turn_to
 from hri.drive.leaning import WAITS_S
 from hri.drive.mechanics import Mechanics, mechanics_of, swept_radius
 from hri.drive.progress import Progress
-from hri.hal.configuration import Shape, load_configuration
+from hri.hal.configuration import load_configuration
 from hri.hal.motion import REST
 from hri.hal.resource_manager import ResourceManager
+from hri.hal.shape import Shape
 from hri.simulation.room import Box, Circle, Room, Wall
 
 MECHANICS = Mechanics(

@@ -20,7 +20,7 @@ from hri.speech.behaviors import Voice
 from hri.speech.synthesizers.silent import SilentVoice
 from hri.speech.tasks import say
 from hri.speech.voice import MOST_QUEUED, Priority, Saying
-from hri.task.context import TaskContext
+from hri.task.task_manager import TaskManager
 
 from .fakes import TICK, Stage
 
@@ -114,7 +114,7 @@ def test_prosody_shapes_the_speech():
 def run_task(stage: Stage, seconds: float) -> None:
     """Let a task say something, cancelled after some seconds, while the behavior ticks."""
     lent = Context(stage.clock, EventBus(stage.clock), stage.resources)
-    context = TaskContext.of(lent, {"net.voice": stage.behavior})
+    context = TaskManager(lent, {"net.voice": stage.behavior}).context
 
     async def tick() -> None:
         while True:

@@ -8,7 +8,7 @@ from typing import Any
 import trio
 
 from hri.core.signals import Event
-from hri.task.context import TaskContext
+from hri.task.task_manager import TaskManager
 from hri.testing import context as lend
 
 
@@ -16,7 +16,7 @@ class Stage:
     """Runs tasks in fake time; keeps the events they raised."""
 
     def __init__(self, *devices: Any) -> None:
-        self.context = TaskContext.of(lend(*devices))
+        self.context = TaskManager(lend(*devices)).context
         self.clock = self.context.clock
         self.manager = self.context.manager
         self.events: list[Event] = []

@@ -4,7 +4,7 @@ from hypothesis import given, settings, strategies as st
 
 from hri.task.claims import Interrupted
 from hri.task.parallel import Parallel
-from hri.task.task import TaskStatus
+from hri.task.task_run import TaskStatus
 from tests.task.stage import Stage
 
 

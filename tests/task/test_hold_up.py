@@ -12,8 +12,8 @@ from hri.behavior.network import Network
 from hri.core.clock import FakeClock, RealClock
 from hri.core.event_bus import EventBus
 from hri.hal.resource_manager import ResourceManager
-from hri.task.context import TaskContext
 from hri.task.task import task
+from hri.task.task_manager import TaskManager
 
 
 class Pulse(Behavior):
@@ -30,7 +30,7 @@ class Pulse(Behavior):
 def run(clock, job, *arguments):
     """Run a task beside a network that ticks every 10 ms; what the task returned."""
     context = Context(clock, EventBus(clock), ResourceManager({}, clock))
-    tasks = TaskContext.of(context)
+    tasks = TaskManager(context).context
     network = Network("pulse", 0.01)
     pulse = network.add(Pulse("pulse"))
     results = []

@@ -3,7 +3,7 @@ import pytest
 from hri.core.errors import HriError
 from hri.task.parallel import Parallel
 from hri.task.patterns import TooSlow, repeat, retry, with_timeout
-from hri.task.task import TaskStatus
+from hri.task.task_run import TaskStatus
 from hri.task.util import Wait
 from tests.task.stage import Stage
 

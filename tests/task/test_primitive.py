@@ -6,7 +6,7 @@ from hri.hal.pending import Interrupted
 from hri.task.context import TaskFailed
 from hri.task.parallel import Parallel
 from hri.task.primitive import Primitive, primitive
-from hri.task.task import TaskStatus
+from hri.task.task_run import TaskStatus
 from hri.task.util import Wait
 from tests.task.stage import Stage
 

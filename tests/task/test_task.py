@@ -3,7 +3,8 @@ import trio
 
 from hri.core.errors import HriError
 from hri.task.context import TaskContext, TaskFailed
-from hri.task.task import TaskStatus, find_task, task
+from hri.task.task import find_task, task
+from hri.task.task_run import TaskStatus
 from tests.task.stage import Stage
 
 

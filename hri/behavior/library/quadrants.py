@@ -16,7 +16,7 @@ from enum import IntEnum
 
 from hri.core.geometry import Pose3D, seen_from
 from hri.core.signals import Pose2D
-from hri.hal.configuration import Shape
+from hri.hal.shape import Shape
 
 TOLERANCE = 1e-6
 """Radians off a diagonal, or meters off an axis, that count as none."""

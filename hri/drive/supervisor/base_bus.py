@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from hri.core.clock import Timer
 from hri.core.errors import HriError, NotAvailable
@@ -49,10 +49,7 @@ from hri.drive.supervisor.velocity_arbiter import Level
 from hri.drive.velocity_limits import BaseLimits
 from hri.hal.emergency_stop import EmergencyStop
 from hri.hal.range_sensor import RangeSensor
-from hri.hal.resource import Description
-
-if TYPE_CHECKING:
-    from hri.hal.resource_manager import ResourceManager
+from hri.hal.resource import Description, Resources
 
 SIMULATED = "simulated"
 """The port of a base that is emulated in the simulated world."""
@@ -96,7 +93,7 @@ class BaseBus(EmergencyStop):
         if not description.text("port"):
             raise description.error("port", "no port is given", "name one, such as /dev/ttyUSB0")
 
-    def __init__(self, description: Description, manager: ResourceManager) -> None:
+    def __init__(self, description: Description, manager: Resources) -> None:
         super().__init__(description, manager)
         self._watchers: list[Watcher] = []
         self._unlatching: tuple[Cause, float] | None = None

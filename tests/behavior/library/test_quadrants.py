@@ -5,7 +5,7 @@ from hypothesis import assume, given, strategies as st
 
 from hri.behavior.library.quadrants import Quadrant, clearance, quadrants
 from hri.core.geometry import Pose3D
-from hri.hal.configuration import Shape
+from hri.hal.shape import Shape
 
 FRONT, LEFT, BACK, RIGHT = Quadrant
 BODY = Shape(lx=0.48, ly=0.38, lz=0.5)

@@ -9,10 +9,10 @@ from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.core.event_bus import EventBus
 from hri.core.signals import RangeReading
-from hri.hal.configuration import Shape
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
+from hri.hal.shape import Shape
 from tests.behavior.library.ticking import tick
 
 pytestmark = pytest.mark.proves("B21")
