@@ -30,14 +30,14 @@ from hri.hal.resource_manager import ResourceManager
 
 log = logging.getLogger("hri.behave")
 SHORTEST = 0.01
-"""Seconds; the least that durations and intervals may be."""
+"""Seconds; minimum of durations and intervals."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a network. Exit status 0, 1 when a behavior failed, 2 when a file or option is wrong."""
     options = _parser().parse_args(sys.argv[1:] if arguments is None else arguments)
     if options.fast and options.duration is None and options.invocation_count is None:
-        print("behave: --fast runs as fast as it can - say --duration S as well", file=sys.stderr)
+        print("behave: --fast runs as fast as it can - add --duration S", file=sys.stderr)
         return 2
     ending = Ending()
     with unfailing_output(), ending.kept_for_later():
@@ -47,18 +47,28 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = OptionParser(prog="behave", description="Run a behavior network.")
     add = parser.add_argument
-    add("network", metavar="NETWORK.xml", help="path, or name over the search folders")
+    add("network", metavar="NETWORK.xml", help="path, or name in the search folders")
     add(
-        "--debug", nargs="?", const="", metavar="CATEGORY", help="print more, about one part or all"
+        "--debug",
+        nargs="?",
+        const="",
+        metavar="CATEGORY",
+        help="print debug messages, of one part or all",
     )
-    add("--duration", type=Within(float, SHORTEST), metavar="S", help="end after so many seconds")
-    add("--invocation-count", type=Within(int, 1), metavar="N", help="end after so many ticks")
-    add("--invocation-interval", type=Within(float, SHORTEST), metavar="S", help="seconds a tick")
+    add("--duration", type=Within(float, SHORTEST), metavar="S", help="end after this many seconds")
+    add("--invocation-count", type=Within(int, 1), metavar="N", help="end after this many ticks")
+    add("--invocation-interval", type=Within(float, SHORTEST), metavar="S", help="seconds per tick")
     add("--without-resources", action="store_true", help="configure no devices at all")
     add("--load-all-resources", action="store_true", help="open every device at the start")
     add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
-    add("--plot", action="append", default=[], metavar="PORT", help="draw an output, as ID.OUTPUT")
-    add("--realtime", action="store_true", help="run ahead of other programs, where allowed")
+    add(
+        "--plot",
+        action="append",
+        default=[],
+        metavar="PORT",
+        help="plot an output: ID.OUTPUT",
+    )
+    add("--realtime", action="store_true", help="run with real-time priority, where allowed")
     add("--fast", action="store_true", help="fake time, as fast as the machine can")
     add_door_options(parser)
     return parser
@@ -68,11 +78,11 @@ CATEGORIES = (
     *("behave", "behavior", "drive", "emotion", "events", "face", "net", "network", "recording"),
     *("resources", "service", "task", "vision", "whereabouts"),
 )
-"""What `--debug` can be told of: the parts of `hri` that write a log."""
+"""Values of `--debug`: the parts of `hri` that write a log."""
 
 
 class _Lines(logging.StreamHandler[TextIO]):
-    """Writes the log, and ends the program when nobody reads it any more."""
+    """Writes the log, and ends the program when its reader is gone."""
 
     def handleError(self, record: logging.LogRecord) -> None:
         error = sys.exc_info()[1]
@@ -135,7 +145,7 @@ def _behave(options: argparse.Namespace, ending: Ending) -> int:
 
 
 def _tell_outcome(statistics: Statistics, seconds: float) -> None:
-    """One line at the end, beside what the network prints."""
+    """One summary line at the end."""
     count = f"{statistics.ticks} tick{'s' * (statistics.ticks != 1)} in {seconds:.1f} s"
     missed = f"{statistics.missed} missed" if statistics.missed else "none missed"
     failed = f"{statistics.failures} failures" if statistics.failures else "no failures"
@@ -143,10 +153,10 @@ def _tell_outcome(statistics: Statistics, seconds: float) -> None:
 
 
 def _tell_timings(runner: Runner) -> None:
-    """How the run went, with --debug: the slowest behaviors first."""
+    """Statistics of the run, with --debug: the slowest behaviors first."""
     statistics = runner.statistics
     log.debug(
-        "%d ticks, %d missed; they began %.3f ms late in the mean, %.3f ms at most",
+        "%d ticks, %d missed; they began %.3f ms late on average, %.3f ms at most",
         statistics.ticks,
         statistics.missed,
         statistics.lateness.mean * 1e3,
@@ -154,7 +164,7 @@ def _tell_timings(runner: Runner) -> None:
     )
     by_time = sorted(statistics.behaviors.items(), key=lambda item: -item[1].total)
     for id, timing in by_time:
-        line = "%s: %d times, %.1f us in the mean, %.1f us at most"
+        line = "%s: %d times, %.1f us on average, %.1f us at most"
         log.debug(line, id, timing.count, timing.mean * 1e6, timing.longest * 1e6)
 
 

@@ -1,4 +1,4 @@
-"""`hri bench NAME`: figures as JSON, and JSON only; some of them need a checkout."""
+"""`hri bench NAME`: prints figures as JSON only; some benches need a checkout."""
 
 from __future__ import annotations
 
@@ -43,15 +43,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--only", metavar="PART", help=about)
     about = "recordings of people, a folder with a manifest.tsv (speech)"
     parser.add_argument("--recordings", type=Path, metavar="DIR", help=about)
-    about = "another babble of the same people, a number (speech)"
+    about = "seed of the babble of the same people, a number (speech)"
     parser.add_argument("--draw", type=Within(int, 0, 999_999), metavar="N", help=about)
-    about = "how many inputs to try over all readers, 100000 by default (inputs)"
+    about = "number of inputs for all readers together, 100000 by default (inputs)"
     parser.add_argument("--tries", type=Within(int, 1, 999_999_999), metavar="N", help=about)
     about = "seed of the random inputs, a number (inputs)"
     parser.add_argument("--seed", type=Within(int, 0, 999_999), metavar="N", help=about)
     about = "keep what failed in this folder; the same command continues there (inputs)"
     parser.add_argument("--keep", type=Path, metavar="DIR", help=about)
-    about = "how many child processes run at once, one for each processor by default (inputs)"
+    about = "number of child processes, one per processor by default (inputs)"
     parser.add_argument("--jobs", type=Within(int, 1, 64), metavar="N", help=about)
 
 

@@ -1,4 +1,4 @@
-"""Says which files of an app were saved that it takes only when it starts."""
+"""Reports saved files of an app that need a restart."""
 
 from __future__ import annotations
 
@@ -10,23 +10,22 @@ from hri.robot import App
 from hri.task.context import TaskContext
 
 LOOK_EVERY = 1.0
-"""Seconds between looks at the files."""
+"""Seconds between checks of the files."""
 
 Marks = dict[Path, tuple[int, int]]
-"""By which a file is known to be another: when it was written (nanoseconds), and its bytes."""
+"""What identifies a version of a file: its time of writing (nanoseconds) and its size in bytes."""
 
 
 async def announce_changes(app: App, tell: Callable[[str], object], context: TaskContext) -> None:
-    """Tell one line for each file that is saved and not taken, once a file.
-
-    These are `app.toml`, Python files and networks; grammars, replies and emotions are read again.
+    """Report each saved file that needs a restart, in one line, once per file. These are
+    `app.toml`, Python files and networks; grammars, replies and emotions are reloaded.
     """
     before, told = marks(app), set[Path]()
     while True:
         await context.clock.sleep(LOOK_EVERY)
         changed = {path for path, mark in marks(app).items() if before.get(path) != mark}
         for path in sorted(changed - told):
-            tell(f"{path} was saved - start the robot again to take it")
+            tell(f"{path} was saved - restart the robot to load it")
         told |= changed
 
 

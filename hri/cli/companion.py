@@ -1,4 +1,4 @@
-"""`hri companion`: `hri run companion` by its first name."""
+"""`hri companion`: alias for `hri run companion`."""
 
 from __future__ import annotations
 

@@ -1,6 +1,5 @@
-"""`hri devices`: what a configuration names, what of it is present, and why something is not.
-
-With `--probe` it looks for bases on the serial ports instead of that.
+"""`hri devices`: lists the devices of a configuration, whether they are present, and why not. With
+`--probe` it looks for bases on the serial ports instead.
 """
 
 from __future__ import annotations
@@ -27,19 +26,19 @@ PATIENCE = 5.0
 
 @dataclass(frozen=True)
 class Found:
-    """What is known of a device."""
+    """The state of a device."""
 
     id: str
     type: str
     bus: str
     driver: str
-    """Class of the driver; empty for a type nobody knows."""
+    """Class of the driver; empty for an unknown type."""
     state: str
     """"present", "missing" or "unknown"."""
     says: str
-    """What it is, or why it is not there and what to do."""
+    """What it is, or why it is missing and what to do."""
     stand_in: str
-    """Id of the device that is used in its place, if any."""
+    """Id of the device that is used instead, if any."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -50,12 +49,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--probe",
         nargs="*",
         metavar="PORT",
-        help="ask at these serial ports, or at all, whether a base is there; no wheel moves",
+        help="look for bases at these serial ports, or at all; wheels do not move",
     )
 
 
 def run(options: argparse.Namespace) -> int:
-    """Exit status 0, whatever is missing."""
+    """Exit status 0, even if devices are missing."""
     if options.probe is not None:
         return _probe(options.probe, options.json)
     found = examine(load_configuration(paths.find("config", options.config)))
@@ -74,7 +73,7 @@ def _probe(ports: Sequence[str], as_json: bool) -> int:
         rows = [("port", "base", ""), *((a.port, a.type or "-", _heard(a)) for a in answers)]
         print(_aligned(rows))
     else:
-        print("no serial port is there - plug the base in")
+        print("no serial port found - plug the base in")
     return 0
 
 
@@ -94,7 +93,7 @@ def examine(configuration: Configuration, patience: float = PATIENCE) -> list[Fo
 
 
 class _Probe:
-    """One device, opened in a thread of its own."""
+    """One device, opened in its own thread."""
 
     def __init__(self, resources: ResourceManager, description: Description) -> None:
         self._resources, self._description = resources, description
@@ -102,7 +101,7 @@ class _Probe:
         self._opened: Resource | None = None
 
     def found(self, patience: float) -> Found:
-        """What becomes of it within some seconds; one that hangs is left alone after them."""
+        """Its state after some seconds; a device that still hangs then is abandoned."""
         name = f"hri devices {self._description.id}"
         thread = threading.Thread(target=self._open, name=name, daemon=True)
         thread.start()
@@ -149,6 +148,6 @@ def _table(found: Iterable[Found]) -> str:
 
 
 def _aligned(rows: Sequence[tuple[str, ...]]) -> str:
-    """A table; the last column is as long as it is."""
+    """A table; the last column is not padded."""
     widths = [max(map(len, column)) for column in list(zip(*rows, strict=True))[:-1]]
     return "\n".join("  ".join(map(str.ljust, row, [*widths, 0])).rstrip() for row in rows)

@@ -1,4 +1,4 @@
-"""`hri doctor`: try every device, say what is wrong and how to fix it, choose others."""
+"""`hri doctor`: tests every device, says what is wrong and how to fix it, and can choose others."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from hri.hal.synthesizer import Synthesizer
 
 METER_WIDTH = 30
 QUIET_DBFS = -60.0
-"""Louder than this a live microphone is even in a silent room."""
+"""dBFS; a live microphone is louder than this even in a silent room."""
 CLIPPED_DBFS = -1.0
 
 
@@ -45,7 +45,7 @@ class Diagnosis:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
-    add("--seconds", type=float, default=3.0, metavar="S", help="how long the meter runs")
+    add("--seconds", type=float, default=3.0, metavar="S", help="seconds that the level meter runs")
     add("--choose", action="store_true", help="choose microphone, speaker and camera")
 
 
@@ -92,7 +92,7 @@ class Doctor:
             print(f"{name:<11} {mark}  {finding.says}", flush=True)
             failures += not finding.is_well
         if failures:
-            print(f"\n{failures} missing: the companion runs all the same, with stand-ins.")
+            print(f"\n{failures} missing: the companion still runs, with stand-ins.")
         return 1 if failures else 0
 
     def _microphone(self) -> Diagnosis:
@@ -210,7 +210,7 @@ def _ask(chosen: dict[str, str], id: str, names: dict[str, str]) -> None:
     for number, name in names.items():
         print(f"  {number}  {name}")
     while True:
-        answer = input("number, or Enter to leave it: ").strip()
+        answer = input("number, or Enter to keep it: ").strip()
         if not answer:
             return
         if answer in names:

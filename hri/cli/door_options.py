@@ -1,4 +1,4 @@
-"""The options of every command that serves: what may come in over the network."""
+"""The options of every command that serves: who may connect over the network."""
 
 from __future__ import annotations
 
@@ -21,5 +21,5 @@ def add_door_options(parser: argparse.ArgumentParser) -> None:
 
 
 def doors_of(options: argparse.Namespace) -> Doors:
-    """What the options say."""
+    """The access that the options allow."""
     return Doors(allows_remote=options.allow_remote, trusted=tuple(options.trusted))

@@ -1,6 +1,5 @@
-"""How the system asks a program to end: Ctrl-C, `kill`, a terminal that is closed.
-
-A program that was started by `nohup` outlives its terminal.
+"""Requests of the system to end: Ctrl-C, `kill`, a closed terminal. A program started with `nohup`
+outlives its terminal.
 """
 
 from __future__ import annotations
@@ -13,13 +12,13 @@ from types import FrameType
 import trio
 
 ASKING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-"""What asks a program to end."""
+"""Signals that ask a program to end."""
 _AT_ONCE = (signal.SIGTERM, signal.SIGHUP)
-"""What would at once end a program that does not listen yet; Ctrl-C raises an error by itself."""
+"""Signals that would end a program that has no handler yet; Ctrl-C raises an exception instead."""
 
 
 class Ending:
-    """Remembers a request to end that came while the program was still starting."""
+    """Remembers a request to end during startup."""
 
     def __init__(self) -> None:
         self.is_asked = False

@@ -1,7 +1,6 @@
-"""How a program ends: errors of its user in one line, and an exit status.
-
-0 when all went well, 1 when a check found fault or a device failed, 2 when the command line or a
-file is wrong, 130 after Ctrl-C. Light to import, so that it holds while the rest is loaded.
+"""Exit status and one-line errors of a program. 0 for success, 1 when a check or a device failed, 2
+when the command line or a file is wrong, 130 after Ctrl-C. Light to import, so that it applies
+while the rest is loaded.
 """
 
 from __future__ import annotations
@@ -24,13 +23,13 @@ _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 def status_of(program: Callable[[], int]) -> int:
-    """Run a program; its exit status. What is nobody's fault but ours keeps its traceback."""
+    """Run a program; its exit status. Bugs keep their traceback."""
     open_missing()
     _show_all_characters()
     paths.settle()
     try:
         status = program()
-        sys.stdout.flush()  # Here, for what cannot be written at the exit is nobody's to catch.
+        sys.stdout.flush()  # Here, since errors of writing at exit cannot be caught.
         return status
     except (HriError, OSError, KeyboardInterrupt, BaseExceptionGroup) as error:
         alone = _alone(error)
@@ -50,12 +49,12 @@ def status_of(program: Callable[[], int]) -> int:
                 let_go(sys.stdout)
                 _complain(f"cannot be written: {reason} - make room")
                 return 2
-        # Without the groups, which would bury the line that is wrong.
+        # Without the groups, which would bury the offending line.
         raise alone from None
 
 
 def _show_all_characters() -> None:
-    """What is logged where nobody set up a log, and what no terminal can show, are spelled out."""
+    """Set up default logging, and escape characters that the terminal cannot show."""
     if logging.lastResort is not None:
         logging.lastResort.setFormatter(LineFormatter())
     if isinstance(sys.stdout, io.TextIOWrapper) and sys.stdout.errors == "strict":

@@ -1,6 +1,5 @@
-"""A scene of a face as a movie: drawn picture by picture, with its sound where that can be.
-
-OpenCV writes pictures alone. When the program `ffmpeg` is installed, an MP4 gets the sound, too.
+"""A scene of a face as a movie, with sound where possible. OpenCV writes only pictures; if `ffmpeg`
+is installed, an MP4 gets the sound too.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ from hri.face.scene import Scene
 from hri.hal.drivers.wav_file import write_wav
 
 PATIENCE = 300.0
-"""Seconds after which ffmpeg is given up."""
+"""Seconds after which ffmpeg is killed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,19 +30,18 @@ class FaceFilm:
     """How a scene is filmed."""
 
     rate: float = 30.0
-    """Pictures a second."""
+    """Frames per second."""
     size: tuple[int, int] = (640, 480)
     """Width and height in pixels."""
     seed: int = 0
-    """Of the idle life."""
+    """Seed of the idle motion."""
     captions: bool = False
     weights: Path | None = None
-    """Where the weights of all pictures are written as CSV."""
+    """CSV file for the weights of all frames."""
 
     def shoot(self, scene: Scene, model: FaceModel, path: Path, wav: Path | None = None) -> None:
-        """Write the movie; when it cannot hold its sound, tell so, and that this is in `wav`.
-
-        Raises HriError.
+        """Write the movie; if it cannot contain sound, print a note, with the name of `wav`. Raises
+        HriError.
         """
         from hri.face.renderers.movie import check_movie, write_movie
 
@@ -69,9 +67,8 @@ class FaceFilm:
 
 
 def add_sound(path: Path, samples: Samples, rate: int) -> bool:
-    """Put a sound into an MP4, if ffmpeg is installed; whether it is in it now.
-
-    Raises HriError when ffmpeg fails; the movie stays as it was.
+    """Put a sound into an MP4, if ffmpeg is installed; True if it is in it now. Raises HriError
+    when ffmpeg fails; the movie stays as it was.
     """
     program = shutil.which("ffmpeg")
     if program is None or path.suffix.lower() != ".mp4":

@@ -1,4 +1,4 @@
-"""`hri forget`: erases what is kept about people, or about one of them."""
+"""`hri forget`: erases data kept about people, or about one person."""
 
 from __future__ import annotations
 
@@ -11,27 +11,27 @@ from hri.robot import kept
 from hri.robot.kept import Trace
 
 EPILOG = """\
-A robot that is running forgets it, too, within a second or so. What someone made on purpose is
-deleted only after a yes: recordings, and without a name also pictures and films of the camera,
-your lexicon, and your choice of devices. Where nobody can be asked, it stays, and is listed."""
+A running robot forgets it too, within about a second. Files made on purpose are deleted only after
+a yes: recordings, and without a name also pictures and films of the camera, your lexicon, and your
+choice of devices. Without a terminal to ask, they stay, and are listed."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = EPILOG
-    about = "forget only this person: what is thought of them, what they did by name, their face"
+    about = "forget only this person: the robot's opinion of them, their deeds, their face"
     parser.add_argument("person", nargs="?", metavar="NAME", help=about)
     parser.add_argument("--yes", action="store_true", help="delete without asking")
 
 
 def run(options: argparse.Namespace) -> int:
-    """Erase what is found, place by place; a failure at one place spares no other."""
+    """Erase place by place; a failure at one place does not stop the others."""
     person = options.person
-    with waiting("looking for what is kept"):
+    with waiting("looking for saved data"):
         found = kept.traces(person)
         known = set() if found else kept.people()
     if not found:
         if person and known:
-            raise HriError(f'nobody called "{person}" - {did_you_mean(person, known)}')
+            raise HriError(f'unknown person "{person}" - {did_you_mean(person, known)}')
         print("there is nothing to forget")
     status = 0
     for trace in found:
@@ -44,7 +44,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _forgotten(trace: Trace, has_yes: bool) -> str:
-    """Erase it, if it may be; what became of it, in a line."""
+    """Erase it, if allowed; the result in a line."""
     what = trace.kept.about if trace.person is None else f"{trace.kept.about}: {trace.person}"
     if trace.needs_yes and not has_yes and not _is_allowed(f"{trace.place}: {what} - delete it?"):
         return f"{trace.place}: {what} - it stays; --yes deletes it"
@@ -53,7 +53,7 @@ def _forgotten(trace: Trace, has_yes: bool) -> str:
 
 
 def _is_allowed(question: str) -> bool:
-    """The answer of whoever sits at the terminal; no when nobody does."""
+    """The answer at the terminal; no if there is no terminal."""
     if not sys.stdin.isatty():
         return False
     try:

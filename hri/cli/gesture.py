@@ -1,4 +1,4 @@
-"""`hri gesture`: nods and shakes in a video, before a camera, or in series of head poses."""
+"""`hri gesture`: reports nods and shakes in a video, from a camera, or in series of head poses."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ SHOWN = 1.5
 """Seconds that a gesture stays in the picture."""
 
 Teller = Callable[[HeadGesture, str], None]
-"""Tells a gesture, and of which file it is, if of one of many."""
+"""Prints a gesture, with its file if there are several."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -45,22 +45,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--pose", type=Path, nargs="+", action="extend", metavar="FILE.csv",
         help="series of poses, one head each: columns t_s,pitch_deg,yaw_deg,roll_deg",
     )  # fmt: skip
-    add("--prompted", action="store_true", help="an answer is expected: a single nod will do")
+    add("--prompted", action="store_true", help="an answer is expected: a single nod is enough")
     add(
         "--patterns", nargs="?", type=Path, const=True, metavar="FILE",
         help=f"all gestures of a file, of config/{FILE} without one; else only nod and shake",
     )  # fmt: skip
-    add("--json", action="store_true", help="a line of JSON for each gesture")
-    add("--overlay", type=Path, metavar="FILM.mp4", help="write a film of what is seen")
+    add("--json", action="store_true", help="print one line of JSON per gesture")
+    add("--overlay", type=Path, metavar="FILM.mp4", help="write a film with the results drawn in")
     add(
         "--detector", default="auto", metavar="NAME", help="auto, haar, or the path of a YuNet file"
     )
     add("--list", action="store_true", help="show the gestures of the file of patterns")
-    add("--check", action="store_true", help="read the file of patterns, and report what is wrong")
+    add("--check", action="store_true", help="check the file of patterns")
 
 
 def run(options: argparse.Namespace) -> int:
-    """Exit status 2 when a file is wrong; the others of many are told all the same."""
+    """Exit status 2 when a file is wrong; the others are still processed."""
     path = None if options.patterns is True else options.patterns
     known = load_patterns(path)
     if options.list or options.check:
@@ -125,7 +125,7 @@ def _seen(
     patterns: Sequence[Pattern],
     tell: Teller,
 ) -> Iterator[tuple[float, Image]]:
-    """The pictures with their times, with what is seen drawn in when they are asked for."""
+    """The pictures with their times, with the results drawn in on request."""
     from hri.vision.camera_view import CameraView
     from hri.vision.detectors.detector_choice import load_detectors
     from hri.vision.detectors.overlay import draw
@@ -153,12 +153,12 @@ def _seen(
 
 
 def _since(begin: float, gesture: HeadGesture) -> HeadGesture:
-    """A gesture with its time counted from the first picture."""
+    """A gesture with its time from the first picture."""
     return replace(gesture, time=gesture.time - begin)
 
 
 def _tell(gesture: HeadGesture, file: str) -> None:
-    about = f"{gesture.confidence:.2f} sure, {gesture.latency:.2f} s after it began"
+    about = f"confidence {gesture.confidence:.2f}, {gesture.latency:.2f} s after it began"
     words = [file, f"{gesture.time:8.2f} s", gesture.person, f"{gesture.kind:<8}", about]
     print("  ".join(word for word in words if word), flush=True)
 

@@ -15,8 +15,8 @@ COMMANDS = {
     "companion": ("hri.cli.companion", "start the companion (same as `run companion`)"),
     "run": ("hri.cli.run", "start an app by name or path"),
     "doctor": ("hri.cli.doctor", "test microphone, speaker, camera, screen, base and models"),
-    "devices": ("hri.cli.devices", "list the devices of a configuration and what is present"),
-    "new": ("hri.cli.new", "start a driver, behavior, task, primitive, app or face of your own"),
+    "devices": ("hri.cli.devices", "list the devices of a configuration, and which are present"),
+    "new": ("hri.cli.new", "create a driver, behavior, task, primitive, app or face"),
     "network": ("hri.cli.network", "check, show and draw behavior networks"),
     "schema": ("hri.cli.schema", "export the schemas of behaviors as XML"),
     "grammar": ("hri.cli.grammar", "check, parse with, and expand grammars"),
@@ -24,12 +24,15 @@ COMMANDS = {
     "models": ("hri.cli.models", "list and fetch models of speech and faces"),
     "voices": ("hri.cli.voices", "list the voices, by language"),
     "face": ("hri.cli.face", "check, render and show faces"),
-    "gesture": ("hri.cli.gesture", "tell nods and shakes in a video, a camera or series of poses"),
+    "gesture": (
+        "hri.cli.gesture",
+        "report nods and shakes in a video, a camera or series of poses",
+    ),
     "emotion": ("hri.cli.emotion", "check and try out emotions"),
-    "forget": ("hri.cli.forget", "erase what is kept about people, or about one of them"),
-    "watch": ("hri.cli.watch", "show what is seen: people, ids, pose, gaze and gestures"),
+    "forget": ("hri.cli.forget", "erase data kept about people, or about one person"),
+    "watch": ("hri.cli.watch", "show the camera's view: people, ids, pose, gaze and gestures"),
     "drive": ("hri.cli.drive", "drive a base by hand, with a live picture"),
-    "token": ("hri.cli.token", "show the token that lets programs move the robot from outside"),
+    "token": ("hri.cli.token", "print the token with which other programs may move the robot"),
     "bench": ("hri.cli.bench", "measure, and print JSON"),
     "soak": ("hri.cli.soak", "run a large network, or the companion, for simulated hours"),
 }
@@ -37,7 +40,7 @@ COMMANDS = {
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command. Returns its exit status; errors of ours become one line."""
+    """Run one command. Returns its exit status; an HriError becomes one line."""
     words = list(sys.argv[1:] if arguments is None else arguments)
     return status_of(lambda: _answer(words))
 

@@ -1,4 +1,4 @@
-"""What programs say about input: log and wrong options, in lines that command no terminal."""
+"""Log lines and messages about wrong options, escaped so that they cannot control a terminal."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hri.core.quoting import escaped, message_line
 
 
 class LineFormatter(logging.Formatter):
-    """A record as one line of `message_line`; only a traceback has more lines, each escaped."""
+    """Formats a record as one line of `message_line`; a traceback has more lines, each escaped."""
 
     def formatMessage(self, record: logging.LogRecord) -> str:
         return message_line(super().formatMessage(record))
@@ -22,7 +22,7 @@ class LineFormatter(logging.Formatter):
 
 
 class OptionParser(argparse.ArgumentParser):
-    """Reads the words of a command line; one that is wrong is quoted in one line."""
+    """Parses a command line; a wrong argument is reported in one line."""
 
     def error(self, message: str) -> NoReturn:
         super().error(message_line(message))

@@ -1,4 +1,4 @@
-"""`hri models`: which models of the engines there are, and fetching them."""
+"""`hri models`: lists and fetches models."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ CATALOG = Catalog((*speech.MODELS, *vision.MODELS))
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     commands = parser.add_subparsers(metavar="COMMAND")
     parser.set_defaults(run_models=_list)
-    commands.add_parser("list", help="all models, and which are here; done without a command, too")
-    fetching = commands.add_parser("fetch", help="download a model, or take one that you have")
-    fetching.add_argument("name", metavar="MODEL", help="of the list; any with --from")
+    commands.add_parser("list", help="list all models, and which are installed (default)")
+    fetching = commands.add_parser("fetch", help="download a model, or install a local one")
+    fetching.add_argument("name", metavar="MODEL", help="a listed name; any with --from")
     fetching.add_argument(
-        "--from", dest="source", type=Path, metavar="PATH", help="a folder or ZIP archive of yours"
+        "--from", dest="source", type=Path, metavar="PATH", help="a local folder or ZIP archive"
     )
     fetching.set_defaults(run_models=_fetch)
-    path = commands.add_parser("path", help="where a model is, or the folder of all")
+    path = commands.add_parser("path", help="print the path of a model, or the folder of all")
     path.add_argument("name", metavar="MODEL", nargs="?")
     path.set_defaults(run_models=_path)
 
@@ -42,7 +42,7 @@ def _list(options: argparse.Namespace) -> int:
         state = _state(model)
         print(f"{model.name:<{width}}  {state:<20}  {model.about} ({model.license})")
     for name in own:
-        print(f"{name:<{width}}  {'here':<20}  brought by you")
+        print(f"{name:<{width}}  {'here':<20} installed by you")
     return 0
 
 
@@ -77,7 +77,7 @@ def _path(options: argparse.Namespace) -> int:
 
 
 class _ProgressLine:
-    """Says how far a download is: in place on a terminal, else a line every tenth."""
+    """Shows the progress of a download: in place on a terminal, else a line every tenth."""
 
     def __init__(self, name: str) -> None:
         self._name = name

@@ -1,4 +1,4 @@
-"""Tells in the terminal what happens: a line for each thing heard, said, seen, and felt."""
+"""Prints a line for each event: things heard, said, seen, and felt."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ LINES = {
     "speech.rejected": "ignored   {text} ({why})",
     "speech.said": "said      {text}",
     "emotion.changed": "feels     {label}",
-    "grammar.changed": "took      the grammar that was saved",
+    "grammar.changed": "reloaded the grammar",
     "grammar.refused": "refused   {error}",
-    "replies.changed": "took      the replies that were saved",
+    "replies.changed": "reloaded replies.toml",
     "replies.refused": "refused   {error}",
-    "emotions.reloaded": "took      the emotion files that were saved",
-    "memory.begun": "keeps     what it feels, as it was allowed, in {file}",
-    "memory.forgotten": "forgot    as it was told",
+    "emotions.reloaded": "reloaded the emotion files",
+    "memory.begun": "saves its feelings from now on, in {file}",
+    "memory.forgotten": "forgot, as requested",
     "head.nodded": "saw       a nod",
     "head.shaken": "saw       a shake of the head",
     "person.seen": "saw       a person",
@@ -50,7 +50,7 @@ VERDICTS = (
     (0.01, "it may stutter: end other programs"),
     (0.0, "nobody notices that"),
 )
-"""What it means when a network missed at least such a part of its ticks."""
+"""The verdict for a network that missed at least this share of its ticks."""
 
 
 class Narrator:
@@ -70,18 +70,18 @@ class Narrator:
         robot.events.subscribe("*", self._hear)
 
     def tell(self, text: str) -> None:
-        """Print a line; when nobody reads any more (`... | head`), the robot ends."""
+        """Print a line; when the reader is gone (`... | head`), the robot ends."""
         if self._is_unread:
             return
         try:
             print(text, file=self.out, flush=True)
         except BrokenPipeError:
             self._is_unread = True
-            let_go(self.out)  # what Python flushes at its end must not complain, either
+            let_go(self.out)  # Python's flush at exit must not complain either
             self.robot.finish()
 
     async def greet(self, context: TaskContext) -> None:
-        """Once the face is seen, say how to talk to it and how to end it."""
+        """Once the face is visible, print how to talk to the robot and how to end it."""
         while self._renderer is not None and not self._renderer.frames:
             await context.clock.sleep(0.02)
         self._first_frame = context.clock.now()
@@ -90,7 +90,7 @@ class Narrator:
         self.tell(f"ready: {hint}Ctrl-C ends it")
 
     def _takes_greetings(self) -> bool:
-        """Whether its grammar has the sentences of the hint; that of another app need not."""
+        """Whether its grammar has the sentences of the hint; another app's may not."""
         if self._listener is None:
             return False
         rules = {key.rpartition(".")[2] for key in self._listener.loaded_grammar.public_rules}
@@ -109,13 +109,13 @@ class Narrator:
         if template is None:
             return
         text = template.format_map(_Known(event.properties, why=_why(event)))
-        # Where no network has odometry, nobody knows.
+        # Unknown without odometry in a network.
         where = "" if self._pose is None else "x {:5.2f} m  y {:5.2f} m".format(*self._pose)
         line = f"{event.time:7.1f} s  {text:<58}  {self._label:<12} {where}".rstrip()
         self.tell(message_line(line))
 
     def summary(self) -> None:
-        """What the visit came to, and where its recording is."""
+        """Summary of the visit, and the place of its recording."""
         counts = self._counts
         seen = counts["head.nodded"] + counts["head.shaken"]
         self.tell(

@@ -1,4 +1,4 @@
-"""`hri network check|show|draw|format FILE|APP`: what authors need to know of their networks."""
+"""`hri network check|show|draw|format FILE|APP`: checks, shows and draws networks."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     commands = parser.add_subparsers(dest="action", required=True)
     for name, (_, about) in ACTIONS.items():
         command = commands.add_parser(name, help=about, description=about)
-        what = "a network, or an app with all of its networks: a path, or a name over the folders"
+        what = "a network, or an app with its networks: a path, or a name in the search folders"
         command.add_argument("network", metavar="FILE|APP", help=what)
         if name == "draw":
             command.add_argument("--out", type=Path, metavar="FILE", help="*.svg or *.png")
@@ -62,7 +62,7 @@ def _of_app(name: str) -> list[Network]:
 
 
 def check(networks: list[Network], options: argparse.Namespace) -> int:
-    """Exit status 1 when there is something to warn of; what is wrong raises an error."""
+    """Exit status 1 when there are warnings; errors are raised."""
     return max([_check(network) for network in networks], default=0)
 
 
@@ -81,7 +81,7 @@ def _counted(warnings: list[str]) -> str:
 
 
 def show(networks: list[Network], options: argparse.Namespace) -> int:
-    """The order in which all runs, with parameters, the links, and who uses the board."""
+    """The running order, with parameters, links, and users of the board."""
     for network in networks:
         _show(network)
     _show_board(networks)
@@ -118,7 +118,7 @@ def _show_board(networks: list[Network]) -> None:
 
 
 def draw(networks: list[Network], options: argparse.Namespace) -> int:
-    """Write a picture; its name decides which kind."""
+    """Write a picture; the file name decides the format."""
     out = options.out or Path(f"{Path(options.network).stem}.svg")
     layout = stacked([lay_out(network, _second_line) for network in networks])
     if out.suffix == ".svg":
@@ -148,15 +148,15 @@ def format(networks: list[Network], options: argparse.Namespace) -> int:
 def _format(network: Network) -> None:
     before = network.path.read_text(encoding="utf-8", errors="replace")
     if before == write_network(network):
-        print(f"{network.path}: is canonical")
+        print(f"{network.path}: canonical")
         return
     save_network(network, network.path)
     print(f"{network.path}: rewritten")
 
 
 ACTIONS: dict[str, tuple[Callable[[list[Network], argparse.Namespace], int], str]] = {
-    "check": (check, "report what is wrong, or looks wrong; exit 1 on warnings"),
-    "show": (show, "print order, rate, parameters, links, and who uses the board"),
+    "check": (check, "report errors and warnings; exit 1 on warnings"),
+    "show": (show, "print order, rate, parameters, links, and users of the board"),
     "draw": (draw, "draw the network, as SVG or PNG"),
     "format": (format, "rewrite the file in canonical form"),
 }

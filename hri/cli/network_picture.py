@@ -13,12 +13,12 @@ from hri.behavior.network_svg import COLORS, FAINT, FONT, INK, curve, fill_of, w
 from hri.core.writing import write_bytes
 
 SCALE = 2
-"""Pixels of the picture for each of the layout."""
+"""Pixels of the picture per unit of the layout."""
 FINER = 2
-"""It is drawn so many times larger, and averaged: a line that is nearly level has no steps then."""
+"""Supersampling factor, so that nearly level lines have no steps."""
 MOST_PIXELS = 60_000_000
 STEPS = 24
-"""Straight pieces of a curve."""
+"""Straight segments of a curve."""
 
 
 def write_png(layout: Layout, out: Path) -> None:
@@ -68,7 +68,7 @@ class _Pen:
 
 
 def strokes(piece: tuple[tuple[float, float], ...]) -> list[tuple[float, float]]:
-    """The points that a piece of a curve is drawn through."""
+    """The points of a segment of a curve."""
     (x0, y0), (x1, y1), (x2, y2), (x3, y3) = piece
     if y0 == y3:
         return [piece[0], piece[-1]]  # Rounding would break a level line into pieces.

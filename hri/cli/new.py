@@ -1,7 +1,5 @@
-"""`hri new`: a small working start for a driver, behavior, task, primitive, app or face.
-
-The folders of `templates/` work as they are, under the name `thing`; a new one is a copy with
-another name.
+"""`hri new`: creates a small working driver, behavior, task, primitive, app or face. The folders of
+`templates/` work unchanged, under the name `thing`; a new one is a renamed copy.
 """
 
 from __future__ import annotations
@@ -24,7 +22,7 @@ NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
 
 @dataclass(frozen=True)
 class Kind:
-    """What can be begun."""
+    """A kind of thing to create."""
 
     about: str
     steps: tuple[str, ...]
@@ -66,12 +64,12 @@ KINDS = {
 }
 
 FROM = {("app", "companion"): "companion_app"}
-"""The kinds that are made of something with --from."""
+"""The kinds that accept --from."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     named = [kind for kind in KINDS if kind not in FROM.values()]
-    parser.add_argument("kind", choices=named, help="what to begin")
+    parser.add_argument("kind", choices=named, help="what to create")
     parser.add_argument(
         "name", metavar="NAME", help="letters, digits and _: wave_hand, or WaveHand"
     )
@@ -79,50 +77,50 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--from",
         dest="base",
         choices=[base for _, base in FROM],
-        help="of an app: one that has all of the companion, and adds to it",
+        help="for an app: contain all of the companion, and add to it",
     )
     parser.add_argument(
-        "--to", type=Path, default=Path(), metavar="DIR", help="where its folder goes (here)"
+        "--to", type=Path, default=Path(), metavar="DIR", help="where to put its folder (here)"
     )
 
 
 def run(options: argparse.Namespace) -> int:
     kind, name = _kind_of(options), _module_name(options.name)
     if not NAME.fullmatch(name):
-        remedy = "begin with a letter, go on with letters, digits and _: wave_hand"
+        remedy = "start with a letter, then letters, digits and _: wave_hand"
         raise HriError(f'"{options.name}" is not a name - {remedy}')
     if not options.to.is_dir():
         raise HriError(f"{options.to}: no such folder - make it, or check the path")
     folder: Path = options.to / name
     if folder.exists():
-        raise HriError(f"{folder}: is there already - choose another name, or --to another folder")
+        raise HriError(f"{folder}: already exists - choose another name, or --to another folder")
     _refuse_taken(name, kind)
     with new_folder(folder) as new:
         _write(kind, name, new)
     print(f"{folder}: {KINDS[kind].about}. Next:\n\n  cd {folder}")
-    print("  python -m pytest    # where it is missing: pip install pytest")
+    print("  python -m pytest    # if it is missing: pip install pytest")
     for step in KINDS[kind].steps:
         print(f"  {_renamed(step, name)}")
     return 0
 
 
 def _kind_of(options: argparse.Namespace) -> str:
-    """The kind, made of something or not. Raises HriError for what is not made of anything."""
+    """The kind, with --from or without. Raises HriError for kinds that do not accept it."""
     if options.base is None:
         return str(options.kind)
     if (options.kind, options.base) not in FROM:
-        raise HriError(f"a {options.kind} is not made --from anything - leave --from out")
+        raise HriError(f"{options.kind} does not accept --from - leave it out")
     return FROM[options.kind, options.base]
 
 
 def _refuse_taken(name: str, kind: str) -> None:
-    """Refuse what would hide a module, or a word that the new code uses. Raises HriError."""
+    """Refuse a name that would hide a module, or a word that the new code uses. Raises HriError."""
     if keyword.iskeyword(name) or importlib.util.find_spec(name) is not None:
         what = f'"{name}" is a word or an installed module of Python'
         raise HriError(f'{what} - choose another name, such as "my_{name}"')
     taken = {name, _class_name(name)}
     code = [path.read_text("utf-8") for path in _files(kind) if path.suffix in (".py", ".xml")]
-    # Only where it will stand among the other words of the code can it be mistaken for one.
+    # Only a name that becomes an identifier in the code can clash with one.
     if any(taken & set(re.findall(r"\w+", text)) for text in code if "thing" in text.lower()):
         raise HriError(f'"{name}" is a word of the new {kind} itself - choose another name')
 

@@ -1,4 +1,4 @@
-"""`behave --plot ID.OUTPUT`: what an output of a network sent, over time, as a picture."""
+"""`behave --plot ID.OUTPUT`: plots the values of an output over time."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from hri.core.errors import HriError
 from hri.core.writing import write_bytes
 
 MOST_VALUES = 1_000_000
-"""Beyond it the rest is not drawn."""
+"""Most values to draw."""
 
 
 class PortPlot:
     """Follows one output while the network runs."""
 
     def __init__(self, runner: Runner, port: str) -> None:
-        """Raises HriError for a port that is not there."""
+        """Raises HriError for an unknown port."""
         behavior, dot, output = port.rpartition(".")
         if not dot:
             raise HriError(f'--plot "{port}" - write a behavior and its output: gate.velocity')
@@ -38,7 +38,7 @@ class PortPlot:
             self._values.append(numbers)
 
     def write(self) -> Path:
-        """Draw it, a line for each number of a value. Raises HriError without any number."""
+        """Draw it, one line per number of a value. Raises HriError without any number."""
         if not self._values:
             why = (
                 f"it sent {self._other}, which is not a number"

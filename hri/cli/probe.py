@@ -1,6 +1,5 @@
-"""Which bases are on the serial ports: each kind is asked in its own words, and no wheel moves.
-
-A vacuum cleaner that is at work stops; a board that its port resets starts again.
+"""Finds bases on the serial ports: tries each kind's protocol, without moving wheels. A running
+vacuum cleaner stops; a board that resets when its port is opened restarts.
 """
 
 from __future__ import annotations
@@ -17,32 +16,32 @@ from hri.drive.bases.protocol import BaseProtocol
 from hri.hal.drivers.serial_port import Port, SerialPort, serial_ports
 
 KINDS: dict[str, type[BaseProtocol]] = {"Hri.Create2": Create2, "Hri.ArduinoBridge": ArduinoBridge}
-"""By the device type that a configuration gives."""
+"""Protocols by device type of a configuration."""
 ANSWER_TIME = 0.4
-"""Seconds that a base gets for its answer before it is asked again."""
+"""Seconds to wait for an answer before asking again."""
 QUESTIONS = 2
-"""How often each kind is asked once it can hear."""
+"""Number of tries per kind."""
 MOST_ANSWER = 4096
-"""Bytes of an answer that are looked at."""
+"""Bytes of an answer to examine."""
 PATIENCE = sum(kind.boot + QUESTIONS * ANSWER_TIME for kind in KINDS.values()) + 2.0
-"""Seconds after which a port that does nothing is left alone."""
+"""Seconds after which a silent port is abandoned."""
 
 
 @dataclass
 class Answer:
-    """What is at a port."""
+    """The base at a port."""
 
     port: str
     about: str = ""
-    """What the adapter says of itself."""
+    """Description reported by the adapter."""
     type: str = ""
     """Device type of the base; empty when none answered."""
     says: str = field(default="it does not open - is it in use?")
-    """What the base is called, or why none was found."""
+    """Name of the base, or why none was found."""
 
 
 def ask_ports(paths: Sequence[str] = ()) -> list[Answer]:
-    """Ask at these ports, or at all of this machine, side by side; takes up to PATIENCE seconds."""
+    """Probe these ports, or all of this machine, in parallel; takes up to PATIENCE seconds."""
     answers = [Answer(path) for path in paths] or [
         Answer(port.path, port.about) for port in serial_ports()
     ]
@@ -59,7 +58,7 @@ def ask_ports(paths: Sequence[str] = ()) -> list[Answer]:
 
 
 def _ask(answer: Answer) -> None:
-    """Find out what is at a port."""
+    """Probe one port."""
     clock = RealClock()
     for type, kind in KINDS.items():
         port = SerialPort(answer.port, kind.baud)
@@ -76,7 +75,7 @@ def _ask(answer: Answer) -> None:
         if is_there:
             answer.type, answer.says = type, kind.title
             return
-    answer.says = "no base answers - see that it is switched on"
+    answer.says = "no base answers - make sure that it is switched on"
 
 
 def is_recognized(kind: type[BaseProtocol], port: Port, clock: Clock) -> bool:

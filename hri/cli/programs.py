@@ -1,4 +1,4 @@
-"""The programs with names of their own; while one is still being loaded Ctrl-C ends it quietly."""
+"""The console scripts; while one is still loading, Ctrl-C ends it quietly."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is shown of work that takes its time, on terminals only."""
+"""Progress of long work, on terminals only."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ T = TypeVar("T")
 WIDTH = 30
 """Characters of the bar."""
 EVERY = 1.0
-"""Seconds between two lines about work that has no end in sight."""
+"""Seconds between two lines about work of unknown length."""
 SILENCE = 2.0
-"""Seconds without a word after which there is such a line."""
+"""Seconds of silence before the first such line."""
 
 
 def progress(items: Iterable[T], total: int, what: str) -> Iterator[T]:
-    """The items; while they are taken, how many of `total` are done is shown on stderr."""
+    """Yields the items, with a progress bar of `total` on stderr."""
     is_shown = sys.stderr.isatty() and total > 1
     try:
         for number, item in enumerate(items):
@@ -37,9 +37,8 @@ def progress(items: Iterable[T], total: int, what: str) -> Iterator[T]:
 
 @contextmanager
 def waiting(what: str) -> Iterator[None]:
-    """While the body runs for long in silence, what is done and for how many seconds is shown.
-
-    The line goes away as soon as the body prints something, and at the end.
+    """While the body runs silently for long, show what it does and for how many seconds. The line
+    disappears as soon as the body prints something, and at the end.
     """
     if not sys.stderr.isatty():
         yield
@@ -64,7 +63,7 @@ def waiting(what: str) -> Iterator[None]:
 
 
 class _Line:
-    """A line on a terminal that is there as long as nothing else is printed."""
+    """A line on a terminal that lasts until something else is printed."""
 
     def __init__(self, terminal: TextIO, what: str) -> None:
         self._terminal = terminal
@@ -82,7 +81,7 @@ class _Line:
                 self._is_shown = True
 
     def wipe(self) -> None:
-        """Make room for what is printed now."""
+        """Clear the line for other output."""
         with self._lock:
             if self._is_shown:
                 self._write("\r\x1b[K")

@@ -1,4 +1,4 @@
-"""`hri run APP`: open the devices, run the app, tell what happens, leave a recording."""
+"""`hri run APP`: opens the devices, runs the app, reports events, writes a recording."""
 
 from __future__ import annotations
 
@@ -43,8 +43,8 @@ from hri.task.context import TaskContext
 SENSES = ("microphone", "camera", "screen", "speaker")
 CALM_SECONDS = 2.0
 LONGEST_TASK = 600.0
-"""Seconds that the tasks which still run are waited for when nothing more will be heard."""
-"""How long all must be calm before a run from files ends."""
+"""Seconds to wait for running tasks after the end of input."""
+"""Seconds of calm before a run from files ends."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -58,25 +58,29 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
     add("--audio", type=Path, metavar="FILE", help="hear this sound file instead of a microphone")
     add("--camera", metavar="FILE|none", help="see this video or image, or nothing")
-    add("--record", type=Path, metavar="DIR", help="write events, video, sound, plot there, again")
-    add("--record-rejected", action="store_true", help="write rejected words there, too")
-    add("--keep", action="store_true", help="go on from earlier feelings, and keep what it feels")
-    add("--headless", action="store_true", help="draw the face, but show it to nobody")
-    add("--duration", type=Within(float, 0.001), metavar="S", help="end after so many seconds")
-    add("--seed", type=int, default=None, metavar="N", help="seed of all that is random")
-    add("--realtime", action="store_true", help="run ahead of other programs, where allowed")
+    add(
+        "--record",
+        type=Path,
+        metavar="DIR",
+        help="write events, video, sound, plot in there",
+    )
+    add("--record-rejected", action="store_true", help="also write rejected words there")
+    add("--keep", action="store_true", help="start from saved feelings, and save them")
+    add("--headless", action="store_true", help="draw the face without a window")
+    add("--duration", type=Within(float, 0.001), metavar="S", help="end after this many seconds")
+    add("--seed", type=int, default=None, metavar="N", help="random seed")
+    add("--realtime", action="store_true", help="run with real-time priority, where allowed")
     add("--fast", action="store_true", help="fake time, as fast as the machine can")
     add("--personality", default="neutral", metavar="NAME", help="from emotions/personalities")
     add("--face", default="robot", metavar="NAME", help="from faces/")
-    add("--captions", action="store_true", help="write what is said below the face")
+    add("--captions", action="store_true", help="show captions below the face")
     add("--demo", action="store_true", help="a simulated person visits for two minutes")
     add_door_options(parser)
 
 
 def run(options: argparse.Namespace) -> int:
-    """Check all files, then live until the end.
-
-    What is printed is not what a robot lives for: it goes on where that cannot be written.
+    """Check all files, then run until the end. Output that cannot be written does not stop the
+    robot.
     """
     ending = Ending()
     with unfailing_output(), ending.kept_for_later():
@@ -84,7 +88,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _run(options: argparse.Namespace, ending: Ending) -> int:
-    # Missed ticks are summed up at the end; only what fails is told at once.
+    # Missed ticks are summed up at the end; only failures are logged at once.
     handler = logging.StreamHandler()
     handler.setFormatter(LineFormatter("%(levelname)s - %(message)s"))
     logging.basicConfig(level=logging.ERROR, handlers=[handler])
@@ -127,7 +131,7 @@ def _run(options: argparse.Namespace, ending: Ending) -> int:
 
 
 def open_senses(robot: Robot) -> set[str]:
-    """Open what the user would miss most; the ids of those that are stand-ins."""
+    """Open the most important devices; the ids of those replaced by stand-ins."""
     present = [id for id in SENSES if id in robot.resources.descriptions]
     for id in present:
         robot.resources.obtain(id, Resource)
@@ -137,7 +141,7 @@ def open_senses(robot: Robot) -> set[str]:
 def recordings_folder(robot: Robot) -> Path:
     """A new folder below the current one, named by date and time, and numbered where need be.
 
-    Raises HriError or OSError when it cannot be made.
+    Raises HriError or OSError when it cannot be created.
     """
     folder = Path(RECORDINGS) / f"{robot.clock.wall():%Y-%m-%d-%H-%M-%S}"
     make_folder(folder.parent)
@@ -150,10 +154,7 @@ def recordings_folder(robot: Robot) -> Path:
 
 
 def check_files(options: argparse.Namespace) -> None:
-    """Refuse bad files, and options that do not go together, before anything starts.
-
-    Raises HriError.
-    """
+    """Refuse bad files and conflicting options before anything starts. Raises HriError."""
     if options.demo and options.keep:
         what = "--demo --keep: the visitor of a demo is simulated, and is not kept among people"
         raise HriError(f"{what} - leave out one of the two")
@@ -167,25 +168,25 @@ def check_files(options: argparse.Namespace) -> None:
 
 
 def memory_of(options: argparse.Namespace) -> str:
-    """The file in which feelings outlast the run; none unless someone asked for it."""
+    """The file of saved feelings; None unless requested."""
     return str(memory_file()) if options.keep else ""
 
 
 def mention_kept(options: argparse.Namespace, narrator: Narrator) -> None:
-    """Say in one line that feelings were kept earlier which this run leaves alone."""
+    """Report in one line that saved feelings exist which this run does not use."""
     path = memory_file()
     if path.exists() and not options.keep and not is_to_repeat(options):
-        remedy = "--keep goes on from them, `hri forget` erases them"
-        narrator.tell(f"{path}: feelings of earlier runs are kept there - {remedy}")
+        remedy = "--keep starts from them, `hri forget` erases them"
+        narrator.tell(f"{path}: feelings of earlier runs are saved there - {remedy}")
 
 
 def is_to_repeat(options: argparse.Namespace) -> bool:
-    """Whether the run is meant to go as it went before, on whatever machine."""
+    """Whether the run should be repeatable on any machine."""
     return bool(options.fast or options.demo or options.seed is not None)
 
 
 def replaced_devices(options: argparse.Namespace) -> list[Description]:
-    """The devices that the command line puts instead of the configured ones."""
+    """The devices that the command line substitutes for configured ones."""
     devices = []
     if options.audio is not None:
         file = {"file": str(options.audio)}
@@ -208,7 +209,7 @@ def _on_world(id: str, type: str) -> Description:
 
 
 class Session:
-    """One run of an app: who visits, what is told, when it ends."""
+    """One run of an app: its visitor, its narration, its end."""
 
     def __init__(
         self, robot: Robot, options: argparse.Namespace, narrator: Narrator, ending: Ending
@@ -220,12 +221,12 @@ class Session:
         visits = robot.app.files("demo.toml")
         if options.demo and not visits:
             raise HriError(f"{robot.app.folder}: this app has no demo.toml - run it without --demo")
-        # Read before anything starts: it is played, too, when there is no microphone.
+        # Read before anything starts: it is also played when there is no microphone.
         self._authored = load_visit(visits[-1]) if visits else None
         self.visit: Visit | None = None
 
     def jobs(self) -> list[Job]:
-        """What runs beside the app's own tasks."""
+        """The tasks that run beside the app's own."""
         jobs: list[Job] = [self.prepare, self.end_when_over, self.watch_window, self.watch_signals]
         if self.options.realtime:
             jobs.append(self.run_ahead)
@@ -240,7 +241,7 @@ class Session:
             self.narrator.tell(refusal)
 
     async def prepare(self, context: TaskContext) -> None:
-        """Let the visitor in, or keep the simulated room empty for the real people."""
+        """Let the visitor in, or keep the simulated room empty for real people."""
         if self.options.audio is not None:
             return
         resources = self.robot.resources
@@ -248,7 +249,7 @@ class Session:
         if self._authored is not None and (self.options.demo or is_deaf):
             world = resources.obtain("world", SimulatedWorld)
             if not world.people and not self.options.demo:
-                self.narrator.tell("no microphone, and nobody in the simulated room")
+                self.narrator.tell("no microphone, and the simulated room is empty")
                 return
             if is_deaf and not self.options.fast:
                 self.narrator.tell("no microphone: a simulated person visits for two minutes")
@@ -259,9 +260,8 @@ class Session:
                 person.starts_present = False
 
     async def end_when_over(self, context: TaskContext) -> None:
-        """End after the duration, after the visit, or when what it hears and sees is spent.
-
-        Then the tasks that commands or events have started may end, such as a timer.
+        """End after the duration, after the visit, or at the end of the input files. Then tasks
+        started by commands or events, such as a timer, may finish.
         """
         clock = context.clock
         end = self._end_time()
@@ -284,7 +284,7 @@ class Session:
         return self.visit.duration if self.visit is not None else math.inf
 
     def _is_spent(self) -> bool:
-        """Whether there are files, or typed lines, and nothing further will come of them."""
+        """Whether the input is files or typed lines, and has ended."""
         spent = []
         typed = self.robot.resources.ids(TypedRecognizer)
         if typed:

@@ -32,11 +32,11 @@ from hri.speech.synthesizers.espeak_library import Setting
 
 STANDARD_OUTPUT = Path("-")
 PATIENCE = 2.0
-"""Seconds beyond the length of the speech after which a speaker is given up."""
+"""Seconds beyond the length of the speech after which waiting for the speaker ends."""
 FRAMES = 30
-"""A second, of the weights in JSON."""
+"""Frames per second of the weights in JSON."""
 DECIMALS = 4
-"""Of the seconds in JSON."""
+"""Decimals of seconds in JSON."""
 RATES = f"{SLOWEST} to {FASTEST}"
 
 HELP = """\
@@ -45,10 +45,10 @@ HELP = """\
 whether it is "stressed"; names that begin with "_" are pauses), "words" and "sentences" (each with
 "text", "position" in characters, "start" and "end" in seconds).
 
---visemes writes one JSON object, too: "text", "duration", "visemes" (the shapes of the mouth, each
-with "viseme" by its Oculus name, "start" and "end" in seconds and "strength", 0 to 1; of sounds
-that are too short to be seen there is none), "rate" (frames a second) and "frames" (each with the
-"time" in seconds, the weights, 0 to 1.2, of the visemes of "lips", "jaw" and "tongue", and the
+--visemes also writes one JSON object: "text", "duration", "visemes" (the mouth shapes, each with
+"viseme" by its Oculus name, "start" and "end" in seconds and "strength", 0 to 1; sounds too short "
+"to be seen have none), "rate" (frames a second) and "frames" (each with the "time" in seconds, "
+"the weights, 0 to 1.2, of the visemes of "lips", "jaw" and "tongue", and the
 "emphasis", 0 to 1, that lifts the brows).
 
   hri say "Hello there."
@@ -64,25 +64,29 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("text", help='what to say, in quotes; "-" reads it from standard input')
     add("--voice", default=PLAIN_VOICE, help="a voice such as en-gb or en-us+f3 (%(default)s)")
     add("--rate", type=int, metavar="WPM", help=f"words a minute, {RATES} ({Setting().rate})")
-    add("--emotion", metavar="E", help=f"how it sounds: neutral, {', '.join(NAMES)}, or happy, ...")
+    add(
+        "--emotion",
+        metavar="E",
+        help=f"emotion: neutral, {', '.join(NAMES)}, or happy, ...",
+    )
     add("--intensity", type=float, default=1.0, metavar="X", help="of the emotion, 0 to 1")
-    add("--wav", type=Path, metavar="FILE", help="write the sound there, play nothing")
-    times = 'write the times there as JSON, likewise; "-" is standard output'
+    add("--wav", type=Path, metavar="FILE", help="write the sound there instead of playing it")
+    times = 'write the times as JSON instead of playing; "-" is standard output'
     add("--phonemes", type=Path, metavar="FILE", help=times)
-    video = "write a face that says it, likewise: .mp4, .webp or .gif"
+    video = "film a face that says it instead of playing: .mp4, .webp or .gif"
     add("--face-video", type=Path, metavar="FILE", help=video)
     add(
         "--visemes",
         type=Path,
         metavar="FILE",
-        help="write the shapes of the mouth as JSON, likewise",
+        help="write the mouth shapes as JSON instead of playing",
     )
     add("--face", default="robot", metavar="NAME", help="the face, from faces/ (%(default)s)")
-    add("--captions", action="store_true", help="write what is said below the face")
+    add("--captions", action="store_true", help="show captions below the face")
 
 
 def run(options: argparse.Namespace) -> int:
-    """Exit status 2 when something of it cannot be done."""
+    """Exit status 2 when a part of it fails."""
     check(options)
     resources = ResourceManager((), RealClock())
     try:
@@ -100,7 +104,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _written(speech: Speech, options: argparse.Namespace) -> bool:
-    """Write the files that are asked for; whether there were any."""
+    """Write the requested files; whether there were any."""
     if options.phonemes is not None:
         _write_json(options.phonemes, times_of(speech))
     if options.visemes is not None:
@@ -125,7 +129,7 @@ def _write_json(path: Path, what: Mapping[str, Any]) -> None:
 
 
 def check(options: argparse.Namespace) -> None:
-    """Refuse what cannot be meant. Raises HriError."""
+    """Refuse options out of range. Raises HriError."""
     if options.rate is not None and not SLOWEST <= options.rate <= FASTEST:
         raise HriError(f"--rate {options.rate} - give words a minute, {RATES}")
     if not 0 <= options.intensity <= 1:
@@ -139,24 +143,23 @@ def _synthesize(resources: ResourceManager, options: argparse.Namespace) -> Spee
     prosody = prosody_of(options.emotion, options.intensity) if options.emotion else Prosody()
     text = sys.stdin.read(LARGEST_FILE) if options.text == "-" else options.text
     if not text.strip():
-        raise HriError("there is nothing to say - give some words")
+        raise HriError("empty text - give some words")
     if len(text) > LONGEST_TEXT:
-        told = f"only the first {LONGEST_TEXT} characters of {len(text)} are said"
+        told = f"only the first {LONGEST_TEXT} characters of {len(text)} are spoken"
         print(f"{told} - say it in parts", file=sys.stderr)
     return open_voice(resources, options.voice, options.rate).synthesize(text, prosody)
 
 
 def prosody_of(feeling: str, intensity: float) -> Prosody:
-    """How the voice of a robot in a neutral mood shows an emotion ("joy" or "happy"), 0 to 1.
-
-    Raises HriError when there is no such emotion.
+    """The prosody of an emotion ("joy" or "happy"), 0 to 1, for a neutral mood. Raises HriError for
+    an unknown emotion.
     """
     state = _feeling(feeling, intensity)
     return Prosody() if state is None else load_display().prosody(felt_now(state))
 
 
 def expression_of(feeling: str | None, intensity: float) -> Expression:
-    """How its face shows it, likewise."""
+    """The expression of the face for it, likewise."""
     state = _feeling(feeling or "neutral", intensity)
     return Expression() if state is None else load_display().expression(state)
 
@@ -186,7 +189,7 @@ def times_of(speech: Speech) -> dict[str, Any]:
 
 
 def visemes_of(speech: Speech) -> dict[str, Any]:
-    """What the mouth does for a speech with phonemes, as it is written to JSON; see HELP."""
+    """The mouth shapes of a speech with phonemes, as written to JSON; see HELP."""
     track = PhonemeTrack(speech.phonemes)
     segments = (segment for segment in track.segments if segment.viseme != "sil")
     return {

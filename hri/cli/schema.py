@@ -1,4 +1,4 @@
-"""`hri schema export`: what behaviors declare, as XML for tools."""
+"""`hri schema export`: writes the schemas of behaviors as XML for tools."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     about = "write schemas as XML: to the screen, or to DIR/behavior/Namespace/Name.xml"
     export = commands.add_parser("export", help=about, description=about)
     export.add_argument("types", nargs="*", metavar="TYPE", help="behavior types: Hri.Constant")
-    export.add_argument("--all", action="store_true", help="all types that are declared")
+    export.add_argument("--all", action="store_true", help="all declared types")
     export.add_argument("--to", type=Path, metavar="DIR", help="a search folder to write to")
 
 

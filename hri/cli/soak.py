@@ -1,4 +1,4 @@
-"""`hri soak`: simulated hours of what must not leak or lose; exit status 1 when anything does."""
+"""`hri soak`: runs simulated hours to find leaks and losses; exit status 1 when there are any."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Within(float, 0.01),
         default=1.0,
         metavar="H",
-        help="of simulated time (%(default)g)",
+        help="hours of simulated time (%(default)g)",
     )
     add(
         "--behaviors",
         type=Within(int, 1, 1000),
         default=50,
         metavar="N",
-        help="in the network (%(default)s)",
+        help="behaviors in the network (%(default)s)",
     )
-    add("--companion", action="store_true", help="run the companion, not a network")
+    add("--companion", action="store_true", help="run the companion instead of a network")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -38,7 +38,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _network(options: argparse.Namespace) -> tuple[str, list[str]]:
-    """What came of the large network, and what is wrong with it."""
+    """Results of the large network, and its faults."""
     verdict = Soak(options.hours, options.behaviors, _tell).run()
     told = (
         f"{verdict.hours:g} hours, {verdict.ticks} ticks, {verdict.events} events,"
@@ -50,7 +50,7 @@ def _network(options: argparse.Namespace) -> tuple[str, list[str]]:
 
 
 def _companion(options: argparse.Namespace) -> tuple[str, list[str]]:
-    """What came of the companion, and what is wrong with it."""
+    """Results of the companion, and its faults."""
     verdict = CompanionSoak(options.hours, _tell).run()
     told = (
         f"{verdict.hours:g} hours, {verdict.visits} visits, {verdict.events} events,"

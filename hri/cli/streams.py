@@ -1,4 +1,4 @@
-"""Standard input, output and error, whatever a program was started with."""
+"""Makes standard input, output and error safe, however a program was started."""
 
 from __future__ import annotations
 
@@ -10,9 +10,8 @@ from typing import Any, TextIO, cast
 
 
 def open_missing() -> None:
-    """Open the null device for standard streams that are closed.
-
-    Else the next file that is opened takes their number, and what libraries print goes into it.
+    """Open the null device for closed standard streams. Otherwise the next opened file would get
+    their number, and receive the output of libraries.
     """
     for number, (name, mode) in enumerate((("stdin", "r"), ("stdout", "w"), ("stderr", "w"))):
         try:
@@ -24,7 +23,7 @@ def open_missing() -> None:
 
 
 def let_go(out: TextIO) -> None:
-    """Discard what is still to be written to a stream, and all that follows."""
+    """Discard the pending and all further output of a stream."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, out.fileno())
     os.close(nowhere)
@@ -32,10 +31,9 @@ def let_go(out: TextIO) -> None:
 
 @contextmanager
 def unfailing_output() -> Iterator[None]:
-    """While the block runs, output that cannot be written is left out; a line on stderr says so.
-
-    For programs whose work is not what they print. A reader that has gone (`... | head`) still
-    raises BrokenPipeError.
+    """While the block runs, output that cannot be written is dropped; a line on stderr says so. For
+    programs whose output is not their purpose. A reader that has gone (`... | head`) still raises
+    BrokenPipeError.
     """
     open_missing()
     with redirect_stdout(cast(TextIO, _Unfailing(sys.stdout))):
@@ -43,7 +41,7 @@ def unfailing_output() -> Iterator[None]:
 
 
 class _Unfailing:
-    """A stream that goes on when it cannot be written."""
+    """A stream that ignores write errors."""
 
     def __init__(self, out: TextIO) -> None:
         self._out = out
@@ -69,4 +67,4 @@ class _Unfailing:
             raise error
         let_go(self._out)
         with suppress(OSError):
-            print(f"nothing more is printed: {error.strerror} - make room", file=sys.stderr)
+            print(f"output stops: {error.strerror} - make room", file=sys.stderr)

@@ -1,4 +1,4 @@
-"""`hri token`: prints what programs show to move the robot over a network."""
+"""`hri token`: prints the token that programs show to move the robot over a network."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from hri.core.token import VARIABLE, new_token, own_token
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    about = "make another one; whoever has shown the old one must show the new one"
+    about = "make a new one; programs that showed the old one must show the new one"
     parser.add_argument("--new", action="store_true", help=about)
 
 
 def run(options: argparse.Namespace) -> int:
-    """Print the token, which is made if there is none."""
+    """Print the token; make one if there is none."""
     print(new_token() if options.new else own_token())
     if options.new and os.environ.get(VARIABLE):
-        print(f"{VARIABLE} is set and goes before it - unset {VARIABLE}", file=sys.stderr)
+        print(f"{VARIABLE} is set and takes precedence - unset {VARIABLE}", file=sys.stderr)
     return 0

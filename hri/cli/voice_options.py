@@ -1,4 +1,4 @@
-"""The house's own voice, as the command line sets it."""
+"""The built-in voice, as set on the command line."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hri.speech.synthesizers.espeak_library import Setting
 
 PLAIN_VOICE = Setting().voice
 NO_FILE = Description("", "").place.path
-"""Where mistakes of the command line are."""
+"""Place of mistakes on the command line."""
 
 
 def open_voice(resources: ResourceManager, name: str, rate: int | None = None) -> EspeakVoice:

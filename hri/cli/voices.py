@@ -1,4 +1,4 @@
-"""`hri voices`: the voices that can be chosen, and how."""
+"""`hri voices`: lists the voices."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from hri.speech.synthesizers.espeak_library import load_espeak
 from hri.speech.synthesizers.pyttsx3 import platform_voices
 
 VARIANT = "+"
-"""Stands for the language of a variant, which speaks any."""
+"""Language of a variant, which speaks any."""
 WIDTH = 96
-"""Characters of a line of variants."""
+"""Width of a line of variants."""
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Listed:
     """A voice as this command shows it."""
 
     voice: str
-    """What to give as `voice`."""
+    """Value for the option `voice`."""
     name: str
     language: str
     gender: str
@@ -35,7 +35,7 @@ class Listed:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = (
-        "A voice of Hri.EspeakVoice can be given a variant, another speaker of the same language:"
+        "A voice of Hri.EspeakVoice can have a variant, another speaker of the same language:"
         " en-us+f3. The variants are listed last; in JSON their language is +."
     )
     add = parser.add_argument
@@ -96,12 +96,12 @@ def _tongue(voice: Listed) -> str:
 
 
 def _told(voices: Iterable[Listed]) -> str:
-    """The voices as a table, and the variants, which are many, behind one another."""
+    """The voices as a table, and the variants in lines."""
     voices = list(voices)
     variants = [voice.voice for voice in voices if voice.language == VARIANT]
     table = _table(voice for voice in voices if voice.language != VARIANT)
     behind = textwrap.fill(" ".join(variants), WIDTH, break_on_hyphens=False)
-    return f"{table}\n\nvariants, to be written behind a voice, such as en-us+f3:\n{behind}"
+    return f"{table}\n\nvariants, appended to a voice, such as en-us+f3:\n{behind}"
 
 
 def _table(voices: Iterable[Listed]) -> str:

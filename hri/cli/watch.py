@@ -1,4 +1,4 @@
-"""`hri watch`: what the robot sees: everyone's box, id, pose, gaze and gestures, drawn live."""
+"""`hri watch`: draws people live: box, id, pose, gaze and gestures."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from hri.hal.screen import Screen
 SHOWN = 1.5
 """Seconds that a gesture stays in the picture."""
 IDLE = 0.1
-"""Seconds between two looks at the keys while no picture comes."""
+"""Seconds between checks of the keys while there is no new picture."""
 KEYS = "escape: end; space: hold; l: landmarks; c: camera off and on"
 
 
@@ -45,13 +45,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add(
         "--detector", default="auto", metavar="NAME", help="auto, haar, or the path of a YuNet file"
     )
-    add("--prompted", action="store_true", help="an answer is expected: a single nod will do")
+    add("--prompted", action="store_true", help="an answer is expected: a single nod is enough")
     add("--patterns", action="store_true", help="all gestures of gestures.toml, not nod and shake")
-    add("--no-landmarks", action="store_true", help="leave out the points of the faces")
+    add("--no-landmarks", action="store_true", help="hide the points of the faces")
 
 
 def run(options: argparse.Namespace) -> int:
-    """Until the source has ended, the window is closed, or Ctrl-C."""
+    """Run until the source has ended, the window is closed, or Ctrl-C."""
     is_live = options.out is None or _is_device(options)
     clock = RealClock() if is_live else FakeClock()
     with opened_camera(options, clock) as camera:
@@ -75,7 +75,7 @@ def _is_device(options: argparse.Namespace) -> bool:
 
 @dataclass
 class Watcher:
-    """Sees frames, tells the gestures in them, and draws what it sees."""
+    """Analyzes frames, prints their gestures, and draws the results."""
 
     see: Callable[[Frame], People]
     recognize: Callable[[People], Iterable[HeadGesture]]
@@ -84,7 +84,7 @@ class Watcher:
 
     @classmethod
     def of(cls, camera: Camera, options: argparse.Namespace) -> Watcher:
-        """What the options ask for; tells what is lost where models are missing."""
+        """As the options say; reports what does not work without models."""
         from hri.vision.camera_view import CameraView
         from hri.vision.detectors.detector_choice import load_detectors
         from hri.vision.gestures.gesture_behaviors import PeopleGestures
@@ -104,7 +104,7 @@ class Watcher:
         return cls(tracker.see, recognize, not options.no_landmarks)
 
     def look(self, frame: Frame) -> Image:
-        """The frame with everything drawn in that is seen in it; gestures are printed."""
+        """The frame with the results drawn in; gestures are printed."""
         from hri.vision.detectors.overlay import draw
 
         people = self.see(frame)
@@ -119,7 +119,7 @@ class Watcher:
 
 
 def write(path: Path, watcher: Watcher, frames: Iterator[Frame]) -> None:
-    """Write the film of what is seen. Raises HriError."""
+    """Write the film. Raises HriError."""
     from hri.face.renderers.movie import check_movie, write_movie
 
     check_movie(path, FILM_RATE)
@@ -130,7 +130,7 @@ def write(path: Path, watcher: Watcher, frames: Iterator[Frame]) -> None:
 
 
 def show(watcher: Watcher, camera: Camera, screen: Screen, seconds: float = math.inf) -> None:
-    """Show it on a screen until that is closed, or Escape is pressed."""
+    """Show it on a screen until the window is closed, or Escape is pressed."""
     clock = camera.manager.clock
     window = _Window(watcher, camera, screen)
     end, shown = clock.now() + seconds, -IDLE
@@ -167,7 +167,7 @@ class _Window:
     _picture: Image | None = None
 
     def show(self, frame: Frame | None) -> None:
-        """A new frame, or the last one again while none has come."""
+        """A new frame, or else the last one again."""
         from hri.vision.detectors.overlay import draw_words
 
         clock = self.camera.manager.clock

@@ -1,4 +1,4 @@
-"""Where the commands that see take their pictures from, and how they make a film of them."""
+"""Picture sources and films of the commands that use a camera."""
 
 from __future__ import annotations
 
@@ -26,47 +26,46 @@ from hri.hal.resource_manager import ResourceManager
 from hri.simulation.world import SimulatedWorld
 
 LOOK = 0.002
-"""Seconds between two looks for the next picture."""
+"""Seconds between checks for the next picture."""
 SIZE = {"width": "640", "height": "480"}
-"""What a camera is asked for here; the robot itself is content with less."""
+"""Requested frame size; the robot itself uses less."""
 VIEWS = 12.0, 140.0
-"""Least and most degrees of a view; a wider one is that of a fisheye, which bends the picture."""
+"""Smallest and largest view in degrees; a wider one is a fisheye, which distorts the picture."""
 SHOW = (("nod", 2.0), ("look_aside", 5.0), ("shake", 8.0))
-"""What the simulated person does, and at which second."""
+"""Actions of the simulated person, and their times in seconds."""
 FILM_RATE = 30.0
-"""Pictures a second of a film that is written."""
+"""Frames per second of a written film."""
 MOST_REPEATS = 300
-"""How often one picture is repeated in a film while nothing comes; longer breaks are cut."""
+"""Most repeats of one picture in a film; longer breaks are cut."""
 
 
 def add_source(parser: argparse.ArgumentParser) -> None:
-    """The options that choose a camera; without any, that of the configuration."""
+    """Add the options that choose a camera; the default is the configured one."""
     add = parser.add_mutually_exclusive_group().add_argument
     add("--video", type=Path, metavar="FILE", help="a video or an image")
     add("--images", type=Path, metavar="FOLDER", help="a folder of pictures, in order")
     add("--camera", metavar="N", help="a camera of this machine: 0, 1 ... or its path")
-    add("--simulated", action="store_true", help="a simulated person, who nods and shakes")
+    add("--simulated", action="store_true", help="a simulated person who nods and shakes the head")
     add = parser.add_argument
     add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
-    add("--mirror", action="store_true", help="the view is mirrored: set it right")
+    add("--mirror", action="store_true", help="correct a mirrored view")
     add("--rotate", choices=("0", "90", "180", "270"), default="0", help="degrees clockwise")
     add(
         "--view",
         type=Within(float, *VIEWS),
         metavar="DEGREES",
-        help="how wide the camera sees, across",
+        help="horizontal field of view",
     )
     add("--seconds", type=Within(float, 0.001), default=math.inf, metavar="S", help="how long")
 
 
 @contextmanager
 def opened_camera(options: argparse.Namespace, clock: Clock) -> Iterator[Camera]:
-    """The camera that the options choose; on a fake clock files are read as fast as can be.
-
+    """The camera that the options choose; on a fake clock files are read as fast as possible.
     Raises HriError for a bad file, NotAvailable when there is no camera.
     """
     pace = "fast" if clock.is_fake else "real"
-    # Standard output is for what is seen, perhaps as JSON.
+    # Standard output is for results, perhaps as JSON.
     notice = partial(print, file=sys.stderr)
     with ResourceManager(_devices(options, pace), clock, notice) as resources:
         resources.check()
@@ -113,7 +112,9 @@ def _devices(options: argparse.Namespace, pace: str) -> list[Description]:
 
 @contextmanager
 def interruption() -> Iterator[Callable[[], bool]]:
-    """Whether Ctrl-C was pressed, so that a film is finished first; pressed again, it ends all."""
+    """Whether Ctrl-C was pressed, so that a film is finished first; pressed again, it ends the
+    program.
+    """
     is_pressed = False
 
     def press(*_: object) -> None:
@@ -131,7 +132,9 @@ def interruption() -> Iterator[Callable[[], bool]]:
 def frames_of(
     camera: Camera, seconds: float = math.inf, is_over: Callable[[], bool] = lambda: False
 ) -> Iterator[Frame]:
-    """The newest picture of a camera each time, until it has ended, or it or the time is over."""
+    """The newest picture of a camera each time, until the camera, Ctrl-C or the time limit ends
+    it.
+    """
     clock = camera.manager.clock
     begun, first = clock.now(), math.nan
     while not is_over():
@@ -148,7 +151,7 @@ def frames_of(
 
 
 def paced(pictures: Iterable[tuple[float, Image]], rate: float = FILM_RATE) -> Iterator[Image]:
-    """Pictures with their times in seconds, repeated or left out so that they come at a rate."""
+    """Pictures with their times in seconds, repeated or dropped to match a frame rate."""
     count, begin, last = 0, math.nan, None
     for time, picture in pictures:
         begin = time if math.isnan(begin) else begin

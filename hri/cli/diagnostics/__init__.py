@@ -1,4 +1,4 @@
-"""What the diagnostic commands share: options, help as it was in 2003, and opening devices."""
+"""Shared by the diagnostic commands: options, help as in 2003, and opening devices."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def resources_of(options: argparse.Namespace) -> Iterator[ResourceManager]:
 
 
 def without_stand_ins(configuration: Configuration) -> Configuration:
-    """The configuration with the user's choices, each device standing for itself."""
+    """The configuration with the user's choices, without stand-ins."""
     return replace(
         configuration,
         devices=tuple(
@@ -78,9 +78,8 @@ def without_stand_ins(configuration: Configuration) -> Configuration:
 def obtained(
     resources: ResourceManager, ids: Sequence[str], interface: type[R]
 ) -> tuple[list[R], int]:
-    """The devices that can be opened, and how many cannot; of each of these a line says why.
-
-    One that stands in for several counts once.
+    """The devices that can be opened, and the number of those that cannot, each reported in a line.
+    A stand-in for several devices counts once.
     """
     opened: list[R] = []
     missing = 0

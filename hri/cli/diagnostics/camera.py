@@ -25,9 +25,9 @@ OPTIONS:
   --quality <quality>      Quality from [0-1] (default = 0.8).
   --pause-time <duration>  Duration to pause between readings, in seconds
                            (default = 0.1 = 100ms).
-  --out <folder>           Where the files go (default = the current folder).
+  --out <folder>           Folder for the files (default = the current folder).
   --config <file>          The devices (default = resource-config).
-  --fast                   Fake time: stand-ins take the place of real cameras.
+  --fast                   Fake time: stand-ins replace real cameras.
 
 Exit status: 0, or 1 when a camera failed, or 2 when an option or a file is wrong.
 """
@@ -54,7 +54,7 @@ def _test(options: argparse.Namespace) -> int:
         print("*** test_camera ***")
         print(f"Obtained cameras: {', '.join(camera.id for camera in cameras)}")
         if not cameras:
-            print("none of them is there - see the lines above", file=sys.stderr)
+            print("none of them is available - see the lines above", file=sys.stderr)
             return 1
         print(f"Frame count: {options.frames}. Pause time: {options.pause_time:g} sec.", flush=True)
         for number in range(1, options.frames + 1):

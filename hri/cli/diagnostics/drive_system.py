@@ -1,4 +1,4 @@
-"""`test_drive_system`: drive a little to and fro, and measure whether the base does as told."""
+"""`test_drive_system`: drive short distances, and measure whether the base follows its commands."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ Usage: test_drive_system [OPTIONS] [<drive_id>]
 Drives forward and backward for a second, forward and backward by 10 cm, and turns left, right and
 left again, so that the robot ends where it began; the odometry measures each step.
 
-IMPORTANT: keep 4 feet (1.2 m) clear all around the robot. This test looks at no sensor: it drives
-into whatever is in its way. Ctrl-C stops it.
+IMPORTANT: keep 4 feet (1.2 m) clear all around the robot. This test ignores all sensors: it drives
+into anything in its way. Ctrl-C stops it.
 
 OPTIONS:
   --config <FILE>  The devices (default = resource-config).
@@ -36,11 +36,11 @@ SPEED, ACCELERATION = 0.2, 0.4
 TURN_SPEED, TURN_ACCELERATION = math.radians(45), math.radians(90)
 """rad/s and rad/s²."""
 NEAR, NEAR_ANGLE = 0.01, math.radians(3)
-"""Meters and radians that a step may be off."""
+"""Tolerance of a step, meters and radians."""
 SHARE = 0.25
-"""Part of a velocity, or of the way in a second, that may be off."""
+"""Relative tolerance of a velocity, or of the distance in a second."""
 STANDING = 0.01
-"""What is slower, in m/s and rad/s, stands."""
+"""Below these, in m/s and rad/s, the base counts as standing still."""
 PATIENCE = 15.0
 """Seconds after which a step that does not end has failed."""
 
@@ -75,7 +75,7 @@ def _odometry(resources: ResourceManager) -> Odometry:
 
 
 def _passes(name: str, step: Callable[[], None]) -> bool:
-    """Run one step and print what became of it."""
+    """Run one step and print its result."""
     print(f"{name}: ", end="", flush=True)
     try:
         step()
@@ -87,7 +87,7 @@ def _passes(name: str, step: Callable[[], None]) -> bool:
 
 
 class Steps:
-    """The steps of the test, each of which raises HriError when the base did something else."""
+    """The steps of the test; each raises HriError when the base deviates."""
 
     def __init__(self, drive: DriveSystem, odometry: Odometry, clock: Clock) -> None:
         self.drive, self.odometry, self.clock = drive, odometry, clock
@@ -138,7 +138,7 @@ class Steps:
     def turn(self, angle: float) -> None:
         start = self.odometry.pose(self.clock.now()).heading
         self.drive.turn_delta(angle, TURN_SPEED, TURN_ACCELERATION).wait(PATIENCE)
-        # By the shortest way round, so that it counts not how the odometry counts whole turns.
+        # The shortest way around, since odometries differ in counting whole turns.
         off = math.remainder(self.odometry.pose(self.clock.now()).heading - start - angle, math.tau)
         turned, wanted = math.degrees(angle + off), math.degrees(angle)
         _compare("turned", turned, wanted, math.degrees(NEAR_ANGLE), "degrees")

@@ -16,8 +16,8 @@ HELP = """\
 Usage: test_range_sensor [OPTIONS] [<sensor1_id> [..<sensorN_id>]]
 
 Prints the readings of the named sensors, or of all: the distance in centimeters (1.798e+308 when
-nothing is in range), what the sensor counted, and the time in seconds. Hold a hand before a sensor
-to see which one it is. Facing the robot, ids ending in n look ahead, e to your left and w to your
+nothing is in range), the raw value of the sensor, and the time in seconds. Hold a hand in front of
+a sensor to identify it. Facing the robot, ids ending in n look ahead, e to your left and w to your
 right.
 
 OPTIONS:
@@ -49,7 +49,7 @@ def _test(options: argparse.Namespace) -> int:
         print("*** test_range_sensor ***")
         print(f"Obtained range sensors: {', '.join(sensor.id for sensor in sensors)}")
         if not sensors:
-            print("none of them is there - see the lines above", file=sys.stderr)
+            print("none of them is available - see the lines above", file=sys.stderr)
             return 1
         for count in range(options.read_count):
             if count > 0:

@@ -1,6 +1,5 @@
-"""`hri drive`: drive a base by hand, with a live picture of where it is and what it senses.
-
-`hri drive replay RUN` draws a run that is over.
+"""`hri drive`: drive a base by hand, with a live picture of its pose and sensors. `hri drive replay
+RUN` draws a recorded run.
 """
 
 from __future__ import annotations
@@ -26,12 +25,12 @@ from hri.hal.resource_manager import ResourceManager
 from hri.hal.screen import Screen
 
 NAMES = {type.rpartition(".")[2].lower(): type for type in KINDS}
-"""What `--base` may be."""
+"""Values of `--base`."""
 EMULATED = "Hri.Create2"
-"""The base that is emulated when nobody says which."""
+"""The base that is emulated by default."""
 ODOMETRY, WINDOW = "drive_by_hand_odometry", "drive_by_hand_window"
 RADIUS = 0.72
-"""Of a round body, in the picture, for each meter between the wheels; that of the Create 2."""
+"""Radius of a round body in the picture, per meter between the wheels; that of the Create 2."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -41,9 +40,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add(
         "--simulated", action="store_true", help="an emulated base in the simulated world, released"
     )
-    add("--base", choices=sorted(NAMES), help="kind of the base (default: ask at the port)")
-    add("--window", action="store_true", help="show it in a window too, which takes keys as well")
-    add("--config", metavar="FILE", help="take the base, with its wiring, from a configuration")
+    add("--base", choices=sorted(NAMES), help="kind of the base (default: detect it at the port)")
+    add("--window", action="store_true", help="also open a window, which takes keys too")
+    add("--config", metavar="FILE", help="use the base of a configuration, with its networks")
     replay.add_arguments(parser)
 
 
@@ -66,7 +65,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def base_of(resources: ResourceManager, options: argparse.Namespace) -> BaseBus:
-    """The base, open; an emulated one is released, since nobody can be hurt by it."""
+    """The base, open; an emulated one is released, since it cannot hurt anyone."""
     bus = resources.obtain(resources.ids(BaseBus)[0], BaseBus)
     if options.simulated:
         bus.unlatch()
@@ -82,7 +81,7 @@ def _window(resources: ResourceManager, bus: BaseBus, title: str) -> View:
 
 
 def opened(options: argparse.Namespace, clock: Clock) -> ResourceManager:
-    """The devices, the first base of which is driven. Raises HriError where there is none."""
+    """The devices; their first base is driven. Raises HriError if they have none."""
     port = SIMULATED if options.simulated else options.port
     if options.config:
         resources = _configured(options.config, port, clock)
@@ -95,7 +94,7 @@ def opened(options: argparse.Namespace, clock: Clock) -> ResourceManager:
 
 
 def _kind(name: str | None, port: str) -> str:
-    """The device type of the base at a port, which is asked for it unless it was named."""
+    """The device type of the base at a port, detected unless it was named."""
     if not port:
         raise HriError("no base is named - give its port, or --simulated (hri devices --probe)")
     if name:

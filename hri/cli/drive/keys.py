@@ -1,4 +1,4 @@
-"""What the keys of the teleoperation mean, and for how long."""
+"""The keys of teleoperation: their meaning, and how long a press lasts."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from hri.core.signals import Twist
 from hri.hal.motion import REST
 
 DEAD_MAN = 0.3
-"""Seconds that a key counts for; a key that is held repeats, and one let go stops the base."""
+"""Seconds that a key press lasts; a held key repeats, a released one stops the base."""
 DIRECTIONS: dict[str, tuple[int, int]] = {
     "up": (1, 0),
     "down": (-1, 0),
@@ -25,9 +25,9 @@ DIRECTIONS: dict[str, tuple[int, int]] = {
 """Which way the base goes and turns: forward, and to the left."""
 FASTER, SLOWER, STOP, RELEASE, QUIT = ("+", "="), ("-",), (" ",), ("r",), ("x", "escape", "ctrl-c")
 SHARES = (0.1, 0.2, 0.35, 0.5, 0.75, 1.0)
-"""Parts of the fastest that is allowed, chosen by FASTER and SLOWER."""
+"""Shares of the speed limit, chosen by FASTER and SLOWER."""
 TURNING = 0.5
-"""Part of the fastest turning that the keys ask for at most, since turning is hard to aim."""
+"""Largest share of the turning limit that keys request, since turning is hard to aim."""
 FIRST_SHARE = 2
 HELP = (
     "arrows or w a s d: drive while held    q e: curves    + -: faster, slower",
@@ -40,23 +40,22 @@ ESCAPES |= {sequence.replace(b"[", b"O"): key for sequence, key in ESCAPES.items
 
 
 SEQUENCE = re.compile(rb"\x1b(?:[\[O][0-9;?]*(?P<end>[@-~])?)?")
-"""A sequence of a terminal, whole when it has its end."""
+"""A sequence of a terminal; complete when it has its end."""
 LONGEST_SEQUENCE = 16
-"""Bytes; what is longer is none."""
+"""Bytes; longer input is not a sequence."""
 CONTROL_C = 0x03
 
 
 class KeyReader:
-    """Finds keys in what a terminal sends, also where it sends a sequence in parts.
-
-    So Escape alone means nothing here: it may be the beginning of an arrow.
+    """Finds keys in the bytes of a terminal, which may send a sequence in parts. So Escape alone
+    has no meaning here: it may be the beginning of an arrow.
     """
 
     def __init__(self) -> None:
         self._rest = b""
 
     def feed(self, data: bytes) -> list[str]:
-        """The keys that these bytes complete; sequences that mean nothing here are left out."""
+        """The keys that these bytes complete, without unknown sequences."""
         data, self._rest, keys = self._rest + data, b"", []
         while data:
             sequence = SEQUENCE.match(data)
@@ -74,7 +73,7 @@ class KeyReader:
 
 
 def _plain(byte: int) -> list[str]:
-    """A key that is one byte; none for what is no key here."""
+    """A key of one byte; nothing for other bytes."""
     if byte == CONTROL_C:
         return ["ctrl-c"]
     return [chr(byte).lower()] if 0x20 <= byte < 0x7F else []
@@ -82,7 +81,7 @@ def _plain(byte: int) -> list[str]:
 
 @dataclass
 class Steering:
-    """Which velocity the keys ask for; time in seconds."""
+    """The velocity that the keys request; time in seconds."""
 
     step: int = FIRST_SHARE
     """Index of SHARES."""
@@ -91,11 +90,11 @@ class Steering:
 
     @property
     def share(self) -> float:
-        """Part of the fastest that is allowed."""
+        """Share of the speed limit."""
         return SHARES[self.step]
 
     def press(self, key: str, now: float) -> None:
-        """A key that steers, or changes the speed; others mean nothing here."""
+        """Handle a key that steers or changes the speed; others are ignored."""
         if key in DIRECTIONS:
             self._direction, self._pressed_at = DIRECTIONS[key], now
         elif key in FASTER:
@@ -104,11 +103,13 @@ class Steering:
             self.step = max(0, self.step - 1)
 
     def let_go(self) -> None:
-        """Nothing counts as held any more."""
+        """Treat all keys as released."""
         self._direction = (0, 0)
 
     def twist(self, fastest: Twist, slowest_back: float, now: float) -> Twist:
-        """What is asked for, within the fastest forward, turning, and backward (m/s, above 0)."""
+        """The requested velocity, within the limits forward, turning, and backward (m/s, above
+        0).
+        """
         ahead, aside = self._direction
         if now - self._pressed_at > DEAD_MAN:
             return REST

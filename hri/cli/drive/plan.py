@@ -1,4 +1,4 @@
-"""A room seen from above: what stands there, where a robot and people went."""
+"""A room seen from above: its obstacles, and the paths of the robot and people."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ GOAL: Color = (44, 138, 84)
 SEEN: Color = (176, 48, 72)
 INK: Color = (40, 40, 40)
 MARGIN = 0.3
-"""Meters around all that is shown."""
+"""Margin in meters."""
 FINE = 4
-"""Bits behind the point of a pixel, with which OpenCV draws."""
+"""Fractional bits of OpenCV's pixel coordinates."""
 LARGEST = 1400
-"""Pixels across at most."""
+"""Largest width in pixels."""
 ROW, LETTER, SIGN = 24, 9, 26
-"""Pixels of a row of the legend, of a letter in it at most, and of the sign before its words."""
+"""Pixels of a row of the legend, of its widest letter, and of the sign before its words."""
 WORDS = cv2.FONT_HERSHEY_SIMPLEX, 0.5, INK, 1, cv2.LINE_AA
 
 
@@ -45,12 +45,12 @@ class Moment:
     robot: Pose2D
     people: tuple[Point, ...] = ()
     seen: tuple[Point, ...] = ()
-    """What the beams hit."""
+    """Points that the beams hit."""
 
 
 @dataclass(frozen=True)
 class Run:
-    """All that was recorded of a run."""
+    """A recorded run."""
 
     moments: Sequence[Moment]
     obstacles: Sequence[Obstacle] = ()
@@ -62,7 +62,7 @@ class Run:
 
 @dataclass
 class Plan:
-    """The picture of a run, of which the room is drawn once."""
+    """The picture of a run; its room is drawn once."""
 
     run: Run
     _ground: Image = field(init=False)
@@ -85,7 +85,7 @@ class Plan:
             self._obstacle(self._ground, obstacle)
 
     def whole(self) -> Image:
-        """The whole run in one picture: ways, what was seen, and where all stood at the end."""
+        """The whole run in one picture: paths, seen points, and the final positions."""
         picture = self._ground.copy()
         self._history(picture, self.run.moments)
         return self._titled(picture, self.run.moments[-1].time)
@@ -120,7 +120,7 @@ class Plan:
         self._line(picture, [(pose.x, pose.y), nose], PAPER, 2)
 
     def _explain(self, name: str, x: int, y: int) -> None:
-        """A sign as it stands in the picture, and what it means."""
+        """A sign of the picture, and its meaning."""
         picture, middle = self._ground, (x + SIGN // 2, y)
         match name:
             case "robot" | "person":
@@ -187,14 +187,13 @@ class Plan:
         return round(x * 2**FINE), round(y * 2**FINE)
 
 
-MEANING = {"seen": "what its sensors saw"}
-"""Signs of the legend that are called otherwise in it."""
+MEANING = {"seen": "points its sensors saw"}
+"""Signs with another name in the legend."""
 
 
 def legend(run: Run, width: int) -> list[tuple[str, int, int]]:
-    """The signs that are in a picture of so many pixels across.
-
-    Each comes with the pixel at which it begins, and with its row of the legend.
+    """The legend of a picture with that many columns of pixels: each sign with the pixel at which
+    it begins, and its row.
     """
     has_people = any(moment.people for moment in run.moments)
     signs = {
@@ -218,7 +217,7 @@ def legend(run: Run, width: int) -> list[tuple[str, int, int]]:
 
 
 def _bounds(run: Run) -> tuple[float, float, float, float]:
-    """Left, bottom, right and top of all that is shown."""
+    """Left, bottom, right and top of everything shown."""
     points = [(m.robot.x, m.robot.y) for m in run.moments]
     points += [person for m in run.moments for person in m.people]
     points += [run.goal] if run.goal is not None else []

@@ -1,9 +1,8 @@
-"""Reads what was recorded of a run, or drives one through a seeded room, to draw it.
-
-A run is a file of JSON lines. The first says where it was: `world` (the text of a world file),
-`goal`, `radius`, `title`; each other one a moment: `t`, `robot` [x, y, heading], `people` [[x, y]],
-`seen` [[x, y]], all of them meters and radians in the room. Of a robot's recording
-(`hri run --record`) the events named `odometry` are read.
+"""Reads a recorded run, or drives one through a seeded room, to draw it. A run is a file of JSON
+lines. The first describes the place: `world` (the text of a world file), `goal`, `radius`, `title`;
+each of the others a moment: `t`, `robot` [x, y, heading], `people` [[x, y]], `seen` [[x, y]], all
+in meters and radians in the room. From a robot's recording (`hri run --record`) the events named
+`odometry` are read.
 """
 
 from __future__ import annotations
@@ -28,17 +27,17 @@ EVENTS = "events.jsonl"
 """The file in a robot's recording."""
 MOST_ROOMS = 100_000
 FARTHEST = 1e4
-"""Meters from the origin; nobody drives farther."""
+"""Meters from the origin; farther positions are errors."""
 MOST_RADIUS = 10.0
 """Meters of a robot."""
 LONGEST_S = 86_400.0
-"""Seconds of a run at most."""
+"""Longest run, seconds."""
 UNREADABLE = KeyError, TypeError, ValueError, IndexError, OverflowError
-"""What a line that is wrong somewhere may raise."""
+"""Exceptions that a malformed line may raise."""
 
 
 def read_run(name: str, policy: str) -> Run:
-    """The run of that file or folder, or one through the room of that number. Raises HriError."""
+    """The run of a file or folder, or one through the room of that number. Raises HriError."""
     if name.isdecimal():
         return _driven(int(name), policy)
     path = Path(name)
@@ -48,7 +47,7 @@ def read_run(name: str, policy: str) -> Run:
     is_recording = any("event" in line for line in lines[:1])
     run = _of_events(path, lines) if is_recording else _of_moments(path, lines)
     if not run.moments:
-        raise HriError(f"{path}: nobody moved in it - record a run with an Hri.Odometry")
+        raise HriError(f"{path}: the robot did not move in it - record a run with an Hri.Odometry")
     _check_times(path, run.moments)
     return run
 
@@ -72,7 +71,7 @@ def _lines(path: Path) -> Iterator[Mapping[str, Any]]:
         except ValueError as error:
             raise HriError(f"{path}:{number}: not JSON: {error} - give a file of a run") from error
         if not isinstance(line, dict):
-            raise HriError(f"{path}:{number}: no JSON object - give a file of a run")
+            raise HriError(f"{path}:{number}: not a JSON object - give a file of a run")
         yield line
 
 
@@ -85,7 +84,7 @@ def _of_events(path: Path, lines: list[Mapping[str, Any]]) -> Run:
             x, y = float(line["x_cm"]) / 100, float(line["y_cm"]) / 100
             moments.append(_at(line["t"], (x, y, line["heading_rad"])))
         except UNREADABLE as error:
-            raise HriError(f"{path}:{number}: no pose in it: {error} - record it again") from error
+            raise HriError(f"{path}:{number}: bad pose: {error} - record it again") from error
     return Run(tuple(moments), title=path.parent.name)
 
 
@@ -97,7 +96,7 @@ def _of_moments(path: Path, lines: list[Mapping[str, Any]]) -> Run:
         try:
             moments.append(_moment(line))
         except UNREADABLE as error:
-            raise HriError(f"{path}:{number}: no moment: {error} - record it again") from error
+            raise HriError(f"{path}:{number}: bad moment: {error} - record it again") from error
     goal = first.get("goal")
     try:
         obstacles = _obstacles(path, str(first["world"])) if first.get("world") else ()
@@ -106,7 +105,7 @@ def _of_moments(path: Path, lines: list[Mapping[str, Any]]) -> Run:
         if not 0 < radius <= MOST_RADIUS:
             raise ValueError(f"a radius of {radius} m")
     except UNREADABLE as error:
-        raise HriError(f"{path}:1: no description: {error} - record it again") from error
+        raise HriError(f"{path}:1: bad description: {error} - record it again") from error
     return Run(tuple(moments), obstacles, place, radius, str(first.get("title", "")))
 
 
@@ -137,7 +136,7 @@ def _at(
 
 
 def _check_times(path: Path, moments: Sequence[Moment]) -> None:
-    """Raises HriError unless time goes on, and ends."""
+    """Raises HriError unless times increase, and end in time."""
     times = [moment.time for moment in moments]
     if any(after < before for before, after in pairwise(times)):
         raise HriError(f"{path}: its moments are not in order of time - sort its lines by t")
@@ -148,5 +147,5 @@ def _check_times(path: Path, moments: Sequence[Moment]) -> None:
 def _points(values: Any) -> tuple[Point, ...]:
     points = tuple((float(value[0]), float(value[1])) for value in values)
     if not all(abs(x) < FARTHEST and abs(y) < FARTHEST for x, y in points):
-        raise ValueError("a point that is nowhere near")
+        raise ValueError("a point too far away")
     return points

@@ -15,11 +15,11 @@ from hri.hal.drivers.image_size import write_picture
 from hri.simulation.trips import DEFAULT_POLICY, POLICIES
 
 NAME = "replay"
-"""What stands in the place of a port."""
+"""The word given instead of a port."""
 RATE = 20.0
-"""Pictures a second of a film."""
+"""Frames per second of a film."""
 SPEED = 4.0
-"""How much faster than life a film is by default."""
+"""Default speed of a film, relative to real time."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -31,16 +31,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     about = "how to go through the room of that number (default: full)"
     add("--policy", choices=tuple(POLICIES), help=about)
-    about = f"how much faster than life the film is (default: {SPEED:g})"
+    about = f"speed of the film relative to real time (default: {SPEED:g})"
     add("--speed", type=Within(float, 0.1, 100), default=SPEED, metavar="N", help=about)
 
 
 def run(options: argparse.Namespace) -> int:
     """Draw it. Exit status 0."""
     if not options.run:
-        raise HriError(f"no run is named - hri drive {NAME} RUN --out run.png")
+        raise HriError(f"no run given - hri drive {NAME} RUN --out run.png")
     if options.policy and not options.run.isdecimal():
-        what = f"--policy {options.policy}: {options.run} is driven already"
+        what = f"--policy {options.policy}: {options.run} is a recorded run"
         raise HriError(f"{what} - leave it out, or give the number of a room")
     out = options.out or Path("run.png")
     with waiting("reading and drawing the run"):
@@ -63,7 +63,7 @@ def _write_film(path: Path, plan: Plan, speed: float) -> None:
 
 
 def _indices(plan: Plan, speed: float) -> Iterator[int]:
-    """The moments that a film shows, in even steps of time."""
+    """The moments that a film shows, evenly spaced in time."""
     moments = plan.run.moments
     number, time = 0, moments[0].time
     while time <= moments[-1].time:

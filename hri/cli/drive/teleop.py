@@ -22,8 +22,8 @@ PERIOD = 0.05
 class Teleop:
     """Turns keys into velocities until someone quits.
 
-    The supervisor has the last word: it forgets a velocity after 0.2 s, so that the base also
-    stops when this program stands still.
+    The supervisor has the last word: it forgets a velocity after 0.2 s, so that the base also stops
+    when this program hangs.
     """
 
     def __init__(
@@ -32,20 +32,20 @@ class Teleop:
         odometry: Odometry,
         views: Sequence[View],
     ) -> None:
-        """Keys count from all views, and all of them show the base."""
+        """Take keys from all views, and show the base in all of them."""
         self._bus, self._odometry, self._views = bus, odometry, views
         self._steering = Steering()
         self._is_asking = False
 
     def run(self, clock: Clock, is_asked_to_end: Callable[[], bool] = lambda: False) -> None:
-        """Drive until a key quits, or someone else asks for the end."""
+        """Drive until a key quits, or until asked to end."""
         while True:
             now = clock.now()
             keys = [key for view in self._views for key in view.read_keys()]
             is_over = self._take(keys, now) or is_asked_to_end()
             twist = REST if is_over else self._wanted(now)
             self._ask(twist)
-            if is_over:  # perhaps because the terminal has gone, which shows nothing any more
+            if is_over:  # perhaps because the terminal is gone
                 return
             state, pose = self._bus.state, self._odometry.pose(now)
             moment = Snapshot(state, pose, twist, self._steering.share, now)
@@ -54,7 +54,7 @@ class Teleop:
             clock.advance(PERIOD)
 
     def _take(self, keys: Sequence[str], now: float) -> bool:
-        """Whether one of them quits."""
+        """Handle keys; True if one of them quits."""
         for key in keys:
             if key in QUIT:
                 return True
@@ -73,7 +73,7 @@ class Teleop:
         return self._steering.twist(fastest, allowed.backward, now)
 
     def _ask(self, twist: Twist) -> None:
-        """Repeat a velocity while a key is held, and then once tell it to rest."""
+        """Repeat the velocity while a key is held, then send one zero."""
         with suppress(NotAvailable):  # the picture says so, and another supervisor may come
             if twist != REST:
                 self._bus.teleop(twist)

@@ -20,7 +20,7 @@ CLEAR_DOWN, CLEAR_LINE, HOME = "\x1b[J", "\x1b[K", "\x1b[H"
 OWN_SCREEN, FORMER_SCREEN = "\x1b[?1049h\x1b[?25l", "\x1b[?25h\x1b[?1049l"
 CHUNK = 1024
 ENOUGH = 200
-"""Rows and columns of a terminal that does not know how many it has."""
+"""Default rows and columns."""
 
 
 def own_terminal() -> tuple[int, int]:
@@ -31,10 +31,10 @@ def own_terminal() -> tuple[int, int]:
 
 
 class TerminalView(View):
-    """Open while a `with` lasts; puts the terminal back as it was, whatever happens."""
+    """A context manager; always restores the terminal."""
 
     def __init__(self, input: int, output: int, title: str) -> None:
-        """Descriptors of the keyboard and of what shows the picture."""
+        """Descriptors of the keyboard and of the screen."""
         self._input, self._output = input, output
         self._picture = TextMap(title)
         self._reader = KeyReader()
@@ -56,7 +56,7 @@ class TerminalView(View):
             self._write(FORMER_SCREEN)
 
     def read_keys(self) -> list[str]:
-        """What was pressed since the last call; a terminal that has gone counts as Escape."""
+        """Bytes typed since the last call; a closed terminal counts as Escape."""
         if not select.select([self._input], [], [], 0)[0]:
             return []
         try:

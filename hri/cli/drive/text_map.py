@@ -1,4 +1,4 @@
-"""The live picture of a base in a terminal: where it is, what it senses, why it stands."""
+"""The live picture of a base in a terminal: its pose, its sensors, and why it is stopped."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from hri.drive.bases.protocol import BaseReport
 from hri.drive.supervisor.link import State
 
 COLUMNS, ROWS = 61, 15
-"""Of the map at most; odd, so that the base is in the middle of it."""
+"""Largest size of the map; odd, so that the base is in its middle."""
 SCALE = 0.1
-"""Meters for each column; a row is two, as letters are twice as high as wide."""
+"""Meters per column; a row is twice that, as letters are twice as high as wide."""
 ARROWS = "→↗↑↖←↙↓↘"
 """The base, by eighths of a turn to the left from east."""
 TRAIL = 2000
@@ -21,7 +21,7 @@ TRAIL = 2000
 
 
 class Trail:
-    """Where a base was; its newest TRAIL poses."""
+    """The newest TRAIL poses of a base."""
 
     def __init__(self) -> None:
         self.poses: list[Pose2D] = []
@@ -34,12 +34,12 @@ class Trail:
 
 
 def rows(moment: Snapshot) -> list[str]:
-    """What is known of a base, a line for each thing."""
+    """The state of a base, one line for each item."""
     state = moment.state
     return [
         _row("pose", _pose(moment.pose)),
         _row("speed", _speed(state.report)),
-        _row("asked", f"{_twist(moment.asked)}   ({moment.share:.0%} of what is allowed)"),
+        _row("asked", f"{_twist(moment.asked)}   ({moment.share:.0%} of the limit)"),
         _row("told", f"{_twist(state.velocity)}   by {state.level.value}"),
         *_sensors(state.report),
         _row("base", _standing(state)),
@@ -55,14 +55,14 @@ class TextMap:
         self._trail = Trail()
 
     def lines(self, moment: Snapshot, most: int = 200) -> list[str]:
-        """The picture, in so many lines: the map becomes smaller where they are few."""
+        """The picture in the given number of lines; the map shrinks to fit."""
         self._trail.add(moment.pose)
         below = rows(moment)
         height = min(ROWS, most - len(below) - len(("title", "edge", "edge")))
         return [self._title, *(self._map(moment.pose, height) if height > 0 else []), *below]
 
     def _map(self, pose: Pose2D, height: int) -> list[str]:
-        """Seen from above, north up, where the base looked when it was switched on is east."""
+        """The view from above, north up; east is the heading at power-up."""
         rows = [[" "] * COLUMNS for _ in range(height)]
         for spot in self._trail.poses:
             column = round((spot.x - pose.x) / SCALE) + COLUMNS // 2
@@ -95,7 +95,7 @@ def _speed(report: BaseReport | None) -> str:
 
 def _sensors(report: BaseReport | None) -> list[str]:
     if report is None:
-        return [_row("sensors", "the base says nothing yet")]
+        return [_row("sensors", "no report from the base yet")]
     rows = [
         ("bumper", _flags(report.bumps, "PRESSED")),
         ("cliffs", _flags(report.cliffs, "EDGE")),
@@ -108,14 +108,14 @@ def _sensors(report: BaseReport | None) -> list[str]:
 
 
 def _flags(flags: Mapping[str, bool], word: str) -> str:
-    """Each sensor, with the word where it senses something."""
+    """Each sensor, with the word if it detects something."""
     return "   ".join(
         f"{_name(place)} {word if is_set else '.'}" for place, is_set in flags.items()
     )
 
 
 def _buttons(buttons: Mapping[str, bool]) -> str:
-    """Those that someone presses; most bases have more than anyone wants to read of."""
+    """The pressed buttons only; most bases have many."""
     pressed = "   ".join(f"{_name(name)} PRESSED" for name, is_held in buttons.items() if is_held)
     return pressed or ("." if buttons else "")
 
@@ -141,7 +141,7 @@ def _battery(report: BaseReport) -> str:
 
 
 def _standing(state: State) -> str:
-    """Why it does not move, or that it may."""
+    """Why it does not move, or that it is ready."""
     if not state.is_open:
         return state.trouble or "its port is closed"
     if state.is_latched:

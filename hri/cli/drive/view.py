@@ -1,4 +1,4 @@
-"""What a view of a base that is driven by hand has to offer, and what it is given to show."""
+"""The interface of a view of a teleoperated base, and the values it shows."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from hri.drive.supervisor.link import State
 
 @dataclass(frozen=True, slots=True)
 class Snapshot:
-    """All that there is to see of a base at a time."""
+    """Everything a view shows of a base at a moment."""
 
     state: State
     pose: Pose2D
     asked: Twist
-    """What the keys ask for."""
+    """The velocity that the keys request."""
     share: float
-    """Part of the allowed speed that the keys ask for, 0 to 1."""
+    """Share of the speed limit that the keys request, 0 to 1."""
     time: float
 
 
@@ -28,8 +28,8 @@ class View(ABC):
 
     @abstractmethod
     def read_keys(self) -> Sequence[str]:
-        """What was pressed since the last call, by the names of `keys`."""
+        """Keys pressed since the last call, by the names of `keys`."""
 
     @abstractmethod
     def show(self, moment: Snapshot) -> None:
-        """Show the base instead of what was shown before."""
+        """Redraw with a new state of the base."""

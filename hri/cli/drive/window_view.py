@@ -1,4 +1,4 @@
-"""The live picture of a base in a window: seen from above, with what its sensors sense."""
+"""The live picture of a base in a window: seen from above, with its sensor readings."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ PERIOD = 0.1
 """Seconds between two pictures; drawing one takes about 15 ms."""
 PIXELS_PER_METER = 180.0
 MIDDLE = 0.75
-"""Where the base is, as a part of the height; the text is above it."""
+"""Position of the base, as a share of the height; the text is above it."""
 TEXT_HEIGHT = 15
 MARGIN = 12
 PAPER, INK, FAINT, BODY, ALARM, BEAM = (
@@ -68,13 +68,13 @@ class WindowView(View):
         return np.asarray(sheet)
 
     def _pixel(self, x: float, y: float, pose: Pose2D) -> tuple[float, float]:
-        """Where a point of the odometry's frame is on the picture: x to the right, y up."""
+        """Pixel of a point in the odometry frame: x to the right, y up."""
         middle = self._screen.width / 2, self._screen.height * MIDDLE
         right, up = (x - pose.x) * PIXELS_PER_METER, (y - pose.y) * PIXELS_PER_METER
         return middle[0] + right, middle[1] - up
 
     def _draw_grid(self, pen: ImageDraw.ImageDraw, pose: Pose2D) -> None:
-        """A line for each meter, and the way that the base came."""
+        """A grid line for each meter, and the trail of the base."""
         reach = math.ceil(max(self._screen.width, self._screen.height) / PIXELS_PER_METER)
         for step in range(-reach, reach + 1):
             x, _ = self._pixel(math.floor(pose.x) + step, 0.0, pose)

@@ -18,7 +18,7 @@ COMMANDS = {
 }
 """Each is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
 LIVE = ("watch", "forget")
-"""Those that someone looks at while they run, or answers."""
+"""Interactive commands."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

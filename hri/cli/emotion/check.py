@@ -1,4 +1,6 @@
-"""`hri emotion check`: loads all emotion files, runs their self-tests, tells what never happens."""
+"""`hri emotion check`: loads all emotion files, runs their self-tests, reports triggers that never
+fire.
+"""
 
 from __future__ import annotations
 
@@ -29,11 +31,11 @@ _BEHAVIOR = re.compile(rb"""<Behavior\s[^>]*?\bid=["']([\w-]+)["']""")
 """A behavior of a network."""
 _SUFFIXES = (".py", ".toml", ".xml")
 _LARGEST = 1_000_000
-"""Bytes; larger files are no programs."""
+"""Bytes; larger files are not programs."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """It takes none."""
+    """No options."""
 
 
 def run(options: argparse.Namespace) -> int:
@@ -57,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _loaders() -> dict[str, Callable[[], object]]:
-    """What there is to load, each by itself, so that one that is wrong does not hide the next."""
+    """The loaders, separate so that one error does not hide the next."""
     loaders: dict[str, Callable[[], object]] = {
         stimulus.FOLDER: stimulus.load_stimuli,
         "emotions/display.toml": load_display,
@@ -76,7 +78,7 @@ def _error_of(load: Callable[[], object]) -> HriError | None:
 
 
 def _warnings(stimuli: Mapping[str, StimulusSpec]) -> Iterator[str]:
-    """What is likely a slip, and what is good to know."""
+    """Warnings and notes."""
     sources = list(_sources())
     mentioned = _found(_MENTION, sources)
     for emotion in unreachable_emotions(stimuli):
@@ -84,11 +86,11 @@ def _warnings(stimuli: Mapping[str, StimulusSpec]) -> Iterator[str]:
     for problem in unreachable_stimuli(stimuli, mentioned, _found(_BEHAVIOR, sources)):
         yield f"warning: {problem}"
     if named := felt_by_name(stimuli, mentioned):
-        yield f"note: felt only when someone raises stimulus.felt with it: {', '.join(named)}"
+        yield f"note: felt only when a program raises stimulus.felt with it: {', '.join(named)}"
 
 
 def _sources() -> Iterator[bytes]:
-    """The house's programs and networks, and those of all apps."""
+    """The built-in programs and networks, and those of all apps."""
     house = [Path(hri.__file__).parent, paths.house() / "config"]
     for folder in (*house, *(below / "apps" for below in paths.search_folders())):
         for file in folder.rglob("*"):

@@ -1,4 +1,4 @@
-"""`hri emotion list`: what there is to choose from."""
+"""`hri emotion list`: personalities, stimuli and emotions."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hri.emotion.stimulus import StimulusSpec, load_stimuli
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """It takes none."""
+    """No options."""
 
 
 def run(options: argparse.Namespace) -> int:

@@ -1,4 +1,4 @@
-"""How commands of `hri emotion` write what is felt."""
+"""Output of feelings by the commands of `hri emotion`."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from hri.emotion.dynamics import Dynamics
 from hri.emotion.ledger import Cause
 
 MOST_TOLD = 4
-"""Causes in a line for people; JSON has all of them."""
+"""Most causes in a text line; JSON has all of them."""
 
 
 def text_line(time: float, dynamics: Dynamics, affect: Affect) -> str:
-    """A state for people."""
+    """A state as text."""
     state = dynamics.read(affect)
     reasons = ", ".join(f"{name} {percent}%" for name, percent in _percents(dynamics.why(affect)))
     felt = f"{state.label:15} {state.intensity:.2f}  {mood_words(state)}"
@@ -30,7 +30,7 @@ def _percents(causes: Sequence[Cause]) -> list[tuple[str, int]]:
     told = [(_named(cause), 100 * cause.share) for cause in causes[:MOST_TOLD]]
     if rest := sum(100 * cause.share for cause in causes[MOST_TOLD:]):
         told.append(("others", rest))
-    # Whoever is cut most by rounding down gets one of the percents that this leaves.
+    # Causes that lost most by rounding down share the remaining percents.
     cut = sorted(told, key=lambda one: math.floor(one[1]) - one[1])
     raised = {name for name, _ in cut[: round(sum(share % 1 for _, share in told))]}
     return [(name, math.floor(share) + (name in raised)) for name, share in told]
@@ -46,7 +46,7 @@ def mood_words(state: EmotionState) -> str:
 
 
 def json_line(time: float, dynamics: Dynamics, affect: Affect, **more: bool) -> str:
-    """A state for programs, and more to know about it."""
+    """A state as JSON, with more detail."""
     state = dynamics.read(affect)
     line: dict[str, Any] = {
         "t": time,

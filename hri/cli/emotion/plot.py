@@ -1,4 +1,4 @@
-"""The plot of a simulation: mood, emotions and drives over time, and what happened when."""
+"""The plot of a simulation: mood, emotions, drives and events over time."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ from hri.robot.feeling_plot import MOOD_COLORS
 from hri.robot.labels import placed
 
 POINTS = 600
-"""Moments between the first and the last; events come on top."""
+"""Number of evenly spaced samples; events are added."""
 FADES_S = 60.0
-"""Seconds that are drawn after the last event, so that one sees it fade."""
+"""Seconds drawn after the last event, so that its fading is visible."""
 MOST_CURVES = 8
-"""Emotions that are drawn, the strongest ones."""
+"""Most emotions drawn, the strongest ones."""
 DPI = 100
-"""Pixels an inch of the picture, which is 12 inches wide."""
+"""Pixels per inch; the picture is 12 inches wide."""
 ROWS = 5
 """Names of events, and of labels, above each other."""
 LETTER = 0.0073
 """Width of a letter, of the plot's."""
 LONGEST_NAME = 38
-"""Letters of an event's name that are written."""
+"""Most letters of an event's name."""
 
 
 def plot_affects(
@@ -77,7 +77,7 @@ def figure_of(
 def _sampled(
     dynamics: Dynamics, affects: Sequence[Affect], timeline: Sequence[Happening]
 ) -> tuple[list[float], list[EmotionState]]:
-    """States at even moments and at all that were printed, in order."""
+    """States at even intervals and at all printed times, in order."""
     if not affects:
         return [], []
     first, last = affects[0].time, affects[-1].time
@@ -112,7 +112,7 @@ def _changes(times: Sequence[float], states: Sequence[EmotionState]) -> Iterator
 
 
 def _write(axes: Axes, names: Iterable[tuple[float, str]]) -> None:
-    """Names above a plot, at their times; a name for which there is no room is left out."""
+    """Names above a plot, at their times; names that do not fit are left out."""
     left, right = axes.get_xlim()
     for label in placed(names, left, right, LETTER, ROWS):
         axes.axvline(label.time, color="#dddddd", zorder=0)

@@ -1,4 +1,6 @@
-"""`hri emotion simulate`: plays a timeline and prints what is felt; nothing is kept of it."""
+"""`hri emotion simulate`: plays a timeline and prints the feelings; memory files are not
+changed.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,7 @@ from hri.emotion.dynamics import Dynamics
 from hri.emotion.model_spec import load_emotions
 
 MOST_DRAWN = 5000
-"""States that a plot is drawn of; of a longer timeline some are skipped."""
+"""Most states in a plot; a longer timeline skips some."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -24,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--events", required=True, type=Path, metavar="FILE", help=events_help)
     at_help = "print the state at these times (seconds) too"
     add("--at", type=_times, default=[], metavar="T1,T2,...", help=at_help)
-    add("--json", action="store_true", help="print one JSON object a line")
+    add("--json", action="store_true", help="print one JSON object per line")
     add("--plot", type=Path, metavar="PNG", help="draw mood, emotions and drives over time")
 
 

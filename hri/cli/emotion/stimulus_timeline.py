@@ -39,13 +39,13 @@ MOST_EVENTS = 100_000
 
 @dataclass(frozen=True, slots=True)
 class Happening:
-    """Something that is felt at a time."""
+    """An event at a time."""
 
     time: float
     """Seconds, 0 or more."""
     what: Stimulus | OccEvent
     person: str | None = None
-    """Who brings a stimulus; the other events name their people themselves."""
+    """The cause of a stimulus; other kinds of events name their people themselves."""
 
 
 def read_timeline(path: Path, known: Collection[str]) -> list[Happening]:
@@ -62,7 +62,7 @@ def read_timeline(path: Path, known: Collection[str]) -> list[Happening]:
 
 
 def seconds(text: str) -> float | None:
-    """A time of a timeline; None when the text is none."""
+    """A time of a timeline; None when the text is not a time."""
     value = _number(text)
     return value if value is not None and 0 <= value <= LATEST else None
 
@@ -90,12 +90,14 @@ def _read_line(words: list[str], place: Place, known: Collection[str]) -> Happen
     time, name, strength = seconds(words[0]), words[1], [*words, "1"][2]
     if time is None:
         remedy = "write seconds from 0 on, such as 1.5"
-        raise AuthoringError(place, f'"{words[0]}" is no time', remedy)
+        raise AuthoringError(place, f'"{words[0]}" is not a time', remedy)
     if name not in known:
         raise AuthoringError(place, f'no stimulus "{name}"', did_you_mean(name, known))
     intensity = _number(strength)
     if intensity is None or not 0 <= intensity <= 1:
-        raise AuthoringError(place, f'"{strength}" is no intensity', "write a number from 0 to 1")
+        raise AuthoringError(
+            place, f'"{strength}" is not an intensity', "write a number from 0 to 1"
+        )
     person = words[3] if len(words) == 4 else None
     if person is not None and len(person) > LONGEST_NAME:
         what = f"the person has {len(person)} letters"
@@ -123,7 +125,7 @@ def _read_toml(path: Path, text: str, known: Collection[str]) -> list[Happening]
 def _read_entry(table: Table, known: Collection[str]) -> Happening:
     kinds = [kind for kind in _KINDS if kind in table]
     if len(kinds) != 1:
-        what = "an event of two kinds" if kinds else "an event of no kind"
+        what = "an event with two kinds" if kinds else "an event without a kind"
         raise table.error(None, what, f"name one of {', '.join(_KINDS)}") from None
     time = table.number("t", minimum=0, maximum=LATEST)
     happening = _KINDS[kinds[0]](table, time, known)

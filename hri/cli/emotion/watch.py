@@ -1,7 +1,6 @@
-"""`hri emotion watch`: shows what a running robot feels, from what it keeps in its memory file.
-
-Between two events all follows in closed form, so the file is as good as a look into the robot; of
-one that has ended it tells what it would feel by now.
+"""`hri emotion watch`: shows the feelings of a running robot, from its memory file. Between two
+events the state follows in closed form, so the file is as good as the robot itself; for a robot
+that has ended it shows what it would feel by now.
 """
 
 from __future__ import annotations
@@ -25,16 +24,16 @@ from hri.emotion.reasons import age_words, why_words
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("--personality", metavar="NAME", help="another one than the robot's own")
+    add("--personality", metavar="NAME", help="show it with another personality")
     add(
         "--every",
         type=Within(float, 0.05, 3600),
         default=1.0,
         metavar="S",
-        help="seconds between two looks",
+        help="seconds between updates",
     )
-    add("--once", action="store_true", help="look once, and end")
-    add("--json", action="store_true", help="print one JSON object a line")
+    add("--once", action="store_true", help="print once, and end")
+    add("--json", action="store_true", help="print one JSON object per line")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -51,7 +50,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 class _Watch:
-    """One robot, by its memory file; what is wrong with that or with its files is told once."""
+    """One robot, by its memory file; each error in its files is reported once."""
 
     def __init__(self, options: argparse.Namespace, path: Path, clock: RealClock) -> None:
         """Raises HriError when no robot keeps this file."""
@@ -64,9 +63,8 @@ class _Watch:
         self._told = ""
 
     def look(self) -> None:
-        """Print what it feels, or what keeps one from knowing. Raises HriError if asked but once.
-
-        A robot goes on when its files are broken, with what was last all right; and so does this.
+        """Print its feelings, or why they are unknown. Raises HriError with `--once`. Like the
+        robot, it continues with the last good files when they are broken.
         """
         try:
             memory = kept(self._path)
@@ -77,7 +75,7 @@ class _Watch:
             self._tell(error)
 
     def _model_of(self, memory: Memory) -> EmotionModelSpec:
-        """What the files say for the robot that has written this."""
+        """The emotion files of the robot that wrote this memory."""
         personality = self._options.personality or memory.personality
         if self._files is None or personality != self._personality:
             self._files, self._personality = EmotionFiles(personality), personality
@@ -103,17 +101,17 @@ class _Watch:
         if not is_running:
             line += f"  (it ended {age_words(wall - memory.wall) or 'just now'})"
         if sys.stdout.isatty() and not self._options.once:
-            # On a terminal each look is written over the last one.
+            # On a terminal each update overwrites the last one.
             print(f"\r\x1b[K{line}", end="", flush=True)
         else:
             print(line, flush=True)
 
 
 def kept(path: Path) -> Memory:
-    """What the robot that keeps this file has written. Raises HriError when there is none."""
+    """The memory in this file. Raises HriError when there is none."""
     memory = recall(path)
     if memory is None:
-        raise HriError(f"{path}: no robot keeps here what it feels - run an app with --keep")
+        raise HriError(f"{path}: no robot saves its feelings here - run an app with --keep")
     return memory
 
 

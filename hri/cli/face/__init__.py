@@ -1,4 +1,4 @@
-"""`hri face`: begin, check, show, render and list faces; a module for each command."""
+"""`hri face`: create, check, show, render and list faces; a module for each command."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from hri.cli.progress_line import waiting
 COMMANDS = {
     "render": (render, "draw one picture"),
     "sheet": (sheet, "draw all expressions and visemes, with labels"),
-    "animate": (animate, "film a script of what a face shows and says"),
-    "show": (show, "open a window with a living face that follows its drawings"),
+    "animate": (animate, "film a script for a face"),
+    "show": (show, "open a window with a moving face that updates when its drawings are saved"),
     "new": (new, "copy a face to start a new one from"),
-    "check": (check, "load a face and report all that is wrong"),
-    "list": (list, "show the faces there are"),
-    "export": (export, "write a baked face as JSON, for drawing it elsewhere"),
+    "check": (check, "load a face and report all mistakes"),
+    "list": (list, "list all faces"),
+    "export": (export, "write a baked face as JSON, for other programs"),
 }
 """Each is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
 LIVE = ("show",)
-"""Those that someone looks at while they run, or answers."""
+"""Interactive commands."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -1,4 +1,4 @@
-"""`hri face animate`: a script of what a face shows and says, as a movie."""
+"""`hri face animate`: films a script of expressions, speech and gestures."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ A step does any of these:
                            as --csv writes them and as the app Live Link Face records them
   state = "listening"      "" ends it
   valence = 0.5            the mood, with arousal = -1 to 1
-  weights = { blush = 1 }  targets that win over all else; {} ends it
+  weights = { blush = 1 }  targets that replace everything else; {} ends it
 
 `duration` above the steps is the length of the movie in seconds. An example is
 docs/samples/face/hello.toml.
@@ -42,13 +42,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("script", type=Path, metavar="SCRIPT.toml")
     add("--face", default="robot", metavar="NAME", help=FACE)
-    add("--voice", default=PLAIN_VOICE, help="who says the texts (%(default)s)")
-    add("--fps", type=float, default=30.0, metavar="N", help="pictures a second (%(default)g)")
+    add("--voice", default=PLAIN_VOICE, help="voice of the texts (%(default)s)")
+    add("--fps", type=float, default=30.0, metavar="N", help="frames per second (%(default)g)")
     add("--size", type=pixels, default=(640, 480), metavar="WxH", help="in pixels")
-    add("--seed", type=int, default=0, metavar="N", help="of the idle life")
-    add("--captions", action="store_true", help="write what is said below the face")
-    add("--wav", type=Path, metavar="FILE", help="write all that is said there, too")
-    add("--csv", type=Path, metavar="FILE", help="write the weights of all pictures there, too")
+    add("--seed", type=int, default=0, metavar="N", help="seed of the idle motion")
+    add("--captions", action="store_true", help="show captions below the face")
+    add("--wav", type=Path, metavar="FILE", help="also write the speech here")
+    add("--csv", type=Path, metavar="FILE", help="also write the weights of all frames here")
     add("--out", required=True, type=Path, metavar="FILE", help=".mp4, .webp or .gif")
 
 
@@ -60,7 +60,7 @@ def run(options: argparse.Namespace) -> int:
     if options.wav is not None:
         sound = scene.sound()
         if sound is None:
-            raise HriError(f"{options.wav}: nothing is said in {options.script} - leave out --wav")
+            raise HriError(f"{options.wav}: {options.script} has no speech - leave out --wav")
         write_wav(options.wav, *sound)
     film = FaceFilm(options.fps, options.size, options.seed, options.captions, options.csv)
     film.shoot(scene, model, options.out, options.wav)

@@ -1,4 +1,4 @@
-"""`hri face check`: loads a face and reports what is wrong, or likely a slip."""
+"""`hri face check`: loads a face and reports errors and likely mistakes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Exit status 1 when there is something to warn of, 2 when the face cannot be loaded."""
+    """Exit status 1 when there are warnings, 2 when the face cannot be loaded."""
     from hri.face.lint import findings
     from hri.face.mistakes import mistakes
 

@@ -1,4 +1,4 @@
-"""`hri face export`: a baked face as JSON, for whoever draws the same shapes elsewhere."""
+"""`hri face export`: writes a baked face as JSON, for other programs that draw it."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def exported_face(model: FaceModel) -> Plain:
-    """All it takes to draw a face from the weights of its channels, and to name them."""
+    """The data needed to draw a face from the weights of its channels, and to name them."""
     settings = model.settings
     return {
         "name": model.name,

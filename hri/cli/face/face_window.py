@@ -1,4 +1,4 @@
-"""A window with a living face: keys choose what it shows, and it follows its drawings."""
+"""A window with a moving face: keys choose its look, and it reloads saved drawings."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from hri.hal.screen import Screen
 
 FRAME_S = 1 / 30
 FADE_S = 0.3
-"""From one look to the next."""
+"""Seconds of the transition between looks."""
 CYCLE_S = 2.0
-"""How long each look stays while all are shown in turn."""
+"""Seconds that each look stays while all are shown in turn."""
 WATCH_S = 0.25
-"""Between two looks at the files."""
+"""Seconds between checks of the files."""
 LEGEND = (
     "left, right, letters: expression; up, down, digits: viseme; space: all; tab: turn; F1: hide"
 )
@@ -50,7 +50,9 @@ class ShownFace:
 
 @dataclass
 class FaceWindow:
-    """A living face on a screen, led by keys; `frame` draws one picture and lets its time pass."""
+    """A moving face on a screen, controlled by keys; `frame` draws one picture and waits its
+    time.
+    """
 
     folder: Path
     screen: Screen
@@ -73,11 +75,11 @@ class FaceWindow:
 
     @property
     def model(self) -> FaceModel:
-        """The face as it was last drawn without fault."""
+        """The last valid version of the face."""
         return self._model
 
     def frame(self) -> None:
-        """Take the keys, look at the files, draw, and wait for the next frame."""
+        """Handle keys, check the files, draw, and wait for the next frame."""
         begun = self.clock.now()
         for key in self.screen.pressed_keys():
             self.press(key)
@@ -91,7 +93,7 @@ class FaceWindow:
         self.clock.advance(max(begun + FRAME_S - self.clock.now(), 0.0))
 
     def press(self, key: str) -> None:
-        """What a key does; others do nothing."""
+        """Handle a key; unknown ones are ignored."""
         expressions, visemes = self._expressions, self._visemes
         look = self.look
         if key == "escape":
@@ -120,7 +122,7 @@ class FaceWindow:
 
     @property
     def _expressions(self) -> list[str]:
-        """Aliases look like what they stand for and are left out."""
+        """Without aliases, which look the same."""
         return [label for label in self._model.expressions if label in LABELS]
 
     @property
@@ -144,7 +146,7 @@ class FaceWindow:
         return looks[(looks.index(here) + 1) % len(looks)] if here in looks else looks[0]
 
     def _watch(self) -> None:
-        """Load what was saved, once it does not change any more."""
+        """Load saved drawings, once they do not change any longer."""
         try:
             stamps = stamps_of(self.folder)
         except HriError as error:
@@ -164,7 +166,7 @@ class FaceWindow:
         self.refusal = ""
         self.look = self._known(self.look)
         self._before = self._known(self._before)
-        print(f"{self.folder}: loaded again", flush=True)
+        print(f"{self.folder}: reloaded", flush=True)
 
     def _refuse(self, reason: str) -> None:
         if reason != self.refusal:

@@ -1,4 +1,4 @@
-"""`hri face list`: the faces there are, and the gestures they make."""
+"""`hri face list`: all faces, and their gestures."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hri.face.motion.gesture_tracks import load_gestures
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """It has none."""
+    """No options."""
 
 
 def run(options: argparse.Namespace) -> int:

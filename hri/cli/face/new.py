@@ -21,16 +21,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("name", metavar="NAME", help="small letters, digits and _: my_robot")
     add("--from", dest="source", default="robot", metavar="FACE", help="what to copy (%(default)s)")
-    add("--dir", type=Path, default=Path(), metavar="DIR", help="where its folder goes (here)")
+    add("--dir", type=Path, default=Path(), metavar="DIR", help="where to put its folder (here)")
 
 
 def run(options: argparse.Namespace) -> int:
     if not NAME.fullmatch(options.name):
-        what = f'"{options.name}" is no name for a face'
+        what = f'"{options.name}" is not a valid name for a face'
         raise HriError(f"{what} - write small letters, digits and _: my_robot")
     folder: Path = options.dir / options.name
     if folder.exists() or folder.is_symlink():
-        raise HriError(f"{folder}: is there already - choose another name, or --dir another folder")
+        raise HriError(f"{folder}: already exists - choose another name, or --dir another folder")
     source = paths.find("faces", options.source)
     load_face(source)
     make_folder(folder.parent)
@@ -40,13 +40,13 @@ def run(options: argparse.Namespace) -> int:
     print(f"{folder}: a copy of {source.name}. Next:\n")
     print(f"  draw in {folder / 'neutral.svg'} and {folder / 'targets'}/ with an SVG editor")
     print(f"  hri face show {spelled} --watch     # shows each change when you save")
-    print(f"  hri face check {spelled}            # tells what is wrong")
-    print(f"  hri companion --face {spelled}      # lives with it")
+    print(f"  hri face check {spelled}            # reports mistakes")
+    print(f"  hri companion --face {spelled}      # runs with it")
     return 0
 
 
 def _copy(source: Path, folder: Path) -> None:
-    """Copy what makes a face, and nothing else that lies in its folder."""
+    """Copy only the files of a face from its folder."""
     own_gestures = [source / GESTURES] if (source / GESTURES).is_file() else []
     for file in (*(file for file, *_ in stamps_of(source)), *own_gestures):
         target = folder / file.relative_to(source)

@@ -1,4 +1,4 @@
-"""What several commands of `hri face` take."""
+"""Arguments shared by the commands of `hri face`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def share(text: str) -> tuple[str, float]:
     try:
         return name.strip(), float(number) if equals else 1.0
     except ValueError:
-        raise HriError(f'"{text}": "{number}" is no number - write {name}=0.5') from None
+        raise HriError(f'"{text}": "{number}" is not a number - write {name}=0.5') from None
 
 
 def pair(text: str) -> tuple[float, float]:

@@ -46,10 +46,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="turn to the viewer's right; most faces -25 to 25",
     )
     add("--pitch", type=float, default=0.0, metavar="DEG", help="turn up; most faces -15 to 15")
-    add("--time", type=float, metavar="T", help="add idle life as it is after T seconds")
-    add("--seed", type=int, default=0, metavar="N", help="of the idle life")
+    add("--time", type=float, metavar="T", help="add idle motion as it is after T seconds")
+    add("--seed", type=int, default=0, metavar="N", help="seed of the idle motion")
     add("--size", type=pixels, default=(640, 480), metavar="WxH", help="in pixels")
-    add("--bits", action="store_true", help="one bit a pixel, as a small OLED shows it")
+    add("--bits", action="store_true", help="one bit per pixel, as on a small OLED")
     add("--out", required=True, type=Path, metavar="FILE.png", help="or .jpg")
 
 

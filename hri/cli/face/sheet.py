@@ -1,4 +1,4 @@
-"""`hri face sheet`: all that a face can show, with labels."""
+"""`hri face sheet`: all looks of a face, with labels."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`hri face show`: a window with a living face, which follows its drawings while they are made."""
+"""`hri face show`: a window with a moving face, which updates while you draw it."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from hri.hal.screen import Screen
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("face", nargs="?", default="robot", metavar="NAME", help=f"{FACE} (%(default)s)")
-    add("--watch", action="store_true", help="load its drawings again whenever they are saved")
+    add("--watch", action="store_true", help="reload its drawings whenever they are saved")
     add("--size", type=pixels, default=(800, 600), metavar="WxH", help="of the window, in pixels")
-    add("--seed", type=int, default=0, metavar="N", help="of its idle life")
+    add("--seed", type=int, default=0, metavar="N", help="seed of its idle motion")
 
 
 def run(options: argparse.Namespace) -> int:

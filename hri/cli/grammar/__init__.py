@@ -1,4 +1,4 @@
-"""`hri grammar`: write grammars, check what was written, try it in words and in sound.
+"""`hri grammar`: check grammars, and try them with text and sound.
 
 Each subcommand is a module with `EXAMPLES`, `add_arguments(parser)` and
 `run(options) -> exit status`.
@@ -15,21 +15,22 @@ from hri.cli.messages import OptionParser
 from hri.core.errors import AuthoringError, AuthoringErrors, HriError
 
 COMMANDS = {
-    "check": "say what is wrong and what is heard badly",
-    "parse": "say what a sentence means",
-    "expand": "list, draw or count the sentences that are understood",
-    "test": "try a file of sentences, or recordings, that should be understood",
-    "watch": "check a grammar, and test it, each time it is saved",
-    "listen": "hear with a grammar: a microphone, recordings or typed lines",
-    "confuse": "find sentences of different meaning that sound alike",
-    "pronounce": "tell and fix how words are said",
-    "lexicon": "list how the words of a grammar are said",
+    "check": "report mistakes, and commands that are hard to recognize",
+    "parse": "print the meaning of a sentence",
+    "expand": "list, sample or count the sentences of a grammar",
+    "test": "test a grammar with sentences or recordings",
+    "watch": "check and test a grammar each time it is saved",
+    "listen": "recognize speech: from a microphone, recordings or typed lines",
+    "confuse": "find sentences that sound alike but differ in meaning",
+    "pronounce": "show and correct pronunciations",
+    "lexicon": "list the pronunciations of a grammar's words",
     "calibrate": "choose the strictness from recordings or synthetic speech",
 }
 
 OBJECTS_BETWEEN_COLLECTIONS = 20_000
-"""A grammar is many objects that all stay. With Python's 700, a third of the time of reading a
-large one goes by in looking for garbage among them."""
+"""A grammar is many lasting objects. With Python's default of 700, garbage collection takes a third
+of the time of reading a large one.
+"""
 FILE_HELP = "grammar file, or the name of one in grammars/"
 
 
@@ -38,12 +39,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     about = "\n".join(f"  {name:<{width}}  {about}" for name, about in COMMANDS.items())
     parser.epilog = f"commands:\n{about}\n\nhri grammar COMMAND --help lists the options."
     parser.formatter_class = argparse.RawDescriptionHelpFormatter
-    parser.add_argument("command", metavar="COMMAND", choices=COMMANDS, help="one of those below")
+    parser.add_argument("command", metavar="COMMAND", choices=COMMANDS, help="a command below")
     parser.add_argument("words", nargs=argparse.REMAINDER, help=argparse.SUPPRESS)
 
 
 def run(options: argparse.Namespace) -> int:
-    """Only the module of the command that is wanted is loaded: some take their time."""
+    """Load only the module of the wanted command: some are slow to import."""
     module = importlib.import_module(f"hri.cli.grammar.{options.command}")
     parser = OptionParser(
         prog=f"hri grammar {options.command}",
@@ -63,7 +64,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def explained(error: HriError) -> str:
-    """The error; each mistake in a file with the line it is in."""
+    """The error; each mistake in a file with its line."""
     from hri.cli.grammar.excerpt import Excerpts
 
     if not isinstance(error, AuthoringError):

@@ -4,5 +4,5 @@ from __future__ import annotations
 
 
 def legible(text: str) -> str:
-    """A text that can be printed: bytes that are none become a sign that no word holds."""
+    """A printable text: undecodable bytes become a replacement sign that no word contains."""
     return text.encode("utf-8", "surrogateescape").decode("utf-8", "replace")

@@ -1,4 +1,4 @@
-"""`hri grammar calibrate`: which strictness suits a grammar, a room and its people."""
+"""`hri grammar calibrate`: recommends a strictness for a grammar, a room and its people."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ commands, and twenty sentences of other talk. Nothing is written: put the line t
 into the network."""
 
 STRICTNESSES = tuple(step / 20 for step in range(2, 20))
-"""Tried: 0.1 to 0.95."""
+"""Strictnesses to try: 0.1 to 0.95."""
 SHOWN = STRICTNESSES[::2]
 FEWEST = 20
-"""Sentences of each kind; by fewer, one that is lost or accepted by chance moves the result."""
+"""Sentences of each kind; with fewer, a single error changes the result."""
 MOST_SPOKEN = 40
 """Sentences of the grammar that are spoken in every voice."""
 FOREIGN_SHARE = 0.02
-"""Of other talk may be accepted, unless --foreign tells another share."""
+"""Default of --foreign: the accepted share of out-of-grammar speech."""
 
 OTHER_TALK = (
     "did you see the game last night",
@@ -65,7 +65,7 @@ OTHER_TALK = (
     "yesterday",
     "maybe later",
 )
-"""Sentences of everyday talk; those that a grammar allows are left out."""
+"""Sentences of everyday talk, without those that the grammar allows."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -87,7 +87,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Within(float, 0, 1),
         default=FOREIGN_SHARE,
         metavar="SHARE",
-        help=f"of other talk that may be accepted, 0 to 1 ({FOREIGN_SHARE})",
+        help=f"accepted share of other talk, 0 to 1 ({FOREIGN_SHARE})",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     add_engine_arguments(parser)
@@ -98,7 +98,7 @@ def run(options: argparse.Namespace) -> int:
     with started_engine(options, grammar) as engine:
         heard = [attempt(clip, engine, grammar) for clip in _clips(options, grammar)]
     if not any(tried.meaning is None for tried in heard):
-        raise HriError("nothing outside of the grammar to calibrate with - add lines with -")
+        raise HriError("no out-of-grammar recordings - add lines with -")
     scores = [score(heard, grammar, strictness) for strictness in STRICTNESSES]
     best = recommended(scores, options.foreign)
     if options.json:
@@ -140,9 +140,9 @@ def _show(scores: list[Score], best: Score, heard: list[Attempt]) -> None:
     print("margin for talk and rooms that were not tried")
     print(f"right and accepted: {told(best.right, best.commands)}")
     print(f"other talk accepted: {told(best.foreign_accepted, best.foreign)}")
-    print("(in brackets: where the true share is, with 95 % certainty)")
+    print("(in brackets: 95 % confidence interval)")
     if _are_too_few(best):
-        print(f"these are too few to rely on: try {FEWEST} commands and {FEWEST} others, or more")
+        print(f"too few to be reliable: try {FEWEST} commands and {FEWEST} others, or more")
     print()
     print("In the network, among the parameters of Hri.Recognizer:")
     print(f'  <Parameter name="strictness" value="{best.strictness:g}"/>')

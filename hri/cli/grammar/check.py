@@ -1,4 +1,4 @@
-"""`hri grammar check`: what is wrong with a grammar, and what will be heard badly."""
+"""`hri grammar check`: reports mistakes in a grammar, and commands that are hard to recognize."""
 
 from __future__ import annotations
 
@@ -23,23 +23,23 @@ from hri.speech.recognizers.ctc.phone_graph import compile
 EXAMPLES = """\
 examples:
   hri grammar check companion            errors, warnings and hints, each with its place
-  hri grammar check my.jsgf --all        commands of one word as well, which may be meant
+  hri grammar check my.jsgf --all        also commands of one word, which may be intended
   hri grammar check my.jsgf --strict     warnings count as errors: for a build
   hri grammar check my.jsgf --json       for other programs
 
 Status 0: fine. 1: with --strict, there are warnings. 2: there are errors.
-A rule whose comment has @answer may be short: it counts only while a question is open."""
+A rule whose comment has @answer may be short: it is active only while a question is open."""
 
 MOST_SHOWN = 3
-"""Errors that are shown at once; fixing the first often fixes the rest."""
+"""Most errors shown; fixing the first often fixes the rest."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help=FILE_HELP)
-    parser.add_argument("--strict", action="store_true", help="fail for warnings, too")
+    parser.add_argument("--strict", action="store_true", help="fail for warnings too")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument(
-        "--all", action="store_true", help=f"more than {MOST_SHOWN} errors, and notes, too"
+        "--all", action="store_true", help=f"more than {MOST_SHOWN} errors, and notes"
     )
 
 
@@ -61,7 +61,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _read(path: Path) -> tuple[Grammar, list[AuthoringError]]:
-    """The grammar and the mistakes in its writing; nothing and one where it is no text."""
+    """The grammar and its syntax errors; no grammar and one error for a file that is not text."""
     try:
         return read_grammar(path)
     except AuthoringError as error:
@@ -69,14 +69,16 @@ def _read(path: Path) -> tuple[Grammar, list[AuthoringError]]:
 
 
 class _OneSound:
-    """How words sound, as if they all did alike: what is too large then is so with all sounds."""
+    """A pronunciation shared by all words: a grammar too large with it is too large with any."""
 
     def pronunciations(self, word: str) -> tuple[tuple[str, ...], ...]:
         return (("AH",),)
 
 
 def _too_large(grammar: Grammar) -> list[Finding]:
-    """A warning for what the default engine cannot hear, in whatever words it is said."""
+    """A warning for a grammar that the default engine cannot handle, whatever its
+    pronunciations.
+    """
     try:
         compile(grammar.graph(), _OneSound())
     except HriError as error:
@@ -89,7 +91,7 @@ def _lexicon() -> Lexicon | None:
     try:
         return load_lexicon()
     except NotAvailable as error:
-        print(f"how the words sound is not checked: {error}", file=sys.stderr)
+        print(f"pronunciations are not checked: {error}", file=sys.stderr)
         return None
 
 

@@ -1,4 +1,4 @@
-"""`hri grammar confuse`: sentences of different meaning that sound alike."""
+"""`hri grammar confuse`: finds sentences that sound alike but differ in meaning."""
 
 from __future__ import annotations
 
@@ -31,21 +31,21 @@ The distance is 0 for the same sound and 1 for nothing in common; below 0.1 expe
 noise. What to do: say one of the two in other or in more words, or mark the rule @careful."""
 
 MOST_COMPARED = 3000
-"""Sentences that are compared by their phones, unless --sentences tells another number."""
+"""Default of --sentences, compared by their phones."""
 MOST_SPOKEN = 60
-"""Sentences that are spoken in every voice, unless --sentences tells another number."""
+"""Default of --sentences with --speak, in every voice."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help=FILE_HELP)
     parser.add_argument(
-        "-n", type=Within(int, 1), default=25, metavar="N", help="show so many pairs (25)"
+        "-n", type=Within(int, 1), default=25, metavar="N", help="number of pairs to show (25)"
     )
     parser.add_argument(
         "--sentences",
         type=Within(int, 1),
         metavar="N",
-        help=f"how many to look at ({MOST_COMPARED}; with --speak {MOST_SPOKEN})",
+        help=f"number of sentences to compare ({MOST_COMPARED}; with --speak {MOST_SPOKEN})",
     )
     parser.add_argument(
         "--farthest",
@@ -54,7 +54,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="D",
         help=f"distance ({FARTHEST})",
     )
-    parser.add_argument("--speak", action="store_true", help="speak and hear the sentences")
+    parser.add_argument("--speak", action="store_true", help="speak and recognize the sentences")
     parser.add_argument("--voices", nargs="+", metavar="VOICE", help="en-gb, flite:slt ...")
     parser.add_argument("--strictness", type=Within(float, 0, 1), default=STRICTNESS, metavar="X")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
@@ -147,7 +147,7 @@ def _by_ear(options: argparse.Namespace, grammar: Grammar, sentences: list[str])
 
 
 def _missed(heard: list[Attempt], grammar: Grammar, strictness: float) -> list[tuple[str, int]]:
-    """What was not accepted, and in how many voices; the worst first."""
+    """Rejected sentences, and in how many voices; the worst first."""
     counts: dict[str, int] = {}
     for tried in heard:
         if not tried.accepted(grammar, strictness):

@@ -1,4 +1,4 @@
-"""The recognizer that a command line asks for."""
+"""The recognizer chosen on the command line."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def add_engine_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _engine_of(options: argparse.Namespace) -> str:
-    """The engine's name: whoever gives a model wants the engine that can use it."""
+    """The engine's name: `--model` implies the engine that can use it."""
     name: str = options.engine
     if options.model and name not in ("automatic", "vosk"):
         raise HriError(f"--engine {name} takes no --model - leave one of them out")
@@ -50,7 +50,7 @@ def started_engine(options: argparse.Namespace, grammar: Grammar) -> Iterator[Re
         engine: Recognizer = driver(Description("recognizer", kind, parameters), manager)
         engine.activate()
         try:
-            with waiting("getting ready to hear the grammar"):
+            with waiting("compiling the grammar"):
                 engine.start(grammar)
             yield engine
         finally:

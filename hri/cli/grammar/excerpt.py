@@ -1,4 +1,4 @@
-"""The line of an authored file that a message is about, with a caret under the spot."""
+"""The line of an authored file that a message refers to, with a caret under the spot."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hri.core.errors import HriError, Place
 from hri.speech.grammar.loader import read_source
 
 WIDEST = 100
-"""Characters of a line that are shown."""
+"""Most characters of a line to show."""
 
 
 class Excerpts:
@@ -20,7 +20,7 @@ class Excerpts:
         self._lines: dict[Path, Sequence[str]] = {}
 
     def of(self, place: Place) -> str:
-        """Two lines, indented: the one of the file, and the caret; empty when there is none."""
+        """Two indented lines: the file's and the caret; empty without a line."""
         if place.path not in self._lines:
             try:
                 self._lines[place.path] = read_source(place.path).split("\n")

@@ -1,4 +1,4 @@
-"""`hri grammar expand`: the sentences that are understood."""
+"""`hri grammar expand`: lists the sentences of a grammar."""
 
 from __future__ import annotations
 
@@ -26,32 +26,32 @@ from hri.speech.grammar.tags import spell_tags
 EXAMPLES = """\
 examples:
   hri grammar expand companion -n 40               the first forty, the commands taking turns
-  hri grammar expand companion --rule move --tags  of one command, with what they mean
+  hri grammar expand companion --rule move --tags  of one command, with their meaning
   hri grammar expand companion --random 20 --seed 7
   hri grammar expand companion --count"""
 
 MOST_STALE = 1000
-"""Sentences drawn in a row that were drawn before, after which there are no more."""
+"""Repeated draws in a row after which sampling gives up."""
 MOST_DIGITS = 15
-"""Of a number of sentences that is told to the last one."""
+"""Digits of a number that is printed exactly."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help=FILE_HELP)
     how = parser.add_mutually_exclusive_group()
-    how.add_argument("-n", type=Within(int, 1), default=20, metavar="N", help="list so many (20)")
+    how.add_argument(
+        "-n", type=Within(int, 1), default=20, metavar="N", help="how many to list (20)"
+    )
     how.add_argument(
         "--random",
         type=Within(int, 1),
         metavar="N",
-        help="draw so many different ones by the weights",
+        help="draw this many different sentences by weight",
     )
-    how.add_argument("--count", action="store_true", help="print how many there are")
-    parser.add_argument(
-        "--seed", type=int, default=0, metavar="S", help="another one draws others (0)"
-    )
+    how.add_argument("--count", action="store_true", help="print the number of sentences")
+    parser.add_argument("--seed", type=int, default=0, metavar="S", help="random seed (0)")
     parser.add_argument("--rule", metavar="RULE", help="sentences of this rule only")
-    parser.add_argument("--tags", action="store_true", help="print what each one means, too")
+    parser.add_argument("--tags", action="store_true", help="also print the meaning of each")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -102,7 +102,7 @@ def _drawn(grammar: Grammar, rules: tuple[str, ...], options: argparse.Namespace
 def _count(grammar: Grammar, rules: tuple[str, ...]) -> str:
     ways = count_ways(grammar, rules)
     if ways == float("inf"):
-        return "no end of sentences: there are repeats, recursion, or too many choices to count"
+        return "unlimited sentences: there are repeats, recursion, or too many choices to count"
     different = count_sentences(grammar, rules)
     if different is None:
         return f"{in_words(ways)} ways to say something"
@@ -110,7 +110,7 @@ def _count(grammar: Grammar, rules: tuple[str, ...]) -> str:
 
 
 def in_words(ways: float) -> str:
-    """A number as `count_ways` gives it, for people."""
+    """A number from `count_ways` as text."""
     if ways == math.inf:
         return "no end"
     digits = str(ways)
@@ -118,7 +118,7 @@ def in_words(ways: float) -> str:
 
 
 def _with_tags(part: Grammar, sentence: str) -> str:
-    """What a rule says that is no command of its own."""
+    """Sentences of a rule that is not a command."""
     found = parse(part, sentence)
     return sentence if found is None else f"{sentence} {{{spell_tags(found.tags)}}}"
 

@@ -1,4 +1,4 @@
-"""`hri grammar lexicon`: how the words of a grammar are said."""
+"""`hri grammar lexicon`: lists the pronunciations of a grammar's words."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ examples:
   hri grammar lexicon companion                      all words, with who knows them
   hri grammar lexicon my.jsgf --missing > words.txt  only the guessed ones, to be corrected
   hri grammar lexicon my.jsgf --add words.txt        the same, with a lexicon on trial
-What is printed is a lexicon. Append the lines you corrected to your own, which the robot hears and
-speaks by: ~/.config/hri/lexicon.txt, or the file that HRI_LEXICON names."""
+The output is a lexicon. Append the lines you corrected to your own, which the robot uses for
+hearing and speaking: ~/.config/hri/lexicon.txt, or the file that HRI_LEXICON names."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help=FILE_HELP)
     parser.add_argument("--missing", action="store_true", help="only words that are guessed")
     parser.add_argument(
-        "--add", type=Path, nargs="+", default=[], metavar="LEXICON", help="lexicons beside yours"
+        "--add", type=Path, nargs="+", default=[], metavar="LEXICON", help="additional lexicons"
     )
 
 

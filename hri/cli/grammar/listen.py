@@ -1,4 +1,4 @@
-"""`hri grammar listen`: hear with a grammar, from files, the microphone or the keyboard."""
+"""`hri grammar listen`: recognizes speech from files, the microphone or the keyboard."""
 
 from __future__ import annotations
 
@@ -40,48 +40,50 @@ EXAMPLES = """\
 examples:
   hri grammar listen companion                       speak; Ctrl-C ends it
   hri grammar listen companion --wav a.wav b.mp3     recordings, each of any number of sentences
-  hri grammar listen my.jsgf --wav *.wav --json      an object a line for each piece of speech
+  hri grammar listen my.jsgf --wav *.wav --json      one object per piece of speech
   hri grammar listen my.jsgf --typed < lines.txt
 
 The objects: file, start_s and end_s (seconds from its beginning), accepted, text, rule, tags,
 confidence, reason (empty, or why it was not accepted) and latency_s. Put FILE before --wav, which
 takes all the paths that follow it.
 
-Status 0: all was accepted. 1: something was not. 2: a file is wrong."""
+Status 0: everything was accepted. 1: something was not. 2: a file is wrong."""
 
 METER = 20
 """Characters of the level meter."""
 TICK = 0.1
-"""Seconds between looks at the microphone."""
+"""Seconds between reads of the microphone."""
 LONGEST_LINE = 1000
 """Characters of a typed line; a longer one counts as several."""
 NOTHING = Rejection("no speech")
-"""What there is to tell of a recording without a voice."""
+"""The result for a recording without speech."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", metavar="FILE", help=FILE_HELP)
     source = parser.add_mutually_exclusive_group()
     source.add_argument(
-        "--wav", nargs="+", type=Path, metavar="F", help="recordings, as fast as they can be heard"
+        "--wav", nargs="+", type=Path, metavar="F", help="recordings, processed as fast as possible"
     )
-    source.add_argument("--mic", action="store_true", help="the microphone; without a source, too")
+    source.add_argument("--mic", action="store_true", help="microphone (default source)")
     source.add_argument("--typed", action="store_true", help="lines of the standard input")
     add_engine_arguments(parser)
     parser.add_argument("--device", default="", help="the microphone, by number or part of name")
     parser.add_argument(
-        "--channel", choices=CHOICES, default=CHOICES[0], help="what is heard of a stereo sound"
+        "--channel", choices=CHOICES, default=CHOICES[0], help="side of a stereo sound"
     )
     parser.add_argument(
         "--strictness",
         type=Within(float, 0, 1),
         default=STRICTNESS,
         metavar="X",
-        help=f"confidence from which words count, 0 to 1 ({STRICTNESS})",
+        help=f"least confidence to accept, 0 to 1 ({STRICTNESS})",
     )
-    parser.add_argument("--json", action="store_true", help="one JSON object a line for each")
+    parser.add_argument("--json", action="store_true", help="print one JSON object per line")
     parser.add_argument(
-        "--question", action="store_true", help="a question is open: rules marked @answer count"
+        "--question",
+        action="store_true",
+        help="a question is open: rules marked @answer are active",
     )
 
 
@@ -98,13 +100,13 @@ def run(options: argparse.Namespace) -> int:
 
 
 Show = Callable[[str, Heard], object]
-"""Tells people or programs what was heard in a file."""
+"""Prints the results of a file, as text or JSON."""
 
 
 def _hear_files(
     options: argparse.Namespace, engine: Recognizer, grammar: Grammar, turn: Turn, show: Show
 ) -> int:
-    """0 when all that was said was accepted, 1 when not, 2 when a file could not be read."""
+    """Exit status 0 when all speech was accepted, 1 when not, 2 when a file could not be read."""
     status = 0
     for path in options.wav:
         try:
@@ -183,7 +185,7 @@ def _open_microphone(options: argparse.Namespace, manager: ResourceManager) -> M
 
 
 class _StatusLine:
-    """How loud it is and the words so far, in one line that is written over; for terminals only."""
+    """Level meter and the words so far, in one line that is overwritten; for terminals only."""
 
     def __init__(self, out: TextIO) -> None:
         self._out = out if out.isatty() else None
@@ -197,7 +199,7 @@ class _StatusLine:
         sign = "*" if is_hearing else " "
         line = f"[{bar:<{METER}}] {level:4.0f} dB {sign} "
         room = shutil.get_terminal_size().columns - len(line) - 1
-        # The last words are those that have just been said.
+        # The most recent words are at the end.
         self._out.write(f"\r\x1b[K{line}{words[-room:] if room > 0 else ''}")
         self._out.flush()
 

@@ -1,14 +1,14 @@
-"""Recordings with what was said in them: from a manifest, or spoken by synthetic voices.
+"""Recordings with transcripts: from a manifest, or from synthetic voices.
 
 A manifest is a text file with a line for each recording and a tab between its columns:
 
-    file          where the recording is; from the folder of the manifest
-    sentence      what is said in it; `-` for something the grammar does not allow
-    tags          optional: what it means, as in files of expectations: `move: distance=-1`
+    file      path of the recording, relative to the manifest
+    sentence      its words; `-` for something the grammar does not allow
+    tags          optional: its meaning, as in files of expectations: `move: distance=-1`
 
 With tags, the sentence may be left empty, or hold words that the grammar does not know. Empty lines
-and those that begin with `#` are passed over. A first line whose first word is `file` is a heading;
-where its third word is not `tags`, that column and those behind it are of no concern.
+and those that begin with `#` are skipped. A first line whose first word is `file` is a heading;
+where its third word is not `tags`, that column and those after it are ignored.
 """
 
 from __future__ import annotations
@@ -37,11 +37,11 @@ from hri.speech.trials import RecordedClip
 
 ESPEAK_VOICES = ("en-us", "en-gb", "en-us+f3", "en-gb+m3")
 FLITE = "flite:"
-"""Stands before the names of flite's voices."""
+"""Prefix of the names of flite's voices."""
 MOST_ROWS = 20_000
-"""Recordings of one manifest."""
+"""Most recordings of one manifest."""
 LEAD, TAIL = 0.4, 0.8
-"""Seconds of silence around a sentence that is spoken."""
+"""Seconds of silence around a spoken sentence."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +82,7 @@ def read_manifest(path: Path, grammar: Grammar) -> list[ManifestRow]:
 
 def _row(columns: list[str], place: Place, grammar: Grammar) -> ManifestRow:
     if len(columns) < 2:
-        remedy = "write a tab and the sentence behind the file, or - for none of the grammar"
+        remedy = "write a tab and the sentence after the file, or - for speech outside the grammar"
         raise AuthoringError(place, "no sentence", remedy)
     name, said, *more = columns
     path = place.path.parent / name
@@ -92,7 +92,7 @@ def _row(columns: list[str], place: Place, grammar: Grammar) -> ManifestRow:
         return ManifestRow(path, said, read_meaning(more[0], place))
     found = parse(grammar, said)
     if found is None:
-        remedy = "fix the one or the other, or write - in its place"
+        remedy = "fix the sentence or the grammar, or write - instead"
         raise AuthoringError(place, f'the grammar does not allow "{said}"', remedy)
     return ManifestRow(path, said, meaning_of(found))
 

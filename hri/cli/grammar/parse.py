@@ -1,4 +1,4 @@
-"""`hri grammar parse`: what a sentence means, or how far it went."""
+"""`hri grammar parse`: prints the meaning of a sentence, or where it leaves the grammar."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ from hri.speech.grammar.tags import spell_tags
 from hri.speech.grammar.tolerance import Tolerant, nearest
 
 MOST_SHOWN = 12
-"""Words that are named of those that could follow."""
+"""Most words listed of those that could follow."""
 DEEPEST = 200
-"""Rules within rules that are printed; the words of what is deeper stand in their place."""
+"""Printed depth of nested rules; deeper ones are shown as words."""
 LONGEST_RULES = 60
-"""Characters of rules that are put into one line."""
+"""Most characters of rules in one line."""
 LONGEST_LINE = 20_000
-"""Characters of a line that are read; more than a sentence may have."""
+"""Most characters read of a line; more than a sentence may have."""
 
 EXAMPLES = """\
 examples:
@@ -43,7 +43,7 @@ The exit status is 0 when all are accepted, 1 when one is not.
 """
 
 NO_MEANING: dict[str, object] = {"rule": "", "tags": {}, "tree": None}
-"""What a sentence means that is not in the grammar: the fields are there for all."""
+"""The fields for a sentence outside the grammar: all are present."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -53,14 +53,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=legible,
         metavar="TEXT",
         nargs="+",
-        help='sentences, each in quotes (words without any are one); "-" reads lines',
+        help='sentences, each in quotes (unquoted words form one); "-" reads lines',
     )
     parser.add_argument(
         "--tolerant",
         action="store_true",
-        help="forgive little words that are missing, too much or said twice; shows the cost",
+        help="forgive small words that are missing, extra or doubled; shows the cost",
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON object a sentence")
+    parser.add_argument("--json", action="store_true", help="print one JSON object per sentence")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -167,9 +167,8 @@ def _forgiven(near: Tolerant) -> str:
 
 
 def _drawn(reading: Parse) -> Iterator[str]:
-    """The rules of a tree with their words, each below and right of the one that uses it.
-
-    Rules that are all there is of another stand in its line.
+    """The rules of a tree with their words, each below and right of the one that uses it. A rule
+    that is another's only content shares its line.
     """
     words = reading.text.split()
     rules, indent = "", 0

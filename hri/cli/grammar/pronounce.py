@@ -1,4 +1,4 @@
-"""`hri grammar pronounce`: how words are said, and how to fix it."""
+"""`hri grammar pronounce`: shows and corrects pronunciations."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from hri.speech.pronunciation.phones import in_ipa
 
 EXAMPLES = """\
 examples:
-  hri grammar pronounce robot schrodinger        phones, and who knows them
+  hri grammar pronounce robot schrodinger        phones, and their source
   hri grammar pronounce schrodinger --add "SH R OW1 D IH0 NG ER0"
-                                                 from now on it is heard and said so
+                                                 from now on it is heard and spoken this way
   hri grammar pronounce schrodinger --say        speak it
-The phones are those of the CMU Pronouncing Dictionary; 1 behind a vowel is the stress, which the
+The phones are those of the CMU Pronouncing Dictionary; 1 after a vowel is the stress, which the
 voice uses and which may be left out."""
 
 
@@ -33,11 +33,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--add",
         action="append",
         metavar="PHONES",
-        help="write these into your lexicon, instead of what it says of the word; more than once "
-        "for a word that is said in several ways",
+        help="write these into your lexicon, replacing the word's entries; may be repeated",
     )
     parser.add_argument("--say", action="store_true", help="speak the words")
-    parser.add_argument("--json", action="store_true", help="print one JSON object a word")
+    parser.add_argument("--json", action="store_true", help="print one JSON object per word")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -63,7 +62,7 @@ def _add(words: list[str], spelt: list[str]) -> None:
     before = add_to_lexicon(path, words[0], *map(read_phones, spelt))
     for phones in before:
         print(f"no longer {' '.join(phones)}")
-    print(f'added to {path} - to undo it, take the line of "{words[0]}" out')
+    print(f'added to {path} - to undo it, delete the line of "{words[0]}"')
 
 
 def _told(word: str, lexicon: Lexicon) -> str:

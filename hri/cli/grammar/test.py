@@ -1,4 +1,4 @@
-"""`hri grammar test`: whether a grammar understands what it should."""
+"""`hri grammar test`: tests a grammar with sentences or recordings."""
 
 from __future__ import annotations
 
@@ -35,9 +35,8 @@ A file of sentences:
 To begin one: hri grammar expand FILE --random 20 --tags > my.txt
 
 A manifest of recordings, with a tab between the columns: file, sentence (- for something that the
-grammar does not allow), and optionally the tags.
-
-Status 0: all as expected. 1: something was not. 2: a file is wrong."""
+grammar does not allow), and optionally the tags. Status 0: all as expected. 1: something was not.
+2: a file is wrong."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -59,7 +58,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _tried(path: Path, options: argparse.Namespace) -> int:
-    """Try a file; a wrong one does not keep the others from being tried."""
+    """Try a file; an error in one does not stop the others."""
     if len(options.files) == 1:
         return _try_sentences(path, options)
     try:
@@ -94,11 +93,13 @@ def _loaded(path: Path) -> Grammar:
 
 
 def _grammar_of(path: Path, named: str) -> Path:
-    """The grammar that is named, beside the file or in grammars/; else the one of its name."""
+    """The named grammar, beside the file or in grammars/; by default the one with the file's
+    name.
+    """
     if not named:
         beside = path.with_suffix(".jsgf")
         if not beside.is_file():
-            remedy = f"say --grammar NAME, or put {beside.name} beside it"
+            remedy = f"add --grammar NAME, or put {beside.name} beside it"
             raise HriError(f"{path}: which grammar is this for? - {remedy}")
         return beside
     for beside in (path.parent / named, path.parent / f"{named}.jsgf"):

@@ -17,12 +17,12 @@ from hri.speech.grammar import read_grammar
 EXAMPLES = """\
 examples:
   hri grammar watch my.jsgf              check it now and after each save; Ctrl-C ends it
-  hri grammar watch my.jsgf other.txt    try these sentences as well, as `hri grammar test` does
+  hri grammar watch my.jsgf other.txt    also test these sentences, as `hri grammar test` does
 
-my.txt beside my.jsgf is tried without being named."""
+my.txt beside my.jsgf is tested automatically."""
 
 LOOK_EVERY = 0.5
-"""Seconds between two looks at the files."""
+"""Seconds between checks of the files."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -31,12 +31,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Until Ctrl-C; what is wrong with the files is shown, and waited for to be fixed."""
+    """Run until Ctrl-C; errors in the files are shown, and it waits for a fix."""
     return watch(paths.find("grammars", options.file), options.sentences, RealClock())
 
 
 def watch(grammar: Path, sentences: list[Path], clock: Clock) -> int:
-    """Look at the files now and after each save, until Ctrl-C."""
+    """Check the files now and after each save, until Ctrl-C."""
     seen = None
     try:
         while True:
@@ -57,7 +57,7 @@ def _look(grammar: Path, sentences: list[Path]) -> None:
 
 
 def _run(command: ModuleType, *words: str) -> int:
-    """A command of `hri grammar`; an error is shown like there."""
+    """Run a command of `hri grammar`, with the same error messages."""
     parser = argparse.ArgumentParser()
     command.add_arguments(parser)
     try:

@@ -1,1 +1,1 @@
-"""An app of your own."""
+"""Your own app."""

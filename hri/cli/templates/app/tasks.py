@@ -5,7 +5,7 @@ from hri.task import TaskContext
 
 
 async def converse(context: TaskContext) -> None:
-    """Do what is asked: DEEDS says what, by the name of the rule in grammar.jsgf."""
+    """Call the function in DEEDS for the rule of grammar.jsgf that was heard."""
     with context.queue("speech.heard") as queue:
         while True:
             heard = (await queue.get()).properties

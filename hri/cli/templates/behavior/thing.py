@@ -1,15 +1,15 @@
-"""A behavior of your own."""
+"""Your own behavior."""
 
 from hri.behavior import Behavior, Input, Output, Param
 
 
 class Thing(Behavior):
-    """Multiplies what comes in."""
+    """Multiplies its input."""
 
     category = "my"
 
     number = Input[float]("double", "any number")
-    gain = Param(2.0, "what it is multiplied with")
+    gain = Param(2.0, "the factor")
     product = Output[float]("double", "number times gain")
 
     def compute(self, now: float, dt: float) -> None:

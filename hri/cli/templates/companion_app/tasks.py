@@ -1,16 +1,16 @@
-"""What the app does itself: tasks named by `action` in replies.toml, with the tags of the words."""
+"""The app's own tasks: named by `action` in replies.toml, with the tags as arguments."""
 
 from hri.robot.verbs import gesture
 from hri.task import TaskContext
 
 
 async def timer(context: TaskContext, seconds: float) -> str:
-    """Wait; what is returned is said."""
+    """Wait; the robot says the returned text."""
     await context.clock.sleep(seconds)
     context.events.raise_event("timer.ended", seconds=seconds)
     return f"{seconds:g} seconds are over."
 
 
 async def rejoice(context: TaskContext, seconds: float = 0.0) -> None:
-    """What `[on]` in app.toml starts. Properties of the event come as arguments."""
+    """Started by `[on]` in app.toml. Properties of the event are arguments."""
     await gesture(context, "laugh" if seconds > 30 else "nod")

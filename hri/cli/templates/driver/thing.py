@@ -1,11 +1,11 @@
-"""A range sensor of your own."""
+"""Your own range sensor."""
 
 from hri.core import RangeReading
 from hri.hal import RangeSensor
 
 
 class Thing(RangeSensor):
-    """Measures what its parameter says; ask your hardware in its place."""
+    """Returns its parameter as the distance; read your hardware here instead."""
 
     parameters = ("distance_cm",)
 
@@ -17,4 +17,4 @@ class Thing(RangeSensor):
         return RangeReading(self.id, self._distance, now)
 
     def _close(self) -> None:
-        """Let the hardware go here."""
+        """Release the hardware here."""

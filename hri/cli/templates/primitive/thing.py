@@ -1,4 +1,4 @@
-"""A primitive of your own, a task that is a network: run it with `python thing.py`."""
+"""Your own primitive, a task that is a network: run it with `python thing.py`."""
 
 import os
 from pathlib import Path
@@ -6,7 +6,7 @@ from pathlib import Path
 from hri.task import TaskContext, TaskStatus
 from hri.task.primitive import Primitive, primitive
 
-# The network lies beside this file, in primitive/My/Thing.xml.
+# The network is beside this file, in primitive/My/Thing.xml.
 HERE = str(Path(__file__).parent)
 os.environ["HRI_PATH"] = ":".join(filter(None, [HERE, os.environ.get("HRI_PATH")]))
 

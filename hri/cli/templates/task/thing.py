@@ -1,4 +1,4 @@
-"""A task of your own: run it with `python thing.py`."""
+"""Your own task: run it with `python thing.py`."""
 
 from hri.task import TaskContext
 from hri.task.task import task
