@@ -2,7 +2,7 @@
 # make test    set up and run the tests
 # make slow    run the tests that take long by nature
 # make fuzz    run the property tests with examples of chance; OPTIONS=--hypothesis-seed=1 repeats a run
-# make check   format, lint, types, import rules
+# make check   format, lint, types, import rules, spelling, prose
 # make bench   measure what is in benchmarks/ on this machine; OPTIONS="vision --only nods" one part
 # make wheels  resolve the dependencies to wheels for every supported Python and system
 # make docs    the reference of all classes, in build/reference/
@@ -45,6 +45,7 @@ check: $(VENV)/.dev
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/codespell hri apps benchmarks tests docs config *.md
+	$(BIN)/python .ci/prose.py
 
 # Of `hri bench`, all that takes something from benchmarks/.
 COMPARED := behavior drive emotion face inputs people speech vision writes

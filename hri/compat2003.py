@@ -63,7 +63,7 @@ class FaceInterface:
     def set_emotion_vector(
         self, duration: float, emotions: Mapping[str, float] | Sequence[float]
     ) -> None:
-        """Show nothing but these emotions for so long.
+        """Show only these emotions for some time.
 
         By name, those left out being 0, or a value for each in the order of `hri emotion list`.
         Raises HriError as `set_emotion_value` does, and for a list of another length.

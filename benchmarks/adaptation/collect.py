@@ -354,7 +354,7 @@ def spoken_for(seconds: float, seed: int) -> list[Clip]:
     for number in count(seed):
         if time.perf_counter() > end:
             break
-        # festival crashes now and then; that is no reason to lose the others.
+        # festival crashes now and then; that is not a reason to lose the others.
         with suppress(subprocess.CalledProcessError):
             found.append(spoken(number))
     return found

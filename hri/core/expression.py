@@ -29,7 +29,7 @@ def evaluate(text: str) -> float:
     try:
         value = _value(parsed(text))
     except (SyntaxError, RecursionError, MemoryError) as error:
-        raise ValueError(f'"{text}" is no number') from error
+        raise ValueError(f'"{text}" is not a number') from error
     except ZeroDivisionError as error:
         raise ValueError(f'"{text}" divides by zero') from error
     except OverflowError as error:
@@ -52,7 +52,7 @@ def parsed(text: str) -> ast.expr:
 def _value(node: ast.expr) -> float:
     match node:
         case ast.Constant(value=bool()):
-            raise ValueError("true and false are no numbers")
+            raise ValueError("true and false are not numbers")
         case ast.Constant(value=int() | float() as number):
             return float(number)
         case ast.Name(id=name) if name in NAMES:
@@ -63,4 +63,4 @@ def _value(node: ast.expr) -> float:
             return _value(operand)
         case ast.BinOp(left=left, op=op, right=right) if type(op) in _BINARY:
             return _BINARY[type(op)](_value(left), _value(right))
-    raise ValueError(f'"{ast.unparse(node)}" is no number')
+    raise ValueError(f'"{ast.unparse(node)}" is not a number')

@@ -118,7 +118,7 @@ def models_folder() -> Path:
 def folder_of(name: str) -> Path:
     """Where a model of this name belongs. Raises HriError for what cannot be a name."""
     if not _NAME.fullmatch(name):
-        raise HriError(f'"{name[:60]}" is no name of a model - write letters, digits, . _ -')
+        raise HriError(f'"{name[:60]}" is not a valid model name - write letters, digits, . _ -')
     return models_folder() / name
 
 

@@ -68,7 +68,7 @@ def find(kind: str, name: str) -> Path:
         direct = expanded(name)
         is_there = direct.exists()
     except (OSError, ValueError) as error:
-        raise HriError(f'"{name[:60]}" is no name of a file - shorten or fix it') from error
+        raise HriError(f'"{name[:60]}" is not a valid file name - shorten or fix it') from error
     if is_there and (os.sep in name or direct.suffix or name in (os.curdir, os.pardir)):
         return direct
     spelled = name if kind in FOLDERS else name + SUFFIXES.get(kind, ".toml")

@@ -29,6 +29,6 @@ def plain_value(name: str, value: Any) -> float | str:
 def checked_name(name: str) -> str:
     """The name of an event or a property. Raises HriError for one that cannot be written."""
     if not _NAME.fullmatch(name):
-        what = f'"{name:.40}" is no name for an event or a property'
+        what = f'"{name:.40}" is not a valid name of an event or a property'
         raise HriError(f'{what} - leave out white space and []{{}}():"')
     return name

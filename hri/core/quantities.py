@@ -67,7 +67,7 @@ def factor(quantity: Quantity, unit: str) -> float:
         return _base_factor(base, unit)
     time, _, exponent = denominator.partition("^")
     if not slash or exponent != ("" if power == 1 else str(power)) or power == 0:
-        raise HriError(f'"{unit}" is no unit of {_words(quantity)} - write such as {_si(quantity)}')
+        raise HriError(f'"{unit}" is not a unit of {_words(quantity)} - try {_si(quantity)}')
     divisor = _base_factor("time", time)
     return _base_factor(base, numerator) / math.pow(divisor, power)
 

@@ -40,7 +40,7 @@ COURTESY = 5
 """How much the child yields to the robot loop where there are few processors (Unix `nice`)."""
 LENGTH = struct.Struct("<Q")
 MOST_PARTS = 10_000
-"""Arrays in a message; more is no message of ours."""
+"""Most arrays in a valid message."""
 
 log = logging.getLogger("hri.service")
 

@@ -144,7 +144,7 @@ class Table:
         value = self._get(name, default, list, "a list of numbers")
         if not all(_is_number(item) for item in value):
             raise self.error(
-                name, f"{name} holds something that is no number", "write numbers only"
+                name, f"{name} holds something that is not a number", "write numbers only"
             )
         if count and len(value) != count:
             raise self.error(name, f"{name} has {len(value)} numbers", f"write {count}")
@@ -165,7 +165,9 @@ class Table:
         """An array of tables, `[[name]]`; empty when absent."""
         value = self._get(name, [], list, "an array of tables, [[...]]")
         if any(not isinstance(item, dict) for item in value):
-            raise self.error(name, f"{name} is no array of tables", f"write [[{name}]] above each")
+            raise self.error(
+                name, f"{name} must be an array of tables", f"write [[{name}]] above each"
+            )
         key = (*self.key, name)
         return [Table(item, self.path, (*key, i), self._places) for i, item in enumerate(value)]
 

@@ -215,7 +215,7 @@ def _judged(agent: str, praise: float) -> dict[str, float]:
 def _compound(agent: str, desired: float, praise: float) -> dict[str, float]:
     """A deed and what came of it together: as much as both parts, and nothing without either.
 
-    A good deed of which harm came, or the other way round, is no compound.
+    A good deed of which harm came, or the other way round, is not a compound.
     """
     if desired * praise <= 0:
         return {}

@@ -262,7 +262,7 @@ class Dynamics:
     def why(self, affect: Affect, about: str = "") -> tuple[Cause, ...]:
         """The causes of what the label names, with shares that sum to 1, the largest first.
 
-        `about` asks about another emotion, or the mood, instead. What pulls the other way is no
+        `about` asks about another emotion, or the mood, instead. What pulls the other way is not a
         cause; `ledger` has it. Empty when there is nothing to explain: the robot is calm, or does
         not feel that. Raises HriError for a name that is neither an emotion nor a mood.
         """

@@ -117,7 +117,7 @@ OPPOSITES_OF_THE_SAME = {name: _opposites_of(name, OPPOSITES_ABOUT_ONE_THING) fo
 def emotions_in(table: Table) -> list[str]:
     """The keys of a table of an authored file that is keyed by emotion.
 
-    Raises AuthoringError for a name that is no emotion.
+    Raises AuthoringError for a name that is not an emotion.
     """
     for name in table.data:
         if name not in INDEX:

@@ -97,7 +97,7 @@ def parse_formula(text: str) -> Formula:
     try:
         tree = parsed(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-        raise ValueError(f'"{text}" is no formula - write such as clip(value, 0, 1)') from error
+        raise ValueError(f'"{text}" is not a formula - write such as clip(value, 0, 1)') from error
     fields: set[str] = set()
     part = _part_of(tree, fields, DEEPEST)
     return Formula(text, frozenset(fields), part)
@@ -200,7 +200,7 @@ def _field(properties: Mapping[str, Any], name: str) -> Value:
     try:
         return float(value)
     except (TypeError, ValueError, OverflowError) as error:
-        raise ValueError(f'the field "{name}" is no number - compare another one') from error
+        raise ValueError(f'the field "{name}" is not a number - compare another one') from error
 
 
 def _number(value: Value, name: str) -> float:

@@ -74,9 +74,9 @@ class Fields:
     """A JSON object whose values are asked for by name and kind; errors say where they stand."""
 
     def __init__(self, data: object, place: str) -> None:
-        """Raises HriError for what is no object."""
+        """Raises HriError for anything but an object."""
         if not isinstance(data, dict):
-            raise HriError(f"{place} is no table")
+            raise HriError(f"{place} is not a table")
         self._data: Mapping[str, Any] = data
         self._place = place
 
@@ -130,7 +130,7 @@ class Fields:
     def _list(self, name: str) -> list[Any]:
         value = self.value(name)
         if not isinstance(value, list):
-            raise HriError(f"{self._place}.{name} is no list")
+            raise HriError(f"{self._place}.{name} is not a list")
         return value
 
 
@@ -161,7 +161,7 @@ def _trace(entry: Fields, time: float, lowest: float, highest: float) -> Trace:
 
 def _number(value: object, place: str, lowest: float, highest: float) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise HriError(f"{place} is no number")
+        raise HriError(f"{place} is not a number")
     try:
         number = float(value)
     except OverflowError:
@@ -173,7 +173,7 @@ def _number(value: object, place: str, lowest: float, highest: float) -> float:
 
 def _text(value: object, place: str) -> str:
     if not isinstance(value, str):
-        raise HriError(f"{place} is no text")
+        raise HriError(f"{place} is not a text")
     if not value.isascii() and value != value.encode("utf-8", "replace").decode("utf-8"):
         raise HriError(f"{place} has halves of letters")
     return value

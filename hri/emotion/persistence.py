@@ -115,7 +115,7 @@ def parse(text: str) -> Memory:
 
 
 def _refuse(constant: str) -> NoReturn:
-    raise ValueError(f"{constant} is no number")
+    raise ValueError(f"{constant} is not a number")
 
 
 def recall(path: Path) -> Memory | None:
@@ -151,10 +151,10 @@ def spare_real_time(path: Path) -> None:
 def put_aside(path: Path) -> Path:
     """Give a file that cannot be used another name; that name.
 
-    Raises OSError, also for what is no file: a folder that was named by mistake stays where it is.
+    Raises OSError, also if it is not a file: a folder named by mistake stays in place.
     """
     if not path.is_file() and path.exists():
-        raise FileNotFoundError(errno.ENOENT, "it is no file", str(path))
+        raise FileNotFoundError(errno.ENOENT, "it is not a file", str(path))
     number = 1
     while os.path.lexists(aside := path.with_name(f"{path.stem}.unusable-{number}{path.suffix}")):
         number += 1

@@ -26,7 +26,7 @@ SIGNS = {emotion.name: 1.0 if emotion.is_positive else -1.0 for emotion in EMOTI
 
 
 def is_unnamed(person: str) -> bool:
-    """Whether this is no name but the id of someone in sight: "p1", "p2" (see `Person.id`).
+    """Whether this is not a name but the id of someone in sight: "p1", "p2" (see `Person.id`).
 
     The next time it is someone else's: what the robot thinks of them ends with its run.
     """

@@ -91,7 +91,7 @@ def load_stimuli() -> dict[str, StimulusSpec]:
                 raise entry.error(None, f'"{name}" is taken already', "choose another name")
             if not _NAME.fullmatch(name):
                 remedy = "use letters, digits, - and _"
-                raise entry.error(None, f'"{name[:40]}" is no name of a stimulus', remedy)
+                raise entry.error(None, f'"{name[:40]}" is not a valid stimulus name', remedy)
             if len(stimuli) == MOST:
                 raise entry.error(None, f"more than {MOST} stimuli", "take away some")
             stimuli[name] = _stimulus(name, entry)
@@ -143,7 +143,7 @@ def _trigger(table: Table) -> str:
     trigger = table.string("trigger", "")
     if trigger and not _TRIGGER.fullmatch(trigger):
         remedy = 'write an event, "bumper.pressed", or a port, "battery.level"'
-        raise table.error("trigger", f'"{trigger}" is no trigger', remedy)
+        raise table.error("trigger", f'"{trigger}" is not a trigger', remedy)
     return trigger
 
 

@@ -110,7 +110,7 @@ class Animator:
             self._cause("speech ended" if speech is None else "speech began")
 
     def gesture(self, name: str, strength: float = 1.0, seconds: float = 0.0) -> Playing:
-        """Make a gesture from now on, in place of one that is being made.
+        """Make a gesture from now on, instead of one that is being made.
 
         `strength` is 0 to 1.5; `seconds` 0 is its own duration. Raises HriError for an unknown name
         or what is out of range.

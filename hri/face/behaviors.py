@@ -77,7 +77,7 @@ class Face(Behavior):
         "string", f"what it does: {', '.join(idle.STATES)}; else as it looks", is_optional=True
     )
     is_listening = Input[bool](
-        "boolean", "whether somebody speaks to it: then it listens", is_optional=True
+        "boolean", "whether someone speaks to it: then it listens", is_optional=True
     )
     gesture = Input[str](
         "string", "makes this gesture, whenever another name comes or the first", is_optional=True
@@ -133,14 +133,14 @@ class Face(Behavior):
         self._subscription.cancel()
 
     def make(self, gesture: str, strength: float = 1.0, seconds: float = 0.0) -> Playing:
-        """Make a gesture from the next tick on, in place of one that is being made.
+        """Make a gesture from the next tick on, instead of one that is being made.
 
         `strength` is 0 to 1.5; `seconds` 0 is its own duration. Raises HriError for an unknown one.
         """
         return self._begin(self._animator.gesture(gesture, strength, seconds))
 
     def replay(self, path: Path | str) -> Playing:
-        """Play recorded weights, in place of all else; see `hri.face.live_link`.
+        """Play recorded weights, instead of all else; see `hri.face.live_link`.
 
         Raises AuthoringError or HriError for a file that cannot be used.
         """

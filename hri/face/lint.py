@@ -33,7 +33,7 @@ Faces = NDArray[np.float32]
 COLUMNS = 48
 """How many lines are laid across an opening to see where it is inside out."""
 LEAST_FLIPPED = 6e-5
-"""Share of the area of the drawing that may be inside out before anybody sees it."""
+"""Share of the area of the drawing that may be inside out before anyone sees it."""
 LEAST_MOVE = 0.2
 """Units; a target that moves nothing farther changes nothing."""
 LARGEST_SLANT = 1.5
@@ -157,7 +157,7 @@ class _Inspection:
             alone = replace(head, still=(pattern,))
             if all(depth_of(id, alone) is not None for id in ids):
                 what = f'"{pattern}" fits no part'
-                remedy = did_you_mean(pattern.strip("*"), ids, "mend it, or delete it")
+                remedy = did_you_mean(pattern.strip("*"), ids, "fix it, or delete it")
                 yield self._in_toml("head", None, what, remedy)
 
     def inside_out(self) -> Iterator[Finding]:

@@ -206,7 +206,7 @@ def _row(
 def _seconds(path: Path, number: int, text: str) -> float:
     match = _TIME.fullmatch(text.strip())
     if match is None:
-        what = f'"{text:.40}" is no timecode'
+        what = f'"{text:.40}" is not a timecode'
         raise _wrong(path, number, what, "write hours:minutes:seconds:frames, as 00:00:01:30.000")
     hours, minutes, seconds, frames = (float(part) for part in match.groups())
     return hours * 3600 + minutes * 60 + seconds + frames / FRAMES

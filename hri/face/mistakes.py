@@ -1,4 +1,4 @@
-"""All that keeps a face from being loaded: an author mends it in one go."""
+"""All that keeps a face from being loaded: an author fixes it in one go."""
 
 from __future__ import annotations
 

@@ -166,7 +166,7 @@ def load_face(name: str | Path = "robot") -> FaceModel:
     """
     folder = Path(name) if isinstance(name, Path) else paths.find("faces", name)
     if not (folder / "face.toml").is_file():
-        raise HriError(f"{folder} is no face - it needs face.toml, neutral.svg and targets/")
+        raise HriError(f"{folder} is not a face - it needs face.toml, neutral.svg and targets/")
     return _load(folder.resolve(), stamps_of(folder))
 
 
@@ -219,7 +219,7 @@ def _names(targets: Sequence[Path]) -> set[str]:
     names: dict[str, Path] = {}
     for file in targets:
         if not _NAME.fullmatch(file.stem):
-            what = f"{file.stem!r} is no name of a target"
+            what = f"{file.stem!r} is not a valid target name"
             raise HriError(f"{file.parent}: {what} - use letters, digits and _, as in jawOpen.svg")
         if CORRECTIVE in file.stem:
             continue

@@ -206,7 +206,7 @@ def _check_turns(table: Table, cues: Sequence[Cue]) -> None:
     for one, other in pairwise(said):
         if other.at < one.end - 1e-6:
             what = f"two things are said at {other.at:.2f} s, one of them until {one.end:.2f} s"
-            raise table.error("step", what, "give the later one a wait in place of at")
+            raise table.error("step", what, "give the later one a wait instead of at")
 
 
 def _time(step: Table, cues: Sequence[Cue]) -> float:

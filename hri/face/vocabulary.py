@@ -1,4 +1,4 @@
-"""The names everybody uses: ARKit's morph targets, Oculus' visemes, ROS4HRI's expressions."""
+"""The names everyone uses: ARKit's morph targets, Oculus' visemes, ROS4HRI's expressions."""
 
 from __future__ import annotations
 

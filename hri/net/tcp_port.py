@@ -1,7 +1,7 @@
 """A TCP port in a thread of its own, for all behaviors of this process that use it.
 
 A `Server` listens, a `Client` connects and reconnects; both send lines to every peer they have, and
-hand each message that arrives to whoever subscribed to its tag. A peer that sends what is no
+hand each message that arrives to whoever subscribed to its tag. A peer that sends anything but a
 message, or reads too slowly, loses its connection and costs one line in the log; the others notice
 nothing. Real sockets take real time, whatever clock the robot has.
 """

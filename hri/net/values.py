@@ -48,7 +48,7 @@ def read(datatype: str, text: str) -> Any:
     try:
         return FORMS[datatype].read(text)
     except ValueError as error:
-        raise ProtocolError(f'"{text[:40]}" is no {datatype} - see docs/bridge.md') from error
+        raise ProtocolError(f'"{text[:40]}" is not a {datatype} - see docs/bridge.md') from error
 
 
 def can_travel(value: Any) -> bool:

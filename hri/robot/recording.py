@@ -93,7 +93,7 @@ class Recording:
         self._record_speaker(resources)
 
     def _make_private(self) -> None:
-        """Close the folder to others, unless it holds what is no recording, and the files."""
+        """Close the folder to others, unless it holds anything but a recording, and the files."""
         make_folder(self.folder, PRIVATE_FOLDER)
         if {*self.folder.iterdir()} <= {*parts(self.folder)}:
             close_to_others(self.folder)

@@ -4,7 +4,7 @@
       <Device id="simulated_camera" type="Hri.SimulatedCamera"/>
     </DeviceBus>
 
-A device whose bus is no simulated world uses the first one of the configuration. Where there is
+A device whose bus is not a simulated world uses the first one of the configuration. Where there is
 none, all of them share one that is made for them, the world "home".
 """
 

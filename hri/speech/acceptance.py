@@ -11,7 +11,7 @@ from hri.speech.grammar.matching import Parse, parse, refusal
 from hri.speech.turn import Turn
 
 STRICTNESS = 0.5
-"""Confidence from which words count, unless somebody wants another."""
+"""Confidence from which words count, unless someone wants another."""
 CAREFUL = 0.1
 """How far a rule that moves the robot is from the strictness to certainty. At the default this
 keeps out a third of the foreign sentences that got in, a quarter at 12 dB, and one in a hundred of
@@ -21,8 +21,8 @@ OVER_SPEECH = 0.4
 some command now and then (up to 0.43 in the simulated room, where "stop" had 0.8 and more)."""
 EXPECTED = 0.7
 """Share of the strictness that is enough for an answer while a question is open: it is likely, and
-often short. Of right short sentences (8 phones at most) 93 % in place of 91 % are accepted then,
-88 % in place of 82 % at 12 dB; of foreign ones 0.6 % as before, and 6 % in place of 3 %."""
+often short. Of right short sentences (8 phones at most) 93 % instead of 91 % are accepted then,
+88 % instead of 82 % at 12 dB; of foreign ones 0.6 % as before, and 6 % instead of 3 %."""
 FAR_BELOW = 0.2
 """Share of the strictness under which the nearest sentence of the grammar was not meant at all."""
 

@@ -24,17 +24,17 @@ PARTS = 16
 FORGETTING = 0.9997
 """How much of the way is still so a block later: people and robots move."""
 SMOOTHING = 0.5
-"""Share of the old estimate in the new one of all that is no echo."""
+"""Share of the old estimate in the new one of all that is not an echo."""
 FIRST_DOUBT = 0.1
 """Variance of the way before anything is known of it: an echo of -10 dB in each of its parts.
 
 With these figures 8, 14, 20 and 24 dB of an echo are gone in its first four seconds, in a room
-that rings for 0.1 s, and no less when somebody speaks meanwhile.
+that rings for 0.1 s, and no less when someone speaks meanwhile.
 """
 LEAD = 0.06
 """Seconds that the sound played is taken to be earlier than is known: it never may be late."""
 TOLERANCE = 0.05
-"""Seconds that the loudspeaker's position may be wrong before the sound played is aligned anew."""
+"""Seconds that the loudspeaker's position may be wrong before the sound played is aligned again."""
 FOREIGN_SHARE = 0.5
 """Share of a block's energy that must be left for it to pass as it is."""
 FULL_SCALE = 32768.0
@@ -102,7 +102,7 @@ class EchoCanceller:
 
 
 def _gain(heard: NDArray[np.float64], left: NDArray[np.float64]) -> float:
-    """How much of what is left is somebody else's: where most of a block was echo, so is the rest.
+    """How much of what is left is someone else's: where most of a block was echo, so is the rest.
 
     Nor can a block be louder without the echo than with it, whatever has been learnt.
     """

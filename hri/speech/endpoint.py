@@ -10,7 +10,7 @@ what else there is to hear:
 - The background is the mean level while nobody near speaks; the talk of other people is far above
   its own dips. Whoever wants to begin must be louder than that.
 - Near is what is in the upper half between the noise and the loudest of a piece, in dB. The talk of
-  others before the first near sound and behind the last one is no part of the piece.
+  others before the first near sound and behind the last one is not a part of the piece.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ FRAME = 0.02
 PRE_ROLL = 0.3
 """Seconds kept from before the first frame of voice: weak sounds such as "f" come before it."""
 PAUSE = 0.6
-"""Seconds of quiet that end a piece, unless somebody wants others."""
+"""Seconds of quiet that end a piece, unless someone wants others."""
 TRAILING = 0.2
 """Seconds that weak sounds may go on behind the last near one: so much longer is a pause that the
 talk of others fills."""
@@ -54,7 +54,7 @@ until the babble did (up to 8 s); of 50 orders each at 12 and 6 dB none is cut i
 sounds off, 0.4 lets babble at 6 dB go on.
 """
 LEAST = 0.25
-"""Seconds; what is shorter when the sound ends is no word, only the beginning of one."""
+"""Seconds; a shorter segment at the end of the sound is only the beginning of a word."""
 LEAST_CUT = 0.5
 """Seconds of background before the first near sound that are worth being taken away."""
 SMOOTHING = 5
@@ -100,7 +100,7 @@ class NoiseLevel:
 
 
 class Background:
-    """The mean level of what is no near voice."""
+    """The mean level of what is not a near voice."""
 
     def __init__(self) -> None:
         self.level = QUIETEST
@@ -213,7 +213,7 @@ class Endpointer:
         return segments
 
     def flush(self) -> list[Segment]:
-        """The piece that is still open; the next sound starts anew."""
+        """The piece that is still open; the next sound starts again."""
         segments = []
         if self._piece is not None:
             samples = np.concatenate([self._piece.samples, self._rest])

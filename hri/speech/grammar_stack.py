@@ -73,7 +73,7 @@ class GrammarStack:
             self._layers.remove(found)
 
     def reload(self) -> Layer | None:
-        """Read the topmost anew."""
+        """Read the topmost again."""
         if not self._layers:
             return None
         old = self._layers[-1]
@@ -89,7 +89,7 @@ class GrammarStack:
     def update(self) -> Layer | None:
         """Take the next step; a grammar that has come into force or was refused just now.
 
-        Raises what is no fault of a grammar, such as NotAvailable for a missing model.
+        Raises errors other than those of a grammar, such as NotAvailable for a missing model.
         """
         finished = None
         loading = self._loading
@@ -109,7 +109,7 @@ class GrammarStack:
         return finished
 
     def reload_when_changed(self, now: float) -> None:
-        """Read the grammar in force anew when one of its files was changed."""
+        """Read the grammar in force again when one of its files was changed."""
         if now - self._looked < LOOK_EVERY or not self.is_settled or self.in_force is None:
             return
         self._looked = now

@@ -28,7 +28,7 @@ MOST_WAITING = 20
 ECHO_TAIL = 0.4
 """Seconds that the robot's own voice may be heard after it has ended."""
 OWN_SHARE = 0.5
-"""Share of a sound's energy that must be left without the robot's voice to be somebody else's."""
+"""Share of a sound's energy that must be left without the robot's voice to be someone else's."""
 
 Tell = Callable[[float], object]
 """What is to be done in the loop with the result of a job, at a time."""
@@ -51,7 +51,7 @@ class Listener(Behavior):
     """Hears what the grammar allows: sound in, utterances out.
 
     Raises `speech.heard` (text, rule, tags, confidence, start, end, latency), `speech.rejected`
-    (reason, detail, text, confidence), `speech.partial` (text) while somebody speaks,
+    (reason, detail, text, confidence), `speech.partial` (text) while someone speaks,
     `speech.interrupted` (text, rule) when a rule marked @interrupts is heard over the robot's own
     voice, and `grammar.changed` (file) or `grammar.refused` (file, error). Loads its models and
     grammars while the rest already runs; what is said before the first grammar is there waits.
@@ -147,7 +147,7 @@ class Listener(Behavior):
         self._grammars.pop(layer)
 
     def reload_grammar(self) -> None:
-        """Read the files of the grammar in force anew; the old one stays when they are wrong."""
+        """Read the files of the grammar in force again; the old one stays when they are wrong."""
         self._grammars.reload()
 
     def is_in_force(self, layer: Layer) -> bool:

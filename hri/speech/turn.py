@@ -56,5 +56,5 @@ class Wakefulness:
         self._until = now + self.follow_up
 
     def is_awake(self, now: float) -> bool:
-        """Whether somebody who speaks now speaks to the robot."""
+        """Whether someone who speaks now speaks to the robot."""
         return now <= self._until

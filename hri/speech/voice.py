@@ -16,7 +16,7 @@ from hri.hal.speaker import Speaker
 from hri.hal.synthesizer import Synthesizer
 
 INTERRUPTED = "speech.interrupted"
-"""The event at which it falls silent: somebody spoke up while it spoke."""
+"""The event at which it falls silent: someone spoke up while it spoke."""
 MOST_QUEUED = 100
 """Things to say; when there are more, the last of those that matter least is dropped."""
 

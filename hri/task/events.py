@@ -39,7 +39,7 @@ _KEPT = "".join(map(chr, range(33, 127))).translate(str.maketrans("", "", "%&=?"
 def event(name: str, /, **properties: Any) -> Event:
     """An event that has not been raised, with properties as 2003 takes them.
 
-    Raises HriError for a name that cannot be written, or a property that is no number or text.
+    Raises HriError for a name that cannot be written, or a property that is not a number or text.
     """
     return _checked(name, 0.0, properties)
 
@@ -69,7 +69,7 @@ def parse_event(text: str) -> Event:
     if head is None:
         raise _wrong(text, "it does not begin like {Event Name [time 0]")
     if not NUMBER.fullmatch(head[2]) or not math.isfinite(float(head[2])):
-        raise _wrong(text, f'"{head[2]:.40}" is no time')
+        raise _wrong(text, f'"{head[2]:.40}" is not a time')
     properties: dict[str, Any] = {}
     at = head.end()
     while found := _PROPERTY.match(text, at):
@@ -77,7 +77,7 @@ def parse_event(text: str) -> Event:
         if name in properties:
             raise _wrong(text, f'"{name:.40}" is there twice')
         if words is None and not NUMBER.fullmatch(number):
-            raise _wrong(text, f'"{number:.40}" is no number and has no quotes')
+            raise _wrong(text, f'"{number:.40}" is not a number and has no quotes')
         properties[name] = number if words is None else _unescaped(words)
         at = found.end()
     if text[at:] != "}":
@@ -172,4 +172,4 @@ def _check_length(text: str) -> None:
 
 
 def _wrong(text: str, why: str) -> HriError:
-    return HriError(f'"{text[:60]}" is no event: {why} - fix the text')
+    return HriError(f'"{text[:60]}" is not an event: {why} - fix the text')

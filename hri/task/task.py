@@ -84,7 +84,7 @@ class TaskType:
             try:
                 return tuple(float(element) for element in value)
             except (TypeError, ValueError) as error:
-                raise HriError(f"{self.id}: {name} is no array - give numbers") from error
+                raise HriError(f"{self.id}: {name} is not an array - give numbers") from error
         if wanted is float and is_number and not isinstance(value, bool):
             return float(value)
         if wanted is int and isinstance(value, float) and value.is_integer():

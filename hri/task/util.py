@@ -18,7 +18,7 @@ __all__ = ["RaiseEvent", "Wait", "WaitForEvent"]
 async def Wait(context: TaskContext, milliseconds: float) -> None:
     """Let some milliseconds pass, whatever the default unit of time is; fails for infinity."""
     if math.isinf(milliseconds):
-        raise HriError(f"Hri.Wait: {milliseconds} is no time - wait for an event instead")
+        raise HriError(f"Hri.Wait: {milliseconds} is not a time - wait for an event instead")
     await context.clock.sleep(_seconds(milliseconds))
 
 
@@ -38,5 +38,5 @@ async def WaitForEvent(
 
 def _seconds(milliseconds: float) -> float:
     if math.isnan(milliseconds):
-        raise HriError("nan is no time - give milliseconds")
+        raise HriError("nan is not a time - give milliseconds")
     return milliseconds * millisecond

@@ -17,11 +17,11 @@ NEARNESS = 0.5
 REACH = 1.5
 """Meters."""
 LEAD = 0.6
-"""By so much somebody else must be more than the one who has the attention ..."""
+"""By so much someone else must be more than the one who has the attention ..."""
 HOLD = 1.5
 """... for so many seconds."""
 PATIENCE = 1.0
-"""Seconds for which it stays with somebody who is out of sight."""
+"""Seconds for which it stays with someone who is out of sight."""
 
 
 class Attending:
@@ -63,7 +63,7 @@ class Attending:
 
 
 def claim(person: Person) -> float:
-    """How much somebody asks for attention, by taking part, looking, and being near."""
+    """How much someone asks for attention, by taking part, looking, and being near."""
     distance = person.distance if math.isfinite(person.distance) else 2 * REACH
     nearness = NEARNESS * REACH / (REACH + max(0.0, distance))
     return WEIGHTS[person.engagement] + LOOKING * person.looking + nearness

@@ -16,19 +16,19 @@ from hri.vision.tracking.people import MEMORY, Seeing
 from hri.vision.tracking.presence import Presence
 
 FRESH = 1.0
-"""Seconds for which somebody counts as seen after they were seen last."""
+"""Seconds for which someone counts as seen after they were seen last."""
 GLANCE = 0.8
 """Seconds for which a newcomer is looked at."""
 USUAL_DISTANCE = 1.5
-"""Meters, of somebody whose distance is unknown."""
+"""Meters, of someone whose distance is unknown."""
 ZONES = Zones()
 
 
 class PersonTracker(Behavior):
-    """Follows everybody the camera sees, and tells by events who comes, goes and looks.
+    """Follows everyone the camera sees, and tells by events who comes, goes and looks.
 
     It sees in a process of its own. When that fails, `vision.failed` tells the `reason`, whoever
-    was there has left, and it starts anew by itself.
+    was there has left, and it starts again by itself.
     """
 
     category = "vision"
@@ -42,8 +42,8 @@ class PersonTracker(Behavior):
     latency = Param(0.05, "seconds that seeing takes on a fake clock", minimum=0, maximum=1)
 
     image = Input[Frame]("image", "pictures; the newest is seen when there is no time for all")
-    people = Output[People]("people", "everybody, once for each picture that was seen")
-    pose = Output[HeadPose]("headpose", "the head of the one attended to, when it was seen anew")
+    people = Output[People]("people", "everyone, once for each picture that was seen")
+    pose = Output[HeadPose]("headpose", "the head of the one attended to, when it was seen again")
     is_seen = Output[bool]("boolean", "true while a face is there, or was a second ago")
 
     def start(self, context: Context) -> None:
@@ -64,7 +64,7 @@ class PersonTracker(Behavior):
         self._told = self._seen = self._pictured = -math.inf
         self._posed = "", -math.inf
         self.last = People(-math.inf)
-        """Everybody, as they were seen last."""
+        """Everyone, as they were seen last."""
 
     def compute(self, now: float, dt: float) -> None:
         """Take what was seen, say so, and hand over the newest picture."""
@@ -120,7 +120,7 @@ class Attention(Behavior):
 
     category = "vision"
 
-    people = Input[People]("people", "everybody who is seen")
+    people = Input[People]("people", "everyone who is seen")
     gaze = Output[Gaze]("gaze", "where the robot's eyes must look to meet those of the person")
     person = Output[str]("string", "id of who is looked at")
 
@@ -167,11 +167,11 @@ class EngagementLevel(Behavior):
 
     category = "vision"
 
-    people = Input[People]("people", "everybody who is seen")
+    people = Input[People]("people", "everyone who is seen")
     level = Output[str](
         "string", "of who is attended to: unengaged, engaging, engaged, disengaging"
     )
-    is_engaged = Output[bool]("boolean", "true while anybody is engaged")
+    is_engaged = Output[bool]("boolean", "true while anyone is engaged")
     count = Output[float]("double", "how many are engaged")
 
     def start(self, context: Context) -> None:

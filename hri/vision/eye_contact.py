@@ -1,4 +1,4 @@
-"""Whether somebody looks at the robot, told from how the head is turned.
+"""Whether someone looks at the robot, told from how the head is turned.
 
 The face is the best guess there is at where the eyes look: people turn the head along for all but
 small glances. NAOqi's LookingAtRobotScore has the same form.

@@ -23,14 +23,14 @@ log = logging.getLogger("hri.vision")
 KEPT_FRAMES = 15
 """Pictures that are kept until it is known who is in them."""
 LOOK_EVERY = 1.0
-"""Seconds between two looks at who somebody is; one look may err, so names may change."""
+"""Seconds between two looks at who someone is; one look may err, so names may change."""
 
 
 class FaceNames(Behavior):
     """Names the people it was told about; learns nobody by itself.
 
     `remember` takes the face of a person for a name, `forget` erases one, `forget_all` everything.
-    When somebody else changes the file, as `hri forget` does, that counts within a second. Raises
+    When someone else changes the file, as `hri forget` does, that counts within a second. Raises
     `person.named` (person: the id, name) when a face is recognized.
     """
 
@@ -41,7 +41,7 @@ class FaceNames(Behavior):
     latency = Param(0.05, "seconds that a look takes on a fake clock", minimum=0, maximum=1)
 
     image = Input[Frame]("image", "the pictures in which the people were seen")
-    people = Input[People]("people", "everybody who is seen")
+    people = Input[People]("people", "everyone who is seen")
     named = Output[People]("people", "the same people with their names")
 
     def start(self, context: Context) -> None:
@@ -103,7 +103,7 @@ class FaceNames(Behavior):
         return was_known
 
     def forget_all(self) -> None:
-        """Erase everybody. Raises HriError without a model."""
+        """Erase everyone. Raises HriError without a model."""
         self._ready().known.forget_all()
         self._names.clear()
         self._save()
@@ -126,7 +126,7 @@ class FaceNames(Behavior):
             log.warning("%s: %s", self.id, error)
 
     def _reread(self) -> None:
-        """Know whom the file knows, if somebody else has changed it. Raises HriError."""
+        """Know whom the file knows, if someone else has changed it. Raises HriError."""
         path = paths.expanded(self.file)
         if self._recognizer is None or not self.file or (mark := _mark_of(path)) == self._mark:
             return
@@ -136,7 +136,7 @@ class FaceNames(Behavior):
         self._names = {id: name for id, name in self._names.items() if name in known}
 
     def _name(self, person: str, name: str) -> None:
-        """Call somebody who is seen by a name; empty when nobody knows it."""
+        """Call someone who is seen by a name; empty when nobody knows it."""
         if name and self._names.get(person) != name:
             self._events.raise_event("person.named", person=person, name=name)
         self._names[person] = name

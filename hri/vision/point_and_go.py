@@ -1,4 +1,4 @@
-"""Going to the place that somebody points at in the picture of a camera.
+"""Going to the place that someone points at in the picture of a camera.
 
 pixel (x, y) -> Hri.PointAndGo -> goal -> Hri.ObstacleAvoidance -> Hri.CommandGate
 
@@ -19,7 +19,7 @@ from hri.vision.camera_view import CameraView
 
 
 class PointAndGo(DeviceBehavior):
-    """Makes a goal of a pixel that somebody points at; the goal stays until another comes.
+    """Makes a goal of a pixel that someone points at; the goal stays until another comes.
 
     A pixel that shows no floor fails the tick and leaves the goal as it was.
     """

@@ -19,7 +19,7 @@ SLOWEST, FASTEST = 9.5, 105.0
 LARGEST_FILE = 40_000_000
 """Bytes; poses are read one by one."""
 LONGEST_LINE = 100_000
-"""Characters; a longer line is no line of numbers."""
+"""Characters; a longer line is not a line of numbers."""
 
 
 @dataclass
@@ -47,7 +47,7 @@ def read_poses(path: Path, remarks: Remarks) -> Iterator[HeadPose]:
     Rows without finite numbers, and those of the time of the row before, are passed over, and
     remarked; so is time that goes back and a rate out of range, with which the recognizer does what
     it can. Raises AuthoringError for a column
-    that is missing and for what is no number, HriError for a file that cannot be read.
+    that is missing or not a number, HriError for a file that cannot be read.
     """
     try:
         with read_lines(path, "file of poses", LARGEST_FILE, LONGEST_LINE) as lines:
@@ -78,7 +78,7 @@ def _poses(path: Path, lines: Iterator[str], remarks: Remarks) -> Iterator[HeadP
             remarks.add(rows.line_num, "time stands still - the row is passed over")
             continue
         if time < last:
-            remarks.add(rows.line_num, "time goes back - the recognizer starts anew here")
+            remarks.add(rows.line_num, "time goes back - the recognizer starts again here")
             first, count = time, 0
         first = time if count == 0 else first
         last, count = time, count + 1

@@ -1,4 +1,4 @@
-"""What tasks do with people who are seen: wait for somebody, look at somebody."""
+"""What tasks do with people who are seen: wait for someone, look at someone."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ LOOK_EVERY = 0.05
 async def wait_for_person(
     context: TaskContext, looking: bool = False, within: float = 0.0, timeout: float = float("inf")
 ) -> str | None:
-    """Wait until somebody is there; their id, or None when nobody comes in `timeout` seconds.
+    """Wait until someone is there; their id, or None when nobody comes in `timeout` seconds.
 
-    With `looking`, until somebody looks at the robot; with `within`, until somebody is nearer than
+    With `looking`, until someone looks at the robot; with `within`, until someone is nearer than
     so many meters. Of several it is the one who is attended to. Raises HriError when no network has
     a PersonTracker.
     """
@@ -56,7 +56,7 @@ async def look_at(context: TaskContext, person: str = "", seconds: float = 0.0) 
 
 
 def people_of(context: TaskContext) -> People:
-    """Everybody who was seen last. Raises HriError when no network has a PersonTracker."""
+    """Everyone who was seen last. Raises HriError when no network has a PersonTracker."""
     tracker = context.find_behavior(PersonTracker)
     if tracker is None:
         raise HriError("nobody looks out for people - add an Hri.PersonTracker to a network")
@@ -64,6 +64,6 @@ def people_of(context: TaskContext) -> People:
 
 
 def _fits(person: Person, looking: bool, within: float) -> bool:
-    """Whether somebody is in sight, and looks or is near enough where that is asked for."""
+    """Whether someone is in sight, and looks or is near enough where that is asked for."""
     is_near = not within or person.distance < within
     return person.is_visible and is_near and (person.is_looking or not looking)

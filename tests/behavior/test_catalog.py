@@ -62,7 +62,7 @@ def test_a_missing_schema_names_the_folders_that_were_searched(folder):
 
 def test_no_name_leads_out_of_the_folders(folder):
     for name in ("../secret", "A./etc/passwd", "Constant", "A..B", "A.B\n"):
-        with pytest.raises(HriError, match="is no behavior type"):
+        with pytest.raises(HriError, match="is not a behavior type"):
             find_behavior(name)
 
 
@@ -88,7 +88,7 @@ def test_a_python_file_beside_the_schema_brings_its_own_class(folder):
         ({"driver": "Hri.Constnt"}, WAVE, 'unknown driver "Hri.Constnt" - did you mean'),
         ({"driver": "Mine.Wav", "library": "wave.py"}, WAVE, 'did you mean "Wave"'),
         ({"driver": "Mine.Wave", "library": "gone.py"}, WAVE, "no Python file is there"),
-        ({"driver": "Mine.Wave", "library": "wave.py"}, "class Wave: pass", "is no Behavior"),
+        ({"driver": "Mine.Wave", "library": "wave.py"}, "class Wave: pass", "is not a Behavior"),
         ({"driver": "Mine.Wave", "library": "wave.py"}, "1 / 0", "division by zero"),
         ({"driver": "Mine.Wave", "library": "wave.py"}, "class Wave(:", "wave.py:1:"),
         ({"type_name": "Mine.Other"}, WAVE, 'the schema of "Mine.Other"'),

@@ -63,7 +63,7 @@ def test_the_interval_is_a_tenth_of_a_second_unless_told(tmp_path):
         ),
         (
             '<Behavior id="a" type="Hri.Scale"><Parameter name="factor" value="x"/></Behavior>',
-            'factor: "x" is no number - write a number',
+            'factor: "x" is not a number - write a number',
         ),
         (SUM + '<Link from="one.out" to="sum.input"/>', 'Hri.Constant "one" has no output "out"'),
         (

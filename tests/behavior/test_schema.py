@@ -161,7 +161,7 @@ def test_any_schema_is_the_same_after_class_and_file(tmp_path_factory, schema):
     ("body", "message"),
     [
         ('<Parameter name="x" type="nummer"/>', 'did you mean "number"?'),
-        ('<Parameter name="x" type="number" default="much"/>', "is no number"),
+        ('<Parameter name="x" type="number" default="much"/>', "is not a number"),
         ('<Parameter name="x" type="number" default="3" maximum="2"/>', "out of range"),
         ('<Parameter name="compute"/>', 'the name "compute" cannot be used'),
         ('<Inputs><Port name="a.b" datatype="double"/></Inputs>', "cannot be used"),

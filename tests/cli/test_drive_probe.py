@@ -18,7 +18,7 @@ EMULATORS = {"Hri.Create2": EmulatedCreate2, "Hri.ArduinoBridge": EmulatedArduin
 
 
 class Babbler(Emulator):
-    """Something that is no base and never falls silent, such as a receiver of satellites."""
+    """A device other than a base that never falls silent, such as a GPS receiver."""
 
     baud = 115_200
 

@@ -75,7 +75,7 @@ def test_a_policy_for_what_is_driven_already_is_refused(
 ) -> None:
     run, out = run_file(tmp_path), tmp_path / "run.png"
     assert main(["drive", "replay", str(run), "--policy", "none", "--out", str(out)]) != 0
-    assert "is driven already - leave it out" in capsys.readouterr().err
+    assert "is a recorded run - leave it out" in capsys.readouterr().err
     assert not out.exists()
 
 
@@ -108,7 +108,7 @@ def test_a_recording_of_a_robot_is_drawn_by_its_odometry(tmp_path: Path) -> None
         ("nonsense", "not JSON"),
         ("[1]", "no JSON object"),
         ('{"goal": 3}', "no description"),
-        ("{}", "nobody moved"),
+        ("{}", "the robot did not move"),
         ('{}\n{"t": 0}', ":2: no moment"),
         ('{}\n{"t": 0, "robot": [1e999, 0, 0]}', ":2: no moment"),
     ],

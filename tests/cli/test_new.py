@@ -113,7 +113,7 @@ def test_nothing_is_overwritten(folder, capsys):
     (folder / "parrot").mkdir()
     (folder / "parrot" / "mine.txt").write_text("mine")
     assert main(["new", "behavior", "parrot"]) == 2
-    assert "parrot: is there already - choose another name" in capsys.readouterr().err
+    assert "parrot: already exists - choose another name" in capsys.readouterr().err
     assert [path.name for path in (folder / "parrot").iterdir()] == ["mine.txt"]
 
 

@@ -200,7 +200,7 @@ def test_an_archive_that_leads_elsewhere_is_refused(server, home, content):
     ("content", "reason"),
     [
         (archive({"model/bomb": bytes(20_000_000)}), "swells to 20000000 bytes"),
-        (archive({}), "0 files are no model"),
+        (archive({}), "0 files are not a model"),
         (b"PK no archive at all", "cannot be unpacked"),
         (MODEL[:60] + bytes(40) + MODEL[100:], "cannot be unpacked"),
     ],
@@ -215,7 +215,7 @@ def test_a_broken_archive_is_refused_and_leaves_nothing(server, content, reason)
 
 def test_a_model_of_too_many_files_is_refused(server, monkeypatch):
     monkeypatch.setattr(archives, "MOST_FILES", 1)
-    with pytest.raises(HriError, match="2 files are no model"):
+    with pytest.raises(HriError, match="2 files are not a model"):
         fetch(download(server), no_progress)
 
 

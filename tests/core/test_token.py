@@ -96,7 +96,7 @@ def test_one_that_others_may_read_or_write_is_not_used(mode):
     assert new_token() == load_token()
 
 
-@pytest.mark.parametrize("content", [b"", b"\xff\xfe" * 20, b"two words are no token of ours"])
+@pytest.mark.parametrize("content", [b"", b"\xff\xfe" * 20, b"two words are not our token"])
 def test_a_damaged_one_is_told_in_a_line(content):
     own_token()
     token_file().write_bytes(content)

@@ -69,7 +69,7 @@ def test_numbers_beyond_reason_and_strange_arrays_have_a_place(tmp_path):
     table = load_toml(path)
     with pytest.raises(AuthoringError, match=r":1:1: big is 999"):
         table.number("big")
-    with pytest.raises(AuthoringError, match=r":2:1: list holds something that is no number"):
+    with pytest.raises(AuthoringError, match=r":2:1: list holds something that is not a number"):
         table.numbers("list")
     table.array("step")
     with pytest.raises(AuthoringError, match=r':4:1: unknown key "stepp" - did you mean "step"\?'):

@@ -217,13 +217,13 @@ def test_nothing_happening_can_be_simulated_and_drawn(
     ("line", "what"),
     [
         ("1 prase 1", 'no stimulus "prase" - did you mean "praise"?'),
-        ("soon praise 1", '"soon" is no time'),
-        ("1 praise 2", '"2" is no intensity'),
-        ("1 praise nan", '"nan" is no intensity'),
+        ("soon praise 1", '"soon" is not a time'),
+        ("1 praise 2", '"2" is not an intensity'),
+        ("1 praise nan", '"nan" is not an intensity'),
         ("praise", "1 words"),
         ("1 praise 1 Anna Bob", "5 words"),
-        ("-1 praise 1", '"-1" is no time'),
-        ("1e10 praise 1", '"1e10" is no time'),
+        ("-1 praise 1", '"-1" is not a time'),
+        ("1e10 praise 1", '"1e10" is not a time'),
     ],
 )
 def test_a_wrong_event_is_refused_with_its_place(

@@ -23,7 +23,7 @@ OUR_WORDS = {
     "disliking": "",
     "fear-confirmed": "fears_confirmed",
 }
-"""ALMA's liking and disliking are no emotions of OCC's 22."""
+"""ALMA's liking and disliking are not emotions of OCC's 22."""
 
 
 def rows(name: str) -> list[list[str]]:

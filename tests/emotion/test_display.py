@@ -56,7 +56,7 @@ def test_every_label_has_a_look_and_words_of_its_own() -> None:
 def test_what_feels_bad_never_shows_as_a_smile_nor_the_other_way_round() -> None:
     valence = {label: place[0] for label, place in vocabulary.AFFECT.items()}
     for emotion in EMOTIONS:
-        # Those without a place, such as guilty, are no smile and no frown.
+        # Those without a place, such as guilty, are neither smile nor frown.
         shown = valence.get(DISPLAY.looks[emotion.name].expression, emotion.pleasure)
         assert shown * emotion.pleasure > 0, emotion.name
 

@@ -113,7 +113,7 @@ def test_a_wrong_personality_is_refused_with_its_place(
         ('[stimulus."a.b"]\nwords = "x"\n', "no name of a stimulus"),
         ('[stimuli.x]\nwords = "x"\n', 'did you mean "stimulus"'),
         ("schema = 2\n", "from 1 to 1"),
-        (TICKLED + 'trigger = "touched"\n', "is no trigger"),
+        (TICKLED + 'trigger = "touched"\n', "is not a trigger"),
         (f'[stimulus.x]\nwords = "{"x" * 300}"\n', "300 letters"),
         ('[stimulus.x]\nwords = "{you praised me"\n', "has a brace too many"),
         ('[stimulus.x]\nwords = "{} praised me"\n', "has a brace too many"),

@@ -137,11 +137,11 @@ def test_it_lies_in_the_state_folder_of_the_user(
 DAMAGE: list[tuple[Callable[[Any], object], str]] = [
     (lambda data: data.update(schema=0), "it is of version 0, not 1"),
     (lambda data: data.pop("wall"), "the file has no wall"),
-    (lambda data: data.update(time=True), "the file.time is no number"),
+    (lambda data: data.update(time=True), "the file.time is not a number"),
     (lambda data: data.update(time=10**400), "an integer of 401 digits"),
     (lambda data: data["affect"]["causes"][0].update(person="\ud800"), "has halves of letters"),
     (lambda data: data.update(time=-1e9), "it tells of a time after it was written"),
-    (lambda data: data.update(affect=[]), "affect is no table"),
+    (lambda data: data.update(affect=[]), "affect is not a table"),
     (lambda data: data["affect"].update(label="joyy"), 'affect.label: no emotion "joyy"'),
     (lambda data: data["affect"]["fresh"][0]["charges"].update(joy=-1), "joy is -1, not 0 to"),
     (lambda data: data["affect"]["causes"][0].update(mood=[1, 2]), "a mood of 2 numbers, not 3"),
@@ -149,8 +149,8 @@ DAMAGE: list[tuple[Callable[[Any], object], str]] = [
     (lambda data: data["affect"]["causes"][0].update(time=1e9), "time is 1e+09, not"),
     (lambda data: data["affect"]["needs"]["play"].update(level=2), "level is 2, not 0 to 1"),
     (lambda data: data["affect"]["relations"].update(Ann={}), "relations.Ann has no before"),
-    (lambda data: data["affect"]["causes"][0].update(name=1), "causes[0].name is no text"),
-    (lambda data: data["affect"].update(causes="all"), "affect.causes is no list"),
+    (lambda data: data["affect"]["causes"][0].update(name=1), "causes[0].name is not a text"),
+    (lambda data: data["affect"].update(causes="all"), "affect.causes is not a list"),
     (lambda data: data.update(has_ended=1), "the file.has_ended is neither true nor false"),
 ]
 
@@ -193,7 +193,7 @@ def test_forgetting_erases_a_person_or_all_that_there_is(tmp_path: Path) -> None
     assert not forget(path, "Ann")
     keep(path, a_memory())
     (tmp_path / "feelings.unusable-1.json").write_text("Ann")
-    with pytest.raises(HriError, match='nobody called "Anne" - did you mean "Ann"'):
+    with pytest.raises(HriError, match='unknown person "Anne" - did you mean "Ann"'):
         forget(path, "Anne")
     assert forget(path, "Ann")
     assert "Ann" not in path.read_text()

@@ -61,7 +61,7 @@ def test_a_new_face_is_a_copy_that_loads(
     assert load_face(Path("mine")).channels == load_face(source).channels
     assert not (tmp_path / "mine" / "notes.txt").exists()
     assert main(["face", "new", "mine", "--from", "./small"]) == 2
-    assert "is there already" in capsys.readouterr().err
+    assert "already exists" in capsys.readouterr().err
 
 
 def test_check_prints_findings_with_places_and_status_1(

@@ -92,7 +92,7 @@ def test_a_recording_of_the_app_is_read(tmp_path: Path) -> None:
         ("Timecode,JawOpen,JawOpen\n", "1:1: the column JawOpen is there twice"),
         (HEADER + "\n", "0 rows of weights - record two at least"),
         (HEADER + "\n0:0:0:0,61,0\n", "2:1: 3 cells in a row - write 4"),
-        (HEADER + "\nnoon,61,0,0\n", '2:1: "noon" is no timecode'),
+        (HEADER + "\nnoon,61,0,0\n", '2:1: "noon" is not a timecode'),
         (HEADER + "\n0:0:1:0,61,0,0\n0:0:0:0,61,0,0\n", "3:1: the time goes back"),
         (HEADER + "\n0:0:0:0,61,nan,0\n", "2:1: JawOpen is nan - write a number from -10 to 10"),
         (HEADER + "\n0:0:0:0,61,0,1e9\n", "2:1: MouthSmileLeft is 1e9"),

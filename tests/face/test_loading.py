@@ -168,8 +168,8 @@ def test_a_face_without_a_head_table_says_how_to_turn_it(folder: Path) -> None:
     [
         ("mouthSmileLeft", "mouthSmileLeft is drawn by mouthSmile.svg already"),
         ("headYaw", "a motion of the whole head"),
-        ("two words", "is no name of a target"),
-        ("bad\nname", "is no name of a target"),
+        ("two words", "is not a valid target name"),
+        ("bad\nname", "is not a valid target name"),
         ("mouthSmile+mouthSmile", "does not name two targets"),
         ("mouthSmile+jawOpen+tear", "does not name two targets"),
         ("mouthSmile+jawOpne", 'did you mean "jawOpen"'),
@@ -185,7 +185,7 @@ def test_names_of_drawings_that_nobody_could_use_are_refused(
 
 
 def test_a_face_needs_its_files(tmp_path: Path, folder: Path) -> None:
-    assert "is no face" in refusal(tmp_path)
+    assert "is not a face" in refusal(tmp_path)
     (folder / "neutral.svg").unlink()
     assert "neutral.svg" in refusal(folder)
     with pytest.raises(HriError, match='no "nobody" in faces'):

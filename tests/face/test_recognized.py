@@ -44,7 +44,7 @@ def test_a_network_that_is_none_is_refused(tmp_path) -> None:  # type: ignore[no
     pytest.importorskip("ai_edge_litert", reason="needs pip install ai-edge-litert")
     file = tmp_path / "network.tflite"
     file.write_bytes(b"no network")
-    with pytest.raises(HriError, match="is no network - take"):
+    with pytest.raises(HriError, match="is not a network - take"):
         face_judge.Judge(file)
 
 

@@ -99,7 +99,7 @@ def test_a_drawing_that_is_saved_is_shown(
     file.write_text(file.read_text().replace('fill="#777"', 'fill="#fff"'))
     watch(window)
     assert not np.array_equal(before, image(window))
-    assert "loaded again" in capsys.readouterr().out
+    assert "reloaded" in capsys.readouterr().out
 
 
 def test_a_drawing_that_is_refused_leaves_the_last_good_one_and_says_why(

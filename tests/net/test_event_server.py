@@ -103,7 +103,7 @@ def test_quotes_are_taken_off_and_what_is_no_event_costs_a_line_in_the_log(capsy
     stage = Stage()
     assert stage.run(scene, script)[0] == "SUCCESS"
     assert "My.End" in stage.names()
-    assert "is no event" in caplog.text or "is no name" in caplog.text
+    assert "is not an event" in caplog.text or "is not a name" in caplog.text
     assert "Raising event: {Event My.End [time 0]}\n" in capsys.readouterr().out
 
 

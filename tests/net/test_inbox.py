@@ -72,7 +72,7 @@ def test_ports_are_matched_by_name_and_values_by_datatype():
     filled = inbox()
     filled.put(Item("another", "x"), sender=Sender())
     assert filled.take() == {}
-    with pytest.raises(ProtocolError, match='"x" is no double'):
+    with pytest.raises(ProtocolError, match='"x" is not a double'):
         filled.put(Item("text", "first"), Item("number", "x"), sender=Sender())
     assert filled.take() == {}
 

@@ -190,7 +190,7 @@ def test_a_peer_that_sends_what_a_port_cannot_take_is_dropped(server, caplog):
         connection.send("<tutorial><text>ok</text><array>1 two</array></tutorial>")
         with pytest.raises((EOFError, ConnectionResetError)):
             connection.read()
-    assert '"1 two" is no doublearray' in caplog.text
+    assert '"1 two" is not a doublearray' in caplog.text
     server.tick(0.0)
     assert behavior.text.value is None
 

@@ -117,7 +117,7 @@ def test_any_text_is_a_value_or_one_error(datatype, text):
 
 @pytest.mark.parametrize("text", ["nan", "1_0", "", "infinity", "0x10", "1,5", "१", "1 2"])
 def test_what_is_no_number_is_refused(text):
-    with pytest.raises(ProtocolError, match="is no double"):
+    with pytest.raises(ProtocolError, match="is not a double"):
         values.read("double", text)
 
 

@@ -37,7 +37,7 @@ def test_a_name_works_with_and_without_suffix_and_as_a_path(write: Write) -> Non
         (
             START + "[[circle]]\ncenter = [1, nan]\nradius = 1\n",
             6,
-            "center holds something that is no number",
+            "center holds something that is not a number",
         ),
         (START + "[[circle]]\ncenter = [1, 2, 3]\nradius = 1\n", 6, "center has 3 numbers"),
         (START + "[[wall]]\nfrom = [1, 2]\nto = [1, 2]\n", 7, "no length"),

@@ -69,9 +69,9 @@ def test_the_query_form_of_2003():
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "is no name"),
-        ("?a=1", "is no name"),
-        ("A B?a=1", "is no name"),
+        ("", "is not a name"),
+        ("?a=1", "is not a name"),
+        ("A B?a=1", "is not a name"),
         ("A?a", "is not like property=value"),
         ("A?=1", "is not like property=value"),
         ("A?a=1&a=2", "is there twice"),
@@ -90,8 +90,8 @@ def test_what_is_no_query_is_told(text, message):
     [
         ("", "does not begin"),
         ("{Event A}", "does not begin"),
-        ("{Event A [time soon]}", "is no time"),
-        ("{Event A [time 0] (a: b)}", "is no number and has no quotes"),
+        ("{Event A [time soon]}", "is not a time"),
+        ("{Event A [time 0] (a: b)}", "is not a number and has no quotes"),
         ("{Event A [time 0] (a: 1) (a: 2)}", "is there twice"),
         ('{Event A [time 0] (a: "b)}', "is not understood at character 18"),
         ("{Event A [time 0]", "is not understood"),
@@ -104,7 +104,7 @@ def test_what_is_no_event_is_told(text, message):
 
 
 def test_what_cannot_be_written_is_refused():
-    with pytest.raises(HriError, match="is no name"):
+    with pytest.raises(HriError, match="is not a name"):
         event("two words")
     with pytest.raises(HriError, match="give a finite number or a text"):
         write_event(Event("a", 0.0, {"tags": {}}))

@@ -239,9 +239,9 @@ def test_a_listener_that_fails_is_no_failure_of_the_task_that_raises():
 
 def test_waiting_needs_a_time():
     for never in (float("nan"), float("inf")):
-        with pytest.raises(HriError, match=f"{never} is no time - "):
+        with pytest.raises(HriError, match=f"{never} is not a time - "):
             Stage().run(find_task("Hri.Wait"), never)
-    with pytest.raises(HriError, match="nan is no time"):
+    with pytest.raises(HriError, match="nan is not a time"):
         Stage().run(find_task("Hri.WaitForEvent"), "door.*", float("nan"))
     stage = Stage()
     stage.run(find_task("Hri.Wait"), -5)

@@ -38,7 +38,7 @@ def test_looking_begins_and_ends_after_a_moment_and_does_not_flutter():
     assert told == [False, False, True, True, True]
     told = [looking.update(0.5 + i / 10, 0.45) for i in range(20)]
     assert all(told), "between the two scores nothing changes"
-    assert looking.update(2.5, 0.0), "one wrong pose is no look away"
+    assert looking.update(2.5, 0.0), "one wrong pose is not a look away"
     assert looking.update(2.6, 1.0)
     told = [looking.update(2.7 + i / 10, 0.0) for i in range(8)]
     assert told == [True] * 5 + [False] * 3

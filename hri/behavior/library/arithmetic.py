@@ -1,7 +1,7 @@
 """Sums, products, extremes.
 
 What did not come in does not count; nothing is sent when nothing came in. Nor is a result sent
-that is no number, such as infinity less infinity.
+that is NaN, such as infinity minus infinity.
 """
 
 from __future__ import annotations
@@ -102,6 +102,6 @@ class Absolute(Behavior):
 
 
 def send_number(port: OutputPort[float], value: float) -> None:
-    """Send a result, unless it is no number."""
+    """Send a result, unless it is NaN."""
     if not math.isnan(value):
         port.send(value)

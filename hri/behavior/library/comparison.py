@@ -46,5 +46,5 @@ class Equal(Behavior):
     def compute(self, now: float, dt: float) -> None:
         first, second = self.first.value, self.second.value
         if first is not None and second is not None:
-            # Infinity equals itself, though inf - inf is no number.
+            # Infinity equals itself, though inf - inf is NaN.
             self.is_equal.send(first == second or abs(first - second) <= self.tolerance)

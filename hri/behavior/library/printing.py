@@ -64,7 +64,7 @@ def worded(value: object) -> str:
         case bool():
             return str(value).lower()
         case int() | float():
-            # In this order, what is no number stays none.
+            # This order keeps NaN.
             return f"{max(min(value, DBL_MAX), -DBL_MAX):g}"
         case tuple():
             return f"({', '.join([*map(worded, value[:MOST_NUMBERS]), *_more(value)])})"

@@ -1,6 +1,6 @@
 """A number made fit for use: limited, scaled, smoothed. Nothing comes out when nothing comes in.
 
-What is no number does not count as one. The largest number there is stands for infinity: it is how
+NaN is not treated as a number. The largest double stands for infinity: it is how
 a port of 2003 says that nothing is in range.
 """
 

@@ -2,7 +2,7 @@
 
 Lengths in centimeters and velocities in cm/s, as the files of 2003 have them. A sensor that sends
 nothing is ignored, as in 2003, by the exercise too: where that could hurt, put `Hri.CommandGate`
-behind them, for which such a sensor sees an obstacle. A reading that is no number counts as near.
+behind them, for which such a sensor sees an obstacle. A NaN reading counts as near.
 """
 
 from __future__ import annotations
@@ -52,5 +52,5 @@ def _of_first_link(port: InputPort[float]) -> float:
 
 
 def _is_free(sensors: InputPort[float], limit: float) -> bool:
-    # Asked this way around, a reading that is no number does not pass.
+    # Written this way, a NaN reading does not pass.
     return all(reading >= limit for reading in sensors.values)

@@ -98,9 +98,9 @@ def _read(line: str, place: Place) -> tuple[float, Any]:
             case {"t": int() | float() as time, "value": list() as elements, **rest}:
                 value = tuple(map(float, elements))
             case _:
-                raise AuthoringError(place, "this is no recorded value", remedy)
+                raise AuthoringError(place, "this is not a recorded value", remedy)
     except (ValueError, TypeError, OverflowError) as error:
-        raise AuthoringError(place, "this is no recorded value", remedy) from error
+        raise AuthoringError(place, "this is not a recorded value", remedy) from error
     if rest:
         raise AuthoringError(place, f'"{next(iter(rest))}" has no place here', remedy)
     return float(time), value

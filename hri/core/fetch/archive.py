@@ -112,7 +112,7 @@ def _check(archive: Path, members: list[zipfile.ZipInfo]) -> None:
     """Refuse what would leave the folder, or fill the disk."""
     remedy = "take it from its maker"
     if not members or len(members) > MOST_FILES:
-        raise HriError(f"{archive}: {len(members)} files are no model - {remedy}")
+        raise HriError(f"{archive}: {len(members)} files are not a model - {remedy}")
     for member in members:
         path = PurePosixPath(member.filename)
         if not path.parts or max(len(os.fsencode(part)) for part in path.parts) > LONGEST_NAME:

@@ -40,7 +40,7 @@ _COUNTS = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2}
 class OutlineError(ValueError):
     """An outline that cannot be used: what is wrong with it, and what to do in the editor."""
 
-    def __init__(self, what: str, remedy: str = "mend its numbers, or draw it anew") -> None:
+    def __init__(self, what: str, remedy: str = "fix its numbers, or draw it again") -> None:
         super().__init__(what)
         self.remedy = remedy
 
@@ -132,7 +132,7 @@ def parse_path(data: str) -> Outline:
             if command in "Aa":
                 raise OutlineError("it has an elliptical arc, which cannot morph", TO_CURVES)
             if command.upper() not in _COUNTS:
-                raise OutlineError(f'"{command}" is no path command')
+                raise OutlineError(f'"{command}" is not a path command')
         elif command in ("", "Z", "z"):
             raise OutlineError(f"the number {token:g} follows no command")
         count = _COUNTS[command.upper()]

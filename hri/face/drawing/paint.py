@@ -74,7 +74,7 @@ def parse_color(text: str) -> Solid:
     match = re.fullmatch(r"rgb\(\s*(\d+)[\s,]+(\d+)[\s,]+(\d+)\s*\)", text)
     if match and all(int(value) <= 255 for value in match.groups()):
         return Solid((int(match[1]), int(match[2]), int(match[3])))
-    raise ValueError(f'"{text}" is no color')
+    raise ValueError(f'"{text}" is not a color')
 
 
 def read_gradient(
@@ -100,7 +100,7 @@ def read_gradient(
         raise element.error("the gradient has no stops", "add two <stop> to it")
     placed = apply(frame, anchors) if kind == "radialGradient" else _upright(anchors, frame)
     if not np.all(np.abs(placed) <= 10 * FARTHEST):
-        raise element.error("the gradient lies outside of any picture", "draw it anew")
+        raise element.error("the gradient lies outside of any picture", "draw it again")
     return Gradient(placed, found)
 
 

@@ -62,7 +62,7 @@ def structure(display: DisplayList) -> Plain:
 def restored(plain: Mapping[str, Any], neutral: Vector, rows: Vector) -> DisplayList:
     """A display list from its structure and its numbers.
 
-    Raises KeyError, TypeError or ValueError when that is no structure of ours.
+    Raises KeyError, TypeError or ValueError when that is not a structure of ours.
     """
     return DisplayList(
         float(plain["width"]),

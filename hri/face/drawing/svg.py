@@ -201,7 +201,7 @@ class _SvgReader:
     def _clip(self, element: Element, reference: str, state: _State) -> Part:
         target = self._referred(element, reference, "clip-path")
         if _tag(target) != "clipPath":
-            raise element.error(f"{reference} is no clipPath", "clip with a path", "clip-path")
+            raise element.error(f"{reference} is not a clipPath", "clip with a path", "clip-path")
         return self._clip_shape(target, state)
 
     def _clip_shape(self, target: Element, state: _State) -> Part:
@@ -333,7 +333,7 @@ def _polyline(element: Element) -> Outline:
     try:
         corners = np.array([float(word) for word in words]).reshape(-1, 2)
     except ValueError as error:
-        raise OutlineError("its points are no numbers") from error
+        raise OutlineError("its points are not numbers") from error
     if not np.all(np.abs(corners) <= shapes.FARTHEST):
         raise OutlineError("it leaves any picture")
     return shapes.polygon(corners, _tag(element) == "polygon")

@@ -22,7 +22,7 @@ WINDOW = 0.032
 QUIET_DB, FULL_DB = -26.0, 0.0
 """Against the loud parts of the speech: the mouth starts to open, and is open."""
 OVER_NOISE_DB = 9.0
-"""What is less above the noise of the recording is no voice."""
+"""Sound less than this above the noise of the recording is not a voice."""
 LOUDNESS_BELOW_NOISE_DB = -30.0
 """The quietest parts count as noise only when they are so much below the loud ones."""
 LEAST = 30.0
@@ -46,7 +46,7 @@ OPENING = {"aa": 1.0, "E": 0.9, "ih": 0.85, "oh": 0.95, "ou": 0.95}
 SHARPNESS = 7.0
 """How clearly the nearest vowel wins, in squared octaves."""
 HISS_HZ = (2200.0, 3600.0)
-"""Mean frequency at which a sound is no vowel any more, and is all hiss."""
+"""Mean frequency from which on a sound is hiss, not a vowel."""
 SHARP_HZ = 4200.0
 """A hiss with a higher mean is an s, with a lower one a sh."""
 

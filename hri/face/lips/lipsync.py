@@ -6,7 +6,7 @@ synthetic visual speech"). Lips hurry where the jaw is slow, and a sound pulls o
 needs: a t leaves the lips to its vowels. Then P, B, M and F, V are closed for certain, whatever
 their neighbors want, and nothing moves faster than a mouth can: a vowel between two closures that
 has no time to open is cut, the closures never are. Lips cannot be shut and touch the teeth at once:
-next to a P an F comes sooner or later than it sounds, and is cut where even that is no way out.
+next to a P an F comes sooner or later than it sounds, and is cut where even that does not help.
 """
 
 from __future__ import annotations

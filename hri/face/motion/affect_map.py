@@ -43,7 +43,7 @@ class AffectMap:
                 SMILE * model.vector(model.expression("happy")),
             ]
         )
-        # A mark that is there by half is no half of a feeling, but a ghost.
+        # A half-visible sign looks like a ghost, not like half of a feeling.
         self._shown = shown * (model.vector(dict.fromkeys(model.settings.signs, 1.0)) == 0)
 
     def weights(self, valence: float, arousal: float) -> Vector:

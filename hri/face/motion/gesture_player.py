@@ -73,7 +73,7 @@ class GesturePlayer:
         return self.play(name, self._tracks[name], strength, seconds)
 
     def play(self, name: str, track: Track, strength: float, seconds: float) -> Playing:
-        """Play a track from the next step on, in place of what is played.
+        """Play a track from the next step on, instead of what is played.
 
         Raises HriError for a strength or seconds that are out of range.
         """

@@ -30,7 +30,7 @@ _SWAY_HZ = (0.07, 0.13, 0.23)
 
 @dataclass(frozen=True, slots=True)
 class Glances:
-    """How long the eyes stay on somebody and how long away: means and deviations, seconds."""
+    """How long the eyes stay on someone and how long away: means and deviations, seconds."""
 
     stay: tuple[float, float]
     away: tuple[float, float]

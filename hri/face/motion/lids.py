@@ -51,7 +51,7 @@ class Lids:
         return min(max(shut, 0.0), 1.0)
 
     def owned(self, owned: NDArray[np.floating]) -> float:
-        """How much of the lids somebody owns, who owns so much of each channel."""
+        """How much of the lids someone owns, who owns so much of each channel."""
         return float(owned[self._shut].max(initial=0.0))
 
     def blinking(self, weights: Weights, blink: float) -> Weights:

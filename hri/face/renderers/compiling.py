@@ -23,7 +23,7 @@ def compiled(function: Callable[P, R]) -> Callable[P, R]:
     """The function as machine code, made at its first call.
 
     What is kept on disk is only a shortcut: when it is damaged, or cannot be read or written, the
-    code is made anew.
+    code is made again.
     """
     return cast("Callable[P, R]", _Compiled(function))
 
@@ -53,7 +53,7 @@ class _Compiled:
 def folder() -> Path | None:
     """Where code is kept: our folder, unless the user chose another (NUMBA_CACHE_DIR).
 
-    None when somebody else may have written there: what is kept is run.
+    None when someone else may have written there: what is kept is run.
     """
     chosen: str = cast("Any", numba.config).CACHE_DIR
     if not chosen:

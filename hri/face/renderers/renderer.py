@@ -58,7 +58,7 @@ class Renderer:
         Raises HriError for weights that are not finite.
         """
         if not np.isfinite(vector).all():
-            raise HriError(f"weights of {self.model.name} are no numbers - give finite ones")
+            raise HriError(f"weights of {self.model.name} are not numbers - give finite ones")
         points, scalars = self.model.placed(vector)
         linear = compose(self._fit, self.model.motion(vector))[:, :2]
         scale = math.sqrt(abs(np.linalg.det(linear)))

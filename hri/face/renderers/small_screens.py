@@ -49,7 +49,7 @@ def one_bit(image: Image, size: tuple[int, int] | None = None, *, dither: bool =
 def rows(bits: Bits) -> bytes:
     """Row by row, eight pixels a byte, the leftmost in the highest bit (as in PBM files).
 
-    A row whose width is no multiple of eight is filled up with dark pixels.
+    A row whose width is not a multiple of eight is filled up with dark pixels.
     """
     return np.packbits(bits, axis=1).tobytes()
 
@@ -58,7 +58,7 @@ def pages(bits: Bits) -> bytes:
     """In pages of eight rows, as SSD1306, SH1106 and PCD8544 want them: a byte is a column of a
     page, its topmost pixel in the lowest bit.
 
-    Raises HriError for a height that is no multiple of eight.
+    Raises HriError for a height that is not a multiple of eight.
     """
     height, width = bits.shape
     if height % PAGE:

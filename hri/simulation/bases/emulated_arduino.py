@@ -12,7 +12,7 @@ from hri.simulation.bases.body import Body
 from hri.simulation.bases.emulator import Emulator, Wire
 
 LONGEST = 48
-"""Characters of a command; what is longer is no command."""
+"""Most characters of a command."""
 CHECKED_S = 2.0
 """Seconds for which, after one of WEIGHTY and then any line with a check, the next of WEIGHTY needs
 one, unless it is STOP."""

@@ -235,7 +235,7 @@ def lean(time: float, seed: int = 0) -> Posture:
 
 
 def still(time: float, seed: int = 0) -> Posture:
-    """Nothing but the sway of a head at rest."""
+    """Only the sway of a head at rest."""
     return REST
 
 

@@ -30,7 +30,7 @@ def resolve(text: str, today: date) -> date:
         try:
             return today + timedelta(days=int(text))
         except OverflowError as error:
-            raise ValueError(f"{text} days from {today} is no date") from error
+            raise ValueError(f"{text} days from {today} is not a date") from error
     if match := _WEEKDAY.fullmatch(text):
         return _weekday(match[1], WEEKDAYS.index(match[2]), today)
     if match := _DAY_OF_MONTH.fullmatch(text):
@@ -57,4 +57,6 @@ def _next_day(month: str, day: int, today: date) -> date:
             continue
         if found >= today:
             return found
-    raise ValueError(f"no month has a day {day}" if not month else f"--{month}-{day:02} is no day")
+    raise ValueError(
+        f"no month has a day {day}" if not month else f"--{month}-{day:02} is not a day"
+    )

@@ -30,7 +30,7 @@ MARKS = MappingProxyType(
 """The marks of a rule and what they mean."""
 
 STANDARD_TAGS = ("example", "see", "author", "version")
-"""Doc tags of JSGF 1.0 that are no marks."""
+"""Doc tags of JSGF 1.0 that are not marks."""
 
 KNOWN_TAGS = (*MARKS, *STANDARD_TAGS)
 

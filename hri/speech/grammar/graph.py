@@ -43,7 +43,7 @@ class _Reduction:
         self._merge_endings(self._order())
 
     def _skip_silence(self, order: list[int]) -> None:
-        """A node with nothing but one silent arc is the node behind that arc."""
+        """A node with only one silent arc is the node behind that arc."""
         instead = list(range(len(self._leaving)))
         for node in reversed(order):
             leaving = self._leaving[node]

@@ -221,7 +221,7 @@ class _JsgfReader:
         while self._next.kind != "end" and len(self.document.errors) < MOST_ERRORS:
             self._attempt(self._statement)
         if self._next.kind != "end":
-            self._report(self._next.start, "too many mistakes", "mend those above first")
+            self._report(self._next.start, "too many mistakes", "fix those above first")
         elif self._next.text == TOO_MUCH:
             what = f"more than {MOST_LEXEMES} words and signs"
             self._report(self._next.start, what, "split the grammar, or import a list of names")
@@ -354,7 +354,7 @@ class _JsgfReader:
         try:
             self._expect("=", f'write "=" after <{name}>')
             expression = self._alternatives()
-            self._expect_end(f"<{name}>", 'end the rule with ";", or mend what stands here')
+            self._expect_end(f"<{name}>", 'end the rule with ";", or fix what stands here')
             if depth(expression) > DEEPEST_TREE:
                 what = f"<{name}> holds more than {DEEPEST_TREE} things within each other"
                 raise self._report(start, what, "use rules of their own")
@@ -380,7 +380,7 @@ class _JsgfReader:
     def _rule_name(self, lexeme: Lexeme) -> str:
         name = lexeme.text[1:-1].strip()
         if not name or re.search(r'[\s*"]', name) or not all(name.split(".")):
-            what = f"{lexeme.text[:40]} is no rule name"
+            what = f"{lexeme.text[:40]} is not a rule name"
             remedy = "write letters, digits, _ and . between < and >"
             joined = "_".join(name.split())
             if joined != name and _GRAMMAR_NAME.fullmatch(joined):
@@ -412,7 +412,7 @@ class _JsgfReader:
         weight = float(lexeme.text.strip("/ \t\r\nfF")) if match else math.nan
         if not 0.0 <= weight < math.inf:
             raise self._report(
-                lexeme.start, f"{lexeme.text[:40]} is no weight", "write a number such as /2.5/"
+                lexeme.start, f"{lexeme.text[:40]} is not a weight", "write a number such as /2.5/"
             )
         return weight
 

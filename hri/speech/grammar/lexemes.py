@@ -27,7 +27,7 @@ _LEXICON = re.compile(
 )
 # A "/" inside a word is part of it ("and/or") unless a comment begins there; a rule's name may
 # hold almost any sign, but no white space: the second form is read to be refused as a whole.
-# No form looks far ahead in vain: a text of nothing but escaped quotes takes no longer than others.
+# No form looks far ahead in vain: a text of only escaped quotes takes no longer than others.
 
 
 class Lexeme(NamedTuple):

@@ -65,7 +65,7 @@ def read_grammar(path: Path) -> tuple[Grammar, list[AuthoringError]]:
 def read_source(path: Path) -> str:
     """The text of a grammar file in the encoding its header names, UTF-8 without one.
 
-    Raises HriError when it cannot be read, AuthoringError when it is no text in that encoding.
+    Raises HriError when it cannot be read, AuthoringError when it is not a text in that encoding.
     """
     if paths.exists(path) and path.is_dir():
         raise HriError(f"{path}: this is a folder - name a grammar file in it")
@@ -87,7 +87,7 @@ def read_source(path: Path) -> str:
     except LookupError as error:
         raise AuthoringError(Place(path), f'unknown encoding "{encoding}"', remedy) from error
     except UnicodeError as error:
-        raise AuthoringError(Place(path), f"this is no {encoding} text", remedy) from error
+        raise AuthoringError(Place(path), f"not {encoding} text", remedy) from error
 
 
 @dataclass(frozen=True, eq=False)
@@ -284,7 +284,7 @@ class _Loader:
             except AuthoringError as error:
                 self._errors.append(error)
             except HriError as error:
-                self._report(file, use.span, str(error), "mend the file, or take the import out")
+                self._report(file, use.span, str(error), "fix the file, or take the import out")
         self._broken.add(key)
         return None
 
@@ -353,7 +353,7 @@ def _places_of(importer: Path, file: str) -> Iterator[Path]:
     """Where a file is: beside a grammar, or in a search folder, or in `grammars/` there.
 
     A path or a link that leads out of these folders is passed over: a grammar may come from
-    anybody, and must not read whatever lies on the machine.
+    anyone, and must not read whatever lies on the machine.
     """
     folders = (
         below for folder in paths.search_folders() for below in (folder / "grammars", folder)

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from hri.speech.grammar.rules import Grammar
 
 MOST_WORDS = 200
-"""A longer text is no command."""
+"""A longer text is not a command."""
 MOST_PARSES = 20
 """Readings of one sentence that are listed."""
 MOST_COMPARED = 500
@@ -49,7 +49,7 @@ LEAST_ALIKE = 0.75
 FEW_WORDS = 8
 """Words that leave a node, up to which they are copied to the state that the node belongs to."""
 MOST_NODES = 400_000
-"""Nodes in all states that are kept, about 50 MB; beyond it they are worked out anew."""
+"""Nodes in all states that are kept, about 50 MB; beyond it they are worked out again."""
 
 Groups = tuple[tuple[TagEntry, ...], ...]
 

@@ -1,4 +1,4 @@
-"""Numbers in digits, as they are said: what an author may write in place of "10"."""
+"""Numbers in digits, as they are said: what an author may write instead of "10"."""
 
 from __future__ import annotations
 

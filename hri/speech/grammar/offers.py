@@ -1,4 +1,4 @@
-"""The parts that other grammars offer: what an author may import in place of writing it."""
+"""The parts that other grammars offer: what an author may import instead of writing it."""
 
 from __future__ import annotations
 

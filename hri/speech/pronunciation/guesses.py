@@ -18,7 +18,7 @@ EDITION = "2"
 GUESSES = "guessed-words-*.txt"
 """Files of all editions, in the folder of caches."""
 LARGEST_CACHE = 1_000_000
-"""Bytes; a larger file is begun anew."""
+"""Bytes; a larger file is begun again."""
 _KNOWN = frozenset(PHONES)
 
 

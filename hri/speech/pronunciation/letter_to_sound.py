@@ -29,7 +29,7 @@ PHONES = {
 
 
 VARIANTS = {"t#": "T", "@": "IH", "I#": "AH", "I2": "AH", "0": "AO", "O:": "AA", "O2": "AA"}
-"""Phones that people say in place of those of PHONES: no flap, and vowels that are merging."""
+"""Phones that people say instead of those of PHONES: no flap, and vowels that are merging."""
 
 
 def pronounce(word: str) -> Phones:

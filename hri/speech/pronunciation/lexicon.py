@@ -205,11 +205,11 @@ def add_to_lexicon(path: Path, word: str, *variants: Phones) -> tuple[Phones, ..
     """Write the ways to say a word into a lexicon, which is made when it is not there.
 
     They take the place of what it said of the word before, which is returned.
-    Raises AuthoringError when the file has a mistake already, HriError for what is no word, has
-    more than MOST_VARIANTS pronunciations, or cannot be written.
+    Raises AuthoringError when the file has a mistake already, HriError for a text that is not a
+    word, has more than MOST_VARIANTS pronunciations, or cannot be written.
     """
     if len(word.split()) != 1 or word.startswith(("#", ";")) or "(" in word:
-        raise HriError(f'"{word}" is no single word - add one word at a time')
+        raise HriError(f'"{word}" is not a single word - add one word at a time')
     if len(variants) > MOST_VARIANTS:
         raise HriError(f"more than {MOST_VARIANTS} pronunciations - keep the likeliest")
     word = _folded(word)

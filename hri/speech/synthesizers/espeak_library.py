@@ -127,7 +127,7 @@ class EspeakLibrary:
 
     The library keeps the phase of its vibrato from one sentence to the next, and more of a voice
     than it should when it changes to another, so the same text would be a little different each
-    time. It is therefore loaded anew after every text, which takes some 2 ms that nobody waits
+    time. It is therefore loaded again after every text, which takes some 2 ms that nobody waits
     for, and before one in another voice: the same text gives the same samples and times,
     but for the breath of variants such as "+f3".
     """
@@ -229,7 +229,7 @@ class EspeakLibrary:
         options = _PHONEME_EVENTS | _NO_EXIT
         self.rate = library.espeak_Initialize(_SYNCHRONOUS, _BLOCK_MS, self._data_path, options)
         if self.rate <= 0:
-            raise NotAvailable("espeak-ng finds no voices - install espeakng-loader anew")
+            raise NotAvailable("espeak-ng finds no voices - install espeakng-loader again")
         return library
 
     def _choose(self, voice: str) -> bool:

@@ -63,7 +63,7 @@ class BlazeFace:
         self._anchors = _anchors()
 
     def find(self, image: Image, turn: int = 0) -> list[FoundFace]:
-        """All faces, the surest first; none for what is no picture."""
+        """All faces, the surest first; none for an invalid picture."""
         if not is_picture(image):
             return []
         step = math.ceil(max(image.shape[:2]) / SEEN_SIDE)

@@ -31,7 +31,7 @@ class HaarDetector:
         self._cascade = cv2.CascadeClassifier(str(FOLDER / CASCADE))
 
     def find(self, image: Image, turn: int = 0) -> list[FoundFace]:
-        """All faces, the surest first; none for what is no picture."""
+        """All faces, the surest first; none for an invalid picture."""
         picture = gray_picture(image)
         if picture is None or min(picture.gray.shape) < SMALLEST:
             return []

@@ -33,7 +33,7 @@ as quiet then, and still seen as a face."""
 MOST_SMOOTHING = 3.6
 """Pixels, likewise; more would hide the eyes."""
 SMALLEST_REGION = 16
-"""Pixels; in less is no face."""
+"""Smallest face, pixels."""
 
 Affine = NDArray[np.float64]
 """Leads from places of one picture to those of another, shape [2, 3]."""
@@ -74,7 +74,7 @@ class FaceMesh:
         """The mesh of the face in a region.
 
         Whether a face is there, its presence tells: trust the landmarks above 0.5. None for what
-        is no picture of 8 bits RGB, and for a region that is not in it.
+        is not a picture of 8 bits RGB, and for a region that is not in it.
         """
         if not is_picture(image) or not _is_in(region, image):
             return None

@@ -20,7 +20,7 @@ AXES: tuple[Color, ...] = ((235, 80, 80), (80, 220, 120), (90, 160, 255))
 SMALLEST_FACE = 8.0
 """Pixels; the marks of a smaller face would hide it."""
 REACH = 1e6
-"""Pixels; what lies farther out, or is no number, is not drawn."""
+"""Pixels; points farther out, or NaN, are not drawn."""
 FONT = cv2.FONT_HERSHEY_SIMPLEX
 
 
@@ -30,7 +30,7 @@ def draw(
     gestures: Sequence[HeadGesture] = (),
     has_landmarks: bool = True,
 ) -> Image:
-    """A copy of the picture, uint8 [height, width, 3], RGB, with everybody in it marked.
+    """A copy of the picture, uint8 [height, width, 3], RGB, with everyone in it marked.
 
     A box and a line of words a person: id or name, distance, engagement, pose in degrees; three
     axes from the middle of the face (left red, down green, ahead blue); a thick box for the one

@@ -48,7 +48,7 @@ def is_picture(image: Any) -> TypeGuard[Image]:
 
 
 def gray_picture(image: Image) -> Picture | None:
-    """None for what is no picture."""
+    """None for an invalid picture."""
     if not is_picture(image):
         return None
     scale = max(1.0, max(image.shape[:2]) / MAX_SIDE)

@@ -45,7 +45,7 @@ class YuNet:
             raise NotAvailable(f"{file}: damaged, or not YuNet - {remedy}") from error
 
     def find(self, image: Image, turn: int = 0) -> list[FoundFace]:
-        """All faces, the surest first; none for what is no picture."""
+        """All faces, the surest first; none for an invalid picture."""
         if not is_picture(image):
             return []
         height, width = image.shape[:2]

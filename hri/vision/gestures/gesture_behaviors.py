@@ -1,4 +1,4 @@
-"""Nods, shakes and other gestures of everybody who is seen, and in a network."""
+"""Nods, shakes and other gestures of everyone who is seen, and in a network."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class PeopleGestures:
     def update(self, people: People, prompted: bool = False) -> list[HeadGesture]:
         """The gestures that are complete now. `prompted`: an answer is expected.
 
-        It is expected of the one attended to; of everybody when that is nobody.
+        It is expected of the one attended to; of everyone when that is nobody.
         """
         here = {person.id for person in people.persons}
         self._watched = {id: pair for id, pair in self._watched.items() if id in here}
@@ -60,7 +60,7 @@ class HeadGestures(Behavior):
     gestures = Param(" ".join(ANSWERS), "which ones, with spaces between; all of the file for all")
     patterns = Param(FILE, "the file that says what counts as which gesture")
 
-    people = Input[People]("people", "everybody who is seen", is_optional=True)
+    people = Input[People]("people", "everyone who is seen", is_optional=True)
     pose = Input[HeadPose]("headpose", "the poses of one head, without people", is_optional=True)
     prompted = Input[bool](
         "boolean", "true while an answer is expected: a single nod will do", is_optional=True

@@ -38,7 +38,7 @@ class GestureFusion:
     def update(self, person: Person, prompted: bool = False) -> HeadGesture | None:
         """The gesture that is complete now, if any. `prompted`: an answer is expected.
 
-        The pose alone decides on somebody of whom there has never been any motion.
+        The pose alone decides on someone of whom there has never been any motion.
         """
         found = self._of_pose.update(person.pose, prompted)
         if person.motion is not None:

@@ -32,7 +32,7 @@ QUIET = 0.7
 HISTORY = 3.0
 """Seconds of poses that are kept."""
 LARGEST = 100.0
-"""Radians; what is beyond is no angle."""
+"""Radians; larger values are not angles."""
 STILL = 0.2
 """Seconds without a movement after which no gesture goes on; a slow nod stays so long at a turn."""
 LEAP, LEAP_S = 0.75, 0.075
@@ -49,7 +49,7 @@ class GestureRecognizer:
     and no answer is expected; until the head rests one about another axis is told, too: a nod that
     turns into a shake.
     A pose with NaN, or of the same time as the one before, is passed over. After a gap, or when
-    time goes back, it starts anew.
+    time goes back, it starts again.
     """
 
     def __init__(self, patterns: Iterable[Pattern], again: float = math.inf) -> None:
@@ -84,7 +84,7 @@ class GestureRecognizer:
         return gesture
 
     def _counted_from(self, prompted: bool, axis: int) -> float:
-        """Seconds from which on swings of an angle count: what was told once is not told anew.
+        """Seconds from which on swings of an angle count: what was told once is not told again.
 
         An answer is given once; so few swings make one that steps of a walk would be told often.
         """

@@ -1,7 +1,7 @@
 """What the robot's own turning does to the pictures, taken out of the motion of a face.
 
 When the camera turns to the left everything in the picture moves to the right, which looks as if
-everybody turned the head. Poses from the face mesh are free of it: the mesh is turned against
+everyone turned the head. Poses from the face mesh are free of it: the mesh is turned against
 the way to the camera. Where the camera looked is asked for at the time when the picture was taken.
 """
 
@@ -17,7 +17,7 @@ from hri.vision.camera_view import FACE_SIZE
 from hri.vision.gestures.optical_flow_swing import FADE, RADIUS
 
 USUAL_DISTANCE = 1.0
-"""Meters, of somebody whose distance is unknown."""
+"""Meters, of someone whose distance is unknown."""
 FASTEST = 0.5
 """Sizes of the face a second; above, pictures are blurred and nothing in them is believed."""
 REMEMBERED = 2.0

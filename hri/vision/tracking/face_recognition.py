@@ -1,7 +1,7 @@
-"""Who somebody is, for robots whose owner wants that: any face-embedding network will do.
+"""Who someone is, for robots whose owner wants that: any face-embedding network will do.
 
 An embedding turns the picture of a face into numbers that are alike for pictures of one person.
-None comes with the house. Nothing is learned unless somebody says a name, nothing leaves the
+None comes with the house. Nothing is learned unless someone says a name, nothing leaves the
 machine, nothing is written to a file unless one is named, and every name can be forgotten.
 """
 
@@ -61,7 +61,7 @@ class Acquaintances:
         return sorted(self._samples)
 
     def learn(self, name: str, vector: Vector) -> None:
-        """Take a face for one of that name. Raises HriError for what is no name or no vector."""
+        """Take a face for one of that name. Raises HriError for an invalid name or vector."""
         if not name.strip():
             raise HriError("a face needs a name - say whose it is")
         if name not in self._samples and len(self._samples) >= MOST_NAMES:
@@ -118,7 +118,7 @@ class Acquaintances:
                     with np.errstate(over="ignore"):
                         known.learn(name, np.array(vector, np.float32))
         except (ValueError, AttributeError, TypeError, OverflowError, HriError) as error:
-            remedy = "delete it and let the robot learn the names anew"
+            remedy = "delete it and let the robot learn the names again"
             raise AuthoringError(Place(path), f"no file of faces: {error}", remedy) from error
         return known
 

@@ -34,7 +34,7 @@ GRACE = 0.25
 UNCONFIRMED = 1.5
 """Seconds that it may be without being found, when there is no mesh."""
 RENEWAL = 0.3
-"""Seconds after which the points to follow are chosen anew."""
+"""Seconds after which the points to follow are chosen again."""
 MAX_GAP = 0.5
 """Seconds between two pictures; over more, no motion is told."""
 JUMP = 0.5

@@ -1,6 +1,6 @@
 """Who is who: what one person is told from the others by, while faces cover each other and go.
 
-Looks come first; where somebody was, and where they were going, decides between people who look
+Looks come first; where someone was, and where they were going, decides between people who look
 alike, and less so the longer ago it was.
 """
 
@@ -12,7 +12,7 @@ from hri.vision.tracking.appearance import Look, blended, difference
 from hri.vision.tracking.face_track import FaceTrack
 
 STRANGER = 0.165
-"""A face that costs more is somebody else."""
+"""A face that costs more is someone else."""
 STRANGER_IN_CROWD = 0.28
 """The same for who may have been covered, and may be so in part."""
 PLACE_COST = 0.06
@@ -26,7 +26,7 @@ SIZE_REACH = 0.4
 PLACE_MEMORY = 1.5
 """Seconds in which what is known of place and size falls to a third."""
 COASTING = 0.7
-"""Seconds that somebody out of sight is taken to walk on."""
+"""Seconds that someone out of sight is taken to walk on."""
 PACE_SMOOTHING = 0.25
 """Seconds over which the pace is averaged."""
 LEARNING = 0.15
@@ -46,7 +46,7 @@ class Identity:
 
     @property
     def is_established(self) -> bool:
-        """Whether they were ever seen where they could not be taken for anybody else."""
+        """Whether they were ever seen where they could not be taken for anyone else."""
         return self._time > -math.inf
 
     def place(self, time: float, face: FaceTrack) -> None:

@@ -1,8 +1,8 @@
-"""Everybody in the pictures of a camera: found, followed, told apart, and described.
+"""Everyone in the pictures of a camera: found, followed, told apart, and described.
 
 A search of the whole picture is made only while it is needed: now and then for newcomers, more
-often while somebody is missing. Between, each face is followed by itself. Faces that come close to
-each other may be taken for each other, or cover each other; who is who is settled anew by looks as
+often while someone is missing. Between, each face is followed by itself. Faces that come close to
+each other may be taken for each other, or cover each other; who is who is settled again by looks as
 soon as they are apart again.
 """
 
@@ -31,7 +31,7 @@ from hri.vision.tracking.person_track import PersonTrack, number_of
 log = logging.getLogger("hri.vision")
 
 MEMORY = 3.0
-"""Seconds after which somebody who is out of sight is given up."""
+"""Seconds after which someone who is out of sight is given up."""
 MOST = 8
 """Faces that are followed at once."""
 MOST_FITS = 4
@@ -39,7 +39,7 @@ MOST_FITS = 4
 SEARCH_ALONE = 0.1
 """Seconds between two searches while nobody is seen."""
 SEARCH_MISSING = 0.2
-"""Seconds between two searches while somebody is out of sight."""
+"""Seconds between two searches while someone is out of sight."""
 SEARCH_NEWCOMERS = 0.4
 """Seconds between two searches else."""
 SEARCH_BOXES = 0.3
@@ -55,17 +55,17 @@ STAYING = 0.03
 LATENESS = 0.1
 """What a face costs more for who was never seen away from the others: likely one of them."""
 LEARN_EVERY = 0.2
-"""Seconds between two looks at how somebody looks."""
+"""Seconds between two looks at how someone looks."""
 FRONTAL = math.radians(35)
-"""A head turned further does not show how somebody looks."""
+"""A head turned further does not show how someone looks."""
 
 
 class PeopleTracker:
     """Sees frames one by one, in the order they were taken; the same frames give the same people.
 
-    People keep their id, "p1", "p2" ..., while they are seen and for `MEMORY` seconds after; no id
-    is given twice. A frame that is no picture changes nothing. When time goes back, no picture has
-    come for `MEMORY` seconds, or pictures change their size, everybody is new.
+    People keep their id, "p1", "p2" ..., while they are seen and for `MEMORY` seconds after; ids
+    are not reused. Invalid pictures are ignored. When time goes back, there was no picture for
+    `MEMORY` seconds, or pictures change their size, everyone is new.
     """
 
     def __init__(
@@ -84,7 +84,7 @@ class PeopleTracker:
         self._forget()
 
     def see(self, frame: Frame) -> People:
-        """Everybody who is there at the time of the frame."""
+        """Everyone who is there at the time of the frame."""
         picture = gray_picture(frame.image)
         if picture is None or not math.isfinite(frame.time) or frame.time == self._last.time:
             return self._last
@@ -115,7 +115,7 @@ class PeopleTracker:
         self._attending = Attending()
 
     def _lose_all(self) -> None:
-        """Look for everybody anew: who knows who sits there now."""
+        """Look for everyone again: who knows who sits there now."""
         for somebody in self._known:
             somebody.face = None
         self._searched = -math.inf
@@ -294,7 +294,7 @@ class PeopleTracker:
         ]
 
     def _note(self, sight: Sight) -> None:
-        """Learn place and look of who is in sight and not mixed up with anybody."""
+        """Learn place and look of who is in sight and not mixed up with anyone."""
         mixed = set().union(*self._mixed)
         for somebody, face in self._seen():
             somebody.seen = sight.time

@@ -91,7 +91,7 @@ class PersonTrack:
 
 
 def number_of(id: str) -> int:
-    """The number in the id of somebody."""
+    """The number in the id of someone."""
     return int(id[1:])
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from hri.core.signals import People, Person
 
 STEP = 0.3
-"""Meters somebody must come nearer, or go away, before it is told."""
+"""Meters someone must come nearer, or go away, before it is told."""
 SETTLING = 0.5
 """Seconds after which a newcomer's distance is taken for where they start from."""
 
@@ -31,7 +31,7 @@ class _Guest:
 
 
 class Presence:
-    """Compares everybody with how they were before."""
+    """Compares everyone with how they were before."""
 
     def __init__(self) -> None:
         self._guests: dict[str, _Guest] = {}

@@ -128,7 +128,7 @@ def test_numbers_have_four_digits(distance, raw, shown):
 
 def test_sensors_that_are_all_missing_end_in_a_sentence(write, sonar, capsys):
     assert range_sensor.main(["--fast", "--config", write(sonar), "sonar"]) == 1
-    assert capsys.readouterr().err.endswith("none of them is there - see the lines above\n")
+    assert capsys.readouterr().err.endswith("none of them is available - see the lines above\n")
 
 
 def test_only_the_named_sensors_are_read(write, capsys):

@@ -156,7 +156,7 @@ def test_an_unknown_gesture_is_refused_with_the_nearest_name() -> None:
         ("weights.jawOpne = [1]", 'no face has a target "jawOpne" - did you mean "jawOpen"'),
         ("weights.jawOpen = [1, 2]", "jawOpen has 2 numbers - write 1"),
         ("weights.jawOpen = [9]", "jawOpen goes beyond 2"),
-        ("weights.jawOpen = [nan]", "jawOpen holds something that is no number"),
+        ("weights.jawOpen = [nan]", "jawOpen holds something that is not a number"),
         ("at = [0.5, 0.2]", "4:1: keyframes at 0.5, 0.2 s"),
         ("at = [1.5]", "below duration_s, 1"),
         ("at = []", "0 keyframes"),

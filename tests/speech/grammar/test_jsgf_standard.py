@@ -97,7 +97,7 @@ def test_a_tag_belongs_to_what_stands_before_it(write, rules, tags):
         ("#JSGF V1.0;\ngrammar a;\npublic <a> = x | | y;", "3:18", "expected words"),
         ("#JSGF V1.0;\ngrammar a;\npublic <a> = x {t=1 =};", "3:21", "cannot read the tag"),
         ("#JSGF V1.0;\ngrammar a;\npublic <a> = x {t=$};", "3:19", "$ names no tag"),
-        ("#JSGF V1.0;\ngrammar a;\npublic <a> = /-1/ x | y;", "3:14", "/-1/ is no weight"),
+        ("#JSGF V1.0;\ngrammar a;\npublic <a> = /-1/ x | y;", "3:14", "/-1/ is not a weight"),
         ("#JSGF V1.0;\ngrammar a;\npublic <a> = x , y;", "3:16", "nothing that can be said"),
         ("#JSGF V1.0;\ngrammar a;\npublic <a> = x; /* y", "3:17", "this comment has no end"),
         ("#JSGF V1.0;\ngrammar a;\npublic <a> = /0/ x | /0/ y;", "3:1", "never be said"),

@@ -91,7 +91,7 @@ def _shared(one: Sequence[str], other: Sequence[str]) -> int:
 def sound_alikes(
     readings: Sequence[Parse], lexicon: Lexicon, farthest: float = FARTHEST
 ) -> list[SoundAlike]:
-    """Pairs with different meanings that are no farther apart, the nearest first.
+    """Pairs with different meanings that are not farther apart, the nearest first.
 
     Of the pairs that differ in the same words ("five" and "nine" in whatever is said with a
     number) only one is told, and none that differs in more words than those. Raises HriError for a

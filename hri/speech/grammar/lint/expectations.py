@@ -95,7 +95,7 @@ class Failure:
 
     expectation: Expectation
     came: str
-    """What came in place of what was expected."""
+    """What came instead of what was expected."""
 
     def __str__(self) -> str:
         line = self.expectation
@@ -125,7 +125,7 @@ def _disappointment(grammar: Grammar, line: Expectation) -> str:
 
 
 def _slip(grammar: Grammar, wanted: Meaning) -> str:
-    """What was meant by a lone name that is no tag: most likely a rule."""
+    """The likely intention behind a lone name that is not a tag: a rule."""
     names = tuple(wanted.tags or ())
     is_slip = not wanted.rule and len(names) == 1 and names[0] in grammar.public_rules
     return f' (a rule is written with a colon, "=> {names[0]}:")' if is_slip else ""
@@ -191,7 +191,9 @@ def _expectation(line: str, place: Place) -> Expectation:
 
 
 def read_meaning(text: str, place: Place) -> Meaning:
-    """The meaning of `rule: tag=value tag=value`, where `{}` is no tags. Raises AuthoringError."""
+    """The meaning of `rule: tag=value tag=value`, where `{}` means no tags. Raises
+    AuthoringError.
+    """
     match = _MEANING.fullmatch(text.strip())
     assert match is not None, "all of the pattern is optional"
     rule, written = match["rule"], match["tags"].strip()

@@ -93,7 +93,7 @@ def _broken_examples(grammar: Grammar) -> Iterator[Finding]:
         for tag in rule.doc_tags:
             if tag.name == "example" and parse(commands, tag.text, (rule.key,)) is None:
                 what = f'<{rule.key}> does not allow its example "{tag.text}"'
-                yield Finding("error", rule.place(tag.span), what, "mend the rule or the example")
+                yield Finding("error", rule.place(tag.span), what, "fix the rule or the example")
 
 
 def _with_examples(grammar: Grammar) -> Iterator[tuple[Rule, Grammar]]:
@@ -119,7 +119,7 @@ def _unknown_marks(grammar: Grammar) -> Iterator[Finding]:
     for rule in _own_rules(grammar):
         for tag in rule.doc_tags:
             if tag.name not in KNOWN_TAGS:
-                what = f"@{tag.name} is no mark that means anything"
+                what = f"unknown mark @{tag.name}"
                 yield warning(rule.place(tag.span), what, did_you_mean(tag.name, KNOWN_TAGS))
 
 
@@ -145,7 +145,7 @@ def _idle_imports(grammar: Grammar) -> Iterator[Finding]:
         if isinstance(use, NameListImport):
             yield warning(place, f"<{use.name}> is not used by any rule", "use it, or take it out")
         else:
-            what = f"no rule uses <{use.grammar}.{use.rule}>, and what is imported is no command"
+            what = f"no rule uses <{use.grammar}.{use.rule}>, and what is imported is not a command"
             name = "name" if use.rule == "*" else use.rule
             remedy = f"write public <{name}> = <{use.grammar}.{name}>; or take it out"
             yield warning(place, what, remedy)

@@ -3,7 +3,7 @@
 How well a sentence fits does not tell alone whether it was said: in noise nothing fits well. How
 much better it fits than other words does (`rivals`). The mean of few phones scatters more than that
 of many, by the root of their number, so what they tell counts for less. Beside it counts how
-clearly the phones are heard where they are clearest, how many there are, and whether somebody can
+clearly the phones are heard where they are clearest, how many there are, and whether someone can
 say as many in the time.
 """
 
@@ -97,7 +97,7 @@ In quiet what was said fits so well that a little less is suspicious; in noise i
 regression by `benchmarks/adaptation/fit.py`: pieces of speech, clean and under babble at 15 to 6
 dB, of grammars and sentences that the figures of `hri bench speech` are not taken from; the voices
 rms and kal16 are in both. Of noise the first weight would be 1.42 by the foreign speech of that
-fit; it was settled with sight of the figures, which are no independent test of it.
+fit; it was settled with sight of the figures, which are not an independent test of it.
 """
 
 

@@ -31,7 +31,7 @@ def noise_of(samples: Samples) -> float:
 
 
 def sounding(samples: Samples) -> slice:
-    """Where somebody speaks in a piece, with a little silence around it; all of it in noise.
+    """Where someone speaks in a piece, with a little silence around it; all of it in noise.
 
     The network was taught on little silence: with more, it hears the words less clearly (of 45
     commands in three synthetic voices 40 were accepted with 0.4 s of it, 45 with 0.1 s).

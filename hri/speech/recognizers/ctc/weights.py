@@ -56,7 +56,7 @@ def find_weights(path: str = "") -> Path:
     if chosen:
         file = paths.expanded(chosen)
         if not file.is_file():
-            raise NotAvailable(f"no weight file {file} - mend the path, or leave it out")
+            raise NotAvailable(f"no weight file {file} - fix the path, or leave it out")
         return file
     # Looks the package up without running it.
     package = importlib.util.find_spec("hama")
@@ -131,6 +131,6 @@ def take(tensors: Mapping[str, Tensor], name: str, *shape: int) -> Tensor:
     """A tensor that must be there in this shape. Raises HriError."""
     found = tensors.get(name)
     if found is None or found.shape != shape:
-        what = "missing" if found is None else f"of shape {found.shape} in place of {shape}"
+        what = "missing" if found is None else f"of shape {found.shape} instead of {shape}"
         raise HriError(f"the weight file is of another network: {name} is {what} - {_REMEDY}")
     return found

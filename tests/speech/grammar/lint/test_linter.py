@@ -38,7 +38,12 @@ def own_folders(tmp_path, monkeypatch):
         ("public <a> = go forward 10;", "3:25", '"10" is in no', 'write numbers as words, "ten"'),
         ("public <a> = go forward 7 times;", "3:25", '"7" is in no', 'numbers as words, "seven"'),
         ("public <a> = turn_on that;", "3:14", '"turn_on" is in no', 'write "turn on"?'),
-        ("import <color.*>;\npublic <a> = go on;", "3:1", "is no command", "write public <name> ="),
+        (
+            "import <color.*>;\npublic <a> = go on;",
+            "3:1",
+            "is not a command",
+            "write public <name> =",
+        ),
         ("import <color.color>;\npublic <a> = go on;", "3:1", "is imported", "<color.color>;"),
         (
             "import <numbers.small>;\npublic <a> = from <small> to <small>;",
