@@ -191,7 +191,7 @@ def forget(path: Path, person: str | None = None) -> bool:
     imprint, count = without(memory.imprint, person), memory.forgettings + 1
     if imprint == memory.imprint:
         remedy = did_you_mean(person, people(memory.imprint))
-        raise HriError(f'nobody called "{person}" - {remedy}')
+        raise HriError(f'unknown person "{person}" - {remedy}')
     keep(path, replace(memory, imprint=imprint, forgettings=count))
     return True
 

@@ -62,7 +62,7 @@ def test_options_out_of_bounds_are_refused(network, option, capsys):
 
 def test_fake_time_needs_an_end(network, capsys):
     assert main([str(network), "--fast"]) == 2
-    assert "say --duration S as well" in capsys.readouterr().err
+    assert "add --duration S" in capsys.readouterr().err
 
 
 def test_a_missing_network_is_one_line(capsys):

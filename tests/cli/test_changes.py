@@ -46,7 +46,7 @@ def test_each_file_that_needs_a_new_start_is_told_once(app) -> None:
         save("more.py", "y = 1\n"),
         save("replies.toml", ""),
     ) == [
-        f"{app.folder / name} was saved - start the robot again to take it"
+        f"{app.folder / name} was saved - restart the robot to load it"
         for name in ("tasks.py", "app.toml", "more.py")
     ]
 

@@ -106,11 +106,11 @@ def test_a_recording_of_a_robot_is_drawn_by_its_odometry(tmp_path: Path) -> None
     [
         ("", "empty"),
         ("nonsense", "not JSON"),
-        ("[1]", "no JSON object"),
-        ('{"goal": 3}', "no description"),
+        ("[1]", "not a JSON object"),
+        ('{"goal": 3}', "bad description"),
         ("{}", "the robot did not move"),
-        ('{}\n{"t": 0}', ":2: no moment"),
-        ('{}\n{"t": 0, "robot": [1e999, 0, 0]}', ":2: no moment"),
+        ('{}\n{"t": 0}', ":2: bad moment"),
+        ('{}\n{"t": 0, "robot": [1e999, 0, 0]}', ":2: bad moment"),
     ],
 )
 def test_a_file_that_is_no_run_says_what_is_wrong(tmp_path: Path, text: str, what: str) -> None:
@@ -147,7 +147,7 @@ def written(folder: Path, *lines: object) -> str:
 @pytest.mark.parametrize("x", [math.nan, math.inf, 1e300, 10**400, None, "far"])
 def test_a_recorded_pose_that_is_nowhere_is_named(tmp_path: Path, x: object) -> None:
     pose = {"event": "odometry", "t": 0, "x_cm": x, "y_cm": 0, "heading_rad": 0}
-    with pytest.raises(HriError, match=r"run\.jsonl:1: (no pose|not JSON: an integer)"):
+    with pytest.raises(HriError, match=r"run\.jsonl:1: (bad pose|not JSON: an integer)"):
         read_run(written(tmp_path, pose), "full")
 
 

@@ -93,7 +93,7 @@ def test_an_app_of_the_companion_may_be_called_like_what_it_does(name, folder):
 
 def test_only_an_app_is_made_from_something(folder, capsys):
     assert main(["new", "task", "parrot", "--from", "companion"]) == 2
-    assert "a task is not made --from anything" in capsys.readouterr().err
+    assert "task does not accept --from" in capsys.readouterr().err
 
 
 def test_a_new_driver_is_listed_by_hri_devices(folder, monkeypatch, capsys):

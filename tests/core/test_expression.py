@@ -65,6 +65,6 @@ def test_every_number_reads_back(number):
 def test_a_refused_expression_warns_of_nothing():
     with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
-        with pytest.raises(ValueError, match="no number"):
+        with pytest.raises(ValueError, match="not a number"):
             evaluate("1or 2")
     assert warned == []

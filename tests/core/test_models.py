@@ -242,7 +242,7 @@ def test_what_is_neither_folder_nor_archive_is_not_taken(home):
 
 @pytest.mark.parametrize("name", ["", "../up", "a/b", ".hidden", "x" * 200])
 def test_a_name_that_would_leave_the_folder_is_refused(name, home):
-    with pytest.raises(HriError, match="no name of a model"):
+    with pytest.raises(HriError, match="not a valid model name"):
         bring(name, home)
 
 

@@ -42,7 +42,7 @@ def test_derived_units_are_divided_by_time():
         (Quantity.DISTANCE, "inchs", 'unknown unit of distance "inchs" - did you mean "inches"?'),
         (Quantity.ANGLE, "cm", "unknown unit of angle"),
         (Quantity.VELOCITY, "cm", "not a unit of velocity - try m/s"),
-        (Quantity.VELOCITY, "cm/s^2", "no unit of velocity"),
+        (Quantity.VELOCITY, "cm/s^2", "not a unit of velocity"),
         (Quantity.ACCELERATION, "cm/s", "not a unit of acceleration - try m/s^2"),
         (Quantity.DISTANCE, "cm/s", "not a unit of distance - try m"),
         (Quantity.VELOCITY, "cm/hour", "unknown unit of time"),

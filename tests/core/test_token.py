@@ -133,6 +133,6 @@ def test_a_link_in_its_place_is_replaced_and_what_it_leads_to_stays(tmp_path, is
 def test_a_new_one_that_the_environment_hides_says_so(monkeypatch, capsys):
     monkeypatch.setenv(VARIABLE, "chosen-by-somebody")
     assert main(["token", "--new"]) == 0
-    assert "HRI_TOKEN is set and goes before it" in capsys.readouterr().err
+    assert "HRI_TOKEN is set and takes precedence" in capsys.readouterr().err
     assert main(["token"]) == 0
     assert capsys.readouterr() == ("chosen-by-somebody\n", "")

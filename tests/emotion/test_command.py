@@ -239,8 +239,8 @@ def test_a_wrong_event_is_refused_with_its_place(
 @pytest.mark.parametrize(
     ("text", "line", "what"),
     [
-        ("[[event]]\nt = 1\n", 1, "an event of no kind - name one of stimulus, goal"),
-        ('[[event]]\nt = 1\ngoal = "a"\nobject = "b"\n', 1, "an event of two kinds"),
+        ("[[event]]\nt = 1\n", 1, "an event without a kind - name one of stimulus, goal"),
+        ('[[event]]\nt = 1\ngoal = "a"\nobject = "b"\n', 1, "an event with two kinds"),
         ('[[event]]\nt = 1\nstimulus = "prase"\n', 3, 'did you mean "praise"'),
         ('[[event]]\nt = -1\nstimulus = "praise"\n', 2, "from 0 to"),
         ('[[event]]\nt = 1\ngoal = "a"\nutility = 2\n', 4, "from -1 to 1"),

@@ -110,7 +110,7 @@ def test_a_wrong_personality_is_refused_with_its_place(
         ('[stimulus.praise]\nwords = "x"\nemotions = { joy = 0.5 }\n', "taken already"),
         ('[stimulus.temperament]\nwords = "x"\nemotions = { joy = 0.5 }\n', "taken already"),
         ('[stimulus.other]\nwords = "x"\nemotions = { joy = 0.5 }\n', "taken already"),
-        ('[stimulus."a.b"]\nwords = "x"\n', "no name of a stimulus"),
+        ('[stimulus."a.b"]\nwords = "x"\n', "not a valid stimulus name"),
         ('[stimuli.x]\nwords = "x"\n', 'did you mean "stimulus"'),
         ("schema = 2\n", "from 1 to 1"),
         (TICKLED + 'trigger = "touched"\n', "is not a trigger"),

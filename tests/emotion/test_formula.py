@@ -115,7 +115,7 @@ def test_a_long_row_is_not_deep(operator: str) -> None:
         ("valu", 'did you mean "value"'),
         ("rule + 1", "is a text"),
         ("rule", "is a text"),
-        ("path", "no number"),
+        ("path", "not a number"),
         ("1 / (value - value)", "divides by zero"),
         ("odd", "is nan"),
         ("1e300 * 1e300", "is inf"),

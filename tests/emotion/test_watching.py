@@ -104,7 +104,7 @@ def test_watching_goes_on_while_files_are_broken_or_gone(
     told = capsys.readouterr()
     assert told.out.count("I am sad because Bob scolded me") == 2
     assert told.err.count("mine.toml:2:") == 1
-    assert told.err.count("no robot keeps here") == 1
+    assert told.err.count("no robot saves its feelings here") == 1
     mine.write_text("baseline", encoding="utf-8")
     assert main(["emotion", "watch", "--once"]) == 2
 
@@ -113,7 +113,7 @@ def test_a_robot_that_keeps_nothing_cannot_be_watched(
     dynamics: Dynamics, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["emotion", "watch", "--once"]) == 2
-    assert "no robot keeps here what it feels - run an app" in capsys.readouterr().err
+    assert "no robot saves its feelings here - run an app" in capsys.readouterr().err
     memory_file().parent.mkdir(parents=True)
     memory_file().write_text("{", encoding="utf-8")
     assert main(["emotion", "watch", "--once"]) == 2

@@ -69,9 +69,9 @@ def test_the_query_form_of_2003():
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "is not a name"),
-        ("?a=1", "is not a name"),
-        ("A B?a=1", "is not a name"),
+        ("", "is not a valid name"),
+        ("?a=1", "is not a valid name"),
+        ("A B?a=1", "is not a valid name"),
         ("A?a", "is not like property=value"),
         ("A?=1", "is not like property=value"),
         ("A?a=1&a=2", "is there twice"),
@@ -104,7 +104,7 @@ def test_what_is_no_event_is_told(text, message):
 
 
 def test_what_cannot_be_written_is_refused():
-    with pytest.raises(HriError, match="is not a name"):
+    with pytest.raises(HriError, match="is not a valid name"):
         event("two words")
     with pytest.raises(HriError, match="give a finite number or a text"):
         write_event(Event("a", 0.0, {"tags": {}}))

@@ -98,7 +98,7 @@ def test_without_a_dictionary_the_rest_is_checked(grammar, write, monkeypatch, c
 
     assert grammar("check", path) == 0
     told = capsys.readouterr()
-    assert "how the words sound is not checked: the dictionary" in told.err
+    assert "pronunciations are not checked: the dictionary" in told.err
     assert "<b> is not used" in told.out
 
 

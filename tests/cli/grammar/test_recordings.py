@@ -140,7 +140,7 @@ def test_a_file_of_sentences_finds_its_grammar(grammar, write, tmp_path, capsys)
 
     (tmp_path / "other.txt").write_text("+ turn up\n")
     assert grammar("test", tmp_path / "other.txt") == 2
-    assert "say --grammar NAME, or put other.jsgf beside it" in capsys.readouterr().err
+    assert "add --grammar NAME, or put other.jsgf beside it" in capsys.readouterr().err
 
     (tmp_path / "other.txt").write_text("grammar mine\n+ turn up => a: x=1\n")
     assert grammar("test", tmp_path / "other.txt", "--json") == 1
@@ -222,7 +222,7 @@ def test_a_strictness_is_recommended(grammar, write, coded_voices, capsys):
     assert grammar("calibrate", path, "--voices", "en-us") == 0
     out = capsys.readouterr().out
     assert "<- recommended" in out
-    assert "these are too few to rely on: try 20 commands and 20 others" in out
+    assert "too few to be reliable: try 20 commands and 20 others" in out
     assert '<Parameter name="strictness" value="0.9"/>' in out
 
     assert grammar("calibrate", path, "--voices", "en-us", "--json") == 0
@@ -235,7 +235,7 @@ def test_a_strictness_is_recommended(grammar, write, coded_voices, capsys):
 def test_recordings_without_other_talk_cannot_calibrate(grammar, write, manifest, capsys):
     path = manifest((0, "turn left"))
     assert grammar("calibrate", write(RULES), "--audio", path) == 2
-    assert "nothing outside of the grammar" in capsys.readouterr().err
+    assert "no out-of-grammar recordings" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("voice", ["martian", "flite:martian"])
