@@ -36,7 +36,7 @@ CLIPPED_DBFS = -1.0
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """What became of one check."""
+    """Result of one check."""
 
     is_well: bool
     says: str
@@ -114,7 +114,7 @@ class Doctor:
                 False, f"silent ({loudest:.0f} dBFS) - unmute it, or run with --choose"
             )
         if loudest > CLIPPED_DBFS:
-            return Diagnosis(False, "too loud, it clips - lower its level in the sound settings")
+            return Diagnosis(False, "clipping - lower its level in the sound settings")
         return Diagnosis(True, f"{microphone.describe()}, loudest {loudest:.0f} dBFS")
 
     def _speaker(self) -> Diagnosis:
@@ -135,7 +135,7 @@ class Doctor:
             time.sleep(0.05)  # noqa: TID251 - a camera needs a moment
             frame = camera.read(self.clock.now())
         if frame is None:
-            return Diagnosis(False, "it gives no picture - unplug it and plug it in again")
+            return Diagnosis(False, "no picture - unplug it and plug it in again")
         height, width = frame.image.shape[:2]
         if frame.image.max() < 16:
             return Diagnosis(False, f"{width} x {height}, but black - take off the lens cover")
@@ -169,8 +169,8 @@ class Doctor:
 
         problems = load_detectors().problems
         if problems:
-            return Diagnosis(False, f"{problems[0]} (until then boxes and coarse motion only)")
-        return Diagnosis(True, "BlazeFace and the face mesh, both load")
+            return Diagnosis(False, f"{problems[0]} (until then only boxes and coarse motion)")
+        return Diagnosis(True, "BlazeFace and the face mesh load")
 
 
 def _dbfs(samples: Any) -> float:

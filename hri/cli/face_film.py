@@ -27,7 +27,7 @@ PATIENCE = 300.0
 
 @dataclass(frozen=True, slots=True)
 class FaceFilm:
-    """How a scene is filmed."""
+    """Settings of a film."""
 
     rate: float = 30.0
     """Frames per second."""

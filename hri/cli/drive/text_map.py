@@ -48,7 +48,7 @@ def rows(moment: Snapshot) -> list[str]:
 
 
 class TextMap:
-    """Draws lines of text; remembers where the base was."""
+    """Draws lines of text; keeps the trail of the base."""
 
     def __init__(self, title: str) -> None:
         self._title = title

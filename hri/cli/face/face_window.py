@@ -37,7 +37,7 @@ TURNED = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, 0.0), (-1.0, -
 
 @dataclass(frozen=True)
 class ShownFace:
-    """What is shown."""
+    """The chosen look."""
 
     expression: str = "neutral"
     viseme: str = ""
@@ -63,7 +63,7 @@ class FaceWindow:
     is_cycling: bool = True
     has_legend: bool = True
     refusal: str = ""
-    """Why the drawings are refused as they are now; the last good ones are shown."""
+    """Why the current drawings are refused; the last good ones are shown."""
     look: ShownFace = field(default_factory=ShownFace)
 
     def __post_init__(self) -> None:
@@ -131,7 +131,7 @@ class FaceWindow:
         return ["", *self._model.visemes]
 
     def _hold(self, look: ShownFace) -> None:
-        """Show something the user chose."""
+        """Show the user's choice."""
         self.is_cycling = False
         self._turn_to(look)
 

@@ -109,7 +109,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _clips(options: argparse.Namespace, grammar: Grammar) -> Iterable[RecordedClip]:
-    """The recordings of a manifest, and what synthetic voices say."""
+    """The recordings of a manifest, and synthetic speech."""
     if options.audio is not None:
         rows = read_manifest(options.audio, grammar)
         yield from (row.clip() for row in progress(rows, len(rows), "hearing"))

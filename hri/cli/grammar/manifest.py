@@ -153,7 +153,7 @@ def usual_voices() -> tuple[str, ...]:
 def spoken(
     grammar: Grammar, sentences: Sequence[str], voices: Sequence[str]
 ) -> Iterator[RecordedClip]:
-    """Each sentence in each voice, made when it is asked for; those the grammar refuses, too."""
+    """Each sentence in each voice, synthesized lazily; also those the grammar refuses."""
     with Voices() as speakers:
         for sentence in sentences:
             found = parse(grammar, sentence)

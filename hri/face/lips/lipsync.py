@@ -265,7 +265,7 @@ def _between(closure: VisemeSpan, earliest: float, latest: float) -> VisemeSpan:
 
 
 def _closed(shape: Values, shut: Sequence[VisemeSpan], times: Values) -> Values:
-    """The shape, with nothing but the closure wherever the lips must meet."""
+    """The shape, with only the closure wherever the lips must meet."""
     for closure in shut:
         within = (closure.start <= times) & (times <= closure.end)
         shape[within] = 0.0

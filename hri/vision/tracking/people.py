@@ -218,7 +218,7 @@ class PeopleTracker:
             somebody.face, somebody.fitted = face, sight.time
 
     def _cost(self, time: float, somebody: PersonTrack, face: FaceTrack, look: Look) -> float:
-        """How unlikely it is that a new face is that of somebody missing; infinite for no.
+        """How unlikely it is that a new face is that of someone missing; infinite for no.
 
         Of those who are mixed up, each may be taken for another: a face that fits any of them will
         do, and so will one that is half covered still. Who is who is settled when they are apart.
