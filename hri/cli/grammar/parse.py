@@ -66,7 +66,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     with waiting("reading the grammar"):
         grammar = load_grammar(options.file)
-        parses(grammar, "")  # Gets it ready.
+        parses(grammar, "")  # Prepares it.
     status = 0
     for text in _sentences(options.texts):
         found = parses(grammar, text)
