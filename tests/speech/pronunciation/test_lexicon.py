@@ -170,7 +170,7 @@ def test_nothing_is_added_to_a_lexicon_with_a_mistake(tmp_path):
     path.write_text("cat QQ\n")
     with pytest.raises(AuthoringError):
         add_to_lexicon(path, "dog", ("D", "AO", "G"))
-    with pytest.raises(HriError, match="no single word"):
+    with pytest.raises(HriError, match="not a single word"):
         add_to_lexicon(path, "two words", ("D",))
 
 
@@ -184,7 +184,7 @@ def test_a_lexicon_is_not_filled_beyond_what_can_be_read(tmp_path):
 
 
 def test_a_word_that_would_be_read_as_another_is_not_added(tmp_path):
-    with pytest.raises(HriError, match="no single word"):
+    with pytest.raises(HriError, match="not a single word"):
         add_to_lexicon(tmp_path / "mine.txt", "zo(rk", ("Z",))
 
 
