@@ -82,7 +82,7 @@ def own_folders(tmp_path, monkeypatch):
             '"no" is very short',
             "longer",
         ),
-        ("/** @carefull */ public <a> = go on;", "3:5", "unknown mark @carefull", 'mean "careful"?'),
+        ("/** @carefull */ public <a> = go on;", "3:5", "mark @carefull", 'mean "careful"?'),
         ("/** @careful */ <b> = on;\npublic <a> = go <b>;", "3:5", "says nothing here", "public"),
         (
             "public <a> = turn left {x=1};\npublic <b> = turn (left | right);",
