@@ -24,6 +24,7 @@ COMMAND = "drive.command"
 MOTION = "drive.motion"
 """The board slot that holds the motion that may write commands; empty when there is none."""
 
+_USUAL = GateLimits()
 _SLACK = 0.03
 """Meters a second by which it may be too fast for who comes and still slows down gently."""
 
@@ -44,12 +45,12 @@ class CommandGate(Behavior):
     category = "drive"
 
     may_do = NOTHING
-    max_linear = Param(0.4, "meters a second", minimum=0.01, maximum=2)
-    max_angular = Param(1.2, "radians a second", minimum=0.01, maximum=6)
-    acceleration = Param(0.4, "meters a second squared", minimum=0.05, maximum=5)
-    deceleration = Param(0.5, "meters a second squared", minimum=0.05, maximum=10)
+    max_linear = Param(_USUAL.max_linear, "meters a second", minimum=0.01, maximum=2)
+    max_angular = Param(_USUAL.max_angular, "radians a second", minimum=0.01, maximum=6)
+    acceleration = Param(_USUAL.acceleration, "meters a second squared", minimum=0.05, maximum=5)
+    deceleration = Param(_USUAL.deceleration, "meters a second squared", minimum=0.05, maximum=10)
     timeout_s = Param(
-        0.5,
+        _USUAL.timeout_s,
         "seconds without a command or a sensor's word until it stops",
         minimum=0.05,
         maximum=0.5,
