@@ -96,14 +96,15 @@ def use(
 
 
 def print_what_nobody_hears(context: TaskContext) -> None:
-    """Print what is said while no real speaker plays it."""
+    """Print what is said while no real speaker plays it; not on fake time, where nobody waits."""
 
     def show(event: Event) -> None:
         speakers = context.resources.opened(Speaker)
         if not any(speaker.is_hardware for speaker in speakers):
             print(f"said: {event.properties['text']}", flush=True)
 
-    context.events.subscribe("speech.said", show)
+    if not context.clock.is_fake:
+        context.events.subscribe("speech.said", show)
 
 
 def get_task_manager() -> TaskManager:

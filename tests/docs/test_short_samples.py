@@ -10,8 +10,8 @@ from hri.core import paths
 
 FOLDER = paths.house() / "docs" / "samples" / "short"
 PRINTED = {
-    "say_and_ask": "said: So do I.\nanswer: True",
-    "button": "said: Ouch!",
+    "say_and_ask": "yes",
+    "button": "Ouch!",
     "follow_face": r"Pose2D\(x=0\.\d+, y=0\.\d+",
     "sensor_to_face": r"inf m\n0\.\d\d m",
     "emotion": "I am happy mostly because you praised me",
