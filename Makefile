@@ -44,6 +44,7 @@ check: $(VENV)/.dev
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/python .ci/circles.py
 	$(BIN)/codespell hri apps benchmarks tests docs config *.md
 	$(BIN)/python .ci/prose.py
 
