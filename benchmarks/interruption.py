@@ -1,4 +1,4 @@
-"""Running a function in a process of its own and killing it at any of its system calls.
+"""Runs a function in a separate process and kills it at any of its system calls.
 
 The kernel stops a traced process at the beginning and at the end of each system call; its parent
 counts the stops and kills it at one of them.
@@ -17,8 +17,8 @@ from hri.core.errors import HriError
 _TRACE_ME, _STEP, _SET_OPTIONS = 0, 24, 0x4200
 """Requests of ptrace(2): PTRACE_TRACEME, PTRACE_SYSCALL, PTRACE_SETOPTIONS."""
 _OPTIONS = 0x1 | 0x100000
-"""PTRACE_O_TRACESYSGOOD and PTRACE_O_EXITKILL: calls are told from signals, and the process does
-not outlive us."""
+"""PTRACE_O_TRACESYSGOOD and PTRACE_O_EXITKILL: calls are distinguished from signals, and the
+process does not outlive us."""
 _CALL = signal.SIGTRAP | 0x80
 """What a traced process stops with at a system call."""
 
@@ -26,7 +26,7 @@ _libc = ctypes.CDLL(None, use_errno=True)
 
 
 def run_interrupted(function: Callable[[], object], at: int | None = None) -> int:
-    """Run a function in a process of its own, killed at its stop number `at`; the stops it made.
+    """Run a function in a separate process, killed at its stop number `at`; the stops it made.
 
     A system call makes two stops, the first is number 1; without `at` it runs to its end. Raises
     HriError when processes cannot be traced here.

@@ -108,7 +108,7 @@ class Companion:
             return
         if rule in GREETINGS and not self.may_speak:
             self._be_quiet(0.0)
-        may_speak = self.may_speak  # who is told to be quiet may still answer that
+        may_speak = self.may_speak  # a robot asked to be quiet may still answer that
         if reply.feel:
             # Whoever talks is taken to be the one it attends to.
             self.emotion.feel(reply.feel, reply.intensity, people_of(self.context).attended)
@@ -163,13 +163,13 @@ class Companion:
         self.gestures.start(verbs.gesture, gesture)
 
     def say(self, words: str) -> None:
-        """Say it, instead of what is being said; nothing while it was told to be quiet."""
+        """Say it, interrupting other speech; nothing while it is asked to be quiet."""
         if self.may_speak:
             self.talk.start(verbs.say, words)
 
     @property
     def may_speak(self) -> bool:
-        """Whether nobody told it to be quiet just now."""
+        """Whether it may talk: it was not asked to be quiet."""
         return self.context.clock.now() >= self.silent_until
 
     def _words(self, rule: str, reply: Reply, text: str, tags: dict[str, Any]) -> str:

@@ -97,7 +97,7 @@ def load_replies(files: Sequence[Path], vocabulary: Vocabulary) -> Replies:
     found = Replies(unasked=USUALLY_UNASKED)
     for table in tables:
         found = _joined(found, _read(table, vocabulary, mistakes, is_own=table.path == own))
-    # Where the app has no replies of its own, it is there that some are missing.
+    # The app may have no replies at all: then they are missing from there.
     last = tables[-1] if tables and tables[-1].path == own else Table({}, own, (), {})
     _refuse_gaps(found, last, vocabulary, mistakes)
     mistakes.tell()

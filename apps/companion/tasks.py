@@ -31,7 +31,7 @@ from .companion import COMPANY_SECONDS, Companion, authored_replies, vocabulary_
 from .replies import FILE, Question, Replies, load_replies
 
 FIRST_QUESTION = 7.0
-"""Seconds of calm after a conversation before it asks a question of its own."""
+"""Seconds of calm after a conversation before it asks a question itself."""
 BETWEEN_QUESTIONS = 40.0
 UNSEEN_SECONDS = 20.0
 """The same for someone who is not seen."""

@@ -1,4 +1,4 @@
-"""Tells which phones sound when in the speech to learn from: `python align.py speech.npz`.
+"""Aligns phones in the training speech: `python align.py speech.npz`.
 
 Where the text of a clip is known, its words are laid along what the network as it comes hears in
 the clean sound; where it is not, or does not fit, what the network hears is taken for the truth.
@@ -95,7 +95,7 @@ def teacher() -> Conformer:
 
 
 def phones_of(text: str, clip: NDArray[np.int16]) -> tuple[Phones, bool]:
-    """What is said in a clip, and whether the text tells."""
+    """The transcript of a clip, and whether the text is known."""
     posteriors = teacher().posteriors(clip)
     found = spoken(text, posteriors) if text else None
     return (heard(posteriors), False) if found is None else (found, True)

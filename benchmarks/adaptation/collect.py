@@ -206,7 +206,7 @@ pico_voice = cache(TtsEngine)
 
 @cache
 def hibari_voice() -> hibari.Hibari:
-    """The voice heart; it also tells how words are said."""
+    """The voice heart; it also gives pronunciations."""
     return hibari.Hibari(threads=1)
 
 
@@ -269,7 +269,7 @@ def kokoro_voices() -> list[Path]:
     """The voices of Kokoro, a file each."""
     files = sorted(KOKORO.glob("*.bin"))
     if not files:
-        raise SystemExit(f"{KOKORO}: no voices of Kokoro - README.md tells where they come from")
+        raise SystemExit(f"{KOKORO}: no voices of Kokoro - README.md says where they come from")
     return files
 
 

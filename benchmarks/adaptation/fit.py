@@ -5,8 +5,8 @@ and decoded as the engine does it, each by its own grammar and by others. What i
 decodes right speaks for a sentence; whatever a grammar makes of sentences that it does not have, of
 `calibration/foreign.txt` and of babble alone speaks against, and so does what its own grammar takes
 for another sentence. Every second of the recorded orders stands against all grammars, too. Prints
-the constants for `confidence.py`, and how well a fit that never met a fifth of the grammars and
-voices tells the two apart there.
+the constants for `confidence.py`, and how well a fit without a fifth of the grammars and voices
+separates the two there.
 
 Kept out, since figures are taken from them: the voices slt and awb, the other half of the orders,
 and the grammars of `hri bench speech`.
@@ -86,7 +86,7 @@ def main() -> None:
 
 @dataclass(frozen=True, eq=False)
 class Said:
-    """A clip with a sentence; `grammar` is the name of its own, "" when it is foreign to all."""
+    """A clip with a sentence; `grammar` is the name of its grammar, "" when it belongs to none."""
 
     samples: Samples
     sentence: str

@@ -2,10 +2,10 @@
 
 The teacher is the network as it comes, on clean speech; the student is the network with the
 change that is learned, on the same speech under noise (G. Hinton, O. Vinyals, J. Dean, "Distilling
-the knowledge in a neural network", 2015). It also learns which phones were said, as `align.py`
-tells. A matrix changes by the product of two narrow ones (E. Hu et al., "LoRA", 2021), everything
-smaller by itself. The file is what `hri.speech.recognizers.ctc.adaptation` reads; given with
---start, training goes on from it.
+the knowledge in a neural network", 2015). It also learns the phones from `align.py`. A matrix
+changes by the product of two narrow ones (E. Hu et al., "LoRA", 2021), everything smaller by
+itself. The file is what `hri.speech.recognizers.ctc.adaptation` reads; given with --start, training
+goes on from it.
 """
 
 from __future__ import annotations

@@ -33,7 +33,7 @@ PITCH_RANGE = (75.0, 300.0)
 THROATS = (0.82, 1.22)
 """By how much the envelope is stretched along the frequencies."""
 BLURRED = 0.6
-"""How many of the envelopes are told by a few cepstral numbers and smoothed along time."""
+"""Share of envelopes reduced to a few cepstral coefficients and smoothed along time."""
 LABELS = 4
 """Names that the new speakers share: the more, the more often they are learned from."""
 

@@ -24,7 +24,7 @@ from hri.face.model import FaceModel, load_face
 from hri.face.still import render_face
 
 LABELS = ("angry", "disgusted", "scared", "happy", "sad", "surprised", "neutral")
-"""What the network tells apart, in the order of its outputs, by our labels."""
+"""The classes of the network, in the order of its outputs, as our labels."""
 TOP = ("happy", "sad", "surprised", "scared", "neutral")
 """Expressions that must be named right."""
 RISING = ("angry", "disgusted")

@@ -22,10 +22,10 @@ RATE = 16_000
 
 
 def shipped(patterns: Iterable[str]) -> list[bytes]:
-    """What the files of the house hold whose paths fit the patterns, the smallest first."""
+    """Contents of the built-in files whose paths match the patterns, the smallest first."""
     found = {file for pattern in patterns for file in paths.house().glob(pattern)}
     contents = sorted({file.read_bytes() for file in found}, key=lambda data: (len(data), data))
-    assert contents, f"the house has no {patterns}"
+    assert contents, f"no built-in file matches {patterns}"
     return contents
 
 

@@ -79,7 +79,7 @@ def rows(
 ) -> Iterator[Row]:
     """The rows of recognition; every `step`th sentence and recording is taken.
 
-    `draw` tells who talks when in the babble; another one shows how much of a figure is chance.
+    `draw` is the seed of the babble; another one shows how much of a figure is chance.
     """
 
     @cache

@@ -149,7 +149,7 @@ def film(motion: Motion, seed: int, rate: float, duration: float = DURATION) -> 
 
 
 def told(kind: str, seed: int, rate: float) -> list[HeadGesture]:
-    """What is told of everyone in a film, though nobody asks."""
+    """All gestures reported in a film, without an open question."""
     made = film(FILMS[kind](seed), seed, rate)
     watching = PeopleGestures(answer_patterns())
     with one_thread():

@@ -62,7 +62,7 @@ class Context:
         return Networks(self)
 
     def seed_for(self, name: str) -> int:
-        """A seed of its own for each user of randomness, so that adding one shifts no other."""
+        """A separate seed for each user of randomness, so that adding one does not shift others."""
         return zlib.crc32(f"{self.seed}/{name}".encode())
 
 
@@ -83,10 +83,11 @@ class Behavior:
     relay then ages until the input gets another; a class that forgets, or whose output asks for no
     motion, says False."""
     may_do: frozenset[Effect]
-    """What values at its inputs may do besides what its outputs lead to. Where a class does not say
-    it: nothing if it only computes, anything if it has a `start` or an `__init__` of its own."""
+    """Effects of input values besides those of its outputs. Default: none if the class only
+    computes, any if it defines `start` or `__init__`.
+    """
     takes_any_ports: ClassVar[bool] = False
-    """Whether a schema that names it as its driver may give it ports of its own."""
+    """Whether a schema that names it as its driver may add ports."""
     inputs: ClassVar[dict[str, Input[Any]]] = {}
     outputs: ClassVar[dict[str, Output[Any]]] = {}
     parameters: ClassVar[dict[str, Param[Any]]] = {}
@@ -139,13 +140,13 @@ class Behavior:
 
     @classmethod
     def input_named(cls, name: str) -> Input[Any]:
-        """What is declared of an input. Raises HriError when there is none of that name."""
+        """The declaration of an input. Raises HriError for an unknown name."""
         declared: Input[Any] = cls._declared(name, cls.inputs, "input")
         return declared
 
     @classmethod
     def output_named(cls, name: str) -> Output[Any]:
-        """What is declared of an output. Raises HriError when there is none of that name."""
+        """The declaration of an output. Raises HriError for an unknown name."""
         declared: Output[Any] = cls._declared(name, cls.outputs, "output")
         return declared
 

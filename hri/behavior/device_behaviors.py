@@ -218,7 +218,7 @@ class ImageDisplay(DeviceBehavior):
 
 
 class OdometryPose(DeviceBehavior):
-    """Sends the pose of the base and raises `odometry` at a rate of its own."""
+    """Sends the pose of the base and raises `odometry` at its own rate."""
 
     is_sensor = True
     odometry_id = Param("odometry", "id of the odometry")

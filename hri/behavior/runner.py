@@ -3,7 +3,7 @@
 The order of a tick, once and in words: all outputs are emptied; what was injected takes its place
 as links; the behaviors run, sensors first and then in dependency order, and what rests on the word
 of someone outside carries the time of that word on, also when a behavior kept it from an earlier
-tick; the time each one took is kept; those who watch outputs are told what was sent. A tick that
+tick; the time each one took is kept; watchers of outputs get the sent values. A tick that
 ends after its deadline is a missed interval: it is counted, reported with what took longest, and
 the deadlines that have passed are skipped, never run in a burst.
 
@@ -40,7 +40,7 @@ REST = 1.0
 
 @dataclass(eq=False, slots=True)
 class Watch:
-    """Someone who is told what an output sends; `cancel()` ends it, a second call is harmless."""
+    """A watcher of an output; `cancel()` ends it, a second call is harmless."""
 
     port: OutputPort[Any]
     callback: Callable[[Any, float], object]
@@ -118,7 +118,7 @@ class Runner:
                 log.error("%s did not stop: %s", self._name_of(behavior), error, exc_info=error)
 
     def inject(self, behavior: str, input: str, value: Any) -> None:
-        """Send a value to an input, once, as one more link ahead of its own, at the next tick.
+        """Send a value to an input, once, as an additional first link, at the next tick.
 
         Several values arrive as several links, in the order they were injected. May be called from
         any thread. Raises HriError for a behavior or an input that is not there, or a value of
@@ -286,7 +286,7 @@ class Runner:
                     watch.callback(watch.port.value, now)
                 except Exception as error:
                     if not watch.has_failed:
-                        what = "a watch on %s failed, which is told once: %s"
+                        what = "a watch on %s failed, logged once: %s"
                         log.error(what, self.network.name, error, exc_info=error)
                     watch.has_failed = True
 

@@ -51,9 +51,8 @@ class Networks:
         self._end(runner)
 
     def swap(self, name: str, network: Network) -> Runner:
-        """Put another network in the place of one that runs; that goes on when the new one fails.
-
-        The watches of the old one end with it, which is told to the log. Raises HriError.
+        """Replace a running network by another; it keeps running if the new one fails. The watches
+        of the old one end with it, which is logged. Raises HriError.
         """
         old = self._runner(name)
         if network.name != name and network.name in self.runners:

@@ -9,7 +9,7 @@
   </Inputs>
 </BehaviorSchema>
 
-A Python class is the source of truth of its own schema. Where a schema defines a behavior, its
+A Python class is the source of truth for its schema. Where a schema defines a behavior, its
 `driver` names the class that does the work.
 """
 

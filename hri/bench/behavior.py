@@ -1,6 +1,6 @@
 """The engine: what a behavior costs, how even its ticks are, how soon `behave` runs.
 
-Each case of the ticks' evenness runs in a process of its own (`hri.bench.ticks`), since a priority
+Each case of the ticks' evenness runs in a separate process (`hri.bench.ticks`), since a priority
 is a property of a process.
 """
 

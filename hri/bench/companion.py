@@ -1,6 +1,6 @@
 """The whole companion in real time: memory, start, CPU, and frames, as a user would see them.
 
-The companion runs as a process of its own, with its default devices or their stand-ins; its
+The companion runs as a separate process, with its default devices or their stand-ins; its
 memory and CPU are those of all its processes, read from the system every quarter of a second.
 """
 

@@ -132,7 +132,7 @@ def reload_ms() -> dict[str, float]:
         others = 2  # The personality and the display.
         for number in range(FILES - others):
             text = _FILE.format(number=number)
-            # The stimuli of the house stand in a file of this name.
+            # The built-in stimuli are in a file of this name.
             path = folder / ("companion.toml" if number == 0 else f"number_{number}.toml")
             path.write_text(text, encoding="utf-8")
         files = EmotionFiles("neutral")

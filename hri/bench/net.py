@@ -106,7 +106,7 @@ def _nap(seconds: float) -> None:
 
 
 def _rounds(count: int, once: Callable[[], float]) -> list[float]:
-    """Seconds of each round; `once` tells when its answer was there, read and understood."""
+    """Seconds of each round; `once` returns when its answer was received and parsed."""
     times = []
     for _ in range(count):
         _nap(PAUSE)

@@ -119,7 +119,7 @@ class Verdict:
     injected: int = 0
     drives: int = 0
     crossings: int = 0
-    """Numbers that went over a bridge of their own."""
+    """Numbers that went over a separate bridge."""
     drift: float = 0.0
     """Seconds."""
     growth: int = 0

@@ -10,7 +10,7 @@ import cv2
 
 @contextmanager
 def one_thread() -> Iterator[None]:
-    """OpenCV without threads of its own."""
+    """OpenCV without its own threads."""
     before = cv2.getNumThreads()
     cv2.setNumThreads(1)
     try:

@@ -105,9 +105,8 @@ class Clock(ABC):
 
     @abstractmethod
     def wall(self) -> datetime:
-        """Date and time of day, as people tell it.
-
-        For words, and for how long the robot was switched off; never for arithmetic within a run.
+        """Date and time of day on the wall clock. For words, and for how long the robot was
+        switched off; never for arithmetic within a run.
         """
 
     async def drive(self) -> None:
@@ -142,7 +141,8 @@ class Clock(ABC):
 
     @abstractmethod
     def service(self, factory: Callable[[], Callable[[Q], A]], latency: float) -> Service[Q, A]:
-        """What `factory()` makes, in a process of its own, to be asked one question at a time.
+        """The object made by `factory()`, in a separate process, which answers one question at a
+        time.
 
         For work that needs a memory and much time, such as following people through pictures. The
         factory must be a function or class of a module (or a `partial` of one), and questions and
@@ -181,7 +181,7 @@ class Clock(ABC):
 
     @contextmanager
     def move_on_after(self, seconds: float) -> Iterator[trio.CancelScope]:
-        """Cancel the body when it takes longer; `scope.cancelled_caught` tells. inf waits on."""
+        """Cancel the body when it takes longer; see `scope.cancelled_caught`. inf: no limit."""
         with trio.CancelScope() as scope:
             timer = None
             if seconds != math.inf:

@@ -46,7 +46,7 @@ class Subscription:
             self.listener(event)
         except Exception as error:
             if not self.has_failed:
-                what = 'a listener to "%s" failed at %s, which is told once: %s'
+                what = 'a listener to "%s" failed at %s, logged once: %s'
                 log.error(what, self.pattern, event.name, error, exc_info=error)
             self.has_failed = True
 
@@ -59,7 +59,9 @@ class EventBus:
         self.subscriptions: list[Subscription] = []
 
     def raise_event(self, name: str, /, **properties: Any) -> Event:
-        """Tell all listeners whose pattern fits, now; one that fails keeps none from hearing."""
+        """Call all listeners whose pattern matches, now; a failing one does not affect the
+        others.
+        """
         return self._tell(Event(name, self.clock.now(), properties, is_raised=True))
 
     def raise_from_outside(self, event: Event) -> Event:

@@ -42,7 +42,7 @@ def evaluate(text: str) -> float:
 def parsed(text: str) -> ast.expr:
     """The tree of one expression of Python, without the warnings that are for programmers.
 
-    Raises SyntaxError, ValueError, RecursionError or MemoryError for a text that is none.
+    Raises SyntaxError, ValueError, RecursionError or MemoryError for any other text.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of `1or 2`, which is refused by who looks at the tree

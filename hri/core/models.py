@@ -139,8 +139,8 @@ def fetch(model: Download, progress: Progress) -> Path:
 
     A download that broke goes on where it stopped, now and at the next call. A model of parts that
     is here and whole is left as it is, and replaced when it is damaged.
-    Raises HriError when another model is here already, cannot be reached, or is not what it should
-    be.
+    Raises HriError when another model already exists there, cannot be reached, or is not what it
+    should be.
     """
     if _has_whole(model.name, model.parts):
         return folder_of(model.name)
@@ -203,7 +203,7 @@ def _bring_archive(model: Download, archive: Path, progress: Progress) -> None:
 def bring(name: str, source: Path, parts: tuple[Part, ...] = ()) -> Path:
     """Take a model that the user has, a folder or a ZIP archive (or its parts); where it is now.
 
-    A model of parts that is here already is left as it is when it is whole, else replaced.
+    An existing model of parts is kept if it is complete, else replaced.
     Raises HriError when it is neither, lacks a part, or there is a model of this name.
     """
     if _has_whole(name, parts):
@@ -233,7 +233,7 @@ def _copy(source: Path, target: Path, parts: tuple[Part, ...]) -> None:
 def _free_place(name: str) -> Path:
     target = folder_of(name)
     if target.exists():
-        raise HriError(f"{target} is there already - delete it to fetch it again")
+        raise HriError(f"{target} already exists - delete it to fetch it again")
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -1,4 +1,4 @@
-"""Where authored files are found: the user's folders first, then the house's own."""
+"""Finds authored files: in the user's folders first, then among the built-in ones."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def house() -> Path:
 
 
 def search_folders() -> Iterator[Path]:
-    """The folders of HRI_PATH, then of EVOLUTION_CONFIG_PATH, then the house."""
+    """The folders of HRI_PATH, then of EVOLUTION_CONFIG_PATH, then the built-in folder."""
     for variable in VARIABLES:
         for folder in os.environ.get(variable, "").split(":"):
             if folder:
@@ -94,7 +94,7 @@ def _meant(kind: str, name: str) -> str:
             Path(name).stem, [*here, *(n for n in names(kind) if not Path(n).suffix)]
         )
     suffix = SUFFIXES.get(kind, ".toml")
-    # Beside grammars lie lists of names, which are none of their kind.
+    # Lists of names beside grammars are not grammars.
     fitting = [n for n in names(kind) if kind not in SUFFIXES or Path(n).suffix in ("", suffix)]
     known = {Path(n).stem: Path(n).stem for n in fitting}
     for below in [found for found in names(kind) if not Path(found).suffix]:

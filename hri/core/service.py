@@ -1,4 +1,4 @@
-"""Work with a memory, done in a process of its own, so that the robot loop never waits for it.
+"""Stateful work in a separate process, so that the robot loop never waits for it.
 
 A service is made once by a factory, in a child process, and answers one question after the other.
 Threads would not do: what holds the interpreter there keeps the loop waiting. The child sends its

@@ -254,7 +254,7 @@ class HeadGesture:
     confidence: float = 1.0
     """0 to 1."""
     person: str = ""
-    """Id of who made it; empty when nobody is told apart."""
+    """Id of the person who made it; empty when people are not distinguished."""
     latency: float = 0.0
     """Seconds from where the movement began."""
 
@@ -285,8 +285,9 @@ class Person:
     pose: HeadPose
     """How the head is turned, against the way to the camera; with its box and its time."""
     motion: HeadPose | None = None
-    """Pitch and yaw from the motion of the picture alone: they tell swings, not where the head
-    has turned to stay. None when there is none."""
+    """Pitch and yaw from the motion of the picture alone: they show swings, not lasting turns of
+    the head. None without motion.
+    """
     is_visible: bool = True
     """False while they are out of sight but not yet given up; the rest is then as it was last."""
     distance: float = math.nan
@@ -317,7 +318,7 @@ class People:
     """Seconds, when the picture was taken."""
     persons: tuple[Person, ...] = ()
     attended: str = ""
-    """Id of the one the robot attends to; empty when there is none."""
+    """Id of the attended person; empty when there is none."""
 
     def person(self, id: str) -> Person | None:
         """The one of this id; None when they are not here."""

@@ -75,7 +75,7 @@ def new_token() -> str:
 
 
 def own_token() -> str:
-    """The token of this user, made now if there was none. Raises HriError as the others do."""
+    """The token of this user, created if necessary. Raises HriError as the others do."""
     return load_token() or new_token()
 
 
@@ -101,7 +101,7 @@ class Grant:
 
 
 def is_token(shown: str) -> bool:
-    """Whether a text is the token; how long that takes does not tell how much of it is right.
+    """Whether a text is the token, compared in constant time.
 
     Raises HriError as `load_token` does.
     """

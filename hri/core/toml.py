@@ -228,7 +228,7 @@ _INLINE = re.compile(r"""("[^"]*+"|'[^']*+'|(?<![A-Za-z0-9_-])[A-Za-z0-9_-]++)\s
 def locate_keys(text: str) -> dict[Key, Place]:
     """Where each key of a TOML text stands (the path of the places is left empty).
 
-    tomllib tells places only for syntax errors, so the text is read once more, line by line. What
+    tomllib gives places only for syntax errors, so the text is read again, line by line. What
     this misses (keys inside arrays that span lines) falls back to the place of the enclosing key.
     """
     places: dict[Key, Place] = {}

@@ -24,7 +24,7 @@ PRIVATE = 0o600
 Mark = tuple[int, int]
 """By which a file is known again: its number on the disk, and when it was written (nanoseconds)."""
 SUFFIX = ".new"
-"""Of the file beside: no loader takes it for one of its own."""
+"""Suffix of the temporary file: no loader reads it."""
 _LONGEST = 180
 """Bytes of a name that the name of the file beside repeats; file systems end at 255."""
 _REMEDIES = {

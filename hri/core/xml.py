@@ -1,6 +1,6 @@
 """XML files whose every element and attribute has a place.
 
-expat reads them, since lxml tells no columns. A DOCTYPE is refused, and with it every entity a
+expat reads them, since lxml gives no columns. A DOCTYPE is refused, and with it every entity a
 file could define: nothing is expanded, nothing is fetched.
 
 `format_xml` writes the canonical form, so that a file that is read and written again is the same
@@ -24,7 +24,7 @@ MAX_DEPTH = 64
 MAX_ELEMENTS = 50_000
 DECLARATION = '<?xml version="1.0" encoding="UTF-8"?>'
 EDITOR_PREFIXES = ("xmlns:", "xsi:")
-"""Attributes that tell an editor where the XSD is; they mean nothing to us."""
+"""Attributes that point an editor to the XSD; ignored here."""
 
 _ATTRIBUTE = re.compile(rb"""\s+([^\s=]+)\s*=\s*(?:"[^"]*"|'[^']*')""")
 _TAG = re.compile(rb"[^\s/>]*")
@@ -69,7 +69,7 @@ class Element:
         raise self.error(f'<{self.tag}> has no "{attribute}"', remedy)
 
     def number(self, attribute: str, default: float) -> float:
-        """An attribute as a number or an expression. Raises AuthoringError when it is none."""
+        """An attribute that is a number or an expression. Raises AuthoringError otherwise."""
         if attribute not in self.attributes:
             return default
         try:
@@ -177,7 +177,7 @@ class _Reader:
         self.stack.append(element)
 
     def _attribute_places(self, place: Place, attributes: dict[str, str]) -> dict[str, Place]:
-        """Find each `name=` behind the start of the tag; expat tells only where the tag begins."""
+        """Find each `name=` after the start of the tag; expat gives only the start of the tag."""
         start = self.parser.CurrentByteIndex
         places: dict[str, Place] = {}
         line, line_start, seen = place.line, start - place.column + 1, start

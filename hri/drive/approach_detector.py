@@ -1,7 +1,7 @@
 """Which beams come to an end nearer and nearer: what a robot is about to run into, or who comes.
 
-A beam at the side of a robot that drives along a wall keeps its length. One that gets shorter tells
-of an edge of which the rest is not seen yet, or of somebody who walks toward the robot.
+A beam at the side of a robot that drives along a wall keeps its length. One that gets shorter shows
+an edge whose rest is not visible yet, or a person who walks toward the robot.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class ApproachDetector:
         self._history: dict[str, deque[tuple[float, float]]] = {id: deque() for id in ahead}
 
     def see(self, now: float, readings: Mapping[str, RangeReading]) -> None:
-        """Take in readings; one that is no number is left out."""
+        """Take in readings; one that is not a number is left out."""
         for id, history in self._history.items():
             reading = readings.get(id)
             if reading is not None and not math.isnan(reading.distance):

@@ -1,6 +1,6 @@
 """Going to a place around what is in the way: pure arithmetic on poses and range readings.
 
-Three layers. A polar histogram over a short memory tells how far the robot could go in each
+Three layers. A polar histogram over a short memory gives how far the robot could go in each
 direction (see `histogram`). The way is the free direction that costs least, after VFH+ (Ulrich and
 Borenstein 1998); where the straight way is blocked the robot goes around the obstacle on one side,
 and keeps to that side until it is nearer to the goal than where it met the obstacle and the way
@@ -75,7 +75,7 @@ GAIN = 0.4
 DOUBT_S = 15.0
 """Seconds after which what was seen may have moved on."""
 FRESH_S = 3.0
-"""What is no older counts when all ways seem to be blocked."""
+"""Seconds; only newer points count when all ways seem to be blocked."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,7 +133,7 @@ def straight_to(pose: Pose2D, goal: Pose2D, manner: Manner, ahead: float = math.
 
 
 class Avoidance:
-    """Steers one robot; everything it knows it was told by `see`."""
+    """Steers one robot; everything it knows comes from `see`."""
 
     def __init__(self, mechanics: Mechanics, manner: Manner | None = None) -> None:
         self.mechanics = mechanics
@@ -177,7 +177,7 @@ class Avoidance:
         """Take in whether something presses the bumper, which does not know on which side.
 
         A robot that went somewhere has driven into a thing: it remembers that something is ahead,
-        and backs off until that is free. To one that stood somebody has come, from wherever.
+        and backs off until that is free. To one that stood someone has come, from wherever.
         """
         if not self._leaning.feel(now, pose, is_pressed):
             return

@@ -32,11 +32,11 @@ _SLACK = 0.03
 class CommandGate(Behavior):
     """Limits what the base is asked for, stops it at obstacles and when nobody asks any more.
 
-    What rests on the word of somebody outside, such as a peer over the network, counts for
+    What rests on the word of someone outside, such as a peer over the network, counts for
     `PATIENCE` seconds after that word. A linked sensor that says nothing for `timeout_s` counts as
     an obstacle that touches, a linked switch as pressed.
 
-    All range sensors of the configuration, linked or not, are watched for somebody who comes. Then
+    All range sensors of the configuration, linked or not, are watched for someone who comes. Then
     it goes only so fast that it stands before they are here, and where that is too late for
     slowing down gently it sends nothing, which brakes the base at once.
     """
@@ -209,7 +209,7 @@ class _LastWords(Generic[T]):
 
     def at(self, now: float) -> list[T | None]:
         """A value for each link, None for one that is silent."""
-        # Made anew each time, so that what was injected for one tick is forgotten after it.
+        # Made again each time, so that what was injected for one tick is forgotten after it.
         self._heard = {source: self._last_of(source, now) for source in self._port.sources}
         return [
             value if now - time <= self._patience else None for value, time in self._heard.values()

@@ -1,4 +1,4 @@
-"""Following somebody at a distance, facing them; looking for them when they are lost.
+"""Following someone at a distance, facing them; looking for them when they are lost.
 
 Pure: what is seen comes in with its time, goals in the odometry frame go out. A target that is lost
 is looked for where it was seen last; from there the robot turns once around, first to the side on
@@ -38,7 +38,7 @@ class Pursuit(Enum):
 
 @dataclass(frozen=True, slots=True)
 class FollowingManner:
-    """How somebody is followed."""
+    """How someone is followed."""
 
     distance: float = 1.2
     """Between the middles of the robot and of who is followed."""
@@ -47,7 +47,7 @@ class FollowingManner:
 
 
 class Reason(Enum):
-    """Why following somebody ended."""
+    """Why following someone ended."""
 
     TIME = "time"
     """The seconds that it was given are over."""
@@ -61,7 +61,7 @@ class Reason(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Ending:
-    """How following somebody ended; true where it had them in sight to the end."""
+    """How following someone ended; true where it had them in sight to the end."""
 
     reason: Reason
     person: str
@@ -108,7 +108,7 @@ class Following:
         self._spot: Pose2D | None = None
 
     def see(self, now: float, pose: Pose2D, bearing: float, distance: float) -> None:
-        """The target is there, seen from a pose; what is no number is no sight of it."""
+        """The target is there, seen from a pose; NaN is not a sighting."""
         if not (math.isfinite(bearing) and math.isfinite(distance) and distance >= 0):
             return
         away = placed(pose, distance * math.cos(bearing), distance * math.sin(bearing))
@@ -119,7 +119,7 @@ class Following:
     def look(self, now: float, pose: Pose2D, people: People | None, id: str) -> Person | None:
         """Take in the newest of what the camera says; who is followed, see `sight_of`.
 
-        What it has said before is no sight: the robot has moved since.
+        What it has said before is not a sight: the robot has moved since.
         """
         if people is None or people.time <= self._looked:
             return None

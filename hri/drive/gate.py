@@ -40,7 +40,7 @@ class VelocityGate:
         return self.current != REST
 
     def is_asked(self, now: float) -> bool:
-        """Whether somebody asks for motion, or it has not come to rest since."""
+        """Whether someone asks for motion, or it has not come to rest since."""
         is_fresh = now - self._command_time <= self.limits.timeout_s
         return self.is_moving or (is_fresh and self._command != REST)
 
@@ -58,7 +58,7 @@ class VelocityGate:
         self.reason = reason
 
     def brake(self, now: float) -> None:
-        """Stand still at once, for somebody who comes; the command stays."""
+        """Stand still at once, for someone who comes; the command stays."""
         self._step_to(now)
         if self.target != REST:
             self.reason = "somebody comes"

@@ -27,7 +27,7 @@ from hri.hal.motion import REST
 from hri.hal.range_sensor import RangeSensor
 
 PEOPLE = "people"
-"""The board slot with everybody whom the camera sees."""
+"""The board slot with everyone whom the camera sees."""
 _MANNER = Manner()
 
 
@@ -135,7 +135,7 @@ class FollowTarget(_FromPose):
     patience_s = Param(20.0, "seconds out of sight until it gives up", minimum=1, maximum=600)
     person = Param("", "id of the person; empty takes who is attended to, or the nearest")
 
-    people = Input[People]("people", "everybody who is seen")
+    people = Input[People]("people", "everyone who is seen")
     target = Input[Pose2D]("pose", "a place in the frame of the odometry; goes before people")
     bearing = Input[float]("double", "radians to the left of a color or an object that is seen")
     range = Input[float]("double", "meters to it; both together go before people")
@@ -163,7 +163,7 @@ class FollowTarget(_FromPose):
             tell(self._events, following.pursuit)
 
     def _given(self, pose: Pose2D) -> tuple[float, float] | None:
-        """Bearing and distance of a target that is no person."""
+        """Bearing and distance of a target that is not a person."""
         if (target := self.target.value) is not None:
             x, y = seen_from(pose, target.x, target.y)
             return math.atan2(y, x), math.hypot(x, y)

@@ -1,8 +1,8 @@
-"""Somebody leans on the robot: it waits for them to go on, then looks for them and lets go.
+"""Someone leans on the robot: it waits for them to go on, then looks for them and lets go.
 
 Its bumper does not know on which side they are. So it turns until a beam sees them close by, then
 until a free way that leads away from them is behind it, and backs off. Where that gets it nowhere
-somebody stands behind it, too. Pure arithmetic; directions in the odometry frame, radians, meters,
+someone stands behind it, too. Pure arithmetic; directions in the odometry frame, radians, meters,
 seconds.
 """
 
@@ -20,9 +20,9 @@ from hri.drive.polar_histogram import DIRECTIONS, WIDTH, Array, sector
 from hri.hal.motion import REST
 
 LEANS = 0.12
-"""Meters of a beam that ends at somebody who leans on the robot, at most."""
+"""Meters of a beam that ends at someone who leans on the robot, at most."""
 BESIDE = 0.3
-"""Radians from where somebody leaned within which a longer beam shows that they have gone."""
+"""Radians from where someone leaned within which a longer beam shows that they have gone."""
 AWAY = -0.2
 """Cosine of the angle to whoever leans on it that a way must have at most to lead away."""
 BETWEEN = 0.1
@@ -30,12 +30,12 @@ BETWEEN = 0.1
 STANDS_S, STANDING = 0.15, 0.005
 """A robot that has moved by fewer meters in so many seconds stands."""
 WAITS_S = 10.0
-"""Seconds for which it only turns when somebody has come: most go on by themselves, and a robot
+"""Seconds for which it only turns when someone has come: most go on by themselves, and a robot
 that backs off may meet them, or another, where no sensor looks."""
 BREATH_S = 2.0
-"""Seconds; somebody who leans on it again within them has not gone."""
+"""Seconds; someone who leans on it again within them has not gone."""
 PUSHES_S = 0.6
-"""Seconds of backing off without getting on after which somebody must be behind."""
+"""Seconds of backing off without getting on after which someone must be behind."""
 BACKING = 0.1
 """How fast it backs off, m/s."""
 LEAST_BEHIND = 0.1
@@ -50,7 +50,7 @@ class Leaning:
         self._mounts = mounts
         self._waits_until = self._felt = -math.inf
         self._seen: list[float] = []
-        """Directions in which a beam sees somebody lean on it, the newest last."""
+        """Directions in which a beam sees someone lean on it, the newest last."""
         self._pushed: list[float] = []
         """The direction in which it could not get on itself last, if any."""
         self._poses: deque[tuple[float, Pose2D]] = deque()

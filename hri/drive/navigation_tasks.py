@@ -46,7 +46,7 @@ PATIENCE_S = 40.0
 NEARER = 0.1
 """Meters that count as nearer."""
 LEAST_WAY = 0.3
-"""Meters; a way that is narrower than this is not one that somebody left for a robot."""
+"""Meters; a way that is narrower than this is not one that someone left for a robot."""
 THINKING_S = 0.1
 """Seconds between two looks whether it knows yet why it did not get somewhere."""
 SEARCH_RATE = 0.6
@@ -84,19 +84,19 @@ async def _why_not_gone_to(context: TaskContext, goal: Pose2D, faces: bool) -> s
 async def follow(
     context: TaskContext, person: str = "", distance: float = 1.2, seconds: float = math.inf
 ) -> bool:
-    """Follow somebody by their id, whoever is attended to without one, `distance` meters apart.
+    """Follow someone by their id, whoever is attended to without one, `distance` meters apart.
 
     It faces them, looks for them when they are out of sight, and ends when they stay lost, cannot
     be reached, or after so many seconds; whether it had them in sight to the end. It comes no
     nearer than it may while it moves, whatever distance is asked for. Raises the events
     `target.lost`, `target.found` and in the end `target.left` (`reason`, `person`, `text`), and
-    ValueError for a distance or a time that is no number.
+    ValueError for a distance or a time that is not a number.
     """
     return bool(await _followed(context, person, distance, seconds))
 
 
 async def _followed(context: TaskContext, person: str, distance: float, seconds: float) -> Ending:
-    """Follow somebody; how that ended."""
+    """Follow someone; how that ended."""
     _refuse_nan(distance, seconds)
     with _traveler(context) as traveler:
         following, approach = traveler.following(distance), Approach(PATIENCE_S, NEARER)
@@ -144,7 +144,7 @@ async def come_here(context: TaskContext, person: str = "", distance: float = 1.
 
     Who calls may be out of sight, and a voice does not tell where it is: then it first looks
     around, once. It comes no nearer than it may while it moves, whatever distance is asked for.
-    Raises ValueError for a distance that is no number.
+    Raises ValueError for a distance that is not a number.
     """
     _refuse_nan(distance)
     with _traveler(context) as traveler:
@@ -191,7 +191,7 @@ async def _look_around(context: TaskContext, traveler: _Traveler, person: str) -
 async def wander(context: TaskContext, seconds: float = math.inf, seed: int = 0) -> None:
     """Go about for so many seconds, from one place near by to the next.
 
-    Raises ValueError for a time that is no number.
+    Raises ValueError for a time that is not a number.
     """
     _refuse_nan(seconds)
     with _traveler(context) as traveler:
@@ -243,7 +243,7 @@ async def go_to_point(context: TaskContext, goal: Pose2D) -> None:
 async def follow_person(
     context: TaskContext, person: str = "", distance: float = 0.0, seconds: float = 0.0
 ) -> Ending:
-    """Follow somebody, in default units; 0 is a usual distance, and no end.
+    """Follow someone, in default units; 0 is a usual distance, and no end.
 
     Gives how it ended: true where it had them in sight, with a `reason`; as text a sentence.
     """
@@ -290,7 +290,7 @@ class _Traveler:
         self._avoidance = Avoidance(self._mechanics, self._manner)
 
     def following(self, distance: float) -> Following:
-        """How it follows somebody at such a distance, or the least that avoidance lets it reach."""
+        """How it follows someone at such a distance, or the least that avoidance lets it reach."""
         manner = self._manner
         body = self._mechanics.radius + manner.margin
         least = body + PERSON_RADIUS + manner.person_gap + manner.near

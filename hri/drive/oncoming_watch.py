@@ -1,4 +1,4 @@
-"""The range sensors of the configuration, watched for somebody who comes."""
+"""The range sensors of the configuration, watched for someone who comes."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """The way around what is remembered: A* on a grid in which what nobody has seen counts as free.
 
 A* is by Hart, Nilsson and Raphael ("A formal basis for the heuristic determination of minimum cost
-paths", 1968). That the unknown counts as free, and the way is sought anew when something turns up,
+paths", 1968). That the unknown counts as free, and the way is sought again when something turns up,
 is the freespace assumption (Koenig and Likhachev, "D* Lite", AAAI 2002): a robot with a few short
 beams gets out of dead ends that way. Meters in the odometry frame.
 """

@@ -3,7 +3,7 @@
 A short memory of points in the odometry frame, so that a few beams fill it as the robot moves and
 turns, and a polar histogram over it. It follows VFH+ (Ulrich and Borenstein, "VFH+: reliable
 obstacle avoidance for fast mobile robots", ICRA 1998): obstacles are enlarged by the robot, and a
-direction has two thresholds, so that it does not flicker between free and blocked. In place of a
+direction has two thresholds, so that it does not flicker between free and blocked. Instead of a
 density each sector holds a way: the meters that a round robot can go there until it touches.
 """
 
@@ -28,7 +28,7 @@ DIRECTIONS: Array = np.linspace(0.0, math.tau, SECTORS, endpoint=False)
 MOST_POINTS = 600
 """Points that are remembered at most; of more the oldest are forgotten."""
 GRAIN = 0.03
-"""Meters; a point so near to a known one only tells that that is still there."""
+"""Meters; a point this near to a known one only confirms it."""
 BEAM = 0.05
 """Meters to the side of a beam within which it shows that an old point is gone."""
 TOLERANCE = 0.16
@@ -88,7 +88,7 @@ class Memory:
         readings: Mapping[str, RangeReading],
         mechanics: Mechanics,
     ) -> None:
-        """Take in what the beams say from a pose; a reading that is no number is left out."""
+        """Take in what the beams say from a pose; a reading that is not a number is left out."""
         keep = np.where(self._points[:, 4] > 0, FELT_S, self._keep)
         self._points = self._points[self._points[:, 2] > now - keep]
         for id, mount in mechanics.mounts.items():

@@ -13,9 +13,9 @@ LEAST = 0.1
 LEAST_TURN = 0.6
 """Radians; the same for turning on the spot, which is how it looks for a way."""
 MOST_TURN = math.tau
-"""Radians; more than a whole turn on one spot is no progress."""
+"""Radians; more than a whole turn on the spot is not progress."""
 WALKED = 0.5
-"""Meters; somebody who is so far from where they were has walked on."""
+"""Meters; someone who is so far from where they were has walked on."""
 
 
 class Progress:
@@ -59,7 +59,7 @@ class Patience:
 
 
 class Approach:
-    """Notices that somebody who stays where they are is not reached."""
+    """Notices that someone who stays where they are is not reached."""
 
     def __init__(self, seconds: float, least: float) -> None:
         """It is over after `seconds` in which not `least` meters were gained."""

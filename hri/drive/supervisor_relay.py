@@ -1,4 +1,4 @@
-"""Ties a base to the robot: who says stop, and what its supervisor must know and tells."""
+"""Connects a base to the robot: stop commands, and the exchange with its supervisor."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ log = logging.getLogger("hri.drive")
 
 
 class SupervisorRelay(Behavior):
-    """Latches the emergency stop of a base when somebody says stop, and tells why it stopped.
+    """Latches the emergency stop of a base when someone says stop, and reports why it stopped.
 
     "Stop" is a rule of that name that was heard, the event `drive.halt` (its `because` says why),
     or a call of `halt`. Only `release` lets the base move again: it is for something that a person
@@ -42,7 +42,7 @@ class SupervisorRelay(Behavior):
         "", "id of the base: its bus, or its drive where it has none; the first one, without it"
     )
 
-    people = Input[People]("people", "everybody who is seen: near them it drives slowly")
+    people = Input[People]("people", "everyone who is seen: near them it drives slowly")
     is_latched = Output[bool]("boolean", "true while the base must not move until it is released")
 
     def start(self, context: Context) -> None:
@@ -72,7 +72,7 @@ class SupervisorRelay(Behavior):
             self._tell_who_is_near(self._bus, now)
 
     def _tell_who_is_near(self, bus: BaseBus, now: float) -> None:
-        # Who sees nobody because it sees nothing says nothing: somebody may be near.
+        # Who sees nobody because it sees nothing says nothing: someone may be near.
         if now - self._told >= TELL_EVERY and now - self._seen <= SEEN:
             self._told = now
             if not math.isnan(self._nearest):
@@ -93,7 +93,7 @@ class SupervisorRelay(Behavior):
         """Whether the base does not move until it is released."""
         return self._base is not None and self._base.is_latched
 
-    def halt(self, because: str = "somebody said stop") -> None:
+    def halt(self, because: str = "someone said stop") -> None:
         """The emergency stop; `because` ends the sentence "I stopped because".
 
         It ends the motion of any task: after a release nothing goes on by itself.
@@ -103,7 +103,7 @@ class SupervisorRelay(Behavior):
         for slot in (COMMAND, MOTION):
             self._board.slot(slot).clear()
         self._base.stop_latched(because)
-        if self._bus is None:  # a supervisor tells it by itself
+        if self._bus is None:  # a supervisor reports it by itself
             words = self._base.explain()
             self._events.raise_event("drive.stopped", reason="e-stop", words=words)
 
@@ -119,12 +119,12 @@ class SupervisorRelay(Behavior):
     def _found(self, context: Context) -> EmergencyStop | None:
         """The base with a supervisor, else the first drive that is there.
 
-        Raises HriError for an id that is no base, and where several have a supervisor.
+        Raises HriError for an id that is not a base, and where several have a supervisor.
         """
         buses = context.resources.ids(BaseBus)
         bases = [*buses, *(id for id in context.resources.ids(EmergencyStop) if id not in buses)]
         if self.base_id and self.base_id not in bases:
-            raise HriError(f'"{self.base_id}" is no base - {did_you_mean(self.base_id, bases)}')
+            raise HriError(f'"{self.base_id}" is not a base - {did_you_mean(self.base_id, bases)}')
         if not self.base_id and len(buses) > 1:
             raise HriError(f"several bases: {', '.join(buses)} - name one in base_id")
         for id in [self.base_id] if self.base_id else bases:

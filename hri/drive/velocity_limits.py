@@ -49,7 +49,8 @@ class Cap:
 class BaseLimits:
     """What a base is allowed, whatever asks; its hardware may be slower.
 
-    The defaults are meant for a light base at home, and are no standard: see docs/safety.md.
+    The defaults are meant for a light base at home, and are not from a standard: see
+    docs/safety.md.
     """
 
     forward: float = 0.5
@@ -59,7 +60,7 @@ class BaseLimits:
     angular: float = 1.5
     """Radians a second."""
     near_forward: float = 0.3
-    """Meters a second where somebody is near, or nobody knows."""
+    """Meters a second where someone is near, or nobody knows."""
     near_backward: float = 0.15
     near_angular: float = 1.0
     acceleration: float = 0.5

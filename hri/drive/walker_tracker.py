@@ -1,6 +1,6 @@
 """Where people are and where they walk to, in the odometry frame.
 
-A camera sees a sector ahead and tells late what it saw. So each sight is placed by the pose that
+A camera sees a sector ahead, with a delay. So each sight is placed by the pose that
 the robot had then, and who has just gone out of the picture is taken to walk on for a while: the
 robot has turned, they are still there. Meters, seconds.
 """
@@ -19,7 +19,7 @@ from hri.core.signals import People, Pose2D
 SEEN_S = 1.0
 """What a camera said longer ago is not taken in any more."""
 REMEMBERED_S = 2.5
-"""How long somebody is remembered who is out of the picture."""
+"""How long someone is remembered who is out of the picture."""
 WATCHED_S = 0.8
 """Over which a walk is measured."""
 LEAST_SIGHTS = 4
@@ -62,9 +62,9 @@ class WalkerTracker:
         self._looked = -math.inf
 
     def see(self, now: float, pose: Pose2D, people: People | None) -> list[tuple[float, float]]:
-        """Take in the newest of what the camera says; where everybody is now, x and y.
+        """Take in the newest of what the camera says; where everyone is now, x and y.
 
-        Somebody whose distance is not known is left out.
+        Someone whose distance is not known is left out.
         """
         self._poses.append((now, pose))
         while self._poses[0][0] < now - SEEN_S:

@@ -1,4 +1,4 @@
-"""Tells what changes in what is felt: `emotion.changed` and `mood.changed`."""
+"""Reports changes of feelings: `emotion.changed` and `mood.changed`."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Announcer:
         self._mood_time = 0.0
 
     def announce(self, state: EmotionState, now: float) -> None:
-        """Tell what is new at a time in seconds."""
+        """Report changes at a time in seconds."""
         moved = abs(state.valence - self._valence) > NOTABLE and now - self._time >= INTERVAL_S
         if state.label != self._label or moved:
             self._label, self._valence, self._time = state.label, state.valence, now

@@ -168,8 +168,8 @@ class EmotionModel(Behavior):
     def why_words(self, about: str = "") -> str:
         """The same as a sentence: "I am sad because you scolded me.".
 
-        `about` is what was asked about, as people call it: "why are you sad?". Who has a name is
-        named, except the one whom the robot attends to: that one is told "you".
+        `about` is the feeling in the question, such as "sad". People with names are named, except
+        the attended person, who hears "you".
         """
         state, looks = self.feeling(), self._files.model.display.looks
         labels = labels_called(about, looks)
@@ -206,7 +206,7 @@ class EmotionModel(Behavior):
             self._affect = self._dynamics.rename(self._affect, fresh)
 
     def _involve(self, person: str | None, name: str | None) -> None:
-        """Tell, once a run, that someone with a name takes part."""
+        """Report, once per run, that a person with a name takes part."""
         if name is not None and not is_unnamed(name) and name not in self._involved:
             self._involved.add(name)
             self._context.events.raise_event("person.named", person=person, name=name)
@@ -230,7 +230,7 @@ class EmotionModel(Behavior):
             self._affect = self._dynamics.report(self._affect, "energy", need, now)
 
     def _reload(self, now: float) -> None:
-        """Take files that were saved; with wrong ones all goes on as before, and it is told."""
+        """Load saved files; a faulty one is reported, and the previous version stays."""
         try:
             if not self._files.look(now):
                 return
@@ -297,7 +297,7 @@ class EmotionDisplay(Behavior):
         self._files.close()
 
     def _reload(self, now: float) -> None:
-        """Take files that were saved; what is wrong with them is told by the EmotionModel."""
+        """Load saved files; the EmotionModel reports their errors."""
         with suppress(HriError):
             if self._files.look(now):
                 self._files.model.display.shown(_CALM, self.rules)  # they may have gone

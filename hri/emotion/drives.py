@@ -57,7 +57,7 @@ def cause_of(drive: str) -> str:
 def drives_in(table: Table, known: tuple[str, ...] = STILLED) -> list[str]:
     """The keys of a table of an authored file that is keyed by drive.
 
-    Raises AuthoringError for a name that is none of `known`.
+    Raises AuthoringError for a name that is not among `known`.
     """
     for name in table.data:
         if name not in known:

@@ -154,7 +154,7 @@ class Dynamics:
         if intensity == 0:
             return self.advance(affect, now)
         stimulus, origin = self._stimuli[name], Origin(name, person)
-        # To those whom it cannot tell from others it gets used as to one.
+        # It habituates to people it cannot distinguish as if they were one.
         habit = Origin(name) if person is not None and relations.is_unnamed(person) else origin
         imprint = self._imprint_at(affect, now)
         worn = imprint.habituation.get(habit, FRESH).at(imprint.time, stimulus.recovery_rate)

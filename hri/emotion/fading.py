@@ -35,7 +35,7 @@ class Force(NamedTuple):
     """Something that fades exponentially and pulls the mood while it lasts."""
 
     slow: float
-    """The smaller one of its own rate and the mood's, 1/s."""
+    """The smaller of the cause's rate and the mood's, 1/s."""
     gap: float
     """Minus the distance of both, 1/s; below 0."""
     pleasure: float

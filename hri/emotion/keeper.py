@@ -38,9 +38,9 @@ class Keeper:
     """Keeps what a running robot feels in a file: whenever something has happened, now and then as
     a sign of life, and at its end.
 
-    A file that cannot be used is told by the event `memory.refused` and put aside; one that cannot
-    be written by `memory.failed`, once; and `memory.forgotten` that it was made to forget. On a
-    fake clock it does not write over what was felt in real time.
+    A file that cannot be used is reported by the event `memory.refused` and renamed; one that
+    cannot be written by `memory.failed`, once; and `memory.forgotten` that it was made to forget.
+    On a fake clock it does not write over what was felt in real time.
     """
 
     def __init__(self, path: Path, personality: str, context: Context) -> None:

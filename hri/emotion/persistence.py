@@ -110,7 +110,7 @@ def parse(text: str) -> Memory:
         is_of_fake_time=fields.truth("is_of_fake_time", default=False),
     )
     if memory.imprint.time > memory.time:
-        raise HriError("it tells of a time after it was written")
+        raise HriError("it mentions a time after it was written")
     return memory
 
 
@@ -119,9 +119,8 @@ def _refuse(constant: str) -> NoReturn:
 
 
 def recall(path: Path) -> Memory | None:
-    """What the file holds; None when there is none.
-
-    Raises HriError for one that is damaged, cannot be read, or is of another version.
+    """Contents of the file; None when there is none. Raises HriError for one that is damaged,
+    cannot be read, or is of another version.
     """
     if not os.path.lexists(path):
         return None

@@ -49,7 +49,7 @@ def unreachable_emotions(stimuli: Mapping[str, StimulusSpec]) -> list[str]:
 
 
 def _events() -> Iterator[OccEvent]:
-    """An event of each kind that can be told apart."""
+    """An event of each distinguishable kind."""
     good_or_bad, people = (1.0, -1.0), (None, SELF, "someone")
     before_and_after = itertools.product((0.25, 0.75), (0.0, 0.5, 1.0))
     for (before, after), utility, liking, owner, agent in itertools.product(

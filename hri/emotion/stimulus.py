@@ -81,7 +81,7 @@ def stimulus_paths() -> Iterator[Path]:
 
 
 def load_stimuli() -> dict[str, StimulusSpec]:
-    """All stimuli by name. Raises HriError when there is none, AuthoringError with the place."""
+    """All stimuli by name. Raises HriError without any, AuthoringError with the place."""
     stimuli: dict[str, StimulusSpec] = {}
     for path in stimulus_paths():
         table = load_toml(path, "stimulus file")

@@ -18,7 +18,7 @@ from hri.core.signals import Event
 from hri.emotion.stimulus import StimulusSpec
 
 MOST_REFUSED = 100
-"""Stimuli whose refusal is told; someone who sends nonsense does not fill the memory with it."""
+"""Most stimuli whose refusals are reported, so that nonsense does not fill the memory."""
 
 Felt = Callable[[str, float, str | None], object]
 """Takes the name of a stimulus, its intensity and who it comes from."""
@@ -27,8 +27,8 @@ Felt = Callable[[str, float, str | None], object]
 class Triggers:
     """Listens for `stimulus.felt` and for all stimuli that have a trigger, until it is closed.
 
-    What cannot be felt, such as an unknown stimulus, or an event without the property that a
-    formula asks for, is told by the event `stimulus.refused`, once a stimulus.
+    Faulty stimuli, such as an unknown name, or an event without a property that a formula uses, are
+    reported by the event `stimulus.refused`, once per stimulus.
     """
 
     def __init__(
@@ -85,7 +85,7 @@ class Triggers:
         self._triggered.clear()
 
     def feel(self, name: str, intensity: Any = 1.0, person: Any = None) -> None:
-        """Let a stimulus be felt, or tell why it cannot be."""
+        """Feel a stimulus, or report why it cannot be felt."""
         try:
             self._feel(name, float(intensity), None if person is None else str(person))
         except (HriError, TypeError, ValueError) as error:
@@ -107,7 +107,7 @@ class Triggers:
             self.feel(spec.name, intensity, spec.doer({}))
 
     def _intensity(self, spec: StimulusSpec, properties: Mapping[str, Any]) -> float:
-        """How strong it is; 0 when that cannot be told."""
+        """Its intensity; 0 when unknown."""
         try:
             return spec.intensity(properties)
         except ValueError as error:

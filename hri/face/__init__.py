@@ -6,7 +6,7 @@
 outline, paint, drawing   SVG files: parts by id, one drawing for each morph target
 baking, turning           all drawings as one linear morph, and a head that turns
 blending, cache, exchange the morph of each frame; baked faces on disk, and as plain values
-settings, model           face.toml, and the loaded face; checking tells what is likely a slip
+settings, model           face.toml, and the loaded face; checking   reports likely mistakes
 phonemes, lipsync         sounds become visemes over time; envelope for voices without phonemes
 affect, idle, gestures    valence and arousal, a moment of life, keyframes: each becomes weights
 expressing, speaking, gesturing, looking, living, blinking

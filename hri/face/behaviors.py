@@ -33,7 +33,7 @@ RENDER_LATENCY = 0.02
 
 
 class Refusals:
-    """What a face was asked for and cannot do: told by the event `face.refused`, once a reason."""
+    """Reports impossible requests to a face by the event `face.refused`, once per reason."""
 
     def __init__(self, events: EventBus) -> None:
         self._events = events
@@ -48,7 +48,7 @@ class Refusals:
 class Face(Behavior):
     """Animates a face: mood, expression, lips, blinks, gaze and gestures become weights.
 
-    What it cannot do, such as an unknown expression, is told by the event `face.refused`; the face
+    Impossible requests, such as an unknown expression, raise the event `face.refused`; the face
     stays as it was. Raises `gesture.started` and `gesture.ended`, and makes the gesture of an event
     `gesture.asked` (`name`, `strength`, `seconds`).
     """

@@ -145,7 +145,7 @@ class _Inspection:
             twin = seen.setdefault(np.round(self.model.vector(weights), 2).tobytes(), label)
             if twin != label:
                 what = f"{label} looks the same as {twin}"
-                yield self._in_toml("expressions", label, what, "give it weights of its own")
+                yield self._in_toml("expressions", label, what, "give it different weights")
 
     def patterns(self) -> Iterator[Finding]:
         """Patterns of the head that fit no part."""

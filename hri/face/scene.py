@@ -70,7 +70,7 @@ Voice = Callable[[str], Speech]
 
 @dataclass(frozen=True, slots=True)
 class Cue:
-    """What happens at one time; what is None goes on as it was."""
+    """The changes at one time; None leaves a field as it was."""
 
     at: float
     """Seconds."""

@@ -160,7 +160,9 @@ def load_settings(path: Path, targets: Collection[str]) -> Settings:
 
 
 def mistakes_in(path: Path, targets: Collection[str]) -> list[AuthoringError]:
-    """All mistakes of the file, the first of each of its tables; `load_settings` tells one."""
+    """All mistakes of the file, the first of each of its tables; `load_settings` raises only
+    one.
+    """
     mistakes = Mistakes()
     table = mistakes.keep(partial(load_toml, path, "face"))
     if table is None:

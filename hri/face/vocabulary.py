@@ -43,7 +43,7 @@ EXPRESSIONS = (
 """The labels of ROS4HRI's hri_msgs/Expression."""
 
 STATES = ("listening", "thinking", "error")
-"""What a robot does or suffers, with a look of its own; "asleep" is one of them, too."""
+"""States of a robot with their own look; "asleep" is one of them too."""
 
 LABELS = (*EXPRESSIONS, *STATES)
 """Every expression that a complete face has."""

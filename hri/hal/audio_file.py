@@ -17,7 +17,7 @@ class AudioFilePlayer(Resource):
 
     @abstractmethod
     def play(self, path: str | Path) -> Pending[None]:
-        """Start a file, in place of one that still plays; done when it was heard to its end.
+        """Start a file, instead of one that still plays; done when it was heard to its end.
 
         It fails with HriError when the file cannot be read, with Interrupted when it is stopped.
         """
@@ -36,7 +36,7 @@ class AudioFileRecorder(Resource):
 
     @abstractmethod
     def record(self, path: str | Path, seconds: float = LONGEST_RECORDING) -> Pending[float]:
-        """Record anew; done after `seconds` or at `stop`, with the seconds that were recorded.
+        """Record again; done after `seconds` or at `stop`, with the seconds that were recorded.
 
         Raises HriError when the file cannot be written, ValueError for a length that is not above
         0 and at most an hour.

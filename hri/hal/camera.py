@@ -24,7 +24,7 @@ AHEAD = 0.5
 RATE_WINDOW = 60
 """Pictures over which the rate is measured."""
 MOST_NOTICES = 20
-"""Different things that people are told of a camera that is not well."""
+"""Most different faults of a camera that are reported."""
 FIELD_OF_VIEW = (1.05, 0.1, 3.0)
 """Radians: that of a common webcam, the least and the most."""
 
@@ -41,7 +41,7 @@ class Footage:
     lost: int
     """Pictures that were taken but never read, because a newer one was there or they were bad."""
     refused: int
-    """Pictures that were none: of no pixel, too large, or of a kind nobody can use."""
+    """Number of invalid pictures: empty, too large, or of an unknown format."""
 
 
 @dataclass(slots=True)
@@ -94,7 +94,7 @@ class Camera(Resource):
     def read(self, now: float) -> Frame | None:
         """The newest picture taken since the last call; None when there is none yet.
 
-        None, too, while the camera is switched off, and for a picture that is none; that is told
+        Also None while the camera is switched off, and for an invalid picture, which is reported
         once. The times of pictures only grow.
         """
         if not self._is_on:
@@ -156,7 +156,7 @@ class Camera(Resource):
 
     @property
     def is_on(self) -> bool:
-        """False while somebody has switched it off."""
+        """False while someone has switched it off."""
         return self._is_on
 
     @property

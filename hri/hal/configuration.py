@@ -33,7 +33,7 @@ class Configuration:
     devices: tuple[Description, ...]
     """Buses, devices and groups, in the order of the file."""
     trusted: tuple[str, ...] = ()
-    """Ports of the bridge that anybody may write to (`hri.behavior.doors`)."""
+    """Ports of the bridge that anyone may write to (`hri.behavior.doors`)."""
 
 
 def load_configuration(path: Path) -> Configuration:

@@ -36,8 +36,8 @@ class DriveSystem(Resource):
     command ends fails with Interrupted, once that command was given; a callback may then ask for
     the next motion, but not in answer to `stop` or `halt`. A motion whose hardware fails ends with
     HriError, and the base brakes. Commands of several writers are arbitrated by their ranks, see
-    `hri.hal.helm`: a command is refused with Outranked while somebody steers who is not less
-    important. A stop is everybody's, and always wins.
+    `hri.hal.helm`: a command is refused with Outranked while someone steers who is not less
+    important. A stop is everyone's, and always wins.
 
     Ways and angles may be negative, velocities of `move_delta` and `turn_delta` and all
     accelerations must be above 0; what the base cannot reach is cut to what it can. HriError is
@@ -68,7 +68,7 @@ class DriveSystem(Resource):
 
     @abstractmethod
     def let_go(self, writer: Writer, now: float) -> None:
-        """Steer no more: the base stops, unless somebody else steers it."""
+        """Steer no more: the base stops, unless someone else steers it."""
 
     @abstractmethod
     def set_velocity(
@@ -76,7 +76,7 @@ class DriveSystem(Resource):
     ) -> None:
         """Go on with this velocity until the next command, or until that time has come.
 
-        Raises Outranked while somebody else steers who is not less important than `by`.
+        Raises Outranked while someone else steers who is not less important than `by`.
         """
 
     @abstractmethod

@@ -25,7 +25,7 @@ class EmergencyStop(Resource):
 
     @abstractmethod
     def unlatch(self) -> None:
-        """Somebody says that it may move: never call this by yourself."""
+        """Someone says that it may move: never call this by yourself."""
 
     @abstractmethod
     def explain(self) -> str:

@@ -33,7 +33,7 @@ _ORDER = list(Rank)
 
 @dataclass(frozen=True, slots=True)
 class Writer:
-    """Somebody who steers."""
+    """Someone who steers."""
 
     owner: object
     """Writers with the same owner are one."""
@@ -48,7 +48,7 @@ other."""
 
 
 class Outranked(HriError):
-    """Somebody else steers the drive, and is not to be interrupted."""
+    """Someone else steers the drive, and is not to be interrupted."""
 
 
 class Helm:

@@ -43,7 +43,7 @@ class ResourceManager:
     ) -> None:
         """`notice` gets one line for each stand-in that is used."""
         self.trusted = trusted
-        """What the configuration says of ports of the bridge that anybody may write to."""
+        """What the configuration says of ports of the bridge that anyone may write to."""
         self.clock = clock
         self.descriptions = {description.id: description for description in descriptions}
         self.notice = notice
@@ -292,7 +292,7 @@ class ResourceManager:
                 remedy += f" (no spec of it in {spec_folders(description.type)} either)"
             raise description.error("type", what, remedy) from error
         if not (isinstance(found, type) and issubclass(found, Resource)):
-            what = f"{name} is no driver"
+            what = f"{name} is not a driver"
             raise description.error("type", what, "derive its class from hri.hal.resource.Resource")
         if missing := sorted(found.__abstractmethods__):
             raise description.error("type", f"{name} lacks {', '.join(missing)}", "write it")

@@ -11,7 +11,7 @@ class Speaker(Resource):
 
     @abstractmethod
     def play(self, samples: Samples, rate: int, now: float) -> None:
-        """Start a sound, in place of one that still plays; returns at once."""
+        """Start a sound, instead of one that still plays; returns at once."""
 
     @abstractmethod
     def extend(self, samples: Samples, now: float) -> None:

@@ -184,10 +184,10 @@ class SteeredBase(DriveSystem, EmergencyStop):
             elif isinstance(drive := self._chassis.driven_by, SteeredBase) and drive.is_active:
                 drive._try_to_rest()
 
-    # --- one motion in place of another ---
+    # --- one motion instead of another ---
 
     def _begin(self, motion: Motion) -> Pending[None]:
-        """Run a motion in place of the one before."""
+        """Run a motion instead of the one before."""
         clock = self.manager.clock
         pending: Pending[None] = Pending(clock, on_cancel=lambda: self._abandon(pending))
         reason = "another command took its place - wait for the one before"
@@ -202,9 +202,9 @@ class SteeredBase(DriveSystem, EmergencyStop):
     def _in_place_of_motion(
         self, reason: str, by: Writer | None = None, until: float = math.inf
     ) -> Iterator[None]:
-        """Give a command while no motion runs, `by` somebody who steers until that time.
+        """Give a command while no motion runs, `by` someone who steers until that time.
 
-        Raises Outranked when somebody else steers, and then changes nothing. Whoever asked for the
+        Raises Outranked when someone else steers, and then changes nothing. Whoever asked for the
         motion that it ended hears of it last and outside of the lock, and may ask for the next.
         """
         ended = None
@@ -245,7 +245,7 @@ class SteeredBase(DriveSystem, EmergencyStop):
 
     @contextmanager
     def _stopping(self) -> Iterator[None]:
-        """A stop wins: who is told of it in here cannot answer with the next motion."""
+        """A stop wins: a callback that runs in here cannot start the next motion."""
         before, self._here.is_stopping = self._here.is_stopping, True
         try:
             yield

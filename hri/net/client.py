@@ -131,7 +131,7 @@ class Client(TcpPort):
 def _own_echo(dialed: socket.socket) -> int:
     """An error code when a socket has connected with itself, else 0.
 
-    The system does that, now and then, where nobody listens on a port of its own pool.
+    The system does that occasionally, when no program listens on an ephemeral port.
     """
     try:
         is_own = dialed.getsockname() == dialed.getpeername()

@@ -107,7 +107,9 @@ class Connection:
         return self._lines.pop(0)
 
     def on_read(self, callback: Callable[[str], object]) -> None:
-        """From now on call back with each line, from a thread of its own; then do not `read`."""
+        """Call back with each line from now on, from a separate thread; do not use `read` with
+        it.
+        """
         if self._reader is not None:
             raise RuntimeError("on_read was called before - one callback takes all lines")
         self._reader = threading.Thread(target=self._call, args=(callback,), daemon=True)

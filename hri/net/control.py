@@ -21,7 +21,7 @@ def introduction(token: str) -> bytes:
 
 
 def refusal(why: str) -> bytes:
-    """The line that tells a peer why something did not come in."""
+    """The line that gives a peer the reason of a refusal."""
     return encode(Message(TAG, (Item(REFUSED, why, None),)))
 
 

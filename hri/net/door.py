@@ -34,7 +34,7 @@ class Door:
         self._seen: object = None
         self._guarded: dict[str, frozenset[Effect]] = {}
         self._told: dict[str, float] = {}
-        """When the log was told of a port that was written to without the token."""
+        """When a write to a port without the token was logged."""
 
     def prepare(self) -> None:
         """Make the token, if one may be needed, before anyone can connect."""

@@ -1,4 +1,5 @@
-"""The event server: events of other programs are raised here, and names of ours are told to them.
+"""The event server: events of other programs are raised here, and the names of local events are
+sent to them.
 
 What comes is text in the query form, `Examples.PhotoEvent.Shoot?count=5&delay=1`. Who sends it
 shows the token, since a task may do anything when it hears an event. Names that begin with a

@@ -1,8 +1,8 @@
 """What has arrived for the ports of one behavior and waits for its tick.
 
 A value with a count is sent in as many ticks, one value a tick. A value without is sent at every
-tick until another one comes. When more arrives than ticks pass, strings wait, since each is a
-message of its own; of numbers and truths, which are measurements, only the newest two are kept:
+tick until another one comes. When several values arrive in a tick, strings are queued, since each
+is a separate message; of numbers and truths, which are measurements, only the newest two are kept:
 two, so that two networks of the same rate never find a tick empty because one is a bit late, and
 only two, so that a command is never older than a tick.
 
@@ -93,9 +93,8 @@ class Inbox:
         }
 
     def put(self, *items: Item, sender: Sender) -> None:
-        """Keep values for their ports; those for ports that are not there are none of ours.
-
-        Raises ProtocolError, keeping none of them, when one has not its port's datatype.
+        """Store values for their ports; those for unknown ports are ignored. Raises ProtocolError,
+        storing none of them, when one does not have its port's datatype.
         """
         ours = [item for item in items if item.port in self._datatypes]
         read = [values.read(self._datatypes[item.port], item.text) for item in ours]

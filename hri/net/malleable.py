@@ -1,6 +1,5 @@
-"""The behavior whose ports a schema defines: inputs go out over TCP, what comes over TCP goes on.
-
-`docs/bridge.md` tells the protocol to those who write the other end.
+"""The behavior whose ports a schema defines: inputs are sent over TCP, received values become
+outputs. `docs/bridge.md` describes the protocol.
 """
 
 from __future__ import annotations

@@ -47,7 +47,7 @@ class Item:
 
     port: str
     text: str
-    """As it reads without the escapes of XML; `hri.net.values` tells what it stands for."""
+    """The text without XML escapes; `hri.net.values` converts it."""
     count: int | None = 1
     """In how many ticks the receiver sends it, 1 to 999999; None: until another one comes."""
 
@@ -62,7 +62,7 @@ class Sender:
     grant: Grant | None = None
     """What it got for the token that it has shown; None before."""
     refused: frozenset[str] = frozenset()
-    """The ports that took no value of it, as it was told."""
+    """The ports that refused a value of this peer, which it was informed of."""
     name = "somebody"
     """Who it is, for people."""
 
@@ -176,7 +176,7 @@ class _Reader:
         except expat.ExpatError as error:
             if error.code == _JUNK:
                 what = f"column {error.offset + 1}: more after </{self.tag[:60]}>"
-                raise Surplus(f"{what} - write each message in a line of its own") from error
+                raise Surplus(f"{what} - write each message on a separate line") from error
             what = expat.ErrorString(error.code)
             remedy = "write <tag><port>value</port></tag>"
             raise ProtocolError(f"column {error.offset + 1}: {what} - {remedy}") from error

@@ -1,6 +1,6 @@
 """Ports that the behaviors of this process share: the first opens one, the last closes it.
 
-Behaviors on one port tell their messages apart by `tag_name`.
+Behaviors on one port distinguish their messages by `tag_name`.
 """
 
 from __future__ import annotations

@@ -26,14 +26,14 @@ REST = 1.0
 
 
 class Server(TcpPort):
-    """Listens on a port; port 0 takes any free one, `port` tells which."""
+    """Listens on a port; port 0 takes any free one, see `port`."""
 
     def __init__(self, host: str, port: int, limits: PeerLimits | None = None) -> None:
         """Raises HriError when the port cannot be had."""
         self._socket = _listening(host, port)
         super().__init__(host, self._socket.getsockname()[1], limits)
         self._has_warned = False
-        """Whether it was told already that nobody more can be let in."""
+        """Whether the log says already that no more peers can connect."""
         self._rests_until = math.inf
         """When to accept again; inf while it does."""
         self._selector.register(self._socket, selectors.EVENT_READ, self._accept)

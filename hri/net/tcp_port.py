@@ -1,4 +1,4 @@
-"""A TCP port in a thread of its own, for all behaviors of this process that use it.
+"""A TCP port in a separate thread, for all behaviors of this process that use it.
 
 A `Server` listens, a `Client` connects and reconnects; both send lines to every peer they have, and
 hand each message that arrives to whoever subscribed to its tag. A peer that sends anything but a
@@ -195,7 +195,7 @@ class TcpPort(ABC):
             self._drop(peer, str(error))
 
     def _take(self, line: bytes, peer: Peer) -> None:
-        """Deliver a line; of one that goes on after its message, the peer is told."""
+        """Deliver a line; if text follows its message, inform the peer."""
         try:
             self._deliver(line, peer)
         except Surplus as error:
@@ -235,7 +235,7 @@ class TcpPort(ABC):
         return peer.held_until if is_held else late
 
     def _watch(self, peer: Peer, mask: int) -> None:
-        """Tell the selector what to look for; a mask of 0 it would not take."""
+        """Update the selector, which does not accept a mask of 0."""
         known = self._selector.get_map().get(peer.connection)
         if known is None:
             if mask:

@@ -44,7 +44,7 @@ def unquoted(text: str) -> str:
 
 
 def read(datatype: str, text: str) -> Any:
-    """The value of a text. Raises ProtocolError when it is none of that datatype."""
+    """The value of a text. Raises ProtocolError if it does not have that datatype."""
     try:
         return FORMS[datatype].read(text)
     except ValueError as error:

@@ -50,8 +50,8 @@ __all__ = ["App", "Job", "Robot", "load_app"]
 class Robot(BlockingVerbs):
     """Resources, networks, tasks and the loop that runs them.
 
-    As a context manager it lives in a thread of its own, and its verbs wait until they are done.
-    On a fake clock time passes only inside the verbs.
+    As a context manager it runs in a separate thread, and its verbs block until they are done. On a
+    fake clock, time passes only inside the verbs.
     """
 
     def __init__(

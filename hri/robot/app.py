@@ -182,9 +182,8 @@ class App:
 
     @cached_property
     def module(self) -> ModuleType | None:
-        """`tasks.py`, in a package of its own so that it can import its neighbors.
-
-        None where an app that extends another has none.
+        """`tasks.py`, in a separate package so that it can import its neighbors. None if an app
+        that extends another does not have it.
         """
         if self.base is not None and not paths.is_file(self.folder / "tasks.py"):
             return None

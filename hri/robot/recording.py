@@ -1,8 +1,8 @@
 """What a visit leaves behind: `events.jsonl`, `face.mp4`, `robot.wav` and `timeline.png`.
 
-`feelings.svg` is there from the first second on and shows the last ten minutes. Nobody but the
-owner can read any of it, and people are told: in the terminal, by a mark on the face, and aloud
-where a microphone hears them. What was said to others, and so was rejected, is left out.
+`feelings.svg` is there from the first second on and shows the last ten minutes. Only the owner can
+read it, and people are informed: in the terminal, by a mark on the face, and aloud where a
+microphone hears them. What was said to others, and so was rejected, is left out.
 """
 
 from __future__ import annotations

@@ -115,7 +115,7 @@ def _plot_mood(axes: Axes, events: list[Line]) -> None:
         values = [
             event[_MOOD_EVENTS[event["event"]] if name == "pleasure" else name] for event in moods
         ]
-        # What was told last holds to the end of the visit.
+        # The last value holds to the end of the visit.
         end = axes.get_xlim()[1]
         axes.plot([*times, end], [*values, values[-1]], color=color, label=name)
     labels, before = [], ""

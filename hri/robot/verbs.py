@@ -1,4 +1,4 @@
-"""What a robot can be told in one word; each is a coroutine that may be cancelled."""
+"""The verbs of a robot; each is a coroutine that may be cancelled."""
 
 from __future__ import annotations
 
@@ -182,7 +182,7 @@ def _plain_answer(context: TaskContext, event: Event) -> tuple[bool | None] | No
 
 
 def _is_asked(context: TaskContext, person: str) -> bool:
-    """Whether it is the one attended to; so is anyone while they are not told apart."""
+    """Whether it is the attended person; True for anyone while people are not distinguished."""
     tracker = context.find_behavior(PersonTracker)
     attended = tracker.last.attended if tracker is not None else ""
     return not person or not attended or person == attended

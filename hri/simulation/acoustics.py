@@ -61,7 +61,7 @@ class Sound:
             self._sources[place] = Source(source.first, source.samples[:kept])
 
     def between(self, first: int, end: int) -> Samples:
-        """The samples with index `first` up to, not including, `end`; fewer than one is none."""
+        """The samples with index `first` up to, not including, `end`; may be empty."""
         if end <= first:
             return np.zeros(0, np.int16)
         self._sources = [s for s in self._sources if s.end > first - MEMORY * RATE]

@@ -1,4 +1,4 @@
-"""The wheels of the simulated base when each has a motor of its own."""
+"""The wheels of the simulated base when each has its own motor."""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
 """Touches between a robot and people, by cause: who moved, from which side, and what was seen.
 
-A `Witness` is told, tick by tick, where the robot and everyone are and whom which sensor covers.
-It records one `Collision` for each touch, and what is known about its cause. Meters, seconds.
+A `Witness` gets, at each tick, the positions of the robot and all people, and who is covered by
+which sensor. It records one `Collision` for each touch, and what is known about its cause. Meters,
+seconds.
 """
 
 from __future__ import annotations

@@ -4,8 +4,8 @@
       <Device id="simulated_camera" type="Hri.SimulatedCamera"/>
     </DeviceBus>
 
-A device whose bus is not a simulated world uses the first one of the configuration. Where there is
-none, all of them share one that is made for them, the world "home".
+A device whose bus is not a simulated world uses the first one of the configuration. Without one,
+they all share the world "home", created for them.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class InWorld(Resource):
 
 
 def world_id(manager: Resources, bus: str = "") -> str:
-    """Id of the simulated world for what sits on that bus; one is declared where there is none."""
+    """Id of the simulated world for devices on that bus; declared if necessary."""
     kinds = {d.id: registry.canonical(d.type) for d in list(manager.descriptions.values())}
     worlds = [id for id, kind in kinds.items() if kind == TYPE]
     if worlds:

@@ -244,7 +244,7 @@ def _neighbors(cell: tuple[int, int]) -> Iterator[tuple[int, int]]:
 def _free_place(
     dice: random.Random, room: Room, length: float, width: float, margin: float
 ) -> Point:
-    """A place with so much room around it; the least crowded of many where there is none."""
+    """A place with this much room around it, or else the least crowded of many."""
     tries: list[Point] = []
     for _ in range(_TRIES):
         tries.append((dice.uniform(0, length), dice.uniform(0, width)))

@@ -98,7 +98,7 @@ class Visit:
 
 
 class VisitRun:
-    """A visit that goes on; every step that is done is told as the event `visitor.acted`."""
+    """A running visit; every step raises the event `visitor.acted`."""
 
     def __init__(self, visit: Visit, world: SimulatedWorld, clock: Clock, events: EventBus) -> None:
         self._world, self._clock, self._events = world, clock, events

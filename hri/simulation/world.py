@@ -2,7 +2,7 @@
 
 It is a bus of the configuration; the simulated devices sit on it. Its parameters are `file` (a
 world of `config/worlds`), `seed`, `battery` (0 to 1 at the start) and `voice`, the id of the
-synthesizer that speaks for the people (without it the world brings one of its own).
+synthesizer that speaks for the people (by default the world has its own).
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class SimulatedWorld(Resource):
         return f"simulated world {self.description.text('file', 'home')}"
 
     def seed_for(self, name: str) -> int:
-        """A seed of its own for each user of randomness."""
+        """A separate seed for each user of randomness."""
         seed = round(self.description.number("seed", 0))
         return zlib.crc32(f"{seed}/{name}".encode())
 
@@ -129,7 +129,9 @@ class SimulatedWorld(Resource):
         return self.people[0]
 
     def find_person(self, name: str) -> SimulatedPerson:
-        """The one of this name; without one, the first. Raises HriError when there is none."""
+        """The person of this name; without a name, the first. Raises HriError when there is
+        none.
+        """
         if not name:
             return self.person
         found = next((person for person in self.people if person.name == name), None)

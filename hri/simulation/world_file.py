@@ -176,7 +176,7 @@ def _people(root: Table) -> list[Table]:
     for number, (name, table) in enumerate(zip(names, tables, strict=True)):
         if len(tables) > 1 and name in ("", *names[:number]):
             what = f'another person is named "{name}"' if name else "this person has no name"
-            raise table.error("name", what, "give each of them a name of their own")
+            raise table.error("name", what, "give each of them a different name")
     return tables
 
 

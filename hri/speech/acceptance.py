@@ -17,8 +17,9 @@ CAREFUL = 0.1
 keeps out a third of the foreign sentences that got in, a quarter at 12 dB, and one in a hundred of
 the right ones."""
 OVER_SPEECH = 0.4
-"""The same for whatever is heard while the robot speaks: what is left of its own voice sounds like
-some command now and then (up to 0.43 in the simulated room, where "stop" had 0.8 and more)."""
+"""The same while the robot speaks: the rest of the echo sometimes sounds like a command (up
+to 0.43 in the simulated room, where "stop" had 0.8 and more).
+"""
 EXPECTED = 0.7
 """Share of the strictness that is enough for an answer while a question is open: it is likely, and
 often short. Of right short sentences (8 phones at most) 93 % instead of 91 % are accepted then,
@@ -37,11 +38,11 @@ def judge(
     strictness: float = STRICTNESS,
     turn: Turn | None = None,
 ) -> Utterance | Rejection:
-    """The utterance, or why it is none.
+    """The utterance, or the reason for its rejection.
 
-    `turn` tells which rules count; without one, all do. What the engine holds for likely, too, and
-    what means something else, counts against the words; rules marked `@careful` must be heard more
-    clearly than the strictness, 0 to 1, alone demands.
+    `turn` says which rules are active; without one, all do. What the engine holds for likely, too,
+    and what means something else, counts against the words; rules marked `@careful` must be heard
+    more clearly than the strictness, 0 to 1, alone demands.
     """
     rules = frozenset(grammar.public_rules) if turn is None else turn.rules(grammar)
     turn = turn or Turn()

@@ -113,7 +113,7 @@ def _gain(heard: NDArray[np.float64], left: NDArray[np.float64]) -> float:
 
 
 class OwnVoice:
-    """What the robot's loudspeaker plays, as far as the voice tells."""
+    """The sound of the robot's loudspeaker, as reported by the voice."""
 
     def __init__(self, rate: int) -> None:
         """`rate` is the microphone's samples a second."""
@@ -124,7 +124,7 @@ class OwnVoice:
         self._begun = 0.0
 
     def said(self, start: float, end: float) -> list[str]:
-        """Its words between two times of the clock, or all where it tells no times."""
+        """Its words between two times of the clock, or all if it gives no times."""
         if self._speech is None:
             return []
         first, last = start - self._begun, end - self._begun

@@ -58,7 +58,7 @@ LEAST = 0.25
 LEAST_CUT = 0.5
 """Seconds of background before the first near sound that are worth being taken away."""
 SMOOTHING = 5
-"""Frames whose mean power is the level that all of this is told from, but for single frames."""
+"""Frames whose mean power is the level used here, except for single frames."""
 NOISE_WINDOW = 100
 """Frames in which a voice must have dipped to the noise."""
 BACKGROUND_FRAMES = 100
@@ -254,7 +254,7 @@ class Endpointer:
         for earlier, its_level in frames:
             self._piece.add(earlier, its_level)
         self._before.clear()
-        # A pause is counted from here: the quiet before the voice is none.
+        # A pause is counted from here: the quiet before the voice does not count.
         self._recent.clear()
 
     def _follow(self, piece: _Piece, frame: Samples, is_voice: bool, noise: float) -> None:

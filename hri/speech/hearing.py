@@ -39,9 +39,9 @@ def hear(
 ) -> Iterator[Heard]:
     """What is said in a recording, piece by piece; its times count from its first sample.
 
-    `engine` has been started with the grammar, and keeps nothing of the recording. `turn` tells
-    which rules count; without one, all do. `stopwatch` measures the latencies. `tell_partial` is
-    told the words so far while a piece goes on; without it no work is spent on them.
+    `engine` has been started with the grammar, and keeps nothing of the recording. `turn` says
+    which rules are active; without one, all do. `stopwatch` measures the latencies. `tell_partial`
+    is told the words so far while a piece goes on; without it no work is spent on them.
     """
     sound = resample(samples, rate, engine.rate)
     rules = None if turn is None else turn.rules(grammar)

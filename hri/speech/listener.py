@@ -56,7 +56,7 @@ class Listener(Behavior):
     voice, and `grammar.changed` (file) or `grammar.refused` (file, error). Loads its models and
     grammars while the rest already runs; what is said before the first grammar is there waits.
 
-    Which rules count is told by their marks, see `hri.speech.turn`. A sentence of a rule marked
+    The marks of rules decide which are active, see `hri.speech.turn`. A sentence of a rule marked
     @interrupts that is heard as clearly as over speech takes effect 0.2 s after its last sound,
     before the pause that ends a piece of speech is over. Linked to the speech and the
     position of a voice, it subtracts that voice from what it hears. No sound is ever kept.
@@ -218,7 +218,7 @@ class Listener(Behavior):
         piece.foreign_energy += _energy(samples)
 
     def _without_own_voice(self, heard: Samples, now: float) -> Samples:
-        """Subtract what the robot says, as far as a voice is linked that tells it."""
+        """Subtract the robot's own speech, if a voice is linked."""
         if not self.speech.sources or now - self._spoke > ECHO_TAIL:
             rest = self._canceller.flush()
             return np.concatenate([rest, heard]) if len(rest) else heard

@@ -1,4 +1,4 @@
-"""What tasks do with speech. Where no network has a voice or ears, they start one of their own."""
+"""Speech tasks. If no running network has a voice or a listener, they start one."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ class Saying:
     text: str
     priority: Priority = Priority.NORMAL
     prosody: Prosody | None = None
-    """How it is said; None is as the input of the voice tells."""
+    """How it is said; None: as the input of the voice says."""
     is_done: bool = False
     """True when it was said to its end, or cut."""
     was_cut: bool = False
@@ -101,7 +101,7 @@ class Voice(Behavior):
     ) -> Saying:
         """Queue a text, behind all that matters as much; blank text is done at once.
 
-        `prosody` is how this one is said, and by which voice; None is as the input tells.
+        `prosody` is how this one is said, and by which voice; None: as the input says.
         """
         saying = Saying(text, priority, prosody)
         if not text.strip():

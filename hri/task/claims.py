@@ -109,7 +109,7 @@ _leave: ContextVar[Leave] = ContextVar("leave")
 
 
 def forget_claims(leave: Leave) -> None:
-    """Let a task that is installed by a holder claim like any other, with a leave of its own."""
+    """Let a task installed by a holder claim like any other, with its own permission."""
     _held.set({})
     _leave.set(leave)
 
@@ -134,7 +134,7 @@ class Claims:
         leave = _leave.get(Leave())
         leave.claimed.add(name)
         if name in leave.refused:
-            raise Interrupted(f"{owner} was told to leave the {name} - start it again")
+            raise Interrupted(f"{owner} had to leave the {name} - start it again")
         above = _held.get({})
         outer = above.get(name)
         arena = self._arenas.setdefault(name, Arena()) if outer is None else outer.inner

@@ -2,7 +2,7 @@
 
 door = sequence("door.opened", all_of("person.seen", "speech.heard"), within=10)
 await when(context, door)                                 # the event that completed it
-context.manager.install(raise_when, door, "visitor.came")  # an event of its own, each time
+context.manager.install(raise_when, door, "visitor.came")  # raises an event, each time
 
 A pattern such as "head.*" is the simplest condition. `within` is in seconds, from the first event
 that counts to the one that completes it.
@@ -205,7 +205,9 @@ async def raise_when(context: TaskContext, condition: str | Condition, name: str
     """
     (condition,) = _conditions((condition,))
     if any(matches(pattern, name) for pattern in condition.patterns):
-        raise ValueError(f'"{name}" is part of its own condition - choose another name')
+        raise ValueError(
+            f'the condition of "{name}" contains "{name}" itself - choose another name'
+        )
     with context.queue("*") as queue:
         while True:
             await _next(queue, condition)

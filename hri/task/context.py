@@ -135,7 +135,7 @@ class TaskContext:
 
     @property
     def termination_requested(self) -> Answer:
-        """Whether the task was told to end; for loops that look instead of being cancelled.
+        """Whether the task should end; for loops that check it instead of being cancelled.
 
         May be called, as in 2003: `while not context.termination_requested():`.
         """

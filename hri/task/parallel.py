@@ -43,9 +43,8 @@ class Parallel:
         return task
 
     def wait_for_first_task(self) -> Any:
-        """Start all tasks, wait until one is over, and cancel the others; the one that was first.
-
-        Raises ValueError when there is none.
+        """Start all tasks, wait until one is done, and cancel the others; returns the first one.
+        Raises ValueError without tasks.
         """
         if not self._tasks:
             raise ValueError("there is nothing to wait for - add_task first")

@@ -118,7 +118,7 @@ class Primitive:
             self._end()
 
     def _free_name(self) -> str:
-        """A name of its own for each run, so that two may run at once."""
+        """A unique name for each run, so that two may run at once."""
         name, count = self.id, 1
         while name in self.context.networks.runners:
             count += 1
@@ -138,7 +138,7 @@ class Primitive:
 
 
 class _Cycle(Behavior):
-    """Lets a primitive compute when all other behaviors have, and tells it when they stop."""
+    """Calls a primitive's `compute` after all other behaviors, and reports their stop to it."""
 
     def __init__(self, id: str, primitive: Primitive) -> None:
         super().__init__(id)

@@ -119,7 +119,7 @@ def get_task_manager() -> TaskManager:
     with _lock:
         if _current is None:
             if _has_robot:
-                what = "a robot lives in this process, and this thread is none of its own"
+                what = "a robot runs in this process, and this thread does not belong to it"
                 raise HriError(f"{what} - run the function by `await context.blocking(function)`")
             enter(_make())
         assert _current is not None

@@ -39,7 +39,9 @@ class TaskType:
     def __init__(
         self, id: str, function: Job, arguments_of: Callable[..., Any] | None = None
     ) -> None:
-        """`arguments_of`: takes what `function` takes, where that does not tell it itself."""
+        """`arguments_of`: a function with the parameters of `function`, if its own do not show
+        them.
+        """
         self.id = id
         self.function = function
         self._arguments_of = arguments_of or function
@@ -73,7 +75,7 @@ class TaskType:
             if name in self._types:
                 bound.arguments[name] = self._fitted(name, value)
         if bound.kwargs:
-            raise HriError(f"{self.id}: named arguments need names of their own - use positions")
+            raise HriError(f"{self.id}: two arguments have the same name - use positions")
         return bound.args
 
     def _fitted(self, name: str, value: Any) -> Any:

@@ -1,4 +1,4 @@
-"""A robot loop in a thread of its own, so that scripts that are not async can call into it."""
+"""A robot loop in a separate thread, so that scripts that are not async can call into it."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class LoopThread:
             raise self.failure
 
     def join(self) -> None:
-        """Wait until the loop is over; whoever calls has told it to end."""
+        """Wait until the loop has ended; the caller has asked it to."""
         self._thread.join()
         if isinstance(self._clock, FakeClock):
             self._clock.release()

@@ -68,15 +68,12 @@ class Threshold:
         return _COMPARISONS[self.sign](value, self.limit)
 
     def check(self, output: Output[Any]) -> None:
-        """Look whether what an output declares can be compared, as far as it tells.
-
-        Raises HriError.
-        """
+        """Check that an output can be compared, as far as declared. Raises HriError."""
         kind = DATATYPES[output.datatype]
         if self.field and kind is not object:
             self._check_field(kind)
             kind = get_type_hints(kind).get(self.field, object)
-        # What may be a number, or is a property, tells it when it is sent.
+        # Values that may be numbers, and properties, are checked when they are sent.
         if isinstance(kind, type) and kind is not object:
             self._check_number(kind)
 

@@ -1,4 +1,4 @@
-"""A camera that fails in the ways cameras do, as a test tells it to."""
+"""A camera with faults that a test chooses."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from hri.hal.resource_manager import ResourceManager
 from hri.speech.synthesizers.espeak import EspeakVoice
 
 SIZE = (320, 240)
-"""Width and height in pixels: enough to tell two faces apart, and drawn in a millisecond."""
+"""Width and height in pixels: enough to distinguish two faces, and drawn in a millisecond."""
 
 
 def spoken_frames(

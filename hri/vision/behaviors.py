@@ -25,15 +25,14 @@ ZONES = Zones()
 
 
 class PersonTracker(Behavior):
-    """Follows everyone the camera sees, and tells by events who comes, goes and looks.
-
-    It sees in a process of its own. When that fails, `vision.failed` tells the `reason`, whoever
-    was there has left, and it starts again by itself.
+    """Tracks everyone the camera sees, and raises events when people come, go and look. Vision runs
+    in a separate process. When that fails, `vision.failed` gives the `reason`, all people count as
+    gone, and it restarts by itself.
     """
 
     category = "vision"
 
-    camera_id = Param("camera", "id of the camera that takes the pictures; tells where it looks")
+    camera_id = Param("camera", "id of the camera that takes the pictures; its pose is used")
     detector = Param(
         "auto", "what finds faces: auto, haar, or the path of a file with the network YuNet"
     )
@@ -163,7 +162,7 @@ class Attention(Behavior):
 
 
 class EngagementLevel(Behavior):
-    """Tells how far people take part; raises `person.engaged` and `person.disengaged`."""
+    """Estimates engagement; raises `person.engaged` and `person.disengaged`."""
 
     category = "vision"
 

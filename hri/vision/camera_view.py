@@ -38,7 +38,9 @@ class CameraView:
     def __post_init__(self) -> None:
         if not 0 < self.field_of_view < math.pi:
             what = f"a field of view of {self.field_of_view:g} rad"
-            raise HriError(f"{what} is none - give the angle across the picture, above 0, below pi")
+            raise HriError(
+                f"{what} is out of range - give the angle across the picture, above 0, below pi"
+            )
 
     @classmethod
     def of(cls, camera: Camera) -> CameraView:

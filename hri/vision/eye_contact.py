@@ -1,7 +1,6 @@
-"""Whether someone looks at the robot, told from how the head is turned.
-
-The face is the best guess there is at where the eyes look: people turn the head along for all but
-small glances. NAOqi's LookingAtRobotScore has the same form.
+"""Whether someone looks at the robot, estimated from the head pose. The head is the best available
+cue to the gaze: people turn it along for all but small glances. NAOqi's LookingAtRobotScore has the
+same form.
 """
 
 from __future__ import annotations

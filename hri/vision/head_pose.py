@@ -58,7 +58,7 @@ SIDES = {
 """Points of the person's right half, and their mirrored ones of the left: x to the right of the
 picture, y, z."""
 PITCH_GAIN = 0.93
-"""Part of a nod that the rotation tells, as a mean: 0.92 of that of a photograph on a turned
+"""Share of a nod that the rotation shows, on average: 0.92 of that of a photograph on a turned
 surface, 0.82 to 1.06 of those of drawn heads."""
 
 

@@ -84,7 +84,7 @@ class FaceNames(Behavior):
     def remember(self, person: str, name: str) -> None:
         """Take the face of a person, as it was seen last, for one of that name.
 
-        Raises HriError when no model is set, the person is not seen, or the face is none.
+        Raises HriError when no model is set, the person is not visible, or the face is unusable.
         """
         recognizer = self._ready()
         if person not in self._seen:

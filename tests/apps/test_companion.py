@@ -184,7 +184,7 @@ def test_a_base_with_a_supervisor_moves_when_it_was_released_and_not_after_stop(
     assert visit.pose_at(13.0).x == pytest.approx(0.0, abs=0.01)
     assert thanks.startswith("Thank you")
     assert visit.pose_at(24.0).x > 0.3
-    assert why == "I stopped because somebody said stop"
+    assert why == "I stopped because someone said stop"
     assert again.startswith(why)
     assert visit.pose_at(37.5).x == pytest.approx(visit.pose_at(24.0).x, abs=0.02)
 

@@ -228,7 +228,7 @@ def test_the_user_brings_a_folder_or_an_archive(home):
     assert (bring("from-folder", folder) / "conf" / "model.conf").is_file()
     assert (bring("from-archive", packed) / "am" / "final.mdl").is_file()
     assert fetched() == ["from-archive", "from-folder"]
-    with pytest.raises(HriError, match="is there already - delete it"):
+    with pytest.raises(HriError, match="already exists - delete it"):
         bring("from-folder", folder)
 
 

@@ -99,7 +99,7 @@ def test_nothing_moves_until_a_person_releases_the_base(resources: ResourceManag
 @pytest.mark.parametrize(
     ("event", "properties", "words"),
     [
-        ("speech.heard", {"rule": "stop"}, "somebody said stop"),
+        ("speech.heard", {"rule": "stop"}, "someone said stop"),
         ("drive.halt", {"because": "the red button is pressed"}, "the red button is pressed"),
         ("drive.halt", {}, "I was told to"),
     ],
@@ -188,7 +188,7 @@ def test_a_base_is_guarded_by_its_name_where_there_are_several() -> None:
     with ResourceManager([WORLD, BASE, DRIVE, OTHER], FakeClock()) as resources:
         with pytest.raises(HriError, match="several bases: base, other"):
             Guarded(resources).started()
-        with pytest.raises(HriError, match='"wheels" is no base'):
+        with pytest.raises(HriError, match='"wheels" is not a base'):
             Guarded(resources, "wheels").started()
         assert Guarded(resources, "base").released().guard.explain()
 
@@ -243,7 +243,7 @@ def test_the_simulated_base_begins_released(simulated: ResourceManager) -> None:
 @pytest.mark.parametrize(
     ("event", "properties", "words"),
     [
-        ("speech.heard", {"rule": "stop"}, "somebody said stop"),
+        ("speech.heard", {"rule": "stop"}, "someone said stop"),
         ("drive.halt", {"because": "the red button is pressed"}, "the red button is pressed"),
         ("drive.halt", {}, "I was told to"),
     ],

@@ -136,7 +136,7 @@ def test_numbers_of_a_description_may_be_expressions(tmp_path):
     )
     device = configuration.devices[0]
     assert device.number("yaw", 0) == pytest.approx(-2.6179939)
-    with pytest.raises(AuthoringError, match='x: "one" is no number'):
+    with pytest.raises(AuthoringError, match='x: "one" is not a number'):
         device.number("x", 0)
 
 
@@ -398,7 +398,7 @@ def test_a_driver_of_ones_own_is_a_file_beside_its_spec(tmp_path, own):
     ("python", "said"),
     [
         ("class Doorbel: pass", 'no class "Doorbell" - did you mean "Doorbel"?'),
-        ("class Doorbell: pass", "My.Doorbell is no driver"),
+        ("class Doorbell: pass", "My.Doorbell is not a driver"),
         (
             "from hri.hal.bumper import Bumper\nclass Doorbell(Bumper): pass",
             "My.Doorbell lacks is_pressed - write it",

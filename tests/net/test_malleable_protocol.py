@@ -193,5 +193,5 @@ def test_an_array_is_read_with_whatever_separator_it_was_sent(separator):
 
 def test_an_array_with_a_number_missing_is_refused():
     for text in ("1,,2", ",1", "1, 2,"):
-        with pytest.raises(ProtocolError, match="no doublearray"):
+        with pytest.raises(ProtocolError, match="not a doublearray"):
             values.read("doublearray", text)

@@ -326,7 +326,7 @@ def test_more_after_the_end_of_a_message_costs_a_line_and_not_the_connection(lin
         assert taken.wait_for(1) == [message("three")]
         (told,) = decode(peer.recv(1000)).items
     assert told.port == "refused"
-    assert "more after </t> - write each message in a line of its own" in told.text
+    assert "more after </t> - write each message on a separate line" in told.text
     (record,) = caplog.records
     assert "skipped a line of 127.0.0.1" in record.message
 

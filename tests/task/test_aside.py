@@ -103,6 +103,6 @@ def test_a_thread_of_ones_own_beside_a_robot_is_refused_in_a_sentence() -> None:
         thread.start()
         thread.join(10.0)
     assert refused == [
-        "a robot lives in this process, and this thread is none of its own"
+        "a robot runs in this process, and this thread does not belong to it"
         " - run the function by `await context.blocking(function)`"
     ]

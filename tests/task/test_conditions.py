@@ -105,7 +105,7 @@ def test_an_event_of_its_own_each_time():
 def test_mistakes():
     with pytest.raises(ValueError, match="condition of nothing"):
         all_of()
-    with pytest.raises(ValueError, match="part of its own condition"):
+    with pytest.raises(ValueError, match="itself - choose another name"):
         Stage().run(raise_when, "a*", "again")
 
 

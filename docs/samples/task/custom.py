@@ -1,4 +1,4 @@
-"""A task of one's own, with arguments that are checked and a way to fail; called as a function."""
+"""A custom task, with arguments that are checked and a way to fail; called as a function."""
 
 from hri.core import HriError
 from hri.task import TaskContext, find_task, get_task_manager

@@ -1,4 +1,4 @@
-"""A task of one's own drives a square and tells at each corner; it has a minute for that."""
+"""A custom task drives a square and reports at each corner; it has a minute for that."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""A behavior of one's own: stops the robot before it runs into something."""
+"""A custom behavior: stops the robot before it runs into something."""
 
 from hri.behavior import Behavior
 from hri.behavior.ports import LINEAR_VELOCITY, Input, Output, Param

@@ -1,4 +1,4 @@
-"""A driver of one's own: the bytes are those of a file."""
+"""A custom driver: the bytes are those of a file."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""An interface of one's own: bytes in order, wherever they come from or go to."""
+"""A custom interface: bytes in order, wherever they come from or go to."""
 
 from abc import abstractmethod
 from enum import Enum

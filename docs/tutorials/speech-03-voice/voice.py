@@ -43,7 +43,7 @@ def interrupt(resources: ResourceManager, clock: Clock) -> None:
 
 
 def main(clock: Clock) -> None:
-    """Print what the voice tells of itself."""
+    """Print the voice's description of itself."""
     with ResourceManager.load("resource-config", clock) as resources:
         voice = resources.obtain("voice", Synthesizer)
         show_times(voice)

@@ -9,14 +9,14 @@ from hri.behavior.ports import Input
 
 
 class Callback(Protocol):
-    """Whoever wants to be told."""
+    """A receiver of values."""
 
     def handle_input(self, behavior: CallbackBehavior, port: str, data: Any) -> None:
         """A value came in at a port of that behavior; called in the tick, so do not block."""
 
 
 class CallbackBehavior(Behavior):
-    """Tells the callbacks that were added to it of each value that comes in.
+    """Passes each input value to its callbacks.
 
     network["tell"].add(self)    # self has handle_input(behavior, port, data)
     """
@@ -28,11 +28,11 @@ class CallbackBehavior(Behavior):
         self._callbacks: list[Callback] = []
 
     def add(self, callback: Callback) -> None:
-        """Tell this one from now on."""
+        """Call this one from now on."""
         self._callbacks.append(callback)
 
     def remove(self, callback: Callback) -> None:
-        """Tell it no more; one that was never added is fine."""
+        """Stop calling it; ignored if it was never added."""
         if callback in self._callbacks:
             self._callbacks.remove(callback)
 

@@ -15,7 +15,7 @@ class PriorityArbiter(Behavior):
 
     category = "operators"
     input = Input[Any]("any", "wishes of any datatype, the most important link first")
-    winner = Output[Any]("any", "the wish that counts; nothing when there is none")
+    winner = Output[Any]("any", "the winning value; nothing when there is none")
 
     def compute(self, now: float, dt: float) -> None:
         if wishes := self.input.values:

@@ -20,7 +20,7 @@ LONGEST_TEXT = 1000
 """Characters of a text that are shown."""
 
 _NAMES = {kind: name for name, kind in DATATYPES.items() if kind is not object} | {int: "double"}
-"""Of the datatypes of the house; one of your own is called by its class."""
+"""Labels of the built-in datatypes; others are named by their class."""
 
 
 class InputCollector(Behavior):

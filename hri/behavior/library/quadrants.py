@@ -25,7 +25,7 @@ STEEPEST = math.pi / 4
 
 
 class Quadrant(IntEnum):
-    """The sides of the robot, in the order in which they are told."""
+    """The sides of the robot, in their output order."""
 
     FRONT = 0
     LEFT = 1

@@ -98,7 +98,7 @@ class Counter(Behavior):
 
 
 class Timer(Behavior):
-    """Tells for how long its input has been true without a break; sends at every tick."""
+    """Sends, at every tick, for how long its input has been true without a break."""
 
     duration = Param(1.0, "seconds until it is over", minimum=0)
     input = Input[bool]("boolean", "truths; any that is true counts, nothing is false")

@@ -29,7 +29,8 @@ QUICK_STEP = 6
 def measure(quick: bool = False, recordings: Path | None = None, draw: int = 0) -> dict[str, Any]:
     """All rows; what is being done is told on standard error.
 
-    `draw` is the number of the babble: figures are told from 0, others show how much is chance.
+    `draw` is the number of the babble: published figures use 0; other seeds show how much is
+    chance.
 
     `recordings` is a folder with a `manifest.tsv` (see `clips.read_recordings`); without one,
     `../shared/speech/real` beside a checkout is taken when it is there.

@@ -54,7 +54,7 @@ class Listen(Protocol):
 
 
 def listen(grammar: Path, clips: Sequence[Clip], engine: str = "") -> Hearing:
-    """Hear clips in a process of its own, on one core; the default engine when none is named.
+    """Recognize clips in a separate process, on one core; the default engine when none is named.
 
     Raises HriError when the program fails.
     """

@@ -1,4 +1,4 @@
-"""What the default engine takes before it can hear: a script for a process of its own.
+"""What the default engine takes before it can hear: a script for a separate process.
 
     python start_process.py GRAMMAR [WAV ...]
 

@@ -210,5 +210,5 @@ class FaceWindow:
 
 
 def _beside(names: Sequence[str], name: str, step: int) -> str:
-    """The name before or after another, around the end; the first when it is none of them."""
+    """The name before or after another, wrapping around; the first for an unknown name."""
     return names[(names.index(name) + step) % len(names)] if name in names else names[0]

@@ -14,7 +14,7 @@ from typing import BinaryIO
 from hri.core.errors import HriError, NotAvailable
 
 Progress = Callable[[int, int], None]
-"""Told of the bytes that are here, and of all bytes there will be."""
+"""Called with the number of received bytes, and the total."""
 
 ATTEMPTS = 5
 """Connections that are tried while each of them brings something."""

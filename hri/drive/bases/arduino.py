@@ -76,7 +76,7 @@ class Wiring:
     sonars: dict[str, int] = field(default_factory=dict)
     """Digital pins of ultrasonic sensors."""
     buttons: dict[str, int] = field(default_factory=dict)
-    """Digital pins of switches to ground that open when somebody presses."""
+    """Digital pins of switches to ground that open when someone presses."""
 
 
 @dataclass(frozen=True, slots=True)

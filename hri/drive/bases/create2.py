@@ -224,7 +224,7 @@ class PacketParser:
     """Finds the packets of a sensor stream: [19] [n] [number, data]... [checksum].
 
     The sum of all bytes ends in a zero byte. As we know what we asked for, n and the numbers must
-    fit as well: what is no packet cannot pass for one, nor keep us waiting for more than one.
+    fit as well: garbage cannot pass for a packet, nor delay us by more than one.
     """
 
     def __init__(self, packets: Sequence[int]) -> None:
@@ -253,7 +253,7 @@ class PacketParser:
         return found
 
     def _values(self, packet: bytearray) -> dict[int, int] | None:
-        """What a packet says; None for what is none."""
+        """The contents of a packet; None for an invalid one."""
         if sum(packet) & 0xFF:
             return None
         fields = self._format.unpack(packet)[2:-1]

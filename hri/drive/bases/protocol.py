@@ -38,11 +38,11 @@ class BaseReport:
     cliffs: Mapping[str, bool] = field(default_factory=dict)
     """By place: "left", "front_left", "front_right", "right"; true when there is no floor."""
     cliff_signals: Mapping[str, int] = field(default_factory=dict)
-    """What the same sensors count of the light from the floor, where the base tells it."""
+    """Raw readings of the same sensors: light from the floor, where the base reports it."""
     wheel_drops: Mapping[str, bool] = field(default_factory=dict)
     """By place: "left", "right"; true when the wheel hangs in the air."""
     buttons: Mapping[str, bool] = field(default_factory=dict)
-    """By name: "clean", "stop"; true while somebody presses it."""
+    """By name: "clean", "stop"; true while someone presses it."""
     ranges: Mapping[str, float] = field(default_factory=dict)
     """Meters from the sensor; infinity when it sees nothing."""
     battery: float | None = None

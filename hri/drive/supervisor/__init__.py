@@ -1,1 +1,1 @@
-"""What keeps a base safe, in a process of its own below everything that wants it to move."""
+"""Keeps a base safe, in a separate process below everything that wants it to move."""

@@ -17,7 +17,7 @@ def announce(bus: BaseBus, events: EventBus) -> Watcher:
 
     It goes on until the watcher that it returns is given to `unwatch`, or the bus is closed.
 
-    `drive.stopped` (reason, words) unless somebody asked it to stop, `drive.refused` (words) for a
+    `drive.stopped` (reason, words) unless someone asked it to stop, `drive.refused` (words) for a
     command that made no sense, `drive.faulty` (words) for a sensor that cannot be believed.
     """
     told, faulty = 0, frozenset[str]()

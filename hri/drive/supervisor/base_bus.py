@@ -10,7 +10,7 @@
       </Device>
     </DeviceBus>
 
-The `devices` are the same for every base; each kind of base has a bus of its own, in `kinds`. With
+The `devices` are the same for every base; each kind of base has its own bus. With
 the port "simulated" the base is an emulated one in the simulated world.
 """
 
@@ -54,7 +54,7 @@ from hri.hal.resource import Description, Resources
 SIMULATED = "simulated"
 """The port of a base that is emulated in the simulated world."""
 STALE = 0.5
-"""Seconds after which a report tells the program's sensors nothing."""
+"""Seconds after which the program's sensors ignore a report."""
 UNLATCHING = 5.0
 """Seconds that a release waits for a base that does not report yet."""
 _LIMITS = {limit.name: float(getattr(BaseLimits(), limit.name)) for limit in fields(BaseLimits)}
@@ -133,7 +133,7 @@ class BaseBus(EmergencyStop):
     def hear_person(self, distance: float) -> None:
         """How far the nearest person is, meters; infinity when surely nobody is about.
 
-        To be repeated every second, otherwise somebody may be near.
+        To be repeated every second, otherwise someone may be near.
         """
         self._say(Nearest(distance, self.state.time))
 
@@ -318,7 +318,7 @@ class BaseBus(EmergencyStop):
             self._connection.say(Trip(cause))
 
     def _go_on_unlatching(self, cause: Cause, end: float) -> None:
-        """Release what was latched when somebody asked for it, and nothing that came later."""
+        """Release what was latched when someone asked for it, and nothing that came later."""
         now, state = self.manager.clock.now(), self.state
         if state.reason != cause or not state.is_latched or now > end:
             self._unlatching = None

@@ -1,7 +1,7 @@
 """Whether there is floor below: redundant votes of flags, raw light and neighbors.
 
 An infrared cliff sensor counts the light that its own lamp throws back from the floor. The base
-draws a flag from it by a threshold of its own; the count itself, against what the floor counted
+derives a flag from it with its own threshold; the count itself, against what the floor counted
 lately, is a second vote, and what the next sensors say a third.
 """
 

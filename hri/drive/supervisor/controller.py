@@ -1,6 +1,6 @@
 """Drives one base over one port as its supervisor decides: turn by turn, never waiting.
 
-Whoever runs it, a process of its own or the clock of a simulation, calls `turn` every TURN
+Its owner, a separate process or the clock of a simulation, calls `turn` every TURN
 seconds, and at once when bytes or orders have come.
 """
 
@@ -38,10 +38,9 @@ from hri.hal.motion import REST, Way
 TURN = 0.01
 """Seconds between two turns at most."""
 REFRESH = 0.05
-"""Seconds after which the wheels are told again what they were told: a byte may have been lost,
-and a base with a timeout of its own wants to hear."""
+"""Seconds after which the velocity is repeated: bytes may be lost, and a base may time out."""
 SILENCE = 1.5
-"""Seconds without a report after which the base is woken, where that is known, and greeted anew."""
+"""Seconds without a report after which the base is woken, where that is known, and greeted again."""
 DEED_FRESH = 1.0
 """Seconds; a release, or a way to the dock, that lay in a queue for longer is not heard."""
 NEWS = 8

@@ -20,7 +20,7 @@ class Decision:
     stop: Cause | None = None
     """Set in the one step in which it comes to rest, or the latch closes for a new reason."""
     must_wake: bool = False
-    """Whether the base is to be greeted anew, since it does not obey."""
+    """Whether the base is to be greeted again, since it does not obey."""
     must_cut: bool = False
-    """Whether all that the base does has to be ended, whoever began it: somebody has just pressed a
+    """Whether all that the base does has to be ended, whoever began it: someone has just pressed a
     button, or let it go, at which a base may set off by itself."""

@@ -110,13 +110,13 @@ def dropped_wheel(report: BaseReport) -> Cause | None:
 
 
 def pressed_buttons(report: BaseReport) -> list[Sensor]:
-    """The buttons that somebody presses."""
+    """The buttons that someone presses."""
     return [Sensor(Kind.BUTTON, name) for name, is_pressed in report.buttons.items() if is_pressed]
 
 
 def pressing(button: Sensor) -> Cause:
-    """Why it must stand when somebody presses a button."""
-    return Cause(Kind.BUTTON.value, f"somebody pressed my {button}")
+    """Why it must stand when someone presses a button."""
+    return Cause(Kind.BUTTON.value, f"someone pressed my {button}")
 
 
 def _sensed(sensor: Sensor) -> Hazard:

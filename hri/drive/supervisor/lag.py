@@ -70,7 +70,7 @@ class Lag:
         self.forget()
 
     def forget(self) -> None:
-        """Begin anew: nobody watched for a while, or what was found has been said."""
+        """Begin again: nobody watched for a while, or what was found has been said."""
         self._told_at: list[float] = []
         self._told: list[Rims] = []
         """Meters that the wheels were told to roll until these times."""

@@ -1,4 +1,4 @@
-"""The emergency stop: once it is closed, only somebody who releases it lets the base move."""
+"""The emergency stop: once it is closed, only someone who releases it lets the base move."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ LONGEST_WORDS: Final = 200
 
 @dataclass(frozen=True, slots=True)
 class Heartbeat:
-    """Asks for nothing but the State: the program's heartbeat."""
+    """Asks for only the State: the program's heartbeat."""
 
     echo: float
 
@@ -63,7 +63,7 @@ class Trip:
 
 @dataclass(frozen=True, slots=True)
 class Release:
-    """Somebody says that the base may move, although it was stopped for this cause."""
+    """Someone says that the base may move, although it was stopped for this cause."""
 
     echo: float
     cause: Cause
@@ -195,12 +195,12 @@ def encoded(message: Order | State) -> bytes:
 
 
 def decoded_order(packet: bytes) -> Order | None:
-    """The order in a packet; None for what is none."""
+    """The order in a packet; None for an invalid one."""
     return _decoded(packet, _ORDERS)
 
 
 def decoded_state(packet: bytes) -> State | None:
-    """The state in a packet; None for what is none."""
+    """The state in a packet; None for an invalid one."""
     return _decoded(packet, {"State": _state})
 
 

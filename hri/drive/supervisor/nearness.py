@@ -7,7 +7,7 @@ import math
 NEAR = 1.5
 """Meters; a person who is nearer slows the base down."""
 FRESH = 1.0
-"""Seconds that a distance is believed; then somebody may be near."""
+"""Seconds that a distance is believed; then someone may be near."""
 
 
 class Nearness:
@@ -21,5 +21,5 @@ class Nearness:
         self._distance, self._heard = (distance if distance >= 0 else 0.0), now
 
     def is_near(self, now: float) -> bool:
-        """Whether somebody is near, or nobody knows."""
+        """Whether someone is near, or nobody knows."""
         return not (0 <= now - self._heard <= FRESH and self._distance >= NEAR)

@@ -33,7 +33,7 @@ SAME = 0.1
 SETTLED = 0.25
 """Seconds after which a thing that is still in the same place does not move."""
 HELD = 1.0
-"""Seconds for which somebody who walked is expected where they may have got to since."""
+"""Seconds for which someone who walked is expected where they may have got to since."""
 DOUBTED = 0.1
 """The same of what a beam has only just met: it may be the edge of a thing."""
 REMEMBERED = 10.0
@@ -41,7 +41,7 @@ REMEMBERED = 10.0
 PASSED = 0.05
 """Meters beside a beam within which it shows that a thing is gone."""
 NEAR_PEOPLE, MET_S = 0.1, 4.0
-"""Meters a second that are enough, and for how many seconds, after somebody came near: they, or
+"""Meters a second that are enough, and for how many seconds, after someone came near: they, or
 whoever is with them, may come again from where no sensor looks."""
 SHORT_REACH = 0.5
 """Meters that every range sensor reaches."""
@@ -74,7 +74,7 @@ class _Spot(_Place):
 
 @dataclass(slots=True)
 class _Mover(_Place):
-    """Somebody who moved, or may move, and when that was."""
+    """Someone who moved, or may move, and when that was."""
 
     time: float
     held: float
@@ -154,8 +154,8 @@ class Oncoming:
     def see(self, now: float, rolled: Way, ranges: Mapping[str, float]) -> None:
         """Take in what sensors say, meters, and how far the wheels have rolled since whenever.
 
-        What is no distance is left out, and what is the same to the last digit is taken for the
-        same word.
+        Invalid distances are left out, and a reading that is the same to the last digit is taken
+        for the same word.
         """
         self._roll(Way(rolled.linear - self._rolled.linear, rolled.angular - self._rolled.angular))
         self._rolled = rolled
@@ -167,7 +167,7 @@ class Oncoming:
                 self._take(beam, _Said(now, distance, rolled))
 
     def speed(self, now: float, deceleration: float) -> float:
-        """The speed from which the robot stands before anybody who comes reaches it, m/s.
+        """The speed from which the robot stands before anyone who comes reaches it, m/s.
 
         `deceleration` is what the brakes do at once, m/s²; infinite when nobody comes.
         """
@@ -217,6 +217,6 @@ class Oncoming:
         self._spots = [spot for spot in self._spots if not beam.passes(spot, length)]
 
     def _gap(self, mover: _Mover, now: float) -> float:
-        """Meters that may be left between the body and somebody, wherever they went."""
+        """Meters that may be left between the body and someone, wherever they went."""
         age = now - mover.time
         return math.hypot(mover.x, mover.y) - self._radius - WALKING * age

@@ -145,7 +145,7 @@ class Plausibility:
     def _wheels(self, now: float, report: BaseReport, asked: Twist) -> Iterator[Fault]:
         sensor, measured = Sensor(Kind.WHEELS), report.velocity
         if not (_is_finite(report.rolled) and (measured is None or _is_finite(measured))):
-            yield Fault(sensor, "say what is no number")
+            yield Fault(sensor, "say what is not a number")
             return
         if measured is None:
             return

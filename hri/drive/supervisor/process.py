@@ -133,7 +133,7 @@ class Process:
         try:
             select.select(sources, [], [], TURN)
         except (OSError, ValueError, NotAvailable):
-            return  # reading tells who is gone
+            return  # reading shows who is gone
 
     def _watch(self, now: float) -> None:
         """See that a watchdog guards the port that is open now."""

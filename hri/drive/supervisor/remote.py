@@ -1,7 +1,6 @@
-"""The supervisor in a process of its own, and another one when it has died.
-
-The one before is surely dead, killed and waited for, before another is started: no port ever has
-two. The new one begins latched, and tells why.
+"""The supervisor in a separate process, and its replacement when it has died. The old one is killed
+and waited for before another is started: a port never has two. The new one starts latched, with the
+reason.
 """
 
 from __future__ import annotations
@@ -244,7 +243,7 @@ def _started(settings: Settings) -> subprocess.Popen[bytes]:
         pass_fds=(settings.line, settings.lifeline),
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
-        # A process group of its own: Ctrl-C is for the program, which then hangs up.
+        # A separate process group: Ctrl-C is for the program, which then hangs up.
         start_new_session=True,
         env=child.environment(),
     )

@@ -15,7 +15,7 @@ class Silences:
         self._times: deque[float] = deque(maxlen=MOST)
 
     def add(self, now: float) -> bool:
-        """One more; whether that is one too many, after which counting begins anew."""
+        """One more; whether that is one too many, after which counting begins again."""
         self._times.append(now)
         is_too_many = len(self._times) == MOST and now - self._times[0] <= WITHIN
         if is_too_many:

@@ -1,9 +1,9 @@
 """The program as the third process that can stop the base, beside the supervisor and its watchdog.
 
-The supervisor lends the program the open port and a handle on its watchdog, and sends heartbeats
-on a line of their own. A thread of the program listens: when the heartbeats cease, it writes the
-emergency stop itself. When the supervisor has ended, the thread also ends a watchdog that stands
-still, and gives the port back, so that the next supervisor can open it.
+The supervisor lends the program the open port and a handle on its watchdog, and sends heartbeats on
+a separate line. A thread of the program listens: when the heartbeats cease, it writes the emergency
+stop itself. When the supervisor has ended, the thread also ends a watchdog that stands still, and
+gives the port back, so that the next supervisor can open it.
 """
 
 from __future__ import annotations

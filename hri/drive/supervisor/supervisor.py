@@ -52,7 +52,7 @@ from hri.drive.velocity_limits import Cap, safe_speed, within_hardware
 from hri.hal.motion import REST
 
 STALE = 0.1
-"""Seconds after which a report tells nothing any more; three periods of a base that is slower."""
+"""Seconds after which a report is stale; three periods for a slower base."""
 LOST = 1.0
 """Seconds without a report after which only a release helps."""
 GAP = 0.1
@@ -75,7 +75,7 @@ class Supervisor:
         self.faults: Sequence[Fault] = ()
         """Sensors that cannot be believed."""
         self.refusals: list[str] = []
-        """What was refused since somebody looked last, at most ten; who reads it clears it."""
+        """What was refused since someone looked last, at most ten; who reads it clears it."""
         self.room = Room()
         """What is free before the body."""
         self.is_watched = True
@@ -110,7 +110,7 @@ class Supervisor:
 
     @property
     def is_near(self) -> bool:
-        """Whether somebody is near, or nobody knows; as of the last step."""
+        """Whether someone is near, or nobody knows; as of the last step."""
         return self._time is None or self._nearness.is_near(self._time)
 
     @property
@@ -125,17 +125,17 @@ class Supervisor:
     # --- what happens to it ---
 
     def trip(self, cause: Cause) -> None:
-        """Stop at once, until somebody releases the base."""
+        """Stop at once, until someone releases the base."""
         if self.latch.trip(cause):
             self._news = cause
         self._arbiter.clear()
         self._reflex.cancel()
 
     def release(self, now: float) -> None:
-        """Open the latch: somebody says that the base may move. What was asked before is void.
+        """Open the latch: someone says that the base may move. What was asked before is void.
 
         Refused while the base is silent, since nobody knows what it stands before, while a wheel
-        hangs in the air, and while somebody presses a button.
+        hangs in the air, and while someone presses a button.
         """
         report = self._report
         if report is None or self._is_lost(now):
@@ -145,7 +145,7 @@ class Supervisor:
             self._refuse("I cannot be released while a wheel hangs in the air")
             return
         if self._pressed:
-            self._refuse(f"I cannot be released while somebody presses my {self._pressed[0]}")
+            self._refuse(f"I cannot be released while someone presses my {self._pressed[0]}")
             return
         self.latch.release()
         self._arbiter.clear()
@@ -250,7 +250,7 @@ class Supervisor:
             self.trip(SILENT_BASE)
 
     def _is_lost(self, now: float) -> bool:
-        # A report from the future, or from no time at all, tells nothing of now.
+        # A report from the future, or without a time, says nothing about now.
         return not 0 <= now - self._judged <= LOST
 
     def _dead_wheels(self) -> Cause | None:
@@ -285,7 +285,7 @@ class Supervisor:
         return self._rest(Level.REFLEX, SILENT_BASE)
 
     def _waking(self, now: float) -> Decision:
-        """The base does not obey: its own guard saw what we saw, or somebody has switched it."""
+        """The base does not obey: its own guard saw what we saw, or someone has switched it."""
         is_expected = self._reflex.cause is not None or self._was_released
         if self._waking_since is None and is_expected:
             self._waking_since = now
@@ -323,7 +323,7 @@ class Supervisor:
         return Decision(velocity, command.source, cause)
 
     def _unasked(self, now: float, dt: float, refused: str | None) -> Decision:
-        """Nobody asks for anything: at once when somebody fell silent, else gently."""
+        """Nobody asks for anything: at once when someone fell silent, else gently."""
         silent = self._arbiter.silent(now)
         if silent is not None:
             return self._rest(Level.NOBODY, Cause("timeout", f"my {silent} fell silent"))

@@ -1,6 +1,6 @@
 """The sibling of the supervisor that stops the base when the supervisor itself falls silent.
 
-It is forked when the port is opened, inherits its descriptor, and knows nothing but the bytes that
+It is forked when the port is opened, inherits its descriptor, and knows only the bytes that
 stop this base. Each hears the other: a supervisor whose watchdog is silent lets the base rest.
 """
 

@@ -1,10 +1,10 @@
 """Bakes drawings into one linear morph: a frame is one matrix product.
 
 Vertices, gradient anchors, opacities and stroke widths of the whole display list stand in one
-vector. Each channel has a row of differences, and so has each product of two channels that has a
-drawing of its own (a corrective, after J. P. Lewis et al., "Pose Space Deformation", 2000):
-`vector = neutral + [weights, products of weights] @ rows`. Curves are sampled here, once, since
-sampling is linear in their handles.
+vector. Each channel has a row of differences, and so has each product of two channels that has its
+own drawing (a corrective, after J. P. Lewis et al., "Pose Space Deformation", 2000): `vector =
+neutral + [weights, products of weights] @ rows`. Curves are sampled here, once, since sampling is
+linear in their handles.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ MOST_SAMPLES = 32
 SEAM = 18.0
 """Half the width, in units, over which a drawing is split into left and right."""
 MOST_NUMBERS = 12_000_000
-"""The largest matrix; the faces of the house have less than a tenth of it."""
+"""The largest matrix; the built-in faces have less than a tenth of it."""
 _UNSEEN = 1e-3
 """Units, or opacity: what an editor's rounding may change."""
 

@@ -13,8 +13,8 @@ For weights u, v from -1 to 1 of the limits A, B that is, to second order,
     x' - x = u z sin A + u u x (cos A - 1) + u v y sin A sin B
     y' - y = -v z sin B + v v y (cos B - 1)
 
-which is off by less than 2 % of z at 25 degrees. What lies on the rim or beyond stays there, as
-the outline of a ball does that turns, unless it has a depth of its own.
+which is off by less than 2 % of z at 25 degrees. Points on the rim or beyond stay in place, like
+the outline of a turning ball, unless they have their own depth.
 """
 
 from __future__ import annotations

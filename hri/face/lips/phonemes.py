@@ -1,6 +1,6 @@
 """Which sound makes which shape of the mouth: one table from phonemes to visemes.
 
-Two notations are read: the mnemonics of espeak-ng, as the house's own voice gives them, and
+Two notations are read: the mnemonics of espeak-ng, as the built-in voice gives them, and
 ARPAbet, as CMUdict and the voices built on it do. "D" is the sound of "this" in the one and of
 "day" in the other, so a whole speech is read in one notation, never a sound alone.
 """
@@ -73,7 +73,7 @@ ARPABET_GLIDES = {"AY": "aa ih", "AW": "aa ou", "EY": "E ih", "OW": "oh ou", "OY
 ARPABET_REDUCED = "AX AH0"
 
 BREATH = ("h", "HH")
-"""Sounds without a shape of their own: the mouth is already at the next one."""
+"""Sounds without their own mouth shape: the mouth is already at the next one."""
 _SCHWA = Sound(("E",), 0.5)
 _UNKNOWN = Sound(("kk",), 0.3)
 _STRESS = "'%,=|"

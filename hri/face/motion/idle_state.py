@@ -80,7 +80,7 @@ class IdleState:
 
 
 def check_state(state: str) -> None:
-    """Raises HriError for a state that nobody knows; the empty one is none."""
+    """Raises HriError for an unknown state; "" means no state."""
     if state and state not in idle.STATES:
         raise HriError(f'no state "{state}" - {did_you_mean(state, idle.STATES)}')
 

@@ -2,8 +2,8 @@
 
 A blink shuts each eye by as much as it is open. So it changes nothing of eyes that are shut. What
 bends the lids stays as it is where a drawing says how they are shut with it (a corrective such as
-`eyeBlink+eyeWide`), and for as much as it says: from 0 to 1, and of two that have a corrective of
-their own one gives way. The rest is taken away while the eyes are shut.
+`eyeBlink+eyeWide`), and for as much as it says: from 0 to 1, and of two with their own corrective
+one gives way. The rest is taken away while the eyes are shut.
 """
 
 from __future__ import annotations

@@ -21,8 +21,8 @@ MOST_FILES = 1_000_000
 class ImageFolderCamera(Camera):
     """Shows the pictures of a folder in the order of the numbers in their names, once.
 
-    `rate` pictures a second; `pace` as in `VideoFileCamera`. A picture that cannot be read is
-    passed over, and told of once.
+    `rate` pictures a second; `pace` as in `VideoFileCamera`. An unreadable picture is skipped, and
+    reported once.
     """
 
     parameters = (*Camera.parameters, "folder", "rate", "pace", "field_of_view")
@@ -58,7 +58,7 @@ class ImageFolderCamera(Camera):
             self._refuse(f"{path.name}: {error}")
             return None
         if picture is None:
-            self._refuse(f"{path.name}, which is no readable picture")
+            self._refuse(f"{path.name}, which is not a readable picture")
             return None
         return np.asarray(cv2.cvtColor(picture, cv2.COLOR_BGR2RGB), np.uint8)
 

@@ -15,7 +15,7 @@ __all__ = ["picture_size", "write_picture"]
 
 
 def picture_size(path: Path) -> tuple[int, int] | None:
-    """Width and height as the file's first bytes tell; None for what is no picture.
+    """Width and height as the file's first bytes tell; None for an invalid picture.
 
     Raises HriError for one that claims to be larger than 8192 pixels a side, or than MOST_PIXELS.
     """

@@ -36,7 +36,7 @@ class Resampler:
         self._stream = soxr.ResampleStream(rate, wanted, 1, dtype="int16")
 
     def convert(self, samples: Samples) -> Samples:
-        """The next block, as far as it can be told by now."""
+        """The next block, as far as it is known by now."""
         converted: Samples = self._stream.resample_chunk(samples)
         return converted
 

@@ -39,7 +39,7 @@ class Port(ABC):
     def open(self, now: float) -> bool:
         """Open it, when it is time for another attempt; whether it is open now.
 
-        `reason` tells why it is not. Opening an open port does nothing.
+        `reason` says why it is not. Opening an open port does nothing.
         """
 
     @property
@@ -184,7 +184,7 @@ class SerialPort(Port):
 
 
 def _hasten(port: serial.Serial) -> None:
-    """Let an adapter pass bytes on at once, in place of collecting them for up to 16 ms."""
+    """Let an adapter pass bytes on at once, instead of collecting them for up to 16 ms."""
     # Few kinds of ports know what that is; all of them work without.
     with suppress(AttributeError, NotImplementedError, OSError, ValueError):
         port.set_low_latency_mode(True)

@@ -193,7 +193,7 @@ class SoundCardSpeaker(_SoundCard, Speaker):
     def extend(self, samples: Samples, now: float) -> None:
         if not len(self._source):
             return
-        # Converted anew as a whole, since a seam would click.
+        # Converted again as a whole, since a seam would click.
         self._source = np.concatenate([self._source, samples])
         if not self._is_lost:
             sound = resample(self._source, self._source_rate, self.rate)

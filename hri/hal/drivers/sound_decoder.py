@@ -87,7 +87,7 @@ def _mono_blocks(path: Path, file: Any, channel: str) -> Iterator[Samples]:
 
 
 def _as_int16(block: NDArray[np.float32]) -> NDArray[np.int16]:
-    """Samples of -1 to 1 as whole numbers; what is beyond is clipped, what is none is silence."""
+    """Samples of -1 to 1 as integers; larger values are clipped, NaN is silence."""
     # Clipped before it is scaled, since damaged files hold numbers near the largest there are.
     within = np.clip(np.nan_to_num(block), -1.0, 1.0)
     whole: NDArray[np.int16] = np.rint(within * 32768.0).clip(max=32767).astype(np.int16)

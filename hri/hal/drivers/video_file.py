@@ -46,7 +46,7 @@ def _opened(path: Path) -> cv2.VideoCapture:
     picture_size(path)  # raises before a giant is decoded
     capture = cv2.VideoCapture(str(path))
     readable, picture = capture.read()
-    # Opened anew, since not every kind of file can be wound back.
+    # Opened again, since not every kind of file can be wound back.
     capture.release()
     if not readable or picture is None or max(picture.shape[:2]) > LARGEST_SIDE:
         raise HriError(f"{path}: not a readable video or image - try an MP4, AVI, PNG or JPEG")
@@ -78,7 +78,7 @@ class _Timing:
             self._first, self._last = told, 0.0
             return 0.0
         time = told - self._first
-        # Phones film at a rate that changes; but not every kind of file tells times.
+        # Phones film at a variable rate, but not every format has times.
         if not self._last < time < self._last + 100 * self.step:
             time = self._last + self.step
         self._last = time

@@ -189,7 +189,7 @@ class WavSpeaker(Speaker):
     def extend(self, samples: Samples, now: float) -> None:
         if len(self._sound):
             self._begun = max(self._begun, now - len(self._sound) / self.rate)
-            # Made anew as a whole, since a seam would click.
+            # Made again as a whole, since a seam would click.
             self._source = np.concatenate([self._source, samples])
             self._sound = resample(self._source, self._source_rate, self.rate)
 

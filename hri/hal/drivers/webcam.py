@@ -1,4 +1,4 @@
-"""A camera of this machine, read by a thread of its own."""
+"""A camera of this machine, read by a separate thread."""
 
 from __future__ import annotations
 

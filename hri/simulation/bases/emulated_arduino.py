@@ -72,7 +72,7 @@ class EmulatedArduino(Emulator):
         self._now = 0.0
         self._origin = (0.0, 0.0)
         self.is_rolling = False
-        """Whether it tells its motors to roll."""
+        """Whether its motors are commanded to roll."""
 
     def feed(self, data: bytes, now: float) -> bytes:
         if self.is_rolling and now - self._commanded > self._auto_stop:

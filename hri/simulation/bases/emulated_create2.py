@@ -50,7 +50,7 @@ LENGTHS = {
     140: 2, 141: 1, 142: 1, 143: 0, 144: 3, 145: 4, 146: 4, 148: 1, 149: 1, 150: 1, 162: 2, 163: 4,
     164: 4, 165: 1, 167: 15, 168: 3, 173: 0,
 }  # fmt: skip
-"""Bytes after each opcode, or of them those that tell how many more follow."""
+"""Number of bytes after each opcode, or of those that give the number of further bytes."""
 DISTANCE, ANGLE = 19, 20
 STRAIGHT = (-0x8000, 0x7FFF)
 """Radii that mean none."""
@@ -71,9 +71,8 @@ LONGEST_GAP = 1.0
 
 
 class EmulatedCreate2(Emulator):
-    """Set `overrides[packet] = value` to let a sensor tell something else.
-
-    One that sleeps hears and says nothing until the wire RTS, tied to its pin BRC, is asserted.
+    """Set `overrides[packet] = value` to fake a sensor reading. While asleep, it ignores bytes and
+    is silent until the wire RTS, tied to its pin BRC, is asserted.
     """
 
     baud = 115_200
@@ -87,7 +86,7 @@ class EmulatedCreate2(Emulator):
         self.leds = (0, 0, 0)
         self.songs: dict[int, bytes] = {}
         self.played: list[int] = []
-        """Numbers of the songs it was told to play; the last few."""
+        """Numbers of the last songs it played."""
         self._random = random.Random(seed)
         self._wire = Wire(self.baud)
         self._command = bytearray()
@@ -96,7 +95,7 @@ class EmulatedCreate2(Emulator):
         self._slot: int | None = None
         """The last one; none before time began."""
         self._asked = (0, 0)
-        """Wheels' velocities as told, right and left, mm/s."""
+        """Commanded wheel velocities, right and left, mm/s."""
         self._origins = {DISTANCE: (0.0, 0.0), ANGLE: (0.0, 0.0)}
         """What the wheels had rolled when these ways were last asked for."""
         self._held: set[str] = set()
@@ -106,7 +105,7 @@ class EmulatedCreate2(Emulator):
 
     @property
     def is_rolling(self) -> bool:
-        """Whether it tells its motors to roll."""
+        """Whether its motors are commanded to roll."""
         return self._asked != (0, 0)
 
     def feed(self, data: bytes, now: float) -> bytes:
@@ -158,7 +157,7 @@ class EmulatedCreate2(Emulator):
 
     @property
     def _radius(self) -> float:
-        """Of the curve it was told, mm; infinity straight ahead."""
+        """Radius of the commanded curve, mm; infinity straight ahead."""
         right, left = self._asked
         return TRACK * 500 * (right + left) / (right - left) if right != left else math.inf
 
@@ -198,7 +197,7 @@ class EmulatedCreate2(Emulator):
 
     def _packed(self, packets: Sequence[int]) -> list[bytes]:
         """Sensor packets as they go over the line."""
-        # What it was told follows commands at once; all else has its slots.
+        # Requested values follow commands at once; the others have their slots.
         values = self._values | self._told() | self.overrides
         for packet in self._origins.keys() & set(packets) - self.overrides.keys():
             values[packet] = self._way(packet)
@@ -214,7 +213,7 @@ class EmulatedCreate2(Emulator):
         return _clipped(math.degrees((right - left) / TRACK))
 
     def _told(self) -> dict[int, int]:
-        """Its mode, and what it was told to stream and to drive."""
+        """Its mode, its requested stream and its commanded motion."""
         right, left = self._asked
         return {
             MODE: self.mode,

@@ -27,7 +27,7 @@ SWAY = (
 SWING_HZ = 1.8
 SWINGS = 2.0
 NOD_TIME = SHAKE_TIME = SWINGS / SWING_HZ
-"""Seconds that a nod or a shake takes when it is not told otherwise."""
+"""Default duration of a nod or a shake, seconds."""
 TURN = 0.5
 """Seconds of a turn of the head to the side or down, and of the way back."""
 SYLLABLES_HZ = 4.3

@@ -24,7 +24,7 @@ MARKS = MappingProxyType(
         "answer": "it is only heard while a question is open",
         "interrupts": "it is heard while the robot speaks, too",
         "wake": "other rules are heard only after it, and for a while after what was heard last",
-        "part": "commands of other grammars are made with it, it is none itself",
+        "part": "part of commands in other grammars, not a command itself",
     }
 )
 """The marks of a rule and what they mean."""

@@ -129,7 +129,7 @@ def count_sentences(grammar: Grammar, rules: Iterable[str] | None = None) -> int
 
 
 class Ways:
-    """The ways through the rules of a grammar, on stacks of its own: no depth is too much."""
+    """The ways through the rules of a grammar, on explicit stacks: depth is unlimited."""
 
     def __init__(self, grammar: Grammar) -> None:
         self._grammar = grammar

@@ -45,7 +45,7 @@ DEEPEST = 50
 DEEPEST_TREE = 120
 """Nodes below each other in one rule, repeats and tags included."""
 MOST_ERRORS = 100
-"""Mistakes that are told of one file."""
+"""Most mistakes reported for one file."""
 
 _HEADER = re.compile(
     r"#JSGF[ \t]+V1\.0(?:[ \t]+(?P<encoding>[\w.:-]+))?(?:[ \t]+(?P<locale>[\w-]+))?[ \t]*;"
@@ -357,7 +357,7 @@ class _JsgfReader:
             self._expect_end(f"<{name}>", 'end the rule with ";", or fix what stands here')
             if depth(expression) > DEEPEST_TREE:
                 what = f"<{name}> holds more than {DEEPEST_TREE} things within each other"
-                raise self._report(start, what, "use rules of their own")
+                raise self._report(start, what, "use separate rules")
         except _Mistake:
             self.document.broken.add(name)
             raise
@@ -514,7 +514,7 @@ class _JsgfReader:
         self._brackets += 1
         if self._brackets > DEEPEST:
             what = f"brackets nested deeper than {DEEPEST}"
-            raise self._report(opening.start, what, "use rules of their own")
+            raise self._report(opening.start, what, "use separate rules")
         inside = self._alternatives()
         if not self._take(closing):
             line, column = self._lines.place(opening.start)

@@ -2,10 +2,10 @@
 
 A grammar `com.acme.colors` is looked for as `colors.jsgf` and as `com/acme/colors.jsgf`: beside
 the file that imports it, then in the folders above it as far as its own package goes, then in
-`grammars/` of the folders of HRI_PATH and of the house.
+`grammars/` of the folders of HRI_PATH and among the built-in ones.
 
 A grammar with `/** @extends companion */` before its `grammar` understands the commands of that one
-as well. A rule of its own hides one of the same name there, and may still call it as
+as well. Its rule hides one of the same name there, and may still call it as
 `<companion.greet>`.
 
 A rule is called by its name alone, by `<colors.red>`, or by `<com.acme.colors.red>`; the last

@@ -34,7 +34,7 @@ MOST_NAMES = 100_000
 LONGEST_NAME = 200
 """Characters of one line."""
 MOST_ERRORS = 100
-"""Mistakes that are told of one file."""
+"""Most mistakes reported for one file."""
 
 
 def read_names(path: Path, tag: str) -> tuple[Expression, list[AuthoringError]]:

@@ -16,7 +16,7 @@ MOST_FILES = 100
 def offers() -> dict[str, str]:
     """The public rules with the mark "part", by name: "small" is "numbers.small".
 
-    Those of the folders of HRI_PATH come before those of the house. Grammars that cannot be read
+    Those of the folders of HRI_PATH come before the built-in ones. Grammars that cannot be read
     offer nothing.
     """
     offered: dict[str, str] = {}

@@ -121,9 +121,8 @@ def _without_stress(phone: str) -> str:
 
 
 def load_lexicon(*files: Path) -> Lexicon:
-    """The lexicon of the user, of these files (a later one wins), and of the house.
-
-    Raises AuthoringError for a mistake in a file, HriError when one cannot be read.
+    """The user's lexicon, these files (a later one wins), and the built-in lexicon. Raises
+    AuthoringError for a mistake in a file, HriError when one cannot be read.
     """
     own: dict[str, tuple[Phones, ...]] = {}
     for path in (*_of_user(), *files):

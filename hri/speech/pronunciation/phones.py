@@ -4,7 +4,7 @@
 Place, manner, height and backness are the multi-valued features of ALINE (G. Kondrak, "A New
 Algorithm for the Alignment of Phonetic Sequences", NAACL 2000, tables 2 and 3), and so are the
 saliences of the consonants' features. Vowels weigh more than there: Kondrak aligns words of sister
-languages, whose vowels drift, while a listener tells "bit" from "bat" well.
+languages, whose vowels drift, while a listener distinguishes "bit" and "bat" well.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A process of its own for PocketSphinx, which holds Python's interpreter lock while it decodes.
+"""A separate process for PocketSphinx, which holds Python's interpreter lock while it decodes.
 
 Run as a script; it imports nothing of `hri`. It reads requests on its standard input, each one a
 line of JSON, and answers each with a line of JSON on its standard output:

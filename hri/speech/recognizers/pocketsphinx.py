@@ -31,7 +31,7 @@ _PROGRAM = Path(__file__).with_name("decoding_process.py")
 
 
 class PocketSphinxRecognizer(EndpointedRecognizer):
-    """Decodes finished pieces of speech in a process of its own, so that nothing waits for it."""
+    """Decodes finished pieces of speech in a separate process, so that nothing waits for it."""
 
     def _open(self) -> None:
         find_pocketsphinx()

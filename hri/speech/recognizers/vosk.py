@@ -22,7 +22,7 @@ DEFAULT_FOLDER = Path("~/.local/share/hri/vosk")
 PARTS = ("am/final.mdl", "conf/mfcc.conf")
 """Files that Vosk knows a model by; it looks for the others when it loads them."""
 MOST_SENTENCES = 5000
-"""Sentences the engine is told of; it learns word pairs from them, so more bring little."""
+"""Most sentences given to the engine; it learns word pairs from them, so more add little."""
 
 
 def find_model(folder: str = "") -> Path | None:

@@ -35,7 +35,7 @@ _GENDERS: dict[int, Gender] = {1: "male", 2: "female"}
 
 
 class Event(IntEnum):
-    """What the library tells of while it speaks."""
+    """The events of the library while it speaks."""
 
     END = 0
     WORD = 1

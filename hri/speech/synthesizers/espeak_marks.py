@@ -1,4 +1,4 @@
-"""What espeak-ng tells while it speaks, made into the times of phonemes, words and sentences."""
+"""Converts events of espeak-ng to the times of phonemes, words and sentences."""
 
 from __future__ import annotations
 

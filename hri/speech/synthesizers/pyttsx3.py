@@ -49,7 +49,7 @@ def platform_voices() -> tuple[PlatformVoice, ...]:
 
 
 class Pyttsx3Voice(Synthesizer):
-    """Makes the sound in a process of its own; gives no phonemes, and knows no pitch."""
+    """Synthesizes in a separate process; gives no phonemes, and does not support pitch."""
 
     parameters = ("voice", "rate_wpm")
 
@@ -78,7 +78,7 @@ class Pyttsx3Voice(Synthesizer):
 
 
 def _run(arguments: list[str], order: str, patience: float) -> str:
-    """What the process of its own prints. Raises NotAvailable when it fails or hangs."""
+    """The output of the separate process. Raises NotAvailable when it fails or hangs."""
     try:
         done = subprocess.run(
             child.command(_PROGRAM, *arguments),

@@ -1,4 +1,4 @@
-"""A process of its own for pyttsx3: one text, one file, then it ends.
+"""A separate process for pyttsx3: one text, one file, then it ends.
 
 Its drivers lose queued sentences, print to standard output, want the main thread (macOS, Windows)
 and share espeak-ng's library with whoever else uses it; none of that leaves this process.

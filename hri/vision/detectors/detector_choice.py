@@ -33,7 +33,7 @@ class Detectors:
 
 
 def load_detectors(setting: str = AUTO) -> Detectors:
-    """The detectors of a setting, or the nearest that can be had: then `problems` tells why.
+    """The detectors of a setting, or the nearest that can be had: then `problems` says why.
 
     "auto": BlazeFace and the mesh when they are fetched, else Haar's cascade alone; "haar": the
     cascade alone in any case; else the path of a YuNet file: that, and the mesh.

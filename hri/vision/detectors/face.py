@@ -28,8 +28,9 @@ class FoundFace:
     score: float
     """How surely it is a face, 0 to 1."""
     points: Places | None = None
-    """The person's right eye (at the left of the picture), left eye, tip of the nose, and what
-    else the finder tells; None when it tells a box only."""
+    """The person's right eye (at the left of the picture), left eye, tip of the nose, and further
+    points of the detector; None when it gives only a box.
+    """
 
 
 class FaceFinder(Protocol):

@@ -73,7 +73,7 @@ class FaceMesh:
     def fit(self, image: Image, region: Region) -> FittedFace | None:
         """The mesh of the face in a region.
 
-        Whether a face is there, its presence tells: trust the landmarks above 0.5. None for what
+        Its presence says whether a face is there: trust the landmarks above 0.5. None for what
         is not a picture of 8 bits RGB, and for a region that is not in it.
         """
         if not is_picture(image) or not _is_in(region, image):

@@ -20,7 +20,7 @@ LARGEST = 64_000_000
 
 
 def read_network_file(file: Path, remedy: str) -> bytes:
-    """What is in the file of a network. Raises NotAvailable with the remedy when it is none."""
+    """The network in a file. Raises NotAvailable with the remedy for other files."""
     try:
         return read_bytes(file, "network", LARGEST)
     except HriError as error:

@@ -27,7 +27,7 @@ BRIGHT = 235
 MAX_GAIN = 8.0
 """A picture in the dark is made so many times brighter at most: the rest would be noise."""
 SPARSE = 4
-"""The brightness is told from each fourth pixel of each fourth row."""
+"""The brightness is measured at every fourth pixel of every fourth row."""
 
 
 @dataclass(frozen=True, slots=True)

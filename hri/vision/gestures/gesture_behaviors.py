@@ -21,7 +21,7 @@ class PeopleGestures:
     """Recognizes the gestures of each person by themselves."""
 
     def __init__(self, patterns: Iterable[Pattern], own: Egomotion | None = None) -> None:
-        """`own` tells where the camera looked."""
+        """`own` gives the pose of the camera."""
         self._patterns, self._own = tuple(patterns), own or Egomotion()
         self._watched: dict[str, tuple[Steadied, GestureFusion]] = {}
 
@@ -49,7 +49,7 @@ class PeopleGestures:
 
 
 class HeadGestures(Behavior):
-    """Takes nods and shakes from people, or from the poses of one head, and tells of them.
+    """Recognizes nods and shakes of people, or in the poses of one head, and reports them.
 
     The events are those of the file of patterns, `head.nodded` and `head.shaken` for these two,
     with `person`, `confidence` 0 to 1, and `latency`, the seconds since the movement began.

@@ -1,4 +1,4 @@
-"""Gestures of one person, told by two signals that go wrong in different ways.
+"""Gestures of one person, recognized from two signals that fail in different ways.
 
 The pose from the face mesh jitters while a person walks or comes nearer; the motion of the picture
 within the face takes translation for turning. What both call a nod is one. The pose decides; the
@@ -20,7 +20,7 @@ late, and who nods along nods again and again."""
 NEAR = 0.3
 """Seconds by which movements that the two signals tell of may miss each other."""
 ROLL = AXES.index("roll")
-"""The motion tells nothing of it, so that the pose alone decides."""
+"""Invisible in the motion, so that the pose alone decides."""
 
 
 class GestureFusion:

@@ -91,7 +91,7 @@ class Pattern:
     axis: int
     """0 pitch, 1 yaw, 2 roll."""
     event: str
-    """Name of the event that tells of it."""
+    """Name of its event."""
     about: str
     rows: tuple[PatternRow, ...]
 
@@ -111,7 +111,7 @@ def load_patterns(path: Path | None = None) -> dict[str, Pattern]:
 
 
 def chosen(patterns: Mapping[str, Pattern], names: Iterable[str]) -> list[Pattern]:
-    """The patterns of these names. Raises HriError for a name that is none of them."""
+    """The patterns of these names. Raises HriError for an unknown name."""
     found = []
     for name in names:
         if name not in patterns:

@@ -59,7 +59,7 @@ class GestureRecognizer:
         self._time = -math.inf
         self._axes = {pattern.gesture: pattern.axis for pattern in self._patterns}
         self._axis: int | None = None
-        """Of the gesture that is being made; None when there is none."""
+        """Of the current gesture; None when there is none."""
         self._told = -math.inf
         """Seconds, when it was told."""
 
@@ -146,7 +146,7 @@ class Movement:
     ) -> HeadGesture | None:
         """The gesture of the first row that the latest swings satisfy.
 
-        `counted_from` tells the seconds from which on the swings of an angle count.
+        `counted_from` gives the time, seconds, from which on the swings of an angle count.
         """
         for pattern in patterns:
             since = counted_from(pattern.axis)

@@ -1,8 +1,8 @@
 """How someone looks, in a few numbers: to tell apart the people who are here now.
 
 Colors of a coarse grid over face, hair and chest against the brightness of the face: light that
-is stronger or weaker for all of it changes nothing. It tells a red pullover from a blue one, a
-beard from a chin; it does not tell who someone is, and is forgotten with the person.
+is stronger or weaker for all of it changes nothing. It distinguishes a red sweater from a blue one,
+a beard from a chin; it does not tell who someone is, and is forgotten with the person.
 """
 
 from __future__ import annotations

@@ -89,7 +89,7 @@ class Steadied:
             return person
         distance = person.distance if math.isfinite(person.distance) else USUAL_DISTANCE
         shift = self._own.turned(time - elapsed, time) * distance / FACE_SIZE
-        # What the picture tells of the head falls back to 0; so does this part of it.
+        # The head motion seen in the picture falls back to 0; so does this part of it.
         self._yaw = self._yaw * math.exp(-elapsed / FADE) + shift / RADIUS
         if abs(shift) > FASTEST * elapsed:
             return None

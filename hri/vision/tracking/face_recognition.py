@@ -1,7 +1,7 @@
 """Who someone is, for robots whose owner wants that: any face-embedding network will do.
 
 An embedding turns the picture of a face into numbers that are alike for pictures of one person.
-None comes with the house. Nothing is learned unless someone says a name, nothing leaves the
+A model is not included. Nothing is learned unless someone says a name, nothing leaves the
 machine, nothing is written to a file unless one is named, and every name can be forgotten.
 """
 

@@ -1,7 +1,5 @@
-"""Who is who: what one person is told from the others by, while faces cover each other and go.
-
-Looks come first; where someone was, and where they were going, decides between people who look
-alike, and less so the longer ago it was.
+"""Identity: distinguishes people while faces cover each other and leave. Looks come first; position
+and motion decide between people who look alike, and count less the older they are.
 """
 
 from __future__ import annotations

@@ -388,4 +388,4 @@ def test_an_arduino_is_driven_by_the_same_devices(clock) -> None:
             bus.song([Note(60, 0.25)])
         manager.obtain("base_line", ArduinoLine).port.line.emulator.body.held.add("stop")
         clock.advance(0.1)
-        assert bus.explain() == "I stopped because somebody pressed my stop button"
+        assert bus.explain() == "I stopped because someone pressed my stop button"

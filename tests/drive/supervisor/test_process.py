@@ -179,7 +179,7 @@ def test_a_button_of_the_base_latches_it_until_it_is_let_go_and_released(driving
     driving.bench.wait("rest", lambda: not line.base.is_rolling)
     assert driving.stays()
     state = driving.state()
-    assert state.reason.words == "I stopped because somebody pressed my clean button"
+    assert state.reason.words == "I stopped because someone pressed my clean button"
     driving.connection.say(Release(state.time, state.reason))
     driving.bench.wait("a refusal", lambda: driving.ask().news[-1].cause.name == "refused")
     assert driving.state().is_latched

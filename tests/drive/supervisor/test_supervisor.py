@@ -326,10 +326,10 @@ def test_a_button_latches_until_somebody_lets_it_go_and_releases_the_base() -> N
     track.feel(buttons={"clean": True, "dock": False})
     assert track.step((Command(Level.TELEOP, GO, track.now),)).twist == REST
     assert track.decision.must_cut
-    assert track.decision.reason.words == "I stopped because somebody pressed my clean button"
+    assert track.decision.reason.words == "I stopped because someone pressed my clean button"
     assert track.stops == ["button"]
     assert track.released().supervisor.latch.is_closed
-    assert "while somebody presses my clean button" in track.supervisor.refusals[0]
+    assert "while someone presses my clean button" in track.supervisor.refusals[0]
     track.feel(buttons={"clean": False, "dock": False})
     assert track.run(5.0, GO).twist == REST
     assert track.released().run(1.0, GO).twist == GO
@@ -428,7 +428,7 @@ def test_a_way_that_is_no_number_latches_it() -> None:
     track.run(1.0, GO)
     track.feel(rolled=Way(math.nan, 0.0))
     assert track.step().twist == REST
-    assert "my wheels say what is no number" in track.decision.reason.words
+    assert "my wheels say what is not a number" in track.decision.reason.words
 
 
 @pytest.mark.parametrize("measured", [Twist(0.15, 1.2), Twist(0.15, -1.2), Twist(-0.3)])

@@ -20,8 +20,9 @@ MOST_SAMPLED = 200
 MOST_READ = 6_000_000
 """Arcs of the automaton times sentences that are tried: each may be read along most of the arcs."""
 MOST_ALIKE = 20
-"""Beginnings with several ways to the same nodes that are walked on from: what they mean is told
-by what was said before, which the nodes do not tell."""
+"""Beginnings with several ways to the same nodes to continue from: their meanings depend on the
+words before, which the nodes do not show.
+"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""What will be heard badly: words nobody knows, and commands too short to be told from talk."""
+"""Finds commands that are hard to recognize: unknown words, and commands too short to stand out."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tells an author what is wrong with a grammar, and what will not be heard or heard wrongly."""
+"""Reports the mistakes in a grammar, and sentences that will be misheard."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def _opinions(grammar: Grammar, lexicon: Lexicon | None) -> list[Finding]:
 
 
 def _own_rules(grammar: Grammar) -> Iterator[Rule]:
-    """Without those of imported files, which have authors of their own."""
+    """Without those of imported files, which have other authors."""
     return (rule for rule in grammar.rules.values() if rule.path == grammar.path)
 
 

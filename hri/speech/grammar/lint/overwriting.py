@@ -88,7 +88,7 @@ NOTHING = Effect()
 Effects = Mapping[str, Effect]
 """Of the rules, by their keys."""
 Tell = Callable[[Expression, list[str]], object]
-"""Is told of a part and the tags whose values are lost when it is said."""
+"""Called with a part and the tags whose values it discards."""
 
 
 def overwritten(grammar: Grammar, rules: Iterable[Rule]) -> Iterator[Finding]:
@@ -122,7 +122,7 @@ def _finding(rule: Rule, node: Expression, tag: str) -> Finding:
         case Tagged(entries=entries):
             sums = [replace(entry, operation="+=") for entry in entries if entry.name == tag]
             collected = f"{{{spell_entries(sums)}}}"
-    remedy = f"give each a name of its own{named}, or collect them, {collected}"
+    remedy = f"give each its own name{named}, or collect them, {collected}"
     return warning(rule.place(node.span), what, remedy)
 
 

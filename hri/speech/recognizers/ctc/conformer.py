@@ -307,6 +307,6 @@ _ERF = np.array([1.061405429, -1.453152027, 1.421413741, -0.284496736, 0.2548295
 
 
 def load_network(path: str = "") -> Conformer:
-    """The network of a weight file (`find_weights` tells which). Raises NotAvailable, HriError."""
+    """The network of a weight file (from `find_weights`). Raises NotAvailable, HriError."""
     file: Path = find_weights(path)
     return Conformer(read_tensors(file))

@@ -33,7 +33,7 @@ from hri.speech.recognizers.endpointed import EndpointedRecognizer
 MOST_SENTENCES = 8
 """Sentences that are told: the best and its alternatives."""
 BEAM = 12.0
-"""Natural log: an alternative that is worse than the best by more is none."""
+"""Natural log; alternatives worse than the best by more are dropped."""
 
 
 @dataclass

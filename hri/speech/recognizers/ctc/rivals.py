@@ -1,6 +1,6 @@
 """What else could have been said: the commonest words of English and the sentence's own.
 
-Whether a sentence of a grammar was said cannot be told from how well it fits alone: in noise, and
+The fit of a sentence alone does not show whether it was said: in noise, and
 by a voice that the network is not used to, nothing fits well. But then other words fit as badly.
 So the sentence is held against the best that a few hundred common words, and its own, can make of
 the same sound in any order: what was said is better than that or nearly as good, and something that

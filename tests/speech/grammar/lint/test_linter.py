@@ -133,7 +133,7 @@ def test_only_values_that_are_lost_are_told(write, rules):
         (
             "public <a> = coffee {drink=coffee} and tea {drink=tea};",
             "4:40",
-            "give each a name of its own, or collect them, {drink+=tea}",
+            "give each its own name, or collect them, {drink+=tea}",
         ),
         ("public <a> = <color> or <paint>;\n<paint> = any (red {color=r} | blue);", "4:25", "name"),
         ("public <a> = [red {color=r}] or blue {color=b};", "4:33", "{color+=b}"),
