@@ -40,7 +40,7 @@ TURN = 0.01
 REFRESH = 0.05
 """Seconds after which the velocity is repeated: bytes may be lost, and a base may time out."""
 SILENCE = 1.5
-"""Seconds without a report after which the base is woken, where that is known, and greeted again."""
+"""Seconds without a report after which the base is woken, if possible, and greeted again."""
 DEED_FRESH = 1.0
 """Seconds; a release, or a way to the dock, that lay in a queue for longer is not heard."""
 NEWS = 8
