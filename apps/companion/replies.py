@@ -204,7 +204,11 @@ def _action(rule: str, entry: Table, vocabulary: Vocabulary) -> tuple[str, TaskT
         what = f"{action} in tasks.py is not a coroutine function"
         raise entry.error("action", what, f"write: async def {action}(context, ...)")
     if action not in own and "." not in action:
-        raise entry.error("action", f'action is "{action}"', did_you_mean(action, [*ACTIONS, *own]))
+        remedy = did_you_mean(action, [*ACTIONS, *own])
+        tasks = vocabulary.app.folder / "tasks.py"
+        if not tasks.exists():
+            remedy = f"{remedy} If it is a task of yours, {tasks} is missing"
+        raise entry.error("action", f'action is "{action}"', remedy)
     try:
         task = vocabulary.app.task_type(action)
     except HriError as error:

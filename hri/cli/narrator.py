@@ -108,7 +108,7 @@ class Narrator:
         template = LINES.get(event.name)
         if template is None:
             return
-        text = template.format_map(_Known(event.properties, why=_why(event)))
+        text = template.format_map(_Known(event.properties, why=_why(event), error=_error(event)))
         # Unknown without odometry in a network.
         where = "" if self._pose is None else "x {:5.2f} m  y {:5.2f} m".format(*self._pose)
         line = f"{event.time:7.1f} s  {text:<58}  {self._label:<12} {where}".rstrip()
@@ -134,6 +134,12 @@ class Narrator:
             folder: Path = self.robot.recording.folder
             files = "events.jsonl, face.mp4, robot.wav, timeline.png, feelings.svg"
             self.tell(f"recorded in {folder}/: {files}")
+
+
+def _error(event: Event) -> str:
+    """The first mistake that an event reports, and how many there are beside it."""
+    first, *others = str(event.properties.get("error", "")).splitlines() or [""]
+    return f"{first} (and {len(others)} more)" if others else first
 
 
 def _why(event: Event) -> str:

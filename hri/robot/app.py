@@ -216,7 +216,7 @@ def _load(folder: Path, above: tuple[str, ...]) -> App:
     extends = table.string("extends", "")
     base = _base(table, folder, extends, (*above, folder.resolve().name)) if extends else None
     own = table.strings("networks", *([[]] if base else []))
-    networks = _merged(base.networks if base else (), [_beside(folder, one) for one in own])
+    networks = _merged(base.networks if base else (), [_beside(table, one) for one in own])
     tasks = _added(base.tasks if base else (), table.strings("tasks", []))
     trusted = _added(base.trusted if base else (), table.strings("trusted", []))
     events = _added(base.events if base else (), table.strings("events", []))
@@ -257,7 +257,14 @@ def _added(base: tuple[str, ...], own: list[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys((*base, *own)))
 
 
-def _beside(folder: Path, name: str) -> Path:
-    """A network of the app's folder, or one found by name."""
-    own = folder / name
-    return own if paths.is_file(own) else paths.find("config", name)
+def _beside(table: Table, name: str) -> Path:
+    """A network of the app's folder, or one found by name. Raises AuthoringError."""
+    folder = table.path.parent
+    if paths.is_file(own := folder / name):
+        return own
+    try:
+        return paths.find("config", name)
+    except HriError as error:
+        what, _, remedy = str(error).partition(" - ")
+        files = sorted(path.name for path in folder.glob("*.xml"))
+        raise table.error("networks", what, did_you_mean(name, files, remedy)) from error

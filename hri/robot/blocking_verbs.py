@@ -6,9 +6,11 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import Any
 
+from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import Event, Utterance
 from hri.emotion.appraisal import OccEvent
 from hri.robot import calls, verbs
+from hri.speech.listener import Listener
 from hri.task.context import TaskContext
 from hri.task.task_manager import TaskManager
 from hri.task.task_run import Job, Task
@@ -100,7 +102,13 @@ class BlockingVerbs(ABC):
         return task
 
     def when_heard(self, rule: str, handler: Callable[..., object]) -> Task:
-        """Call `handler(**tags)` whenever a sentence of that rule is heard; see `on`."""
+        """Call `handler(**tags)` whenever a sentence of that rule is heard; see `on`.
+
+        Raises HriError for a rule that the grammar does not have.
+        """
+        rules = self.tasks.context.behavior(Listener).loaded_grammar.public_rules
+        if rule not in rules:
+            raise HriError(f'no rule "{rule}" in the grammar - {did_you_mean(rule, rules)}')
         task: Task = self.tasks.install(calls.when_heard, rule, handler)
         return task
 

@@ -2,6 +2,7 @@
 
 import pytest
 
+from hri.cli.main import main
 from hri.core import paths
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, AuthoringErrors, HriError
@@ -411,3 +412,26 @@ def test_the_companion_lives_in_a_bare_room_and_who_speaks_there_is_missed(tmp_p
         world.say("hello", at=1.0)
     events = live_for(robot, 2.0, *robot.app.load_tasks())
     assert "person.seen" not in {event.name for event in events}
+
+
+def test_a_network_that_is_missing_is_reported_where_it_is_named(put):
+    folder = put({"app.toml": 'networks = [\n  "rovr.xml",\n]\n', "rover.xml": "<BehaviorNetwork/>"})
+    with pytest.raises(AuthoringError, match=r'app\.toml:1:1: .*did you mean "rover\.xml"'):
+        load_app(str(folder))
+
+
+def test_an_action_that_no_file_has_names_the_file_for_it(put):
+    replies = '[reply.joke]\naction = "steep"\n'
+    with pytest.raises(AuthoringError, match=r"tasks\.py is missing"):
+        robot_of(put({**JOKE, "replies.toml": replies}))
+
+
+def test_a_deed_that_fails_leaves_the_others_of_a_new_app(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "app", "rover"]) == 0
+    tasks = tmp_path / "rover" / "tasks.py"
+    tasks.write_text(tasks.read_text().replace("last: float", "until: float"))
+    robot = robot_of(tmp_path / "rover")
+    events = live(robot, 8, {1.0: "count to three", 3.0: "hello"})
+    assert [event.properties["task"] for event in named(events, "task.failed")] == ["count"]
+    assert said(events) == ["Hello, I am rover."]

@@ -51,3 +51,10 @@ def test_missed_ticks_come_with_a_verdict(ticks, missed, told):
 def test_the_slowest_behavior_of_a_missed_tick_is_named():
     statistics = Statistics(ticks=9, missed=1, slowest="gate")
     assert missed_ticks("moving", statistics).endswith("; the slowest was gate")
+
+
+def test_of_several_mistakes_the_first_is_printed(told):
+    error = "replies.toml:1:1: one\nreplies.toml:2:1: two\nreplies.toml:3:1: three"
+    assert told("replies.refused", error=error, file="replies.toml").endswith(
+        "refused replies.toml:1:1: one (and 2 more)"
+    )

@@ -311,3 +311,8 @@ def test_a_script_says_how_fast_and_stops(robot):
     assert abs(odometry.velocity(robot.clock.now()).linear) < 0.01
     robot.wait(0.5)
     assert going.is_over
+
+
+def test_a_rule_that_the_grammar_does_not_have_is_refused(robot):
+    with pytest.raises(HriError, match='no rule "trun" in the grammar - did you mean "turn"'):
+        robot.when_heard("trun", print)

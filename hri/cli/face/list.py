@@ -1,4 +1,4 @@
-"""`hri face list`: all faces, and their gestures."""
+"""`hri face list`: all faces, and what they can show."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from hri.core import paths
 from hri.core.errors import HriError
 from hri.face import load_face
 from hri.face.motion.gesture_tracks import load_gestures
+from hri.face.vocabulary import LABELS
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,5 +27,6 @@ def run(options: argparse.Namespace) -> int:
         except HriError as error:
             about, status = f"broken: {error}", 1
         print(f"{name:12} {about}")
-    print(f"\nGestures: {', '.join(sorted(load_gestures(load_face())))}")
+    print(f"\nExpressions: {', '.join(LABELS)}")
+    print(f"Gestures: {', '.join(sorted(load_gestures(load_face())))}")
     return status

@@ -1,5 +1,7 @@
 """What the app does: each task named in `app.toml` runs from its start to its end."""
 
+from functools import partial
+
 from hri.robot.verbs import ask, gesture, move, say
 from hri.task import TaskContext
 
@@ -10,7 +12,9 @@ async def converse(context: TaskContext) -> None:
         while True:
             heard = (await queue.get()).properties
             if heard["rule"] in DEEDS:
-                await DEEDS[heard["rule"]](context, **heard["tags"])
+                # A task by itself: when it fails, the robot reports that and goes on.
+                task = context.manager.install(partial(DEEDS[heard["rule"]], **heard["tags"]))
+                await task.wait()
             elif heard["rule"] not in ANSWERS:
                 await say(context, f"I do not know what to do for {heard['rule']}.")
 
