@@ -415,7 +415,9 @@ def test_the_companion_lives_in_a_bare_room_and_who_speaks_there_is_missed(tmp_p
 
 
 def test_a_network_that_is_missing_is_reported_where_it_is_named(put):
-    folder = put({"app.toml": 'networks = [\n  "rovr.xml",\n]\n', "rover.xml": "<BehaviorNetwork/>"})
+    folder = put(
+        {"app.toml": 'networks = [\n  "rovr.xml",\n]\n', "rover.xml": "<BehaviorNetwork/>"}
+    )
     with pytest.raises(AuthoringError, match=r'app\.toml:1:1: .*did you mean "rover\.xml"'):
         load_app(str(folder))
 
