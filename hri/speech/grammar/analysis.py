@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from graphlib import CycleError, TopologicalSorter
 from itertools import islice
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from hri.core.errors import AuthoringError, Place, did_you_mean
 from hri.speech.grammar import offers
@@ -21,11 +21,9 @@ from hri.speech.grammar.expressions import (
     children,
     heard_choices,
 )
+from hri.speech.grammar.rules import Rule, Rules
 
-if TYPE_CHECKING:
-    from hri.speech.grammar.rules import Grammar, Rule
-
-Rules = Mapping[str, "Rule"]
+RulesByKey = Mapping[str, Rule]
 V = TypeVar("V")
 
 MOST_TOLD = 100
@@ -34,7 +32,7 @@ MOST_CIRCLES = 10
 """Circles of left recursion that are told, and rules of one that are named."""
 
 
-def reachable(rules: Rules, keys: Iterable[str]) -> list[str]:
+def reachable(rules: RulesByKey, keys: Iterable[str]) -> list[str]:
     """The keys, and those of all rules they lead to, in the order they are met."""
     found: dict[str, None] = {}
     pending = list(reversed(list(keys)))
@@ -71,9 +69,19 @@ def height(node: Expression, heights: Mapping[str, float]) -> float:
             return 0
 
 
-def heights(grammar: Grammar) -> dict[str, float]:
+def recursive_of(grammar: Rules) -> frozenset[str]:
+    """Keys of the rules of a grammar that lead back to themselves."""
+    return recursive_rules(grammar.rules)
+
+
+def order_of(grammar: Rules) -> list[str]:
+    """All keys of a grammar, as `used_first` orders them."""
+    return used_first(grammar.rules)
+
+
+def heights(grammar: Rules) -> dict[str, float]:
     """The height of every rule, itself included when it is recursive."""
-    recursive = grammar.recursive_rules
+    recursive = grammar.made(recursive_of)
     return settled(
         grammar,
         math.inf,
@@ -98,16 +106,16 @@ def is_silent(node: Expression, silent: Mapping[str, bool]) -> bool:
             return True
 
 
-def silent_rules(grammar: Grammar) -> dict[str, bool]:
+def silent_rules(grammar: Rules) -> dict[str, bool]:
     """Whether each rule can be passed without a word."""
     return settled(grammar, False, lambda rule, known: is_silent(rule.expression, known))
 
 
 def settled(
-    grammar: Grammar, start: V, measure: Callable[[Rule, Mapping[str, V]], V]
+    grammar: Rules, start: V, measure: Callable[[Rule, Mapping[str, V]], V]
 ) -> dict[str, V]:
     """Measure all rules, those they use before them, and those in circles until nothing changes."""
-    rules, order = grammar.rules, grammar.used_first
+    rules, order = grammar.rules, grammar.made(order_of)
     users: dict[str, list[str]] = {}
     for key, names in _uses(rules).items():
         for name in names:
@@ -125,14 +133,14 @@ def settled(
     return values
 
 
-def _uses(rules: Rules) -> dict[str, set[str]]:
+def _uses(rules: RulesByKey) -> dict[str, set[str]]:
     """The rules that each refers to."""
     return {
         key: {node.name for node in rule.references} & rules.keys() for key, rule in rules.items()
     }
 
 
-def used_first(rules: Rules) -> list[str]:
+def used_first(rules: RulesByKey) -> list[str]:
     """All keys, each behind those it refers to; in a circle one of them comes too early."""
     order: list[str] = []
     met: set[str] = set()
@@ -152,7 +160,7 @@ def used_first(rules: Rules) -> list[str]:
     return order
 
 
-def recursive_rules(rules: Rules) -> frozenset[str]:
+def recursive_rules(rules: RulesByKey) -> frozenset[str]:
     """The rules that lead to themselves, and those between two such."""
     uses = _uses(rules)
     users: dict[str, set[str]] = {key: set() for key in uses}
@@ -191,7 +199,7 @@ def left_corners(node: Expression, silent: Mapping[str, bool]) -> Iterator[RuleR
             return
 
 
-def left_recursion(grammar: Grammar) -> Iterator[AuthoringError]:
+def left_recursion(grammar: Rules) -> Iterator[AuthoringError]:
     """Circles of rules that lead to each other before a word is said; no two share a rule."""
     for circle in _circles(grammar):
         what = f"<{circle[0]}> leads back to itself before a word is said"
@@ -201,13 +209,12 @@ def left_recursion(grammar: Grammar) -> Iterator[AuthoringError]:
         yield AuthoringError(grammar.rules[circle[0]].place(), what, remedy)
 
 
-def _circles(grammar: Grammar) -> Iterator[list[str]]:
+def _circles(grammar: Rules) -> Iterator[list[str]]:
+    silent = grammar.made(silent_rules)
     leads_to = {
-        key: {
-            node.name for node in left_corners(grammar.rules[key].expression, grammar.silent_rules)
-        }
+        key: {node.name for node in left_corners(grammar.rules[key].expression, silent)}
         for key in grammar.rules
-        if key in grammar.recursive_rules
+        if key in grammar.made(recursive_of)
     }
     while True:
         try:
@@ -221,7 +228,7 @@ def _circles(grammar: Grammar) -> Iterator[list[str]]:
             return
 
 
-def errors(grammar: Grammar) -> list[AuthoringError]:
+def errors(grammar: Rules) -> list[AuthoringError]:
     """What makes a grammar useless: each with its place and what to do, in the order of places.
 
     What follows only from a rule that could not be read is not told.
@@ -233,7 +240,7 @@ def errors(grammar: Grammar) -> list[AuthoringError]:
     return sorted(found, key=lambda error: (error.place.line, error.place.column))
 
 
-def _undefined(grammar: Grammar) -> Iterator[AuthoringError]:
+def _undefined(grammar: Rules) -> Iterator[AuthoringError]:
     told: set[str] = set()
     offered: Mapping[str, str] | None = None
     for rule in grammar.rules.values():
@@ -253,7 +260,7 @@ def _undefined(grammar: Grammar) -> Iterator[AuthoringError]:
                     return
 
 
-def _never_set(grammar: Grammar) -> Iterator[AuthoringError]:
+def _never_set(grammar: Rules) -> Iterator[AuthoringError]:
     """Values that are taken from tags which nothing sets, one error for each name."""
     tagged = [
         (rule, node)
@@ -272,22 +279,23 @@ def _never_set(grammar: Grammar) -> Iterator[AuthoringError]:
                     yield AuthoringError(rule.place(node.span), what, remedy)
 
 
-def _never_said(grammar: Grammar) -> Iterator[AuthoringError]:
+def _never_said(grammar: Rules) -> Iterator[AuthoringError]:
     for key, rule in grammar.rules.items():
-        if math.isinf(grammar.heights[key]):
+        if math.isinf(grammar.made(heights)[key]):
             what = f"<{key}> can never be said to its end"
             yield AuthoringError(rule.place(), what, "give it an alternative of words only")
 
 
-def _without_public(grammar: Grammar) -> Iterator[AuthoringError]:
+def _without_public(grammar: Rules) -> Iterator[AuthoringError]:
     if not grammar.public_rules:
         what = "no public rule, so nothing can be heard"
         remedy = 'write "public" before the rules that are commands'
         yield AuthoringError(Place(grammar.path), what, remedy)
 
 
-def _without_words(grammar: Grammar) -> Iterator[AuthoringError]:
-    if not grammar.has_words():
+def _without_words(grammar: Rules) -> Iterator[AuthoringError]:
+    keys = reachable(grammar.rules, grammar.public_rules)
+    if not any(isinstance(node, Token) for key in keys for node in grammar.rules[key].nodes):
         place = grammar.rules[grammar.public_rules[0]].place()
         what = "the public rules hold no word"
         yield AuthoringError(place, what, "write the words of a command")

@@ -13,7 +13,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum, auto
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from hri.core.errors import AuthoringError
 from hri.speech.grammar import analysis
@@ -29,10 +29,8 @@ from hri.speech.grammar.expressions import (
     Token,
 )
 from hri.speech.grammar.extent import too_large
+from hri.speech.grammar.rules import Rules
 from hri.speech.grammar.tags import TagEntry
-
-if TYPE_CHECKING:
-    from hri.speech.grammar.rules import Grammar
 
 MOST_ARCS = 1_000_000
 """Together with the rules that are written out, about 300 MB while they are built; a list of
@@ -150,7 +148,7 @@ class _Arcs:
         self.actions.append(actions)
 
 
-def build(grammar: Grammar) -> Automaton:
+def build(grammar: Rules) -> Automaton:
     """The automaton of all public rules; a choice of the weight 0 is left out.
 
     Raises AuthoringError for left recursion, and when there are more than MOST_ARCS arcs.
@@ -164,9 +162,10 @@ class _Builder:
     What was written first is worked off first, which keeps the arcs of a node in that order.
     """
 
-    def __init__(self, grammar: Grammar) -> None:
+    def __init__(self, grammar: Rules) -> None:
         self._grammar = grammar
-        self._recursive = grammar.recursive_rules
+        self._recursive = grammar.made(analysis.recursive_of)
+        self._silent = grammar.made(analysis.silent_rules)
         for error in analysis.left_recursion(grammar):
             raise error
         self._arcs = _Arcs()
@@ -287,7 +286,7 @@ class _Builder:
     def _sequence(self, job: _Job, items: tuple[Expression, ...]) -> Iterator[_Job]:
         if job.speaking is not _Speaking.SPOKEN:
             yield from self._chain(job, items, job.speaking)
-        elif all(analysis.is_silent(item, self._grammar.silent_rules) for item in items):
+        elif all(analysis.is_silent(item, self._silent) for item in items):
             yield from self._spoken_chain(job, items)
         else:
             yield from self._chain(job, items, _Speaking.ANY)
@@ -324,7 +323,7 @@ class _Builder:
 
     def _repeat(self, job: _Job, item: Expression, minimum: int) -> Iterator[_Job]:
         may_be_silent = job.speaking is not _Speaking.SPOKEN
-        if minimum == 1 and may_be_silent and analysis.is_silent(item, self._grammar.silent_rules):
+        if minimum == 1 and may_be_silent and analysis.is_silent(item, self._silent):
             yield job._replace(node=item, speaking=_Speaking.SILENT)
         if job.speaking is _Speaking.SILENT:
             if minimum == 0:

@@ -10,7 +10,6 @@ import math
 import random
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import accumulate, islice
-from typing import TYPE_CHECKING
 
 from hri.core.errors import AuthoringError, Place
 from hri.speech.grammar import analysis
@@ -27,9 +26,7 @@ from hri.speech.grammar.expressions import (
     children,
     heard_choices,
 )
-
-if TYPE_CHECKING:
-    from hri.speech.grammar.rules import Grammar
+from hri.speech.grammar.rules import Rules
 
 Words = tuple[str, ...]
 
@@ -52,12 +49,12 @@ _Said = tuple[str, "_Said"] | None
 """The words so far, the last one first."""
 
 
-def sentences(grammar: Grammar, rules: Iterable[str], limit: int) -> Iterator[str]:
+def sentences(grammar: Rules, rules: Iterable[str], limit: int) -> Iterator[str]:
     """Different sentences, at most `limit`, the rules taking turns.
 
     A rule of which MOST_STALE ways in a row bring nothing new gives no more.
     """
-    ways = [grammar.ways.all(key) for key in rules]
+    ways = [grammar.made(Ways).all(key) for key in rules]
     seen: set[Words] = {()}
     while ways:
         for way in tuple(ways):
@@ -73,7 +70,7 @@ def sentences(grammar: Grammar, rules: Iterable[str], limit: int) -> Iterator[st
                 yield " ".join(words)
 
 
-def sample(grammar: Grammar, most: int) -> list[str]:
+def sample(grammar: Rules, most: int) -> list[str]:
     """See `Grammar.sample`."""
     found = dict.fromkeys(sentences(grammar, grammar.public_rules, most))
     if len(found) == most:
@@ -87,7 +84,7 @@ def sample(grammar: Grammar, most: int) -> list[str]:
 
 
 def random_sentence(
-    grammar: Grammar, chance: random.Random, rules: Iterable[str] | None = None
+    grammar: Rules, chance: random.Random, rules: Iterable[str] | None = None
 ) -> str:
     """A sentence of one of the rules, all public ones without; drawn by the weights.
 
@@ -99,10 +96,10 @@ def random_sentence(
 
 
 def random_sentences(
-    grammar: Grammar, chance: random.Random, rules: Iterable[str] | None = None
+    grammar: Rules, chance: random.Random, rules: Iterable[str] | None = None
 ) -> Iterator[str]:
     """Sentences as `random_sentence` draws them, without end; faster than one by one."""
-    keys, ways = tuple(rules or grammar.public_rules), grammar.ways
+    keys, ways = tuple(rules or grammar.public_rules), grammar.made(Ways)
     if not keys:
         what = "no public rule, so there is no sentence"
         raise AuthoringError(Place(grammar.path), what, 'write "public" before a rule')
@@ -110,7 +107,7 @@ def random_sentences(
         yield " ".join(ways.draw(chance.choice(keys), chance))
 
 
-def count_ways(grammar: Grammar, rules: Iterable[str] | None = None) -> float:
+def count_ways(grammar: Rules, rules: Iterable[str] | None = None) -> float:
     """In how many ways the rules, all public ones without, can be said; exact as an int.
 
     A sentence that can be read in two ways counts twice, silence counts as one. `math.inf` with
@@ -120,22 +117,22 @@ def count_ways(grammar: Grammar, rules: Iterable[str] | None = None) -> float:
     return _bounded(sum(counts[key] for key in rules or grammar.public_rules))
 
 
-def count_sentences(grammar: Grammar, rules: Iterable[str] | None = None) -> int | None:
+def count_sentences(grammar: Rules, rules: Iterable[str] | None = None) -> int | None:
     """How many different sentences the rules have; None with more than MOST_COUNTED ways."""
     keys = tuple(rules or grammar.public_rules)
     if count_ways(grammar, keys) > MOST_COUNTED:
         return None
-    return len({words for key in keys for words in grammar.ways.all(key)} - {()})
+    return len({words for key in keys for words in grammar.made(Ways).all(key)} - {()})
 
 
 class Ways:
     """The ways through the rules of a grammar, on explicit stacks: depth is unlimited."""
 
-    def __init__(self, grammar: Grammar) -> None:
+    def __init__(self, grammar: Rules) -> None:
         self._grammar = grammar
         self._heights: dict[int, float] = {}
         self._odds: dict[tuple[int, float], tuple[list[Expression], list[float]]] = {}
-        self._recursive = grammar.recursive_rules
+        self._recursive = grammar.made(analysis.recursive_of)
 
     def all(self, key: str) -> Iterator[Words]:
         """The words of every way through a rule, in the order of writing; none is a dead end."""
@@ -196,12 +193,12 @@ class Ways:
         """`height`, looked up where it was asked for before."""
         known = self._heights.get(id(node))
         if known is None:
-            known = self._heights[id(node)] = height(node, self._grammar.heights)
+            known = self._heights[id(node)] = height(node, self._grammar.made(analysis.heights))
         return known
 
     def _start(self, key: str) -> _Todo:
         rule = self._grammar.rules[key]
-        depth = self._grammar.heights[key] + SPARE_DEPTH
+        depth = self._grammar.made(analysis.heights)[key] + SPARE_DEPTH
         return None if math.isinf(depth) else (RuleReference(key, rule.span), int(depth), None)
 
     def _push(self, stack: list[tuple[_Todo, _Said]], todo: _Todo, said: _Said) -> None:
@@ -250,13 +247,13 @@ def _words(said: _Said) -> Words:
     return tuple(reversed(words))
 
 
-def _count_rules(grammar: Grammar) -> Mapping[str, float]:
+def _count_rules(grammar: Rules) -> Mapping[str, float]:
     """The ways of each rule, those it uses before it; none of those that lead into a circle."""
-    heights, rules = grammar.heights, grammar.rules
+    heights, rules = grammar.made(analysis.heights), grammar.rules
     live = {key: set(_live_references(rule.expression, heights)) for key, rule in rules.items()}
     endless = analysis.without_ends(live)
     counts: dict[str, float] = dict.fromkeys(endless, math.inf)
-    for key in grammar.used_first:
+    for key in grammar.made(analysis.order_of):
         if key not in endless:
             counts[key] = _count(rules[key].expression, counts)
     return counts

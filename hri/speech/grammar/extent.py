@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from hri.speech.grammar import analysis
 from hri.speech.grammar.expressions import (
@@ -23,9 +22,7 @@ from hri.speech.grammar.expressions import (
     Token,
     heard_choices,
 )
-
-if TYPE_CHECKING:
-    from hri.speech.grammar.rules import Grammar
+from hri.speech.grammar.rules import Rules
 
 
 @dataclass(slots=True)
@@ -40,19 +37,19 @@ class _Rule:
     """Rules at the end: written once for all that end in the same place."""
 
 
-def too_large(grammar: Grammar, most: int) -> str | None:
+def too_large(grammar: Rules, most: int) -> str | None:
     """The public rule with which the arcs of a grammar are more than `most`; None for fewer.
 
     It counts the least that is written: a rule inside itself counts as nothing.
     """
-    may_defer = bool(grammar.recursive_rules)
+    may_defer = bool(grammar.made(analysis.recursive_of))
     rules = {key: _counted(rule.expression, may_defer) for key, rule in grammar.rules.items()}
     reached = set(analysis.reachable(grammar.rules, grammar.public_rules))
     used = {name for key in reached for name in rules[key].inside}
     sizes: dict[str, int] = {}
     looked_at = 0
-    for key in grammar.used_first:
-        if key in used and key in reached and key not in grammar.recursive_rules:
+    for key in grammar.made(analysis.order_of):
+        if key in used and key in reached and key not in grammar.made(analysis.recursive_of):
             ending = list(_ending(rules, key, set()))
             looked_at += len(ending)  # each of them is an arc at least
             sizes[key] = most + 1 if looked_at > most else _size(rules, ending, sizes)

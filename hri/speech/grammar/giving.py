@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import reduce
 
-from hri.speech.grammar.analysis import Rules
+from hri.speech.grammar.analysis import RulesByKey
 from hri.speech.grammar.expressions import (
     Alternative,
     Expression,
@@ -20,7 +20,7 @@ from hri.speech.grammar.tags import TagEntry
 Names = frozenset[str]
 
 
-def sure_tags(rules: Rules, key: str) -> Names:
+def sure_tags(rules: RulesByKey, key: str) -> Names:
     """The tags that each sentence of a rule has, whatever its words.
 
     A tag that is only given by way of a rule that leads back to itself is not counted.
@@ -31,7 +31,7 @@ def sure_tags(rules: Rules, key: str) -> Names:
 class _Walk:
     """Follows what is surely set through a rule, in the order its words are said."""
 
-    def __init__(self, rules: Rules) -> None:
+    def __init__(self, rules: RulesByKey) -> None:
         self._rules = rules
         self._known: dict[tuple[str, Names], Names] = {}
 

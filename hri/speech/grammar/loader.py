@@ -26,9 +26,10 @@ from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 from hri.core.reading import read_bytes, read_text
 from hri.speech.grammar import analysis
 from hri.speech.grammar.expressions import RuleReference, SourceSpan, rename
+from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.jsgf import Document, Import, NameListImport, read_jsgf
 from hri.speech.grammar.name_lists import read_names
-from hri.speech.grammar.rules import Grammar, Rule
+from hri.speech.grammar.rules import Rule
 
 MOST_FILES = 100
 """Files that one grammar may import, directly or not."""

@@ -18,7 +18,7 @@ import itertools
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from hri.speech.grammar.automaton import (
     FINAL,
@@ -29,14 +29,13 @@ from hri.speech.grammar.automaton import (
     Defer,
     Enter,
     Leave,
+    build,
 )
 from hri.speech.grammar.numerals import in_words
+from hri.speech.grammar.rules import Rules
 from hri.speech.grammar.spellings import contracted_forms, spellings
 from hri.speech.grammar.tags import TagEntry, Value, are_same, evaluate
 from hri.speech.grammar.words import normalize
-
-if TYPE_CHECKING:
-    from hri.speech.grammar.rules import Grammar
 
 MOST_WORDS = 200
 """A longer text is not a command."""
@@ -106,17 +105,22 @@ class Refusal:
     """What to do."""
 
 
-def parse(grammar: Grammar, text: str, rules: Collection[str] | None = None) -> Parse | None:
+def matcher_of(grammar: Rules) -> Matcher:
+    """What follows the sentences of a grammar. Raises what `build` raises."""
+    return Matcher(grammar.made(build))
+
+
+def parse(grammar: Rules, text: str, rules: Collection[str] | None = None) -> Parse | None:
     """What a sentence means, by its first reading; None when no public rule allows all of it.
 
     `rules` are the public rules that count; None is all. Raises AuthoringError where
     `Grammar.automaton` does.
     """
-    return next(grammar.matcher.readings(normalize(text), rules), None)
+    return next(grammar.made(matcher_of).readings(normalize(text), rules), None)
 
 
 def parses(
-    grammar: Grammar, text: str, limit: int = MOST_PARSES, rules: Collection[str] | None = None
+    grammar: Rules, text: str, limit: int = MOST_PARSES, rules: Collection[str] | None = None
 ) -> tuple[Parse, ...]:
     """All readings of a sentence with different trees or tags, at most `limit`, the best first.
 
@@ -124,7 +128,9 @@ def parses(
     that count; None is all. Raises AuthoringError where `Grammar.automaton` does.
     """
     found: dict[object, Parse] = {}
-    for reading in itertools.islice(grammar.matcher.readings(normalize(text), rules), 10 * limit):
+    for reading in itertools.islice(
+        grammar.made(matcher_of).readings(normalize(text), rules), 10 * limit
+    ):
         rules_said = tuple((depth, t.rule, t.start, t.end) for depth, t in reading.tree.walk())
         found.setdefault((rules_said, tuple(sorted(reading.tags.items()))), reading)
         if len(found) == limit:
@@ -132,14 +138,14 @@ def parses(
     return tuple(found.values())
 
 
-def refusal(grammar: Grammar, text: str) -> Refusal | None:
+def refusal(grammar: Rules, text: str) -> Refusal | None:
     """Where a sentence leaves the grammar; None when it does not.
 
     Raises AuthoringError where `Grammar.automaton` does.
     """
-    forms = grammar.matcher.forms(normalize(text)[: MOST_WORDS + 1])
+    forms = grammar.made(matcher_of).forms(normalize(text)[: MOST_WORDS + 1])
     words, state, position = max(
-        (grammar.matcher.followed(words) for words in forms), key=lambda way: way[2]
+        (grammar.made(matcher_of).followed(words) for words in forms), key=lambda way: way[2]
     )
     if position == len(words) <= MOST_WORDS and state.is_final and words:
         return None

@@ -19,7 +19,7 @@ from hri.speech.grammar.expressions import (
 )
 
 if TYPE_CHECKING:
-    from hri.speech.grammar.rules import Grammar
+    from hri.speech.grammar.grammar import Grammar
 
 Words = tuple[str, ...]
 

@@ -15,8 +15,8 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
+from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.matching import MOST_WORDS, Parse, State, parse
-from hri.speech.grammar.rules import Grammar
 from hri.speech.grammar.words import normalize
 
 MOST_COST = 2.0

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from itertools import islice
 
 from hri.speech.grammar.automaton import FINAL, START, Apply, Defer
+from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.matching import Matcher, Parse, parses
-from hri.speech.grammar.rules import Grammar
 
 MOST_STEPS = 30_000
 """Nodes of the automaton that are visited for sentences with two readings."""

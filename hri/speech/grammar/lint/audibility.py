@@ -8,10 +8,11 @@ from dataclasses import replace
 from hri.core.errors import HriError, NotAvailable, Place
 from hri.speech.grammar import analysis
 from hri.speech.grammar.expressions import Alternative, Token, spell
+from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.lint.finding import Finding, hint, note, warning
 from hri.speech.grammar.numerals import in_words
 from hri.speech.grammar.phrases import Phrases, Words
-from hri.speech.grammar.rules import Grammar, Rule
+from hri.speech.grammar.rules import Rule
 from hri.speech.pronunciation import spelling
 from hri.speech.pronunciation.lexicon import Lexicon, user_lexicon
 

@@ -25,8 +25,8 @@ from pathlib import Path
 
 from hri.core.errors import AuthoringError, Mistakes, Place
 from hri.core.reading import read_text
+from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.matching import Parse, parse, refusal
-from hri.speech.grammar.rules import Grammar
 from hri.speech.grammar.tags import TagEntry, Value, evaluate, read_entries, spell_tags
 
 _LINE = re.compile(r"(?P<sign>[+-])(?P<sentence>.*?)(?P<arrow>=>(?P<meaning>.*))?")

@@ -18,6 +18,7 @@ from hri.speech.grammar.expressions import (
     spell,
     walk,
 )
+from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.jsgf import NameListImport
 from hri.speech.grammar.lint.ambiguity import ambiguities
 from hri.speech.grammar.lint.audibility import heard_badly
@@ -27,7 +28,7 @@ from hri.speech.grammar.lint.operators import idle_operators
 from hri.speech.grammar.lint.overwriting import overwritten
 from hri.speech.grammar.matching import Parse, parse
 from hri.speech.grammar.phrases import Phrases, Words, phrases, phrases_of_rules
-from hri.speech.grammar.rules import Grammar, Rule
+from hri.speech.grammar.rules import Rule
 from hri.speech.grammar.tags import spell_tags
 from hri.speech.pronunciation.lexicon import Lexicon
 
@@ -170,7 +171,7 @@ def _never_said(grammar: Grammar) -> Iterator[Finding]:
 def _unsayable(grammar: Grammar, node: Expression) -> Iterator[Expression]:
     """The largest parts of a node that have no sentence, where what is around them has one."""
     for child in children(node):
-        if math.isinf(analysis.height(child, grammar.heights)):
+        if math.isinf(analysis.height(child, grammar.made(analysis.heights))):
             yield child
         else:
             yield from _unsayable(grammar, child)

@@ -6,8 +6,9 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator
 
 from hri.speech.grammar.expressions import Tagged
+from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.lint.finding import Finding, warning
-from hri.speech.grammar.rules import Grammar, Rule
+from hri.speech.grammar.rules import Rule
 from hri.speech.grammar.tags import Reference, TagEntry
 
 NUMBER, FLAG, TEXT, LIST = "a number", "true or false", "a text", "a list"

@@ -20,8 +20,9 @@ from hri.speech.grammar.expressions import (
     children,
     heard_choices,
 )
+from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.lint.finding import Finding, warning
-from hri.speech.grammar.rules import Grammar, Rule
+from hri.speech.grammar.rules import Rule
 from hri.speech.grammar.tags import TagEntry, spell_entries
 
 VARIED: Final = object()

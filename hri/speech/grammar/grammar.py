@@ -1,0 +1,148 @@
+"""A grammar: rules that say which sentences are understood, and what they mean."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import dataclass, replace
+
+from hri.hal.word_graph import WordGraph
+from hri.speech.grammar import analysis, expansion
+from hri.speech.grammar.automaton import Automaton, build
+from hri.speech.grammar.expressions import (
+    Alternative,
+    Expression,
+    Optional,
+    Repeat,
+    Sequence,
+    Tagged,
+    Token,
+    rename,
+    spell,
+)
+from hri.speech.grammar.graph import word_graph
+from hri.speech.grammar.matching import Matcher, matcher_of
+from hri.speech.grammar.rules import Rules
+
+
+@dataclass(frozen=True)
+class Grammar(Rules):
+    """Rules, and all that engines make of them."""
+
+    def with_commands(self, keys: Collection[str]) -> Grammar:
+        """The same rules, with some of them, public or not, as the only commands."""
+        rules = {key: replace(rule, is_public=key in keys) for key, rule in self.rules.items()}
+        return replace(self, rules=rules)
+
+    def words(self) -> frozenset[str]:
+        """All words that can be said, lower case."""
+        return frozenset(node.text for node in self._nodes() if isinstance(node, Token))
+
+    def has_words(self) -> bool:
+        """Whether any word can be said."""
+        return any(isinstance(node, Token) for node in self._nodes())
+
+    def tag_names(self, rule: str = "") -> frozenset[str]:
+        """Names of all tags that an understood sentence, perhaps only of one rule, may have."""
+        tagged = [node for node in self._nodes(rule) if isinstance(node, Tagged)]
+        entries = [entry for node in tagged for entry in node.entries]
+        used_up = {name for entry in entries for name in entry.takes if name != entry.name}
+        return frozenset({entry.name for entry in entries} - used_up)
+
+    def _nodes(self, rule: str = "") -> Iterator[Expression]:
+        for key in analysis.reachable(self.rules, [rule] if rule else self.public_rules):
+            yield from self.rules[key].nodes
+
+    def flat_jsgf(self) -> str:
+        """The same sentences as JSGF with a single public rule, without tags and imports."""
+        return flat_jsgf(self)
+
+    def sentences(self, limit: int) -> Iterable[str]:
+        """Sentences of the grammar, at most `limit`, the public rules taking turns."""
+        return expansion.sentences(self, self.public_rules, limit)
+
+    def sample(self, most: int) -> list[str]:
+        """Different sentences, at most so many: all, or the first of each rule and as many others
+        by chance, always the same.
+        """
+        return expansion.sample(self, most)
+
+    def sentences_of(self, rule: str, limit: int) -> Iterable[str]:
+        """Sentences of one rule, at most `limit`."""
+        return expansion.sentences(self, (rule,), limit)
+
+    @property
+    def automaton(self) -> Automaton:
+        """The public rules written out as arcs; raises AuthoringError when they are too many."""
+        return self.made(build)
+
+    @property
+    def matcher(self) -> Matcher:
+        """Follows sentences; see `hri.speech.grammar.matching`."""
+        return self.made(matcher_of)
+
+    def graph(self) -> WordGraph:
+        """Which word may follow which; made once. Raises what `automaton` raises."""
+        return self.made(_graph)
+
+    @property
+    def recursive_rules(self) -> frozenset[str]:
+        """Keys of the rules that lead back to themselves."""
+        return self.made(analysis.recursive_of)
+
+    @property
+    def used_first(self) -> list[str]:
+        """All keys, each behind those it refers to; in a circle one of them comes too early."""
+        return self.made(analysis.order_of)
+
+
+def _graph(rules: Rules) -> WordGraph:
+    return word_graph(rules.made(build))
+
+
+def flat_jsgf(grammar: Grammar) -> str:
+    """See `Grammar.flat_jsgf`. PocketSphinx knows one public rule only and no dots in names.
+
+    What can never be said is left out: with a `<VOID>` anywhere it hears nothing of the rest.
+    """
+    said = {key: _sayable(rule.expression, grammar) for key, rule in grammar.rules.items()}
+    public = [key for key in grammar.public_rules if said[key] is not None]
+    keys = [key for key in analysis.reachable(grammar.rules, public) if said[key] is not None]
+    names = {
+        key: f"r{number}_{re.sub(r'[^A-Za-z0-9]', '_', key)}" for number, key in enumerate(keys)
+    }
+    top = " | ".join(f"<{names[key]}>" for key in public) or "<VOID>"
+    lines = ["#JSGF V1.0;", "grammar flat;", f"public <sentence> = {top};"]
+    for key in keys:
+        kept = said[key]
+        if kept is not None:
+            expression = rename(kept, lambda node: replace(node, name=names[node.name]))
+            lines.append(f"<{names[key]}> = {spell(expression)};")
+    return "\n".join(lines) + "\n"
+
+
+def _sayable(node: Expression, grammar: Grammar) -> Expression | None:
+    """The node without its parts that have no sentence; None when it has none itself."""
+    if math.isinf(analysis.height(node, grammar.made(analysis.heights))):
+        return None
+    match node:
+        case Alternative(choices=choices, weights=weights):
+            kept = [
+                (said, weight)
+                for choice, weight in zip(choices, weights, strict=True)
+                if (said := _sayable(choice, grammar)) is not None
+            ]
+            return replace(
+                node,
+                choices=tuple(said for said, _ in kept),
+                weights=tuple(weight for _, weight in kept),
+            )
+        case Sequence(items=items):
+            rows = [_sayable(item, grammar) for item in items]
+            return replace(node, items=tuple(row for row in rows if row is not None))
+        case Optional(item=item) | Repeat(item=item) | Tagged(item=item):
+            said = _sayable(item, grammar)
+            return Sequence((), node.span) if said is None else replace(node, item=said)
+        case _:
+            return node
