@@ -44,7 +44,6 @@ DRIVES = (
 )
 """Energy is 1 minus the battery's level."""
 
-DRIVE_NAMES = tuple(drive.name for drive in DRIVES)
 STILLED = tuple(drive.name for drive in DRIVES if math.isfinite(drive.tau_s))
 """Those that a stimulus can still."""
 

@@ -146,10 +146,6 @@ class Listener(Behavior):
         """Take a grammar away that was pushed; the one below it comes back into force."""
         self._grammars.pop(layer)
 
-    def reload_grammar(self) -> None:
-        """Read the files of the grammar in force again; the old one stays when they are wrong."""
-        self._grammars.reload()
-
     def is_in_force(self, layer: Layer) -> bool:
         """Whether a grammar is the one that is listened for."""
         in_force = self._grammars.in_force

@@ -51,8 +51,3 @@ def convert_to_specified_units(quantity: Quantity, unit: str, value: float) -> f
 def in_si(quantity: Quantity, value: float) -> float:
     """A value in default units, in meters, radians and seconds."""
     return value * factor(quantity, get_default_units(quantity))
-
-
-def in_default_units(quantity: Quantity, value: float) -> float:
-    """A value in meters, radians and seconds, in default units."""
-    return value / factor(quantity, get_default_units(quantity))

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from hri.emotion.affect import Affect
 from hri.emotion.appraisal import SELF, ActionEvent, GoalEvent, ObjectEvent, OccEvent
-from hri.emotion.drives import DRIVE_NAMES
+from hri.emotion.drives import DRIVES
 from hri.emotion.dynamics import Dynamics
 from hri.emotion.personality import load_personality
 from hri.emotion.stimulus import StimulusSpec
@@ -70,7 +70,8 @@ goals = st.builds(
 actions = st.builds(ActionEvent, st.just("deed"), signed, st.sampled_from(["Anna", SELF]))
 objects = st.builds(ObjectEvent, st.sampled_from(["ball", "spider"]), signed)
 impulses = st.one_of(felt, goals, actions, objects)
-events = st.one_of(impulses, st.builds(Reported, st.sampled_from(DRIVE_NAMES), unit))
+drives = st.sampled_from([drive.name for drive in DRIVES])
+events = st.one_of(impulses, st.builds(Reported, drives, unit))
 waits = st.floats(0, 120)
 streams = st.lists(st.tuples(waits, events), min_size=1, max_size=12)
 models = st.sampled_from(list(DYNAMICS.values()))

@@ -32,7 +32,6 @@ from hri.speech.grammar.expressions import (
     Tagged,
     Token,
     depth,
-    spell_tagged,
 )
 from hri.speech.grammar.lexemes import MOST_LEXEMES, TOO_MUCH, Lexeme, Lines, split
 from hri.speech.grammar.tags import TagError, read_entries
@@ -129,21 +128,6 @@ class Document:
 def read_jsgf(text: str, path: Path) -> Document:
     """The rules of a grammar's text; mistakes are collected in `errors`, none is raised."""
     return _JsgfReader(text, path).read()
-
-
-def write_jsgf(document: Document) -> str:
-    """The text of a document, without its comments; `read_jsgf` makes the same rules of it."""
-    header = " ".join(filter(None, ("#JSGF V1.0", document.encoding, document.locale)))
-    lines = [f"{header};"]
-    if document.extends:
-        lines.append(f"/** {' '.join(f'@{EXTENDS} {e.grammar}' for e in document.extends)} */")
-    lines += [f"grammar {document.name};"]
-    lines += [f"import <{use.grammar}.{use.rule}>;" for use in document.imports]
-    lines += [f'import "{use.file}" as <{use.name}>;' for use in document.name_lists]
-    for rule in document.rules:
-        public = "public " if rule.is_public else ""
-        lines.append(f"{public}<{rule.name}> = {spell_tagged(rule.expression)};")
-    return "\n".join(lines) + "\n"
 
 
 class _Mistake(Exception):

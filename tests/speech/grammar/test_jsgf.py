@@ -20,13 +20,14 @@ from hri.speech.grammar.expressions import (
     SourceSpan,
     Tagged,
     Token,
+    spell_tagged,
 )
 from hri.speech.grammar.jsgf import (
+    EXTENDS,
     MOST_ERRORS,
     Document,
     RuleDefinition,
     read_jsgf,
-    write_jsgf,
 )
 from hri.speech.grammar.matching import parse
 from hri.speech.grammar.name_lists import read_names
@@ -410,6 +411,21 @@ def without_spans(node):
             return type(node), *map(without_spans, values)
         case _:
             return node
+
+
+def write_jsgf(document: Document) -> str:
+    """The text of a document, without its comments; `read_jsgf` makes the same rules of it."""
+    header = " ".join(filter(None, ("#JSGF V1.0", document.encoding, document.locale)))
+    lines = [f"{header};"]
+    if document.extends:
+        lines.append(f"/** {' '.join(f'@{EXTENDS} {e.grammar}' for e in document.extends)} */")
+    lines += [f"grammar {document.name};"]
+    lines += [f"import <{use.grammar}.{use.rule}>;" for use in document.imports]
+    lines += [f'import "{use.file}" as <{use.name}>;' for use in document.name_lists]
+    for rule in document.rules:
+        public = "public " if rule.is_public else ""
+        lines.append(f"{public}<{rule.name}> = {spell_tagged(rule.expression)};")
+    return "\n".join(lines) + "\n"
 
 
 @given(EXPRESSIONS)
