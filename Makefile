@@ -12,7 +12,7 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 
-# What was compiled is kept: without that each of the many processes of the tests compiles all anew.
+# What was compiled is kept: without that each of the many processes of the tests compiles everything again.
 unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: run test slow fuzz check bench wheels docs checklist format clean

@@ -25,6 +25,8 @@ TICS = {
     r"(?<!there\s)(is|are|was|were) none\b(?! of)": "is not a, is invalid",
     r"tells\b": "reports, says, shows, distinguishes",
     r"of (its|their|one's) own\b": "its own X, a separate X",
+    r"what (is|was) felt\b": "feelings",
+    r"so (many|much) (?!that|as|more|better|less|longer)": "this many, a number of",
     r"told (by|from)\b": "reported by, distinguished from",
     r"(is|are) t?here already": "already exists",
     r"(of |in |from |by )the house\b|the house's": "built-in",

@@ -2,7 +2,7 @@
 
 C. Becker-Asano, "WASABI: Affect Simulation for Agents with Believable Interactivity", 2008. The
 recurrence and the constants are those of its program, which adds the emotion to the mood at each
-step whatever its length: what is felt depends on the rate at which the program runs.
+step whatever its length: the result depends on the rate at which the program runs.
 """
 
 from __future__ import annotations

@@ -128,6 +128,8 @@ def _out_of_room(chance: random.Random, site: Site, is_there: bool) -> str:
 
 
 def _within(room: int, write: Callable[[], object]) -> None:
-    """Write while files cannot grow beyond so many bytes; for a process that ends afterwards."""
+    """Write while files cannot grow beyond a number of bytes; for a process that ends
+    afterwards.
+    """
     resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
     write()

@@ -15,7 +15,7 @@ door: `from hri.behavior import Behavior, Input, Output`.
     hri.behavior    behaviors, and the networks that they are wired into
     hri.task        tasks: coroutines that wait for time and events
     hri.speech      ears, a voice, and grammars
-    hri.emotion     what is felt, and why
+    hri.emotion     feelings, and their causes
     hri.face        a face that shows it; `render_face` is a picture as a numpy array
     hri.vision      who is there, and a nod or a shake of the head
     hri.drive       moving, safely

@@ -22,7 +22,7 @@ FILE = "replies.toml"
 ACTIONS = ("move", "turn", "come", "follow", "stop", "release", "quiet", "eyes", "sleep", "wake")
 """What the companion itself can do; other actions are tasks."""
 AFTER_YES = ("keep",)
-"""What may be done after a yes: begin to keep what is felt."""
+"""What may be done after a yes: begin to save feelings."""
 FILLED_IN = ("text", "name", "time", "battery", "why", "why_stopped", "feeling", "commands")
 """What may stand in braces, beside the tags of the grammar."""
 HEARD = "text"

@@ -1,10 +1,10 @@
 """What the companion does: it converses, wonders, notices, and obeys the keys.
 
-converse    replies to what is heard, as `replies.toml` says
+converse    replies to speech, as `replies.toml` says
 wonder      asks a yes/no question now and then
 take_saved_replies  reads the replies again when they are saved
-notice      reacts to a bump and a low battery, and feels ignored; what else happens is felt by the
-            triggers in emotions/stimuli
+notice      reacts to a bump and a low battery, and feels ignored; the triggers in
+            emotions/stimuli handle other events
 watch_keys  space stops it, r releases a base that must be released, m mutes the microphone, v turns
             the camera off and on, c switches captions, escape ends
 """

@@ -303,7 +303,7 @@ class Lessons:
         }
 
     def _beside(self, sound: Sound, ratio: float) -> Sound:
-        """A sound above noise, by so many decibels."""
+        """A sound above noise, at a level difference in decibels."""
         noise = self._noises[self._chance.integers(len(self._noises))][:LENGTH]
         return sound + noise * (sound.std() * 10 ** (-ratio / 20))
 

@@ -76,7 +76,7 @@ def stretched(envelope: NDArray[np.float64], factor: float) -> NDArray[np.float6
 
 
 def blurred(envelope: NDArray[np.float64], numbers: int, frames: int) -> NDArray[np.float64]:
-    """An envelope [frames, bins] of so few cepstral numbers, the mean of so many frames."""
+    """An envelope [frames, bins] from a few cepstral coefficients, averaged over some frames."""
     coded = pyworld.code_spectral_envelope(envelope, RATE, numbers)
     around = np.pad(coded, (((frames - 1) // 2, frames // 2), (0, 0)), mode="edge")
     windows = np.lib.stride_tricks.sliding_window_view(around, frames, axis=0)

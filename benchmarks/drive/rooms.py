@@ -62,7 +62,7 @@ def rows(quick: bool, workers: int) -> Iterator[Row]:
 def driven(
     cases: Sequence[Case], count: int, workers: int
 ) -> Iterator[tuple[Case, Sequence[Trip]]]:
-    """The trips through the first `count` rooms for each case, in so many processes."""
+    """The trips through the first `count` rooms for each case, in a number of processes."""
     with worker_pool(workers) as pool:
         for case in cases:
             drive = partial(through, case=case)

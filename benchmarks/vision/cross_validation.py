@@ -37,7 +37,7 @@ NOD_CHOICES = tuple(itertools.product((0.5, 0.6, 0.7), (1.5, 2.0, 2.5)))
 SHAKE_CHOICES = tuple(itertools.product((0.4, 0.45, 0.5), (0.4, 0.5, 0.6), (0.7, 0.8, 0.9)))
 """Seconds of a swing, rest, slowing."""
 CONTRADICTION = 2.5
-"""Times; so much farther a head must move on the other axis for its label to be doubted."""
+"""Ratio; a head must move farther by it on the other axis for its label to be doubted."""
 
 NAME = f"prompted, real heads, {FOLDS}-fold cross-validated"
 
@@ -98,7 +98,7 @@ def _figures(name: str, counts: Confusion) -> Iterator[Figure]:
 
 
 def is_contradicted(recording: Recording) -> bool:
-    """Whether a nod moves so much farther in yaw than in pitch, or a shake in pitch than in yaw."""
+    """Whether a nod moves farther by that in yaw than in pitch, or a shake in pitch than in yaw."""
     pitch, yaw, _ = np.ptp(recording.angles, axis=0)
     if recording.kind == "nod":
         return bool(yaw > CONTRADICTION * pitch)

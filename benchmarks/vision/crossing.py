@@ -48,7 +48,7 @@ class CrossingVerdict:
 
 
 def rows(quick: bool, workers: int) -> Iterator[Row]:
-    """All cases, in so many processes."""
+    """All cases, in a number of processes."""
     find_face_models()
     count = QUICK_CASES if quick else CASES
     verdicts = _judged(count, RATE, workers)

@@ -138,7 +138,7 @@ FILMS: Mapping[str, Callable[[int], Motion]] = {
 
 
 def film(motion: Motion, seed: int, rate: float, duration: float = DURATION) -> Film:
-    """Someone who moves so, blurred and noisy, so many pictures a second."""
+    """Someone who makes these moves, blurred and noisy, at a frame rate."""
     dice = random.Random(f"lens {seed}")
     lens = Lens(noise=dice.uniform(3, 7), blur=dice.uniform(0.6, 1.0), seed=seed)
     actors = [name for name, looks in ACTORS.items() if looks.is_for_tests]
@@ -173,7 +173,7 @@ def hits(nods: Nods, gestures: Sequence[HeadGesture]) -> int:
 
 
 def rows(quick: bool, workers: int) -> Iterator[Row]:
-    """All films at all rates, in so many processes; `quick` takes one of each."""
+    """All films at all rates, in a number of processes; `quick` takes one of each."""
     find_face_models()
     seeds = range(1 if quick else SEEDS)
     for rate in RATES:

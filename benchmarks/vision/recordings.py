@@ -53,7 +53,7 @@ class Recording:
     """Pitch, yaw and roll, radians, shape [n, 3]."""
 
     def poses(self, rate: float, noise: float, seed: int) -> Iterator[HeadPose]:
-        """As a camera would have it: so many a second, so many times `NOISE`."""
+        """As a camera would see it: at a rate, with a multiple of `NOISE`."""
         times = np.arange(self.times[0], self.times[-1], 1 / rate)
         drawn = np.random.default_rng(seed).normal(0, 1, (len(times), 3)) * NOISE * noise
         columns = [np.interp(times, self.times, column) for column in self.angles.T]

@@ -96,7 +96,7 @@ class Script:
         return held
 
     def film(self, rate: float) -> Film:
-        """The film, so many pictures a second."""
+        """The film at a frame rate."""
         dice = random.Random(f"film {SEED + self.number}")
         actors = [name for name, looks in ACTORS.items() if looks.is_for_tests]
         role = Role(
@@ -119,7 +119,7 @@ class Script:
 
 
 def scripts(gestures: int) -> list[Script]:
-    """Films with so many gestures in all."""
+    """Films with a number of gestures in all."""
     return [_script(number) for number in range(math.ceil(gestures / GESTURES_A_FILM))]
 
 

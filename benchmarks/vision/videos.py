@@ -59,7 +59,7 @@ class Judgment:
 
 
 def rows(quick: bool, workers: int) -> Iterator[Row]:
-    """All films at all rates, in so many processes."""
+    """All films at all rates, in a number of processes."""
     find_face_models()
     films = scripts(QUICK_GESTURES if quick else GESTURES)
     for rate in RATES:

@@ -44,7 +44,7 @@ class Link:
 
 @dataclass
 class Network:
-    """Behaviors in the order in which they run, and what is told about the whole."""
+    """Behaviors in the order in which they run, and the parameters of the network."""
 
     name: str
     interval: float = DEFAULT_INTERVAL

@@ -74,7 +74,7 @@ class Port:
 
 @dataclass(frozen=True)
 class Schema:
-    """What is known of a behavior type without its code."""
+    """The declaration of a behavior type, without its code."""
 
     type: str
     driver: str

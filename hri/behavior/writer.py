@@ -1,4 +1,5 @@
-"""Writes networks in canonical form: what is read and written again is the same byte for byte.
+"""Writes networks in canonical form: a file that is read and written again stays the same, byte for
+byte.
 
 First the behaviors, then the links, each in the order of the file; attributes in the order below;
 comments and single blank lines stay where the author put them; a number keeps its spelling, `1/30`,

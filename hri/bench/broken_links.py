@@ -48,7 +48,7 @@ def stopped(bench: Bench, path: str, done: Combination, speed: float = SPEED) ->
 
 
 def figures(tries: int, busy: int = 0) -> dict[str, Any]:
-    """Milliseconds by combination and over all, beside so many busy processes."""
+    """Milliseconds by combination and over all, beside a number of busy processes."""
     bench, seconds = Bench(), dict[str, list[float]]()
     with bench.port() as port, busy_processes(busy):
         for done in combinations():

@@ -41,7 +41,7 @@ STIMULI = (
 )
 """The files may change, what is measured may not: six emotions, from three causes."""
 STREAM = ((0, "praise"), (5, "scold"), (7, "petted"), (20, "scold"), (21, "praise"))
-"""Whole seconds, and what is felt then."""
+"""Whole seconds, and the feelings then."""
 
 _FILE = """[stimulus.number_{number}]
 words = "it happened"

@@ -38,7 +38,7 @@ def safe_start() -> Iterator[None]:
 
 @contextmanager
 def worker_pool(count: int) -> Iterator[ProcessPoolExecutor]:
-    """So many processes to which work can be submitted; they end with the body."""
+    """A number of processes to which work can be submitted; they end with the body."""
     with safe_start(), ProcessPoolExecutor(count, mp_context=get_context("spawn")) as pool:
         yield pool
 

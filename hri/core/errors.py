@@ -68,7 +68,7 @@ class Mistakes:
         self.errors: list[AuthoringError] = []
 
     def keep(self, read: Callable[[], T]) -> T | None:
-        """What was read; None when there was a mistake in it."""
+        """The parsed value; None when there was a mistake in it."""
         try:
             return read()
         except AuthoringErrors as several:

@@ -132,7 +132,7 @@ class Speech:
         return len(self.samples) / self.rate
 
     def heard(self, position: float) -> str:
-        """The words that have been heard to their end after so many seconds.
+        """The words that have been completely heard at a time, seconds.
 
         For a voice that gives no times: as many of the words as there are seconds of the whole.
         """

@@ -1,4 +1,4 @@
-"""Where lies what is kept about people outside of the robot's own folders.
+"""Notes where data about people is stored outside the robot's own folders.
 
 A recording, a film of the camera, or a file of faces or feelings, lies where someone wanted it. So
 that all of it can be found and forgotten, its place is noted in the state folder, a JSON object a
@@ -48,9 +48,8 @@ def note(kind: Kind, place: Path) -> None:
 
 
 def noted(kind: Kind) -> list[Path]:
-    """What is known to lie somewhere and is still there, in the order in which it was noted.
-
-    Raises HriError when the notes cannot be read.
+    """The noted places that still exist, in the order in which they were noted. Raises HriError
+    when the notes cannot be read.
     """
     places = [place for of, place in _noted(whereabouts_file()) if of == kind]
     return [place for place in places if os.path.lexists(place)]

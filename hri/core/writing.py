@@ -38,7 +38,7 @@ _REMEDIES = {
 
 
 class NotWritten(HriError):
-    """A file could not be written; what was there before is still there, whole."""
+    """A file could not be written; its previous contents are intact."""
 
 
 def not_written(path: Path, error: OSError) -> NotWritten:

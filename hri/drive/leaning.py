@@ -28,7 +28,7 @@ AWAY = -0.2
 BETWEEN = 0.1
 """How much worse than the best, by that cosine, a way between two people may be."""
 STANDS_S, STANDING = 0.15, 0.005
-"""A robot that has moved by fewer meters in so many seconds stands."""
+"""A robot that has moved by fewer meters in this many seconds stands still."""
 WAITS_S = 10.0
 """Seconds for which it only turns when someone has come: most go on by themselves, and a robot
 that backs off may meet them, or another, where no sensor looks."""

@@ -87,10 +87,10 @@ async def follow(
     """Follow someone by their id, whoever is attended to without one, `distance` meters apart.
 
     It faces them, looks for them when they are out of sight, and ends when they stay lost, cannot
-    be reached, or after so many seconds; whether it had them in sight to the end. It comes no
-    nearer than it may while it moves, whatever distance is asked for. Raises the events
-    `target.lost`, `target.found` and in the end `target.left` (`reason`, `person`, `text`), and
-    ValueError for a distance or a time that is not a number.
+    be reached, or after `seconds`; whether it had them in sight to the end. It comes no nearer than
+    it may while it moves, whatever distance is asked for. Raises the events `target.lost`,
+    `target.found` and in the end `target.left` (`reason`, `person`, `text`), and ValueError for a
+    distance or a time that is not a number.
     """
     return bool(await _followed(context, person, distance, seconds))
 
@@ -189,7 +189,7 @@ async def _look_around(context: TaskContext, traveler: _Traveler, person: str) -
 
 
 async def wander(context: TaskContext, seconds: float = math.inf, seed: int = 0) -> None:
-    """Go about for so many seconds, from one place near by to the next.
+    """Drive for `seconds` from one nearby place to the next.
 
     Raises ValueError for a time that is not a number.
     """

@@ -1,4 +1,4 @@
-"""Emotion: what happens moves what is felt; what is felt shows in face, voice and speed.
+"""Emotion: events change feelings; feelings show in face, voice and speed.
 
 from hri.emotion import Dynamics, load_emotions
 """

@@ -1,6 +1,5 @@
-"""Feelings that are put on: for a while an emotion is shown at a value of one's choice, not felt.
-
-What is felt goes on below and has the show again when the time is over.
+"""Acted feelings: for a while an emotion is shown at a chosen value without being felt. Real
+feelings continue below, and show again afterwards.
 """
 
 from __future__ import annotations

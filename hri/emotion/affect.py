@@ -64,7 +64,7 @@ class Outlook(NamedTuple):
 
 
 class Imprint(NamedTuple):
-    """What was felt when something last happened. Plain numbers and names, to be kept in a file."""
+    """The feelings at the last event. Plain numbers and names, so that a file can hold them."""
 
     time: float
     """Seconds."""
@@ -84,7 +84,7 @@ class Imprint(NamedTuple):
 
 
 class Affect(NamedTuple):
-    """What is felt at a time."""
+    """The feelings at a time."""
 
     time: float
     """Seconds, not before the imprint's."""

@@ -195,7 +195,7 @@ def _ended(event: GoalEvent) -> frozenset[str]:
 
 
 def _fortunes(event: GoalEvent, liking: float) -> dict[str, float]:
-    """What is felt for others."""
+    """Emotions felt for others."""
     if event.change > 0:
         name = "happy_for" if liking > 0 else "resentment"
     else:

@@ -66,7 +66,7 @@ class EmotionModel(Behavior):
         "people", "who is seen: what comes by the id of someone with a name is theirs",
         is_optional=True,
     )  # fmt: skip
-    state = Output[EmotionState]("emotion", "what is felt now")
+    state = Output[EmotionState]("emotion", "current feelings")
     label = Output[str]("string", "the emotion that stands out, else the name of the mood")
     mood = Output[tuple[float, ...]]("doublearray", "pleasure, arousal, dominance, -1 to 1 each")
 
@@ -84,7 +84,7 @@ class EmotionModel(Behavior):
         self._files = Reloading(self.personality, context.clock)
         self._dynamics = self._files.model.dynamics()
         self._looked = now = context.clock.now()
-        # The state when something last happened: what is felt now follows from it.
+        # The state at the last event: the current feelings follow from it.
         self._affect = self._dynamics.rest(now)
         self._keeper: Keeper | None = None
         if self.memory:
@@ -131,7 +131,7 @@ class EmotionModel(Behavior):
         return bool(named) and self._keeper is None and not traces(paths.expanded(named))
 
     def begin_keeping(self) -> None:
-        """Keep from now on what is felt, since someone has allowed it. Raises `memory.begun`."""
+        """Save feelings from now on, since a person has allowed it. Raises `memory.begun`."""
         if self.may_ask_to_keep:
             path = paths.expanded(self.memory_after_yes)
             self._keeper = Keeper(path, self.personality, self._context)
@@ -154,7 +154,7 @@ class EmotionModel(Behavior):
             self._involve(person, name_of(person))
 
     def feeling(self) -> EmotionState:
-        """What is felt now."""
+        """The current feelings."""
         return self._dynamics.read(self._current())
 
     def feeling_words(self) -> str:
@@ -162,7 +162,7 @@ class EmotionModel(Behavior):
         return self._files.model.words(self.feeling().label)
 
     def why(self) -> tuple[Cause, ...]:
-        """The causes of what is felt with their shares and ages, the largest first."""
+        """The causes of the feelings with their shares and ages, the largest first."""
         return self._dynamics.why(self._current())
 
     def why_words(self, about: str = "") -> str:
@@ -192,7 +192,7 @@ class EmotionModel(Behavior):
         return why_words(feeling, causes, words, state.drives)
 
     def _meet(self, people: People) -> None:
-        """Put down to a name, once it is known, what was felt of the id of someone who is seen."""
+        """Attribute feelings about a track id to a name, once it is known."""
         if people is self._people:
             return
         names = {
@@ -254,8 +254,10 @@ class EmotionDisplay(Behavior):
     category = "emotion"
 
     personality = Param("neutral", "whose expressiveness to use; the same as the EmotionModel's")
-    rules = Param(HONEST, "display rules of emotions/display.toml; empty: what is felt is shown")
-    state = Input[EmotionState]("emotion", "what is felt")
+    rules = Param(
+        HONEST, "display rules of emotions/display.toml; empty: feelings are shown as they are"
+    )
+    state = Input[EmotionState]("emotion", "feelings")
     override = Input[Expression]("expression", "shown instead, as long as it is sent")
     expression = Output[Expression]("expression", "for the face")
     prosody = Output[Prosody]("prosody", "for the voice")
@@ -304,11 +306,15 @@ class EmotionDisplay(Behavior):
                 self._model = self._files.model
 
     def act(self, values: Mapping[str, float], duration: float) -> None:
-        """Show these emotions, 0 to 1, for so many seconds, whatever is felt. Raises HriError."""
+        """Show these emotions, 0 to 1, for some seconds instead of the felt ones. Raises
+        HriError.
+        """
         self._acting = self._acting.set(values, duration, self._clock.now())
 
     def act_more(self, emotion: str, increment: float, duration: float) -> None:
-        """Show an emotion by so much more than now, -1 to 1, for some seconds. Raises HriError."""
+        """Show an emotion more strongly than now by a value, -1 to 1, for some seconds. Raises
+        HriError.
+        """
         now = self._clock.now()
         self._acting = self._acting.raised(emotion, increment, self._state, duration, now)
 
@@ -324,4 +330,4 @@ class EmotionDisplay(Behavior):
 
 
 _CALM = EmotionState(CALM, 0.0, 0.0, 0.0, 0.0)
-"""What is shown before anything was felt."""
+"""The look before the first feeling."""

@@ -1,6 +1,6 @@
 """How a feeling shows on the face, in the voice, the eyes and the driving: `emotions/display.toml`.
 
-What is shown need not be what is felt. Display rules (P. Ekman and W. V. Friesen, "The repertoire
+Shown and felt emotions may differ. Display rules (P. Ekman and W. V. Friesen, "The repertoire
 of nonverbal behavior", Semiotica 1, 1969) weaken, exaggerate, hide or mask single emotions; what
 has not been hidden goes on to face, voice, eyes and driving.
 """
@@ -34,7 +34,7 @@ LABELS = (*NAMES, *MOODS)
 """Every label that a state can have."""
 
 HONEST = ""
-"""The name of no display rules at all: what is felt is shown."""
+"""The name for no display rules: feelings are shown as they are."""
 
 _ALMOST = 1 - 1e-12
 """A mood this close to the end of an axis is taken for less, so that its inverse is finite."""
@@ -53,7 +53,7 @@ class EmotionLook:
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """Something that is linear in what is felt, within limits."""
+    """A linear function of the mood, within limits."""
 
     pleasure: float
     arousal: float
@@ -78,7 +78,7 @@ STRAIGHT = Rule(0.0, 0.0, 0.0, 0.0, 0.0, rest=0.0)
 
 @dataclass(frozen=True, slots=True)
 class DisplayRule:
-    """What is shown of an emotion that is felt."""
+    """How a felt emotion is shown."""
 
     show: str
     """The emotion that is shown in its place; the same one when it is not masked."""

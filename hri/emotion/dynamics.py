@@ -105,7 +105,7 @@ class Dynamics:
         return self.resume(Imprint(now, {}, {}, {}, {}, {}, NOTHING), now)
 
     def resume(self, imprint: Imprint, now: float) -> Affect:
-        """The state at a time, from what was felt when something last happened.
+        """The state at a time, from the feelings at the last event.
 
         The imprint may come from a file, or from the settled state of another personality: drives
         that it lacks are at rest, those that this personality lacks are dropped. Raises ValueError
@@ -212,10 +212,10 @@ class Dynamics:
         need = Need(level, imprint.needs[drive].mood)
         return self._affect(imprint._replace(needs={**imprint.needs, drive: need}))
 
-    # What is felt.
+    # Feelings.
 
     def read(self, affect: Affect) -> EmotionState:
-        """What is felt, as others may see it."""
+        """The feelings, as a value for others."""
         intensities, mood, levels = self._fading.read(affect)
         label = label_at(affect.outlook.course, affect.time - affect.imprint.time)
         if label == NOTHING:
@@ -287,8 +287,8 @@ class Dynamics:
     # What an event finds and leaves.
 
     def _imprint_at(self, affect: Affect, now: float) -> Imprint:
-        """What is felt just before something happens: now, or, when that is past, at the state's
-        time. Of the same instant as the last event, its imprint, so that both come together.
+        """The feelings just before an event: now, or, when that is past, at the state's time. At
+        the same instant as the last event, its imprint, so that both count together.
 
         Raises ValueError for a time that is not finite.
         """

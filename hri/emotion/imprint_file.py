@@ -1,4 +1,6 @@
-"""An imprint of what was felt as JSON, to the last bit, and back with every value checked."""
+"""Writes an imprint of feelings as JSON, exact to the last bit, and reads it with every value
+checked.
+"""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ class Keeper:
 
     A file that cannot be used is reported by the event `memory.refused` and renamed; one that
     cannot be written by `memory.failed`, once; and `memory.forgotten` that it was made to forget.
-    On a fake clock it does not write over what was felt in real time.
+    On a fake clock it does not overwrite feelings of real time.
     """
 
     def __init__(self, path: Path, personality: str, context: Context) -> None:
@@ -63,7 +63,7 @@ class Keeper:
         self._forgettings = 0
 
     def recall(self, dynamics: Dynamics) -> Affect:
-        """What is felt now, the time away counted; nothing yet when nothing is remembered."""
+        """The feelings now, decayed over the time away; neutral without a memory."""
         now = self._clock.now()
         try:
             memory = recall(self._path)

@@ -20,11 +20,11 @@ FAINT = 1e-3
 """A row that weighs less is not kept apart when it is older than OLD_S: it explains nothing."""
 OLD_S = 60.0
 PROSPECTS = frozenset({"hope", "fear"})
-"""What is felt for a goal until it is decided."""
+"""Emotions about a goal until it is decided."""
 FORTUNES = frozenset({"happy_for", "resentment"})
-"""What is felt as long as the goal of someone else goes well."""
+"""Emotions while another's goal goes well."""
 MISFORTUNES = frozenset({"pity", "gloating"})
-"""What is felt as long as it goes badly."""
+"""Emotions while it goes badly."""
 _OF_A_GOAL = PROSPECTS | FORTUNES | MISFORTUNES
 MOST_OPEN = 50
 """Goals that are kept apart besides, as long as something is felt for them that may end with them:
@@ -70,7 +70,7 @@ class LedgerRow(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Cause:
-    """A part of what is felt."""
+    """A part of the feelings, with its cause."""
 
     name: str
     """A stimulus, "goal.NAME", "action.NAME", "object.NAME", "drive.NAME", TEMPERAMENT, OTHER."""
@@ -125,7 +125,7 @@ def _lightest(ledger: Ledger, leaving: Collection[Origin]) -> list[Origin]:
 
 
 def _excess(weights: Mapping[Origin, float], most: int) -> list[Origin]:
-    """The lightest ones, beyond so many."""
+    """The lightest ones, beyond the limit."""
     if len(weights) <= most:
         return []
     return sorted(weights, key=weights.__getitem__)[: len(weights) - most]

@@ -39,7 +39,7 @@ LONGEST_AWAY_S = 365 * 86400.0
 
 @dataclass(frozen=True, slots=True)
 class Memory:
-    """What was felt, and when it was kept."""
+    """Feelings, and the time at which they were saved."""
 
     imprint: Imprint
     time: float
@@ -137,9 +137,8 @@ def keep(path: Path, memory: Memory) -> Mark:
 
 
 def spare_real_time(path: Path) -> None:
-    """Refuse to let a run of fake time write over what was felt in real time.
-
-    Raises HriError, also for a file that cannot be read.
+    """Refuse to let a run of fake time overwrite feelings of real time. Raises HriError, also for a
+    file that cannot be read.
     """
     memory = recall(path)
     if memory is not None and not memory.is_of_fake_time:
@@ -203,9 +202,8 @@ def people(imprint: Imprint) -> set[str]:
 
 
 def without(imprint: Imprint, person: str) -> Imprint:
-    """The same without a person: what they caused stays felt, but nobody has done it.
-
-    What is felt for a goal, a deed or a thing that is called by their name goes.
+    """The same without a person: feelings that they caused stay, without a cause. Feelings about a
+    goal, a deed or a thing with their name are removed.
     """
     called = {name: None for name in people(imprint) if is_same_name(person, name)}
     rest = renamed(imprint, called)

@@ -57,7 +57,7 @@ class Personality:
     follow_s: float = _FOLLOW_S
     """Seconds in which an emotion of charge 1 would move the mood by its own coordinates."""
     expressiveness: float = 1.0
-    """How much of what is felt the face shows."""
+    """How much of its feelings the face shows."""
     drives: tuple[Drive, ...] = DRIVES
     """What it needs."""
 

@@ -38,7 +38,7 @@ _PERSON = re.compile(r"\{([^{}]*)\}")
 """In words of a stimulus, what gives way to a name."""
 
 _AGES = (
-    # up to so many seconds: (seconds of the unit, one of it, several of it)
+    # upper limit in seconds: (seconds of the unit, singular, plural)
     (60.0, 1.0, "a moment ago", "a moment ago"),
     (3600.0, 60.0, "a minute ago", "{} minutes ago"),
     (86400.0, 3600.0, "an hour ago", "{} hours ago"),

@@ -1,4 +1,4 @@
-"""The face: drawings that morph with what is felt, said and looked at.
+"""The face: drawings that morph with feelings, speech and gaze.
 
     from hri.face import render_face
     picture = render_face(expression="happy")       # RGB, uint8, [480, 640, 3]

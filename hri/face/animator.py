@@ -1,4 +1,4 @@
-"""Brings a face to life: what is asked of it, over time, becomes weights that never jump."""
+"""Animates a face: turns requests over time into weights that never jump."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Animator:
         """What the face can do, by name."""
         return self._gesturing.known
 
-    # --- what is asked of it ---
+    # --- requests ---
 
     def express(self, expression: Expression | None) -> None:
         """Show an expression from now on; None falls back to the mood.

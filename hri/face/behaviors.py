@@ -1,4 +1,4 @@
-"""The face in a network: what is felt, said and looked at becomes weights, and those a picture."""
+"""The face in a network: feelings, speech and gaze become weights, and those a picture."""
 
 from __future__ import annotations
 
@@ -195,7 +195,7 @@ class FaceRecorder(Behavior):
 
     may_do = NOTHING
     face = Param("robot", "name of a folder in faces/, or a path")
-    file = Param("face.csv", "where to write; what is there is overwritten")
+    file = Param("face.csv", "file to write; an existing one is overwritten")
     weights = Input[FaceWeights]("weights", "what to record")
 
     def check(self) -> None:
@@ -229,7 +229,7 @@ class FaceRenderer(Behavior):
     may_do = NOTHING
     screen_id = Param("screen", "id of the screen")
     face = Param("robot", "name of a folder in faces/, or a path")
-    captions = Param(False, "write what is said below the face")
+    captions = Param(False, "show captions below the face")
     weights = Input[FaceWeights]("weights", "what to draw")
     caption = Input[str]("string", "what to write, when captions are on", is_optional=True)
     is_watching = Input[bool](

@@ -12,10 +12,10 @@
     wait = 0.3
     gesture = "nod"
 
-Every step does one or more things. `at` is in seconds from the start. A step with `wait` comes so
-many seconds after the step above it, and when that one speaks, after it has spoken. A step with
-neither comes together with the step above. What a step at 0 asks for is there from the first
-picture on; only speech and gestures begin then.
+Every step does one or more things. `at` is in seconds from the start. A step with `wait` comes that
+many seconds after the step above it, or after its speech. A step with neither comes together with
+the step above. What a step at 0 asks for is there from the first picture on; only speech and
+gestures begin then.
 """
 
 from __future__ import annotations

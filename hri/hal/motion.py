@@ -37,7 +37,7 @@ class Response:
     gain: float = 8.0
     """Meters a second for each meter that a motion lags behind."""
     lead: float = 0.0075
-    """Seconds a base takes to follow a command; the profile is read so much earlier."""
+    """Seconds a base takes to follow a command; the profile is read earlier by this."""
     near: Way = Way(0.0005, math.radians(0.05))
     """A motion that ends within this has arrived; not finer than the wheels measure."""
 

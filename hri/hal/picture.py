@@ -58,7 +58,7 @@ def _kind(thing: object) -> str:
 
 
 Resize = Callable[[Image, int, int], NDArray[np.uint8]]
-"""Gives a picture so many columns and rows."""
+"""Resizes a picture to a number of columns and rows."""
 
 
 def nearest(image: Image, columns: int, rows: int) -> NDArray[np.uint8]:

@@ -103,7 +103,7 @@ class SteeredBase(DriveSystem, EmergencyStop):
 
     @abstractmethod
     def _set_power(self, percent: float, now: float) -> None:
-        """Let the motors use so much of their force, 0 to 100."""
+        """Let the motors use a share of their force, 0 to 100."""
 
     @abstractmethod
     def _rolled(self, now: float) -> Way:

@@ -93,7 +93,7 @@ class Peer(Sender):
         self.send(line)
 
     def flush(self) -> None:
-        """Send what was kept, as far as the socket takes it."""
+        """Send queued data, as far as the socket accepts it."""
         with self._lock:
             while self._outgoing and not self.fault:
                 frame = self._outgoing.popleft()

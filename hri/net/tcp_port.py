@@ -32,7 +32,9 @@ Listener = Callable[[Message], object]
 AFTER_MISTAKE = 1.0
 """Seconds that the thread rests after an exception that nobody expected."""
 MOST_WARNINGS, WARNINGS_WITHIN = 200, 60.0
-"""At most so many dropped peers are logged in so many seconds; the others with `--debug=net`."""
+"""Number of dropped peers logged per period, and the period in seconds; others need
+`--debug=net`.
+"""
 TO_STOP = 2.0
 """Seconds that `close` waits for the thread; only the search for a host's address takes longer."""
 
@@ -85,7 +87,7 @@ class TcpPort(ABC):
             self._ring()
 
     def wait_for_peers(self, count: int, timeout: float) -> bool:
-        """Block until there are exactly so many peers; whether it came so within `timeout` s."""
+        """Block until the number of peers is exactly this; False after `timeout` s."""
         with self._changed:
             return self._changed.wait_for(lambda: len(self._peers) == count, timeout)
 

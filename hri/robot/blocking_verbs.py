@@ -34,7 +34,7 @@ class BlockingVerbs(ABC):
     ) -> bool | Utterance | None:
         """Ask a yes/no question; yes, no, a nod and a shake count. None without an answer.
 
-        With a `grammar`, what is heard by it is the answer. Asked again up to `retries` times.
+        With a `grammar`, its utterance is the answer. Asked again up to `retries` times.
         """
         answer: bool | Utterance | None = self.run(verbs.ask, question, timeout, grammar, retries)
         return answer

@@ -15,7 +15,7 @@ from hri.core.signals import EmotionState
 from hri.core.writing import PRIVATE, write_text
 
 Moment = tuple[float, EmotionState]
-"""A time in seconds and what was felt then."""
+"""A time in seconds and the feelings then."""
 
 SPAN_S = 600.0
 """Seconds that the drawing shows."""

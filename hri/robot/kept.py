@@ -29,7 +29,7 @@ from hri.vision.tracking.face_recognition import Acquaintances
 
 
 class Kept(ABC):
-    """One kind of what is kept."""
+    """One kind of saved data."""
 
     about: ClassVar[str]
     """What it is, for people."""
@@ -48,7 +48,7 @@ class Kept(ABC):
 
     @abstractmethod
     def forget(self, place: Path, person: str) -> None:
-        """Erase what is kept of a person there. Raises HriError."""
+        """Erase the data of a person there. Raises HriError."""
 
     def needs_yes(self, person: str | None) -> bool:
         """Whether someone made it on purpose, so that it goes only after a yes."""
@@ -62,7 +62,7 @@ class Kept(ABC):
 class Feelings(Kept):
     """Mood, causes, drives and relations, in each file that a robot kept."""
 
-    about = "what was felt, and what the robot thinks of people"
+    about = "feelings, and the robot's opinions of people"
 
     def places(self) -> list[Path]:
         files = dict.fromkeys((persistence.memory_file(), *noted("feelings")))
@@ -238,7 +238,7 @@ KEPT: tuple[Kept, ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Trace:
-    """What is kept at one place, of a person or of everyone."""
+    """Saved data at one place, of a person or of everyone."""
 
     kept: Kept
     place: Path

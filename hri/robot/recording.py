@@ -2,7 +2,7 @@
 
 `feelings.svg` is there from the first second on and shows the last ten minutes. Only the owner can
 read it, and people are informed: in the terminal, by a mark on the face, and aloud where a
-microphone hears them. What was said to others, and so was rejected, is left out.
+microphone hears them. Speech to others, which was rejected, is left out.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ REJECTED: Mapping[str, Collection[str]] = {
 }
 """Properties of events that hold words which were rejected, or may be yet."""
 ALOUD = "I am recording."
-"""What is said at the beginning when people can be heard; it waits for no answer."""
+"""The announcement at the beginning when people can be heard; it does not wait for an answer."""
 
 log = logging.getLogger("hri.recording")
 

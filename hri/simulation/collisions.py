@@ -1,7 +1,7 @@
-"""Touches between a robot and people, by cause: who moved, from which side, and what was seen.
+"""Touches between a robot and people, by cause: who moved, from which side, and the sensors' view.
 
 A `Witness` gets, at each tick, the positions of the robot and all people, and who is covered by
-which sensor. It records one `Collision` for each touch, and what is known about its cause. Meters,
+which sensor. It records one `Collision` for each touch, and its cause, as far as known. Meters,
 seconds.
 """
 

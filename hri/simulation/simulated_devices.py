@@ -51,7 +51,7 @@ MAX_RANGE = (0.8, 0.1, 30.0)
 RANGE_NOISE = (0.01, 0.0, 0.5)
 """Default, least and most of its noise: standard deviation as a part of the distance."""
 COUNTS_AT_1_CM = 7000.0
-"""An infrared sensor counts the light that comes back: so much at 1 cm, falling with the distance,
+"""An infrared sensor counts the reflected light: this much at 1 cm, falling with the distance,
 about as the one of 2003 did; up to MOST_COUNTS."""
 MOST_COUNTS = 1023
 VOLTAGES = (10.5, 12.4)

@@ -148,7 +148,7 @@ class Journey:
         self._spot, self._moved_at = start, 0.0
 
     def run(self, longest: float = LONGEST_S) -> Trip:
-        """The trip, until it is there, gives up, or so many seconds have passed."""
+        """The trip, until arrival, giving up, or a time limit in seconds."""
         trip = self.trip
         self._runner.start()
         try:

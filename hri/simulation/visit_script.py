@@ -13,7 +13,7 @@ Each step does one thing. `at` is in seconds from the start of the visit; a step
 with the step above, and `wait = 2` lets two seconds pass before the steps below. A step with
 `after` waits, from its time on, for an event of that name; each event sets off one step, the first
 in the file that waits for it. It is left out when the event does not come `within` that many
-seconds. `delay` seconds lie between the event, or the time, and what is done. Where the world
+seconds. `delay` seconds lie between the event, or the time, and the action. Where the world
 has several people, `who = "anna"` names the one; else it is the first.
 """
 
@@ -172,7 +172,7 @@ def _steps(tables: list[Table]) -> list[Step]:
 
 
 def _deed(table: Table) -> str:
-    """The one key that says what is done."""
+    """The one key that names the action."""
     for name in table.data:
         if name not in (*MODIFIERS, *DEEDS, "wait"):
             raise table.error(

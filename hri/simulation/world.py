@@ -180,7 +180,7 @@ class SimulatedWorld(Resource):
         return math.atan2(left, ahead)
 
     def stand_at(self, person: SimulatedPerson, distance: float, now: float) -> None:
-        """Let someone walk straight until they are so many meters from the robot."""
+        """Let someone walk straight until they are at a distance from the robot, meters."""
         (x, y), pose = person.place(now), self.base.pose
         part = distance / max(self.distance_to(person, now), RADIUS)
         person.go(pose.x + (x - pose.x) * part, pose.y + (y - pose.y) * part, now)

@@ -32,8 +32,9 @@ PRE_ROLL = 0.3
 PAUSE = 0.6
 """Seconds of quiet that end a piece, unless someone wants others."""
 TRAILING = 0.2
-"""Seconds that weak sounds may go on behind the last near one: so much longer is a pause that the
-talk of others fills."""
+"""Seconds that weak sounds may continue after the last near one: the extra pause when others
+talk.
+"""
 LONGEST = 20.0
 """Seconds; a longer piece is cut, so that no babble grows for ever."""
 BEGIN_WINDOW, BEGIN_VOICE = 10, 5

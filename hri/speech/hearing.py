@@ -1,4 +1,4 @@
-"""From sound to what was said, without a robot around it: what all who listen share."""
+"""From sound to utterances, without a robot: shared by all listeners."""
 
 from __future__ import annotations
 

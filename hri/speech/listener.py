@@ -54,7 +54,7 @@ class Listener(Behavior):
     (reason, detail, text, confidence), `speech.partial` (text) while someone speaks,
     `speech.interrupted` (text, rule) when a rule marked @interrupts is heard over the robot's own
     voice, and `grammar.changed` (file) or `grammar.refused` (file, error). Loads its models and
-    grammars while the rest already runs; what is said before the first grammar is there waits.
+    grammars while the rest already runs; speech before the first grammar is loaded waits.
 
     The marks of rules decide which are active, see `hri.speech.turn`. A sentence of a rule marked
     @interrupts that is heard as clearly as over speech takes effect 0.2 s after its last sound,
@@ -75,7 +75,7 @@ class Listener(Behavior):
     push_to_talk = Input[bool](
         "boolean", "hear only while it is true; always without a link", is_optional=True
     )
-    utterance = Output[Utterance]("utterance", "what was heard, when something was")
+    utterance = Output[Utterance]("utterance", "accepted speech")
     text = Output[str]("string", "the words of it")
     rule = Output[str]("string", "the rule that allows them")
     partial = Output[str]("string", "the words so far, when there are new ones")
@@ -93,7 +93,7 @@ class Listener(Behavior):
     is_muted = False
     """Set it to be deaf for a while."""
     last_utterance: Utterance | None = None
-    """What was heard last."""
+    """The last utterance."""
 
     def check(self) -> None:
         load_grammar(self.grammar)

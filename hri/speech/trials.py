@@ -1,4 +1,4 @@
-"""Recordings of what was said, heard with a grammar: what was understood, at any strictness."""
+"""Recognition results of recordings with a grammar, at any strictness."""
 
 from __future__ import annotations
 
@@ -52,7 +52,9 @@ class Attempt:
         ]
 
     def is_right(self, grammar: Grammar, strictness: float) -> bool:
-        """Whether just what was said was heard; for what is outside of the grammar, nothing."""
+        """Whether the words were recognized exactly; speech outside the grammar must be
+        rejected.
+        """
         accepted = self.accepted(grammar, strictness)
         if self.meaning is None:
             return not accepted
@@ -68,7 +70,7 @@ def attempt(clip: RecordedClip, engine: Recognizer, grammar: Grammar) -> Attempt
 
 
 Confusion = tuple[str, str]
-"""What was said, and what it was taken for."""
+"""The spoken sentence, and the sentence it was taken for."""
 
 
 def confusions(

@@ -232,7 +232,7 @@ class Voice(Behavior):
             playing.speech = speech
 
     def _follow(self, now: float) -> None:
-        """See whether what is said has been heard to its end."""
+        """Check whether the current speech has been played to its end."""
         playing = self._playing
         if playing is not None and playing.is_whole and self._speaker.position(now) is None:
             self._finish(was_cut=False)

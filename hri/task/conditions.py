@@ -7,8 +7,8 @@ context.manager.install(raise_when, door, "visitor.came")  # raises an event, ea
 A pattern such as "head.*" is the simplest condition. `within` is in seconds, from the first event
 that counts to the one that completes it.
 
-An event is looked at once, when it comes, and is not kept. What is kept of each part is the latest
-event from which on it has been met: no more is needed by the parts that follow it and by the times
+An event is looked at once, when it comes, and is not kept. For each part the latest event from
+which on it has been met is stored: no more is needed by the parts that follow it and by the times
 around it, however long ago it was.
 """
 

@@ -66,7 +66,7 @@ class Parallel:
         return self._tasks
 
     async def _run(self, count: int) -> None:
-        """Run until so many are over, and cancel the others."""
+        """Run until a number of tasks are done, and cancel the others."""
         async with trio.open_nursery() as nursery:
             for task in self._tasks:
                 nursery.start_soon(self._follow, task)

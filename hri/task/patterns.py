@@ -22,9 +22,8 @@ async def with_timeout(context: TaskContext, seconds: float, job: Job, *argument
 
 
 async def retry(context: TaskContext, times: int, delay: float, job: Job, *arguments: Any) -> Any:
-    """What a job returns at the first of so many tries that works, `delay` seconds between.
-
-    Only an HriError is worth another try; that of the last one is raised.
+    """The result of a job's first successful try, with `delay` seconds between tries. Only an
+    HriError leads to another try; the last one is raised.
     """
     for _ in range(times - 1):
         try:
@@ -37,5 +36,5 @@ async def retry(context: TaskContext, times: int, delay: float, job: Job, *argum
 
 
 async def repeat(context: TaskContext, times: int, job: Job, *arguments: Any) -> list[Any]:
-    """What a job returns each of so many times, one after the other."""
+    """The results of a job run several times in sequence."""
     return [await job(context, *arguments) for _ in range(times)]

@@ -17,9 +17,9 @@ NEARNESS = 0.5
 REACH = 1.5
 """Meters."""
 LEAD = 0.6
-"""By so much someone else must be more than the one who has the attention ..."""
+"""Margin by which another person must exceed the attended one ..."""
 HOLD = 1.5
-"""... for so many seconds."""
+"""... for this many seconds."""
 PATIENCE = 1.0
 """Seconds for which it stays with someone who is out of sight."""
 

@@ -66,7 +66,7 @@ class PersonTracker(Behavior):
         """Everyone, as they were seen last."""
 
     def compute(self, now: float, dt: float) -> None:
-        """Take what was seen, say so, and hand over the newest picture."""
+        """Collect results, raise events, and hand over the newest picture."""
         try:
             for people in self._service.poll():
                 self._take(people, now)
@@ -222,7 +222,7 @@ def camera_of(context: Context, id: str) -> Camera | None:
 
 
 def panned(people: People, pan: float) -> People:
-    """The same people, seen by a camera that was turned to the left by so many radians."""
+    """The same people, seen by a camera turned to the left by an angle, radians."""
     if not pan:
         return people
     turned = (

@@ -82,7 +82,7 @@ class CameraView:
         return self.mount.x + far * math.cos(bearing), self.mount.y + far * math.sin(bearing)
 
     def distance(self, x: float, y: float, pixels: float, meters: float, size: Size) -> float:
-        """Meters to something of a known size that takes so many pixels there; NaN for none.
+        """Distance in meters to an object of known size from its size in pixels; NaN for 0 pixels.
 
         The size is measured across the line of sight.
         """

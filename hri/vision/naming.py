@@ -50,7 +50,7 @@ class FaceNames(Behavior):
         self._looked: dict[str, float] = {}
         self._seen: dict[str, tuple[Image, Landmarks]] = {}
         self._told = ""
-        """What was told last of a model that fails."""
+        """The last reported error of a failing model."""
         self._recognizer: FaceRecognizer | None = None
         self._events = context.events
         self._checked = context.clock.now()

@@ -19,8 +19,8 @@ async def wait_for_person(
     """Wait until someone is there; their id, or None when nobody comes in `timeout` seconds.
 
     With `looking`, until someone looks at the robot; with `within`, until someone is nearer than
-    so many meters. Of several it is the one who is attended to. Raises HriError when no network has
-    a PersonTracker.
+    that, meters. Of several it is the one who is attended to. Raises HriError when no network has a
+    PersonTracker.
     """
     end = context.clock.now() + timeout
     while True:
@@ -37,7 +37,7 @@ async def wait_for_person(
 async def look_at(context: TaskContext, person: str = "", seconds: float = 0.0) -> bool:
     """Let the eyes stay on a person, on who is attended to now without an id.
 
-    Ends after so many seconds, with 0 when the person is gone; whether they were there to the end.
+    Ends after `seconds`, with 0 when the person is gone; whether they were there to the end.
     Raises HriError when no network has an Attention and a PersonTracker.
     """
     attention = context.behavior(Attention)

@@ -29,7 +29,7 @@ class ValueRecorder(Behavior):
     """Writes all that comes in to a file, with its time; several links give several lines."""
 
     may_do = NOTHING
-    file = Param("values.jsonl", "where to write; what is there is overwritten")
+    file = Param("values.jsonl", "file to write; an existing one is overwritten")
     max_lines = Param(100_000, "then it stops recording", minimum=1, maximum=MOST_LINES)
     input = Input[Any]("any", "numbers, texts, truths or arrays")
 

@@ -39,7 +39,7 @@ def rows(quick: bool) -> Iterator[Row]:
 
 
 def _spent(seconds: float) -> float:
-    """CPU seconds that so much of the world's time takes."""
+    """CPU seconds per period of the world's time."""
     clock = FakeClock()
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "ring.toml"

@@ -31,7 +31,7 @@ def measure(quick: bool = False) -> dict[str, Any]:
 
 
 def rows(count: int, seconds: float) -> Iterator[Row]:
-    """All rows in the order of the table: of so many frames, and of so many seconds of talking."""
+    """All rows in the order of the table: from a number of frames, and of seconds of talking."""
     tell = partial(print, file=sys.stderr, flush=True)
     model = load_face()
     tell("frames")

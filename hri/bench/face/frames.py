@@ -29,7 +29,7 @@ BLEND_MS, FRAME_MS, SLOWEST_MS = 0.03, 6.0, 9.0
 
 
 def talking(model: FaceModel, count: int) -> list[Vector]:
-    """Weights of so many frames of a face that talks without end and is moved by what it says."""
+    """Weights of a number of frames of a face that talks without pause, with emotion."""
     animator = Animator(model, seed=1)
     speech = endless_speech(count / RATE)
     animator.speak(speech)

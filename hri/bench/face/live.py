@@ -40,7 +40,7 @@ DEVICES = (
 
 
 def rows(seconds: float) -> Iterator[Row]:
-    """Frames that were due but not shown in so many seconds."""
+    """Number of frames dropped in a period, seconds."""
     robot = Robot("companion", clock=RealClock(), devices=DEVICES, notice=lambda line: None)
     noted: list[tuple[float, int]] = []
 

@@ -65,7 +65,7 @@ def _check_s() -> float:
 
 
 def many_rules(count: int) -> str:
-    """A grammar of so many rules: half are commands, the others the names they are about."""
+    """A grammar with a number of rules: half are commands, the others the names they are about."""
     names = samples.names(count // 2)
     lines = ["#JSGF V1.0;", "grammar many;"]
     for number, name in enumerate(names):

@@ -12,7 +12,7 @@ from hri.cli.progress_line import waiting
 COMMANDS = {
     "check": (check, "load all emotion files, run their self-tests, report what is wrong"),
     "list": (list, "show personalities, stimuli and emotions"),
-    "simulate": (simulate, "play events and print what is felt"),
+    "simulate": (simulate, "play events and print the feelings"),
     "watch": (watch, "show what a running robot feels"),
     "forget": (forget, "the same as `hri forget`"),
 }

@@ -33,10 +33,8 @@ class RemoteFile:
 
 
 def download(remote: RemoteFile, file: Path, progress: Progress) -> None:
-    """Bring the whole file; what is there of it is taken for its beginning, and stays when it ends
-    early.
-
-    Raises NotAvailable when it cannot be reached, and HriError when it is not what it should be.
+    """Download the whole file; an existing part is resumed, and kept if the download fails. Raises
+    NotAvailable when it cannot be reached, and HriError when it is not what it should be.
     """
     _fill(remote, file, progress)
     if sha256_of(file) != remote.sha256:

@@ -37,7 +37,7 @@ DISOBEYS = Cause("disobeys", "my base no longer obeys: its button, its charger o
 
 
 def late(seconds: float) -> Cause:
-    """The base reports its motion so many seconds after it was told to move."""
+    """Delay, seconds, of the reported motion after its command."""
     return Cause("late", f"what my base reports is {seconds:.2f} s late")
 
 

@@ -23,7 +23,7 @@ class Noise:
         return self._senseless / self._all if self._all >= FEWEST else 0.0
 
     def add(self, count: int, senseless: int, now: float) -> None:
-        """So many bytes have come since the last call, and so many turned out to be senseless."""
+        """Count the bytes received since the last call, and the garbage among them."""
         elapsed = 0.0 if self._time is None else max(0.0, now - self._time)
         decay, self._time = math.exp(-elapsed / MEMORY), now
         self._all = decay * self._all + count

@@ -106,7 +106,7 @@ class _Beam:
         )
 
     def passes(self, place: _Place, length: float) -> bool:
-        """Whether it goes through a place on its first so many meters."""
+        """Whether it passes through a place within a distance, meters."""
         cos, sin = math.cos(self.mount.heading), math.sin(self.mount.heading)
         x, y = place.x - self.mount.x, place.y - self.mount.y
         return 0 < x * cos + y * sin < length and abs(y * cos - x * sin) < PASSED

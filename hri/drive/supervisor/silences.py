@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 
 MOST, WITHIN = 3, 10.0
-"""So many silences within so many seconds are too many."""
+"""Limit of silences, and its period in seconds."""
 
 
 class Silences:

@@ -69,7 +69,7 @@ Item = Shape | Opening
 
 @dataclass(frozen=True)
 class DisplayList:
-    """What is drawn, back to front, and how it morphs."""
+    """The shapes, back to front, and how they morph."""
 
     width: float
     height: float

@@ -15,8 +15,9 @@ Vector = NDArray[np.float32]
 CHUNK = 64
 """Columns that stay together."""
 OVERHEAD = 10_000
-"""What a block costs beside its numbers: as much as so many of them (measured, half to twice it
-gives the same speed)."""
+"""Overhead of a block, as a number of its elements (measured; half to twice it gives the same
+speed).
+"""
 
 
 class Blend:

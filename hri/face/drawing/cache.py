@@ -29,7 +29,7 @@ from hri.face.settings import HeadSettings
 BAKERS = (
     "outline.py", "paint.py", "svg.py", "head_turn.py", "light.py", "baking.py", "serialization.py",
 )  # fmt: skip
-"""The modules that what is kept depends on."""
+"""The modules that cached data depends on."""
 MOST_FILES = 16
 MOST_BYTES = 100_000_000
 """Of all files together; a face larger than a quarter of it is not kept."""

@@ -24,7 +24,7 @@ QUIET_DB, FULL_DB = -26.0, 0.0
 OVER_NOISE_DB = 9.0
 """Sound less than this above the noise of the recording is not a voice."""
 LOUDNESS_BELOW_NOISE_DB = -30.0
-"""The quietest parts count as noise only when they are so much below the loud ones."""
+"""The quietest parts count as noise only when they are this far below the loud ones."""
 LEAST = 30.0
 """Of 32767: what is never louder is silence."""
 
@@ -200,7 +200,7 @@ def _first_peak(peaks: NDArray[np.bool_], hertz: Values, otherwise: float) -> Va
 
 
 def _calmed(values: Values, steps: int) -> Values:
-    """Smoothed along the time over so many steps, since a mouth is slower than a voice."""
+    """Steps of smoothing over time, since a mouth is slower than a voice."""
     window = np.hanning(steps + 2)[1:-1]
     padded = np.pad(values, ((steps // 2, steps // 2), (0, 0)))
     moved = [padded[n : n + len(values)] * share for n, share in enumerate(window / window.sum())]

@@ -13,7 +13,7 @@ from hri.face.model import FaceModel
 from hri.face.motion.spring import Follower, Spring, Values
 
 PICTURE_LEAD = 0.05
-"""Seconds by which the track of the lips is read ahead of what is heard: one frame until the
+"""Seconds by which the track of the lips is read ahead of the sound: one frame until the
 picture is seen, and a little more, since lips that are early look right and late ones do not."""
 RAISED = {"browOuterUp": 0.4, "browInnerUp": 0.25, "headPitch": 0.12}
 """What a stressed syllable lifts."""

@@ -104,14 +104,14 @@ class LipTrack(Protocol):
     """The mouth over a whole speech."""
 
     def weights(self, position: float, articulator: str = "lips") -> dict[str, float]:
-        """Weights of visemes, 0 to 1.2, after so many seconds of the speech; none at rest.
+        """Weights of visemes, 0 to 1.2, at a position in the speech, seconds; none at rest.
 
         `articulator` is one of ARTICULATORS: jaw and tongue may be elsewhere than the lips.
         """
         ...
 
     def emphasis(self, position: float) -> float:
-        """How much the voice stresses what is said now, 0 to 1; brows follow it."""
+        """Stress of the current syllable, 0 to 1; the brows follow it."""
         ...
 
 

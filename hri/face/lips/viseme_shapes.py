@@ -21,7 +21,7 @@ class VisemeShapes:
         }
 
     def vector(self, track: LipTrack, position: float) -> Vector:
-        """Weights of all channels after so many seconds of the speech."""
+        """Weights of all channels at a position in the speech, seconds."""
         vector = np.zeros(next(iter(self._shapes.values())).shape[1], np.float32)
         for articulator, shapes in self._shapes.items():
             for viseme, weight in track.weights(position, articulator).items():

@@ -1,4 +1,4 @@
-"""Mood, states and expressions over time: what is asked for jumps, what shows glides."""
+"""Mood, states and expressions over time: requests jump, the face glides."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from hri.face.regions import NAMES, by_region
 from hri.face.settings import Timing
 
 MOOD = 0.6
-"""How much of an expression a mood shows: it is weaker than what is shown on purpose."""
+"""Share of an expression that a mood shows: it is weaker than an explicit expression."""
 COVERING = ("asleep", "error")
 """States whose look hides what is expressed; that of the others shows where nothing is."""
 PACES = {**dict.fromkeys(NAMES, 1.0), "brows": 1.3, "lids": 1.3, "eyes": 1.3, "head": 0.7}
@@ -86,7 +86,7 @@ class ExpressionBlender:
 
     @property
     def shuts(self) -> float:
-        """How far what is asked for shuts the eyes, 0 to 1."""
+        """How far the requested look shuts the eyes, 0 to 1."""
         goal = self._wanted()
         shown = goal[:-1] + (1 - goal[-1]) * self._below_goal
         return self._lids.shut(shown)

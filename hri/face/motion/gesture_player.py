@@ -73,9 +73,8 @@ class GesturePlayer:
         return self.play(name, self._tracks[name], strength, seconds)
 
     def play(self, name: str, track: Track, strength: float, seconds: float) -> Playing:
-        """Play a track from the next step on, instead of what is played.
-
-        Raises HriError for a strength or seconds that are out of range.
+        """Play a track from the next step on, replacing the current one. Raises HriError for a
+        strength or seconds that are out of range.
         """
         if not 0 <= strength <= STRONGEST:
             what = f"a gesture of strength {strength}"

@@ -141,7 +141,7 @@ class Track:
         self._slopes = _monotone_slopes(times, self._values)
 
     def at(self, time: float) -> tuple[Values, Values]:
-        """The weights of all channels and the gaze [2] after so many seconds."""
+        """The weights of all channels and the gaze [2] at a time in seconds."""
         time = min(max(time, 0.0), self.duration)
         last = len(self._times) - 2
         number = min(max(int(np.searchsorted(self._times, time, side="right")) - 1, 0), last)

@@ -82,7 +82,7 @@ def chance(seed: int, kind: str, slot: int) -> float:
 
 
 def lid_closure(blink: BlinkSettings, elapsed: float) -> float:
-    """How far the lids are shut, 0 to 1, so many seconds after a blink began."""
+    """How far the lids are shut, 0 to 1, at a time since the blink began, seconds."""
     if elapsed <= 0:
         return 0.0
     if elapsed < blink.close_s:

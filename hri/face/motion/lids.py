@@ -51,11 +51,11 @@ class Lids:
         return min(max(shut, 0.0), 1.0)
 
     def owned(self, owned: NDArray[np.floating]) -> float:
-        """How much of the lids someone owns, who owns so much of each channel."""
+        """Lid ownership implied by per-channel ownership."""
         return float(owned[self._shut].max(initial=0.0))
 
     def blinking(self, weights: Weights, blink: float) -> Weights:
-        """The weights with so much of a blink, 0 to 1."""
+        """The weights with a share of a blink, 0 to 1."""
         share = blink * np.maximum(1 - self._eye_of @ weights[self._shut], 0.0)
         whole = np.minimum(share, 1.0) * self._bent
         as_drawn = np.clip(weights, 0.0, 1.0)

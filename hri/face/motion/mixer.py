@@ -36,7 +36,7 @@ class Layers:
     """What each layer asks for."""
 
     expression: Weighted
-    """The mood and what is shown in its place."""
+    """The mood, and the look shown instead of it."""
     viseme: Weighted
     talking: float = 0.0
     """How much speech owns the mouth, 0 to 1."""

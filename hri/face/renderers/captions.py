@@ -1,4 +1,4 @@
-"""Writes what is said across the bottom of a picture."""
+"""Writes captions across the bottom of a picture."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ class Lamp:
     """Red, green, blue."""
     is_left: bool
     word: str = ""
-    """What is written to the right of it."""
+    """The text to the right of it."""
 
 
 WATCHING = Lamp((92, 214, 140), is_left=False)

@@ -57,7 +57,7 @@ def inner(data: bytes, *names: str) -> bytes:
 
 
 def _words(data: bytes, place: int, count: int) -> tuple[int, ...]:
-    """So many numbers of 32 bits."""
+    """Packs 32-bit numbers."""
     return struct.unpack_from(f">{count}I", data, place)
 
 

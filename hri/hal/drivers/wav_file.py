@@ -110,7 +110,7 @@ class GrowingWav:
 
 
 def _header(rate: int, count: int) -> bytes:
-    """What stands before so many samples; it cannot say more than 4 GB."""
+    """The header for a number of samples; it is limited to 4 GB."""
     size = min(2 * count, MOST_BYTES)
     layout = struct.pack("<4sIHHIIHH", b"fmt ", 16, 1, 1, rate, 2 * rate, 2, 16)
     return (

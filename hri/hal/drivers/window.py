@@ -29,7 +29,7 @@ def has_display() -> bool:
 class Window(Screen):
     """A window; closing it, or Escape, ends the program that watches `is_closed`.
 
-    With `key_repeat` a key that is held counts as pressed again after each so many seconds.
+    With `key_repeat` a held key repeats with that period, seconds.
     """
 
     parameters = ("width", "height", "fullscreen", "title", "key_repeat")

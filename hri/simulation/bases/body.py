@@ -49,7 +49,7 @@ class Body:
         self.held: set[str] = set()
         """Buttons that someone presses."""
         self.near: dict[str, float] = {}
-        """Meters from the rim to what is there."""
+        """Meters from the rim to the nearest object."""
         self.is_on_charger = False
         self._level = 1.0
         self._goal = Twist()
@@ -109,7 +109,7 @@ class Body:
 
 
 class RoomBody(Body):
-    """The base of a simulated world; what is set by hand comes on top of what is there."""
+    """The base of a simulated world; values set by hand are added to simulated ones."""
 
     def __init__(self, world: SimulatedWorld, limits: HardwareLimits = CREATE_2) -> None:
         """From now on the base of that world has these limits."""

@@ -142,7 +142,7 @@ class Optics:
     def show(
         self, actor: str, held: Posture, right: float, distance: float, lids: float = 1.0
     ) -> Appearance:
-        """How someone appears who stands so many meters ahead and to the right at eye level."""
+        """Appearance of a person at a place in meters, ahead and to the right, at eye level."""
         focal = self.width / 2 / math.tan(self.field_of_view / 2)
         meter = focal / max(NEAREST, distance - held.nearer)
         return Appearance(

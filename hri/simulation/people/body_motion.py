@@ -246,7 +246,7 @@ class BodyMotion:
     duration: float
     """Seconds; it begins and ends at rest."""
     posture: Callable[[float, int], Posture]
-    """What it adds, so many seconds after its start; each seed does it in its own way."""
+    """Its contribution at a time since its start, seconds; varies with the seed."""
 
     def at(self, time: float, seed: int = 0) -> Posture:
         """The same; at rest before and after."""

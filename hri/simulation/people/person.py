@@ -1,7 +1,7 @@
 """A person: where they are, how they hold themselves, what they say.
 
-What is asked of them is put on a schedule; from then on every answer is a function of time, so
-pictures and sound do not depend on how often anyone looked or listened.
+Requests are put on a schedule; from then on every answer is a function of time, so pictures and
+sound do not depend on how often anyone looked or listened.
 """
 
 from __future__ import annotations

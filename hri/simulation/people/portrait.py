@@ -210,7 +210,9 @@ def _tint(skin: Field, how_much: Field, color: Color | Field) -> None:
 
 
 def _shape(outlines: Sequence[Sequence[Point]], soft: float = 1.0) -> Field:
-    """Where the skin lies inside of outlines given in half heads; softened by so many points."""
+    """Where the skin lies inside of outlines given in half heads; softened by a number of
+    points.
+    """
     inside = [column(np.array(outline, np.float32)) for outline in outlines]
     return filled(_plane()[0].shape, inside, soft)
 

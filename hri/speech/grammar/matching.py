@@ -55,7 +55,7 @@ Groups = tuple[tuple[TagEntry, ...], ...]
 
 @dataclass(frozen=True, slots=True)
 class Tree:
-    """A rule of the grammar and what was said of it."""
+    """A rule of the grammar and its matched words."""
 
     rule: str
     start: int

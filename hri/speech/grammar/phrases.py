@@ -41,7 +41,7 @@ _UNKNOWN = Phrases(frozenset(), is_all=False)
 
 
 def phrases_of_rules(grammar: Grammar, most_words: int) -> dict[str, Phrases]:
-    """What each rule says in at most so many words; recursion is left out."""
+    """The phrases of each rule up to a number of words, without recursion."""
     known: dict[str, Phrases] = {}
     for key in grammar.used_first:
         known[key] = phrases(grammar.rules[key].expression, known, most_words)
@@ -49,7 +49,7 @@ def phrases_of_rules(grammar: Grammar, most_words: int) -> dict[str, Phrases]:
 
 
 def phrases(node: Expression, rules: Mapping[str, Phrases], most_words: int) -> Phrases:
-    """What a node says in at most so many words, with what its rules say."""
+    """The phrases of a node up to a number of words, with those of its rules."""
     match node:
         case Token(text=text):
             return Phrases(frozenset({(text,)}), is_all=True)

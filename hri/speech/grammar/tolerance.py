@@ -59,7 +59,7 @@ REPEATED = 0.5
 
 @dataclass(frozen=True, slots=True)
 class Edit:
-    """A word that was said beyond the grammar, or that the grammar has beyond what was said."""
+    """An extra word that was said, or a word of the grammar that was not."""
 
     kind: Literal["+", "-"]
     """"+" said beyond the grammar, "-" missing."""

@@ -5,7 +5,8 @@ line of JSON, and answers each with a line of JSON on its standard output:
 
     {"lookup": ["go", "zorg"]}                              {"missing": ["zorg"]}
     {"jsgf": "...", "pronunciations": {"zorg": "Z AO R G"}} {"error": ""}
-    {"bytes": 32000}, then so many bytes of 16-bit samples  {"words": [["go", 9, 12]], "score": 0.7}
+    {"bytes": 32000}, then that number of bytes of 16-bit samples  {"words": [["go", 9, 12]],
+    "score": 0.7}
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The detectors that seeing people runs on, chosen by what is there."""
+"""Chooses the detectors of people by the installed models."""
 
 from __future__ import annotations
 

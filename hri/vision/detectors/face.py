@@ -17,7 +17,7 @@ Places = NDArray[np.float32]
 SAME = 0.3
 """Boxes that overlap by this part of all they cover are of one face."""
 INSIDE = 0.6
-"""So are those of which one has so much of its area in the other."""
+"""So are those of which one has this share of its area in the other."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,7 +17,7 @@ from hri.vision.detectors.preprocessing import gray_picture
 FOLDER = Path(cv2.__file__).parent / "data"
 CASCADE = "haarcascade_frontalface_alt2.xml"
 SCALE_STEP = 1.2
-"""Each size that is tried is so much larger than the one before."""
+"""Ratio of each tried size to the one before."""
 NEIGHBORS = 3
 """How many findings nearly on top of each other make a face."""
 SMALLEST = 40

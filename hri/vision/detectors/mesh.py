@@ -23,7 +23,7 @@ SIDE = 192
 """Pixels of the square picture that the network takes."""
 POINTS = 468
 MARGIN = 1.5
-"""The region is so many times as wide as the face, as in MediaPipe."""
+"""Width of the region relative to the face, as in MediaPipe."""
 RIGHT_EYE, LEFT_EYE = 33, 263
 """Outer corners of the person's eyes; the right eye is at the left of the picture."""
 SMOOTHING = 1.2

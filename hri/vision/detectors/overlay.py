@@ -146,7 +146,7 @@ def head_axes(pitch: float, yaw: float, roll: float) -> tuple[tuple[float, float
 
 
 def words_of(person: Person) -> str:
-    """What is written above a person: "p1  1.2 m  engaged"."""
+    """The text above a person: "p1 1.2 m engaged"."""
     words = [person.name or person.id]
     if math.isfinite(person.distance):
         words.append(f"{person.distance:.1f} m")
@@ -158,7 +158,7 @@ def words_of(person: Person) -> str:
 
 
 def pose_words(pose: HeadPose) -> str:
-    """What is written below a person, in degrees: "pitch -3 yaw 12 roll 0"."""
+    """The text below a person, in degrees: "pitch -3 yaw 12 roll 0"."""
     angles = {"pitch": pose.pitch, "yaw": pose.yaw, "roll": pose.roll}
     if not all(map(math.isfinite, angles.values())):
         return ""

@@ -20,12 +20,12 @@ MAX_SIDE = 320
 MIN_SIDE = 32
 """Pixels; no face is recognizable in less."""
 AVERAGED = 4
-"""Each pixel of a gray picture is the average of so many across and down, or a few more."""
+"""Each pixel of a gray picture is the average of this many across and down, or a few more."""
 
 BRIGHT = 235
 """How bright the brightest fiftieth of an evened picture is."""
 MAX_GAIN = 8.0
-"""A picture in the dark is made so many times brighter at most: the rest would be noise."""
+"""Largest gain for a dark picture: beyond it there is only noise."""
 SPARSE = 4
 """The brightness is measured at every fourth pixel of every fourth row."""
 

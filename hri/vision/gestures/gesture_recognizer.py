@@ -84,9 +84,8 @@ class GestureRecognizer:
         return gesture
 
     def _counted_from(self, prompted: bool, axis: int) -> float:
-        """Seconds from which on swings of an angle count: what was told once is not told again.
-
-        An answer is given once; so few swings make one that steps of a walk would be told often.
+        """Seconds from which on swings of an angle count: reported swings do not count again. An
+        answer is given once; it needs so few swings that steps of a walk would be reported often.
         """
         if axis != self._axis:
             return -math.inf

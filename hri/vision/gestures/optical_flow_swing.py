@@ -39,13 +39,13 @@ class OpticalFlowSwing:
     _growth: float = 0.0
 
     def fade(self, elapsed: float) -> None:
-        """Let the angles fall back as they do in so many seconds."""
+        """Let the angles decay for a time, seconds."""
         part = math.exp(-max(0.0, elapsed) / FADE)
         self.pitch *= part
         self.yaw *= part
 
     def move(self, shift: Shift, size: float, elapsed: float) -> None:
-        """Take the motion of a face of so many pixels, in seconds above 0."""
+        """Take the motion of a face of a size in pixels, over seconds above 0."""
         x, y = shift.x / size, shift.y / size
         blend = min(1.0, elapsed / WALK_SMOOTHING)
         self._speed_x += (x / elapsed - self._speed_x) * blend

@@ -100,7 +100,7 @@ class FaceTrack:
     def hides(self, found: FoundFace) -> bool:
         """Whether a face that was found is not one, because this person's neck or chest is there.
 
-        One so much smaller would be behind them, where nobody can see it.
+        A much smaller one would be behind them, where it is invisible.
         """
         region, (aside, (begins, ends)) = region_of(found), NECK_AND_CHEST
         x, y = (region.x - self.region.x) / self.breadth, (region.y - self.region.y) / self.breadth

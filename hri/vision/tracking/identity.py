@@ -14,15 +14,15 @@ STRANGER = 0.165
 STRANGER_IN_CROWD = 0.28
 """The same for who may have been covered, and may be so in part."""
 PLACE_COST = 0.06
-"""What a face costs that is nowhere near to where it should be; right there, so much less."""
+"""Cost of a face far from its predicted place; less when near."""
 PLACE_REACH = 2.5
 """Sizes of the face that are nowhere near."""
 SIZE_COST = 0.06
-"""What a face costs that is nowhere near as large as it should be; just as large, so much less."""
+"""Cost of a face of very different size; less when similar."""
 SIZE_REACH = 0.4
 """Logarithm of the ratio of sizes that is nowhere near."""
 PLACE_MEMORY = 1.5
-"""Seconds in which what is known of place and size falls to a third."""
+"""Seconds in which the weight of place and size falls to a third."""
 COASTING = 0.7
 """Seconds that someone out of sight is taken to walk on."""
 PACE_SMOOTHING = 0.25

@@ -51,7 +51,7 @@ SAME_FACE = 0.4
 SAME_BOX = 0.4
 """Overlap of two boxes, found one after the other, that are of one face."""
 STAYING = 0.03
-"""By so much less it costs a face to stay whose it is."""
+"""Discount for a face that keeps its person."""
 LATENESS = 0.1
 """What a face costs more for who was never seen away from the others: likely one of them."""
 LEARN_EVERY = 0.2

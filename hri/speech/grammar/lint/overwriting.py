@@ -26,7 +26,7 @@ from hri.speech.grammar.rules import Rule
 from hri.speech.grammar.tags import TagEntry, spell_entries
 
 VARIED: Final = object()
-"""Stands for a value that depends on what was said."""
+"""Stands for a value that depends on the spoken words."""
 
 
 @dataclass(frozen=True, slots=True)

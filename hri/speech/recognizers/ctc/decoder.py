@@ -183,7 +183,7 @@ def decoded(
 
 
 def later(hypothesis: Hypothesis, seconds: float) -> Hypothesis:
-    """The same, with its words so many seconds later."""
+    """The same, with its words shifted later by an offset, seconds."""
     words = tuple(
         replace(word, start=round(word.start + seconds, 3), end=round(word.end + seconds, 3))
         for word in hypothesis.words

@@ -48,7 +48,7 @@ class Trellis:
         self._resting.append(resting)
 
     def arrive(self, frame: int, out: Floats) -> None:
-        """[places] Best score of being there after so many frames: from a word, or to begin."""
+        """[places] Best score of being there after a number of frames: from a word, or to begin."""
         graph = self.graph
         np.add(self.opening, self._silence[frame], out=out)
         np.maximum.reduceat(self._exits[frame], graph.exit_groups, out=self._groups)
@@ -58,7 +58,7 @@ class Trellis:
         np.maximum(linked, np.maximum.reduceat(links, graph.link_groups), out=linked)
 
     def beginning(self, place: int, frame: int) -> float:
-        """Score of beginning a sentence at a place after so many frames of silence."""
+        """Score of beginning a sentence at a place after a number of frames of silence."""
         return float(self.opening[place]) + self._silence[frame]
 
     def ways_into(self, place: int, frame: int) -> tuple[Indices, Floats]:
@@ -71,7 +71,7 @@ class Trellis:
         return bool(self._entered[frame][state >> 3] & _MASKS[state & 7])
 
     def rests(self, state: int, frame: int) -> bool:
-        """Whether the best path to a state ends in the blank after so many frames."""
+        """Whether the best path to a state ends in the blank after a number of frames."""
         return bool(self._resting[frame][state >> 3] & _MASKS[state & 7])
 
 
