@@ -8,6 +8,7 @@ import math
 from pathlib import Path
 from typing import Any, NoReturn
 
+from hri.core.errors import did_you_mean
 from hri.core.quoting import escaped, message_line
 
 
@@ -31,6 +32,11 @@ class OptionParser(argparse.ArgumentParser):
         if action.type is Path and not arg_string:  # to Python, the current folder
             raise argparse.ArgumentError(action, "an empty name - name a file or a folder")
         return super()._get_value(action, arg_string)
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        if action.choices is not None and value not in action.choices:
+            remedy = did_you_mean(str(value), map(str, action.choices))
+            raise argparse.ArgumentError(action, f'no "{value}" - {remedy}')
 
 
 class Within:

@@ -81,7 +81,9 @@ def find(kind: str, name: str) -> Path:
     beside = expanded(spelled)
     if exists(beside) and beside.is_dir() == (kind in FOLDERS):
         return beside
-    if name.startswith((".", os.sep, "~")):
+    is_below = os.sep in name and direct.parent.is_dir()
+    has_form_of_path = name.startswith((".", os.sep, "~")) or name.endswith(os.sep)
+    if has_form_of_path or (is_below and direct.suffix):
         raise HriError(f"{name}: no such file or folder - check the path")
     raise HriError(f'no "{name}" in {kind} - {_meant(kind, name)}')
 

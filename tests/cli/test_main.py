@@ -49,3 +49,17 @@ def test_an_empty_name_is_not_the_current_folder(words, capsys):
 def test_a_robot_does_not_record_into_a_folder_without_a_name():
     with pytest.raises(HriError, match="an empty name of a folder"):
         Robot(record="")
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ("new ap x", 'no "ap" - did you mean "app"?'),
+        ("face lst", 'no "lst" - did you mean "list"?'),
+    ],
+)
+def test_a_mistyped_choice_is_suggested(words, message, capsys):
+    with pytest.raises(SystemExit) as ended:
+        main.main(words.split())
+    assert ended.value.code == 2
+    assert message in capsys.readouterr().err

@@ -78,7 +78,7 @@ def test_a_mistake_is_one_line(tmp_path, capsys, options, remedy):
 @pytest.mark.parametrize("text", ["", "  \n"])
 def test_nothing_is_refused(text, tmp_path, capsys):
     assert main(["say", text, "--wav", str(tmp_path / "a.wav")]) == 2
-    assert "there is nothing to say - give some words" in capsys.readouterr().err
+    assert "empty text - give some words" in capsys.readouterr().err
     assert not (tmp_path / "a.wav").exists()
 
 
@@ -137,7 +137,7 @@ def test_a_language_nobody_speaks_is_told(language, remedy, capsys):
 
 def test_what_is_too_long_to_be_said_is_told(tmp_path, capsys):
     assert main(["say", "a" + " " * 5000, "--wav", str(tmp_path / "a.wav")]) == 0
-    assert "only the first 5000 characters of 5001 are said" in capsys.readouterr().err
+    assert "only the first 5000 characters of 5001 are spoken" in capsys.readouterr().err
 
 
 def test_the_times_go_to_standard_output_for_a_dash(tmp_path, monkeypatch, capsys):

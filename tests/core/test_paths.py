@@ -139,3 +139,11 @@ def test_an_app_in_this_folder_is_suggested(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(HriError, match='did you mean "joke"'):
         paths.find("apps", "jokee")
+
+
+@pytest.mark.parametrize("name", ["mine/nope.jsgf", "nope/"])
+def test_what_looks_like_a_path_is_reported_as_one(name, tmp_path, monkeypatch):
+    (tmp_path / "mine").mkdir()
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(HriError, match=f"^{name}: no such file or folder"):
+        paths.find("grammars", name)
