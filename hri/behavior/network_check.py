@@ -50,7 +50,7 @@ def _uses(network: Network, link: Link) -> Iterator[SlotUse]:
 def slot_table(
     networks: Iterable[Network],
 ) -> tuple[dict[str, list[str]], dict[str, list[str]], dict[str, str]]:
-    """Who writes each slot, who reads it, and its datatype, by the name of the slot."""
+    """Writers, readers and datatype of each slot, by its name."""
     networks = list(networks)
     writers: dict[str, list[str]] = {}
     readers: dict[str, list[str]] = {}

@@ -17,7 +17,7 @@ class Latest(Generic[T]):
         self._time = 0.0
         self._spoken: float | None = None
         self.writer = ""
-        """Who wrote last: `network.behavior.output`; empty for a task."""
+        """The last writer: `network.behavior.output`; empty for a task."""
 
     def set(self, value: T, time: float, spoken: float | None = None, writer: str = "") -> None:
         """Write at `time`, in seconds; `spoken` as in `hri.behavior.ports.OutputPort`."""

@@ -15,7 +15,7 @@ from hri.core.errors import HriError
 from hri.core.privacy import PRIVATE_FOLDER
 
 _ROOT = 0
-"""Who may write everything anyway."""
+"""Users who may write everything anyway."""
 
 
 def is_of_user(path: Path) -> bool:

@@ -307,7 +307,7 @@ class Person:
     landmarks: Landmarks | None = None
     """None without a face mesh."""
     name: str = ""
-    """Who it is, when a face recognizer knows."""
+    """The person's name, when a face recognizer knows it."""
 
 
 @dataclass(frozen=True, slots=True)

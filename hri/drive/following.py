@@ -117,9 +117,8 @@ class Following:
         self.pursuit = Pursuit.FOLLOWING
 
     def look(self, now: float, pose: Pose2D, people: People | None, id: str) -> Person | None:
-        """Take in the newest of what the camera says; who is followed, see `sight_of`.
-
-        What it has said before is not a sight: the robot has moved since.
+        """Take in the newest people from the camera; `sight_of` chooses the followed one. Old
+        results do not count: the robot has moved since.
         """
         if people is None or people.time <= self._looked:
             return None

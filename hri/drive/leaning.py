@@ -126,7 +126,7 @@ class Leaning:
         return found
 
     def _back_off(self, now: float, pose: Pose2D, ways: Array) -> Twist:
-        """Back; who pushes something that does not give way learns that it is there."""
+        """Back; someone who pushes something that does not give way learns that it is there."""
         twist = back_off(pose.heading, ways)
         self._backs_since = min(self._backs_since, now) if twist != REST else math.inf
         if now - self._backs_since > PUSHES_S and self.stood(pose):

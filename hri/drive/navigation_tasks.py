@@ -142,9 +142,9 @@ async def _followed(context: TaskContext, person: str, distance: float, seconds:
 async def come_here(context: TaskContext, person: str = "", distance: float = 1.2) -> bool:
     """Come to whoever is seen, `distance` meters before them, and face them; whether it did.
 
-    Who calls may be out of sight, and a voice does not tell where it is: then it first looks
-    around, once. It comes no nearer than it may while it moves, whatever distance is asked for.
-    Raises ValueError for a distance that is not a number.
+    A person who calls may be out of sight, and a voice does not show its direction: then it first
+    looks around, once. It comes no nearer than it may while it moves, whatever distance is asked
+    for. Raises ValueError for a distance that is not a number.
     """
     _refuse_nan(distance)
     with _traveler(context) as traveler:

@@ -45,7 +45,7 @@ class GoalEvent:
     liking: float | None = None
     """How much the robot likes the owner, -1 to 1; left out, the relation it has."""
     agent: str | None = None
-    """Who brought it about: a person, SELF, or nobody."""
+    """The agent: a person, SELF, or nobody."""
     praiseworthiness: float | None = None
     """Of what the agent did, -1 to 1, 0 being an accident; left out, the agent is judged by what
     came of it for the owner."""
@@ -133,7 +133,7 @@ class Appraisal:
     charges: Mapping[str, float] = field(default_factory=dict)
     """Added to each emotion, >= 0, before the personality's gains."""
     person: str | None = None
-    """Who has to do with it."""
+    """The people involved."""
     ends: frozenset[str] = frozenset()
     """Emotions for the same goal that have no reason any more: once it is decided, hope and fear;
     with a good end pity, too, with a bad one joy for its owner."""

@@ -134,14 +134,14 @@ class Display:
         )
 
     def eyes(self, felt: Felt) -> Gaze:
-        """Where the eyes rest: who is ashamed or sad looks down, who is proud holds them up."""
+        """Where the eyes rest: down when ashamed or sad, up when proud."""
         return Gaze(0.0, self.gaze.value(felt))
 
 
 def felt_now(state: EmotionState) -> Felt:
     """Pleasure, arousal and dominance of mood and emotions together, each -1 to 1.
 
-    The mood alone is too slow for voice and motion: who is praised sounds pleased at once.
+    The mood alone is too slow for voice and motion: praise must be audible at once.
     """
     pleasure, arousal, dominance = map(
         _straightened, (state.valence, state.arousal, state.dominance)

@@ -101,7 +101,7 @@ OPPOSITES_ABOUT_ONE_THING = (
     ("gloating", "resentment"),
     ("gloating", "pity"),
 )
-"""The same, for one goal only: who hopes for one thing may well fear another."""
+"""The same, for one goal only: hope for one goal and fear for another can coexist."""
 
 
 def _opposites_of(name: str, pairs: tuple[tuple[str, str], ...]) -> tuple[str, ...]:

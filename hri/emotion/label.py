@@ -54,8 +54,9 @@ def known_as(label: str) -> str:
 
 
 Course = tuple[tuple[float, str], ...]
-"""Who has the label from when on: seconds, rising from 0, and an emotion; the last is NOTHING or
-keeps it."""
+"""The course of the label: times in seconds, rising from 0, with an emotion each; the last is
+NOTHING or stays.
+"""
 
 _LOG_RISE, _LOG_FALL, _LOG_LEAD = log(RISE), log(FALL), log(LEAD)
 
@@ -91,7 +92,7 @@ def course(current: str, charges: Mapping[str, float], rates: Mapping[str, float
 
 
 def label_at(course: Course, seconds: float) -> str:
-    """Who has the label some seconds after the start of a course."""
+    """The emotion with the label at a time since the start of a course, seconds."""
     label = NOTHING
     for at, name in course:
         if at > seconds:

@@ -1,4 +1,4 @@
-"""Who and what brought the state about: the state kept as one row per cause.
+"""The causes of the state: the state kept as one row per cause.
 
 Charges decay and pull the mood linearly, so the rows evolve each by itself and their sum is the
 state, exactly. Rows beyond a bound are added together under "other": nothing of the sum is lost.

@@ -1,4 +1,4 @@
-"""Who decides when several behaviors want something different."""
+"""Arbitration between behaviors that want different things."""
 
 from __future__ import annotations
 

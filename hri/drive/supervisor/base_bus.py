@@ -307,7 +307,7 @@ class BaseBus(EmergencyStop):
                 self._go_on_stopping(self._stopping)
             if self._unlatching is not None:
                 self._go_on_unlatching(*self._unlatching)
-        # Without the lock: who is told may wait for a device that waits for us.
+        # Without the lock: a listener may wait for a device that waits for us.
         for watcher in tuple(self._watchers):
             watcher(self._connection.state)
 

@@ -1,4 +1,5 @@
-"""Who comes: beams that get shorter than the robot's own motion explains, and how slow to go then.
+"""People who approach: beams that get shorter than the robot's own motion explains, and how slow to
+go then.
 
 Pure arithmetic on readings with their times, and on how far the wheels have rolled meanwhile. All
 places are in the robot's frame, and move in it as the robot moves.

@@ -75,7 +75,7 @@ class Supervisor:
         self.faults: Sequence[Fault] = ()
         """Sensors that cannot be believed."""
         self.refusals: list[str] = []
-        """What was refused since someone looked last, at most ten; who reads it clears it."""
+        """The refusals since the last read, at most ten; reading clears them."""
         self.room = Room()
         """What is free before the body."""
         self.is_watched = True

@@ -1,4 +1,4 @@
-"""Who is heard: the most important of those who have spoken lately."""
+"""Obeys the most important of the recent writers."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from hri.hal.motion import REST
 
 
 class Level(StrEnum):
-    """Who decides what the wheels do, the most important first.
+    """The levels of control over the wheels, the most important first.
 
     The supervisor itself, then the ranks of commands (`hri.hal.helm`) under their names.
     """
