@@ -131,7 +131,7 @@ def test_other_nodes_than_in_neutral_are_counted(folder: Path) -> None:
         ("face.toml", "[expressions.sad]", "[expressions.sda]", 'did you mean "sad"'),
         ("face.toml", 'glad = "happy"', 'glad = "hapy"', 'did you mean "happy"'),
         ("face.toml", 'glad = "happy"', 'bored = "happy"', "an expression itself"),
-        ("face.toml", 'middle = "#ffffff"', 'middle = "blueish"', "no color"),
+        ("face.toml", 'middle = "#ffffff"', 'middle = "blueish"', "is not a color"),
         ("face.toml", "pivot = [50, 90]", "pivot = [240]", "pivot"),
         ("face.toml", "pivot = [50, 90]", "pivot = [1e300, 0]", "two numbers from"),
         ("face.toml", "radius = [40, 40]", "radius = [0, 40]", "two numbers from"),

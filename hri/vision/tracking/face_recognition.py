@@ -119,7 +119,7 @@ class Acquaintances:
                         known.learn(name, np.array(vector, np.float32))
         except (ValueError, AttributeError, TypeError, OverflowError, HriError) as error:
             remedy = "delete it and let the robot learn the names again"
-            raise AuthoringError(Place(path), f"no file of faces: {error}", remedy) from error
+            raise AuthoringError(Place(path), f"not a file of faces: {error}", remedy) from error
         return known
 
 

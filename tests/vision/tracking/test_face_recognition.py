@@ -68,7 +68,7 @@ def test_nothing_is_written_unless_asked_and_then_for_the_owner_alone(tmp_path):
 def test_a_damaged_file_is_told(tmp_path, text):
     path = tmp_path / "faces.json"
     path.write_text(text)
-    with pytest.raises(AuthoringError, match="learn the names anew"):
+    with pytest.raises(AuthoringError, match="learn the names again"):
         Acquaintances.load(path)
     assert Acquaintances.load(tmp_path / "none.json").names == []
 
@@ -79,7 +79,7 @@ def test_numbers_too_large_for_a_face_are_refused_without_a_warning(tmp_path, nu
     path.write_text(f'{{"Anna": [[{number}, {number}]]}}')
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        with pytest.raises(AuthoringError, match="learn the names anew"):
+        with pytest.raises(AuthoringError, match="learn the names again"):
             Acquaintances.load(path)
 
 
@@ -89,7 +89,7 @@ def test_a_file_that_cannot_be_read_or_written_is_told(tmp_path):
     with pytest.raises(HriError, match="cannot be written"):
         Acquaintances().save(tmp_path)
     (tmp_path / "faces.json").write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(AuthoringError, match="learn the names anew"):
+    with pytest.raises(AuthoringError, match="learn the names again"):
         Acquaintances.load(tmp_path / "faces.json")
 
 
