@@ -16,23 +16,41 @@ from __future__ import annotations
 
 import math
 import zlib
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar, Protocol
 
+from hri.behavior.declaration import Schema
 from hri.behavior.doors import Doors
 from hri.behavior.effects import Effect
 from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
+from hri.behavior.tick_statistics import Statistics
 from hri.core.clock import Clock
 from hri.core.errors import HriError, did_you_mean
 from hri.core.event_bus import EventBus
 from hri.core.latest import Board
 from hri.hal.resource_manager import ResourceManager
 
-if TYPE_CHECKING:
-    from hri.behavior.runner import Runner
-    from hri.behavior.running import Networks
-    from hri.behavior.schema import Schema
+
+class Running(Protocol):
+    """A network that runs, as others of the same robot see it: `hri.behavior.runner.Runner`."""
+
+    network: Any
+    statistics: Statistics
+
+    @property
+    def watched(self) -> tuple[OutputPort[Any], ...]:
+        """The outputs that are watched."""
+
+    @property
+    def may_interleave(self) -> bool:
+        """Whether it may tick between two behaviors of a slower one."""
+
+    def tick_if_due(self) -> None:
+        """Tick, if it is time."""
+
+    def watch(self, behavior: str, output: str, callback: Callable[[Any, float], object]) -> Any:
+        """Call `callback(value, now)` after each tick in which the output sent something."""
 
 
 @dataclass
@@ -45,7 +63,7 @@ class Context:
     board: Board = field(default_factory=Board)
     seed: int = 0
     doors: Doors = field(default_factory=Doors)
-    runners: list[Runner] = field(default_factory=list)
+    runners: list[Running] = field(default_factory=list)
     """All that run, in the order they were started."""
     has_tasks: bool = False
     """Whether tasks run beside the networks."""
@@ -53,13 +71,6 @@ class Context:
     """The task that kept all others waiting last, for longer than it should."""
     held_up_at: float = -math.inf
     """Seconds of the clock when it let them go on."""
-
-    @cached_property
-    def networks(self) -> Networks:
-        """The networks that run."""
-        from hri.behavior.running import Networks
-
-        return Networks(self)
 
     def seed_for(self, name: str) -> int:
         """A separate seed for each user of randomness, so that adding one does not shift others."""
@@ -189,3 +200,8 @@ class Behavior:
 
     def stop(self) -> None:
         """Give back what `start` took; called once, also after an error."""
+
+
+def bridge_ports(behaviors: Iterable[Behavior]) -> list[tuple[str, str]]:
+    """The outputs of behaviors that others write to over the network, as tag and name."""
+    return [port for behavior in behaviors for port in behavior.bridge_ports]

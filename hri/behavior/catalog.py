@@ -5,8 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from hri.behavior.behavior import Behavior
+from hri.behavior.declaration import Port, Schema
 from hri.behavior.ports import ANY, DATATYPES
-from hri.behavior.schema import TYPE_NAME, Port, Schema, load_schema, subclass
+from hri.behavior.schema import TYPE_NAME, load_schema, subclass
 from hri.core import paths, registry
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 from hri.core.python_file import load_class

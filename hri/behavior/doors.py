@@ -5,13 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from string import ascii_uppercase
-from typing import TYPE_CHECKING
 
 from hri.core.errors import did_you_mean
 from hri.core.event_bus import matches
-
-if TYPE_CHECKING:
-    from hri.behavior.behavior import Behavior
 
 NAMES_OF_2003 = tuple(f"{letter}*" for letter in ascii_uppercase)
 """Patterns of events that begin with a capital, such as `Examples.PhotoEvent.Shoot`; the robot
@@ -38,9 +34,8 @@ class Doors:
         """Whether anyone may write to a port."""
         return any(matches(one, tag) or matches(one, f"{tag}.{port}") for one in self.trusted)
 
-    def unknown(self, behaviors: Iterable[Behavior]) -> Iterator[str]:
-        """A line for each trusted name that none of their ports on the bridge has."""
-        ports = [port for behavior in behaviors for port in behavior.bridge_ports]
+    def unknown(self, ports: Iterable[tuple[str, str]]) -> Iterator[str]:
+        """A line for each trusted name that none of these ports, as tag and name, has."""
         names = {name for tag, port in ports for name in (tag, f"{tag}.{port}")}
         for trusted in self.trusted:
             if not any(matches(trusted, name) for name in names):

@@ -11,11 +11,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from hri.behavior.behavior import Behavior
+from hri.behavior.behavior import Behavior, Running
 from hri.behavior.board import BoardSink, BoardSource
 from hri.behavior.effects import ANYTHING, NOTHING, Effect
 from hri.behavior.library.sharing import Share
-from hri.behavior.runner import Runner
 
 Port = tuple[Behavior, str]
 """A behavior and the name of one of its ports."""
@@ -24,7 +23,7 @@ Port = tuple[Behavior, str]
 class Reach:
     """What can be reached in networks that run."""
 
-    def __init__(self, runners: Iterable[Runner], has_tasks: bool) -> None:
+    def __init__(self, runners: Iterable[Running], has_tasks: bool) -> None:
         """`has_tasks`: tasks run beside the networks."""
         self._runners = tuple(runners)
         self._behaviors = [one for runner in self._runners for one in runner.network.behaviors]

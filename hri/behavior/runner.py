@@ -24,7 +24,7 @@ from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
 
-from hri.behavior.behavior import Behavior, Context
+from hri.behavior.behavior import Behavior, Context, Running
 from hri.behavior.network import Network
 from hri.behavior.ports import InputPort, OutputPort
 from hri.behavior.tick_statistics import Statistics, Timing
@@ -243,7 +243,7 @@ class Runner:
         # From the beginning each time: sums of intervals would drift.
         return self._begin + self._slot * self.network.interval
 
-    def _faster(self) -> list[Runner]:
+    def _faster(self) -> list[Running]:
         """The networks that may run between two behaviors of this one, should they be due."""
         interval = self.network.interval
         runners = self.context.runners

@@ -25,7 +25,6 @@ class Networks:
 
     def __init__(self, context: Context) -> None:
         self.context = context
-        context.networks = self
         self.runners: dict[str, Runner] = {}
         """What has been started and not stopped, by the name of the network."""
         self._scopes: dict[Runner, trio.CancelScope] = {}

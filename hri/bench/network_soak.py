@@ -18,9 +18,10 @@ import trio
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.catalog import find_behavior
+from hri.behavior.declaration import Port, Schema
 from hri.behavior.network import Network
 from hri.behavior.ports import Input, Output
-from hri.behavior.schema import Port, Schema, subclass
+from hri.behavior.schema import subclass
 from hri.core.clock import FakeClock, RealClock
 from hri.core.event_bus import EventBus
 from hri.core.signals import Event
@@ -140,8 +141,8 @@ class Soak:
         self.events = EventBus(self.clock)
         self.resources = ResourceManager(DEVICES, self.clock)
         context = Context(self.clock, self.events, self.resources)
-        self.networks = context.networks
         self.tasks = TaskManager(context)
+        self.networks = self.tasks.networks
         self.network = large_network(max(behaviors, CRIERS + 2))
         self.verdict = Verdict(hours)
         self.heard: dict[str, int] = {}

@@ -14,6 +14,7 @@ import trio
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.network import Network
+from hri.behavior.running import Networks
 from hri.core.clock import Clock, RealClock
 from hri.core.event_bus import EventBus
 from hri.core.realtime import become_realtime
@@ -34,13 +35,14 @@ class Stopwatch(Behavior):
     """Notes when each tick begins, and how long after its deadline."""
 
     def start(self, context: Context) -> None:
-        self._networks = context.networks
+        self._context = context
         self.times: list[float] = []
         self.lateness: list[float] = []
 
     def compute(self, now: float, dt: float) -> None:
         self.times.append(now)
-        self.lateness.append(self._networks.runners[NAME].statistics.lateness.last)
+        mine = next(one for one in self._context.runners if one.network.name == NAME)
+        self.lateness.append(mine.statistics.lateness.last)
 
 
 def main(load: str, priority: str, seconds: float) -> dict[str, Any]:
@@ -77,19 +79,19 @@ def _rise(priority: str) -> str:
 
 
 def _alone(clock: Clock, network: Network, priority: str, seconds: float) -> str:
-    context = Context(clock, EventBus(clock), ResourceManager((), clock))
+    networks = Networks(Context(clock, EventBus(clock), ResourceManager((), clock)))
 
     async def live() -> None:
         async with trio.open_nursery() as nursery:
             nursery.start_soon(clock.drive)
-            nursery.start_soon(context.networks.run)
+            nursery.start_soon(networks.run)
             await clock.sleep(seconds)
             nursery.cancel_scope.cancel()
 
-    context.networks.start(network)
+    networks.start(network)
     refusal = _rise(priority)
     trio.run(live)
-    context.networks.close()
+    networks.close()
     return refusal
 
 

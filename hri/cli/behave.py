@@ -11,7 +11,7 @@ from typing import TextIO
 
 import trio
 
-from hri.behavior.behavior import Context
+from hri.behavior.behavior import Context, bridge_ports
 from hri.behavior.network_file import load_network
 from hri.behavior.runner import Runner
 from hri.behavior.tick_statistics import Statistics
@@ -119,7 +119,7 @@ def _behave(options: argparse.Namespace, ending: Ending) -> int:
     if options.invocation_interval is not None:
         network.interval = options.invocation_interval
     doors = doors_of(options)
-    for line in doors.unknown(network.behaviors):
+    for line in doors.unknown(bridge_ports(network.behaviors)):
         log.warning(line)
     lent = Context(clock, EventBus(clock), resources, doors=doors)
     runner = Runner(network, lent)

@@ -7,7 +7,8 @@ import sys
 from pathlib import Path
 
 from hri.behavior.catalog import GROUP, find_behavior
-from hri.behavior.schema import Schema, schema_of, write_schema
+from hri.behavior.declaration import Schema
+from hri.behavior.schema import schema_of, write_schema
 from hri.core import registry
 from hri.core.errors import HriError, NotAvailable
 from hri.core.writing import make_folder, write_text

@@ -10,8 +10,8 @@ from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from typing import Any
 
-from hri.behavior.behavior import Context
-from hri.behavior.runner import Runner, Watch
+from hri.behavior.behavior import Context, Running
+from hri.behavior.runner import Watch
 from hri.core.errors import HriError
 from hri.core.event_bus import Subscription
 from hri.core.signals import Event
@@ -50,9 +50,9 @@ class Triggers:
             subscribe("stimulus.felt", self._on_felt),
             *(subscribe(spec.trigger, partial(self._on_event, spec)) for spec in self._triggered),
         ]
-        self._watches: dict[str, tuple[Runner, Watch]] = {}
+        self._watches: dict[str, tuple[Running, Watch]] = {}
         """Ports that turned out to be triggers, and what runs them, by stimulus."""
-        self._searched: tuple[Runner, ...] = ()
+        self._searched: tuple[Running, ...] = ()
         """The networks in which ports were looked for."""
 
     def connect(self) -> None:
@@ -60,7 +60,7 @@ class Triggers:
 
         Called now and then.
         """
-        running = tuple(self._context.networks.runners.values())
+        running = tuple(self._context.runners)
         if running == self._searched:
             return
         self._searched = running
@@ -114,7 +114,7 @@ class Triggers:
             self._refuse(spec.name, error)
             return 0.0
 
-    def _watch(self, spec: StimulusSpec, runner: Runner) -> None:
+    def _watch(self, spec: StimulusSpec, runner: Running) -> None:
         """Watch the trigger if it is a port there: "battery.level" of the behavior "battery"."""
         behavior_id, _, output = spec.trigger.rpartition(".")
         for behavior in runner.network.behaviors:

@@ -17,7 +17,7 @@ from typing import Any, Self
 
 import trio
 
-from hri.behavior.behavior import Behavior, Context
+from hri.behavior.behavior import Behavior, Context, bridge_ports
 from hri.behavior.doors import Doors
 from hri.behavior.network import Network
 from hri.behavior.network_check import check_together
@@ -104,11 +104,11 @@ class Robot(BlockingVerbs):
         self.board = Board()
         own = (doors or Doors()).with_more(self.app.trusted, self.app.events)
         behaviors = _behaviors_of(self._authored)
-        for line in own.unknown(behaviors.values()):
+        for line in own.unknown(bridge_ports(behaviors.values())):
             notice(line)
         context = Context(self.clock, self.events, self.resources, self.board, seed, own)
-        self.networks = context.networks
         self.tasks = TaskManager(context, behaviors)
+        self.networks = self.tasks.networks
         self.context = self.tasks.context
         self.app.check(self.context)
         if record == "":

@@ -61,13 +61,13 @@ class _Stage:
         try:
             async with trio.open_nursery() as nursery:
                 nursery.start_soon(self._context.clock.drive)
-                nursery.start_soon(self._context.networks.run)
+                nursery.start_soon(self.manager.networks.run)
                 self.manager.live_in(nursery)
                 ready()
                 await self._finished.wait()
                 nursery.cancel_scope.cancel()
         finally:
-            self._context.networks.close()
+            self.manager.networks.close()
             self._context.resources.close()
 
     def _end(self) -> None:

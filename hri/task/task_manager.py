@@ -9,6 +9,7 @@ from typing import Any
 import trio
 
 from hri.behavior.behavior import Behavior, Context
+from hri.behavior.running import Networks
 from hri.core.signals import Event
 from hri.task.aside import here
 from hri.task.claims import Claims, forget_claims
@@ -41,12 +42,14 @@ class TaskManager:
         """Ends the loop, where that is the task manager's business."""
         self._nursery: trio.Nursery | None = None
         self._hold_ups = HoldUpWatch(context)
+        self.networks = Networks(context)
+        """The networks that run beside the tasks."""
         self.context = TaskContext(
             context.clock,
             context.events,
             context.resources,
             context.board,
-            context.networks,
+            self.networks,
             self,
             Task(self, _main, ()),
             planned or {},

@@ -6,6 +6,7 @@ import trio
 from hri.behavior.behavior import Behavior
 from hri.behavior.network import Network
 from hri.behavior.ports import Input, Output
+from hri.behavior.running import Networks
 from hri.core.errors import HriError
 from hri.testing import context as lend
 
@@ -72,16 +73,18 @@ def logging_network():
 
 
 def live(context, script):
-    """Run the networks while a coroutine function works with them."""
+    """Run networks while a coroutine function works with them; the networks."""
+    networks = Networks(context)
 
     async def main():
         async with trio.open_nursery() as nursery:
             nursery.start_soon(context.clock.drive)
-            nursery.start_soon(context.networks.run)
-            await script(context.networks, context.clock)
+            nursery.start_soon(networks.run)
+            await script(networks, context.clock)
             nursery.cancel_scope.cancel()
 
     trio.run(main)
+    return networks
 
 
 @pytest.mark.proves("B06")
@@ -121,8 +124,7 @@ def test_networks_start_stop_and_swap_while_others_run():
         assert second["count"].done == 21
         assert list(networks.runners) == ["other"]
 
-    live(context, script)
-    context.networks.close()
+    live(context, script).close()
 
 
 def test_a_network_that_cannot_start_leaves_the_old_one_running():
@@ -141,7 +143,7 @@ def test_a_network_that_cannot_start_leaves_the_old_one_running():
 
 
 def test_names_are_unique_and_unknown_ones_get_a_hint():
-    networks = lend().networks
+    networks = Networks(lend())
     networks.start(counting("moving"))
     with pytest.raises(HriError, match="runs already"):
         networks.start(counting("moving"))
@@ -154,7 +156,7 @@ def test_names_are_unique_and_unknown_ones_get_a_hint():
 
 
 def test_one_that_cannot_stop_keeps_no_other_from_stopping(caplog):
-    networks = lend().networks
+    networks = Networks(lend())
     network = network_of("net", 0.1, Count("a"), Stubborn("b"), Count("c"))
     networks.start(network)
     networks.close()
@@ -181,7 +183,7 @@ def test_an_injected_value_arrives_once_as_one_more_link():
 
 
 def test_an_injected_value_of_another_type_is_refused():
-    networks = lend().networks
+    networks = Networks(lend())
     networks.start(logging_network())
     with pytest.raises(HriError, match=r"log.input: 'x' is of type str - send a double"):
         networks.inject("net", "log", "input", "x")
@@ -192,7 +194,7 @@ def test_an_injected_value_of_another_type_is_refused():
 def test_values_may_be_injected_from_other_threads():
     context = lend()
     network = network_of("net", 0.1, Log("log"))
-    runner = context.networks.start(network)
+    runner = Networks(context).start(network)
 
     def send(offset):
         for number in range(200):
@@ -247,9 +249,6 @@ def test_a_behavior_may_stop_its_own_network_which_ends_with_the_tick():
     class Quitter(Behavior):
         """Ends it all at once."""
 
-        def start(self, context):
-            self.networks = context.networks
-
         def compute(self, now, dt):
             self.networks.stop("net")
 
@@ -257,6 +256,7 @@ def test_a_behavior_may_stop_its_own_network_which_ends_with_the_tick():
 
     async def script(networks, clock):
         network = network_of("net", 0.1, Quitter("quitter"), Count("count"))
+        network["quitter"].networks = networks
         networks.start(network)
         await clock.sleep(1)
         assert network["count"].done == 1

@@ -10,6 +10,7 @@ import pytest
 from hri.behavior.behavior import Context
 from hri.behavior.network import Network
 from hri.behavior.network_file import load_network
+from hri.behavior.running import Networks
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError
 from hri.core.event_bus import EventBus
@@ -61,18 +62,19 @@ class Stage:
         self.clock = FakeClock()
         self.resources = ResourceManager([WORLD, MUTE, DRIVE], self.clock)
         self.context = Context(self.clock, EventBus(self.clock), self.resources)
+        self.networks = Networks(self.context)
         self.drive = self.resources.obtain("drive", DriveSystem)
         self._folder = folder
 
     def start(self, name: str, *parts: str) -> Network:
         network = load_network(written(self._folder, name, *parts))
-        self.context.networks.start(network)
+        self.networks.start(network)
         return network
 
     def run(self, seconds: float) -> float:
         """Tick all networks; how fast the base is in the end."""
         for _ in range(round(seconds / 0.05)):
-            for runner in self.context.networks.runners.values():
+            for runner in self.networks.runners.values():
                 runner.tick(self.clock.now())
             self.clock.advance(0.05)
         world = self.resources.obtain("world", SimulatedWorld)
@@ -84,7 +86,7 @@ class Stage:
 def stage(tmp_path: Path) -> Iterator[Stage]:
     stage = Stage(tmp_path)
     yield stage
-    stage.context.networks.close()
+    stage.networks.close()
     stage.resources.close()
 
 
@@ -114,7 +116,7 @@ def test_a_network_that_is_started_later_is_refused_and_the_first_drives_on(stag
     with pytest.raises(HriError, match=r'"ahead" steers it already.*"back" - stop one'):
         stage.start("second", driver("back", -20))
     assert stage.run(1.0) == pytest.approx(0.2)
-    stage.context.networks.stop("first")
+    stage.networks.stop("first")
     stage.start("second", driver("back", -20))
     assert stage.run(1.0) == pytest.approx(-0.2)
 
@@ -128,7 +130,7 @@ def test_the_higher_rank_drives_and_the_lower_goes_on_after_it(stage: Stage) -> 
     assert max(speeds) <= 0.0
     assert stage.run(1.0) == pytest.approx(-0.2)
     assert ['the behavior "hand" steers it' in e.properties["words"] for e in refused] == [True]
-    stage.context.networks.stop("high")
+    stage.networks.stop("high")
     assert stage.run(1.5) == pytest.approx(0.2)
 
 
@@ -142,7 +144,7 @@ def test_a_network_that_ends_leaves_the_drive_to_whoever_steers_it(stage: Stage)
     stage.start("low", driver("ahead", 20))
     stage.start("high", driver("hand", 30, "teleop"))
     stage.run(1.0)
-    stage.context.networks.stop("low")
+    stage.networks.stop("low")
     assert stage.run(0.05) == pytest.approx(0.3)
 
 
@@ -216,7 +218,7 @@ def test_two_networks_on_two_drives_of_one_base_are_refused_with_one_rank(
     assert stage.run(1.0) == pytest.approx(0.2)
     stage.start("third", elsewhere("hand", -20, "teleop"))
     assert stage.run(1.5) == pytest.approx(-0.2)
-    stage.context.networks.stop("third")
+    stage.networks.stop("third")
     assert stage.run(1.5) == pytest.approx(0.2)
 
 

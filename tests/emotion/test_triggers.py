@@ -6,6 +6,7 @@ import pytest
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.network import Network
 from hri.behavior.ports import Output
+from hri.behavior.running import Networks
 from hri.core.clock import FakeClock
 from hri.core.event_bus import EventBus
 from hri.core.signals import Event
@@ -31,6 +32,7 @@ class Touched:
     def __init__(self, *stimuli: StimulusSpec) -> None:
         self.clock = FakeClock()
         self.context = Context(self.clock, EventBus(self.clock), ResourceManager([], self.clock))
+        self.networks = Networks(self.context)
         self.felt: list[tuple[str, float, str | None]] = []
         self.refused: list[Event] = []
         self.context.events.subscribe("stimulus.refused", self.refused.append)
@@ -38,7 +40,7 @@ class Touched:
         self.gauge = Gauge("battery")
 
     def start_gauge(self) -> None:
-        runner = self.context.networks.start(Network("moving", 0.1, [self.gauge]))
+        runner = self.networks.start(Network("moving", 0.1, [self.gauge]))
         self.triggers.connect()
         self.tick = runner.tick
 
@@ -111,7 +113,7 @@ def test_a_port_is_felt_after_its_network_was_swapped_or_started_anew() -> None:
     robot.start_gauge()
     robot.read(0.1, 0.5)
     robot.gauge = Gauge("battery")
-    networks = robot.context.networks
+    networks = robot.networks
     robot.tick = networks.swap("moving", Network("moving", 0.1, [robot.gauge])).tick
     robot.triggers.connect()
     robot.read(0.1, 0.5)

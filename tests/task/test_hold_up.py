@@ -39,8 +39,8 @@ def run(clock, job, *arguments):
         async with trio.open_nursery() as nursery:
             tasks.manager.live_in(nursery)
             nursery.start_soon(clock.drive)
-            nursery.start_soon(context.networks.run)
-            context.networks.start(network)
+            nursery.start_soon(tasks.networks.run)
+            tasks.networks.start(network)
             results.append(await tasks.manager.run(job, pulse, *arguments))
             nursery.cancel_scope.cancel()
 
