@@ -80,7 +80,7 @@ def test_a_robot_goes_on_when_nothing_can_be_printed(robot, tmp_path, out):
         text=True,
         timeout=120,
     )
-    said = {"closed": ""}.get(out, "nothing more is printed: No space left on device - make room\n")
+    said = {"closed": ""}.get(out, "output stops: No space left on device - make room\n")
     assert (run.returncode, run.stderr) == (0, said)
     assert is_recorded(tmp_path / "out")
 
