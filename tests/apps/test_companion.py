@@ -189,6 +189,7 @@ def test_a_base_with_a_supervisor_moves_when_it_was_released_and_not_after_stop(
     assert visit.pose_at(37.5).x == pytest.approx(visit.pose_at(24.0).x, abs=0.02)
 
 
+@pytest.mark.slow
 def test_who_tells_it_to_shut_its_eyes_turns_the_camera_off_until_they_are_opened():
     visit = Visit(16, {2.0: "close your eyes", 8.0: "open your eyes"}, devices=[SMALL_SCREEN])
     assert visit.heard() == ["eyes", "eyes"]
@@ -330,6 +331,7 @@ def answering(answer):
     return prepare
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("answer", "keeps"), [("yes", True), ("no", False)])
 def test_it_asks_whether_it_may_keep_what_it_feels_and_does_as_it_is_told(tmp_path, answer, keeps):
     file = tmp_path / "feelings.json"

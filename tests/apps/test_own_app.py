@@ -354,6 +354,7 @@ def test_what_is_not_understood_is_shown_and_hinted_at_once(put):
     assert seen == {2.0: "confused", 5.5: "confused"}
 
 
+@pytest.mark.slow
 def test_what_can_be_said_names_own_commands_first_and_then_others(put):
     robot = robot_of(put(JOKE))
     events = live(robot, 18, {1.0: "what can I say", 10.0: "what can I say"})
@@ -384,6 +385,7 @@ def test_quiet_is_over_after_a_minute(put):
     assert seen == {50.0: "listening", 63.0: ""}
 
 
+@pytest.mark.slow
 def test_typed_lines_wait_until_it_has_spoken_and_stop_does_not(put):
     robot = robot_of(put({**JOKE, "replies.toml": '[reply.joke]\nsay = "Ha."\n'}))
     keyboard = robot.resources.obtain("recognizer", TypedRecognizer)

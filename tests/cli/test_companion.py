@@ -147,6 +147,7 @@ def test_a_person_who_says_go_forward_ten_meters_is_obeyed(tmp_path, small):
     assert abs(odometry[-1]["y_cm"]) < 20
 
 
+@SLOW
 def test_what_is_typed_is_told_in_whole_lines_and_its_end_is_the_end(tmp_path):
     config = tmp_path / "typed.xml"
     text = paths.find("config", "typed").read_text()
@@ -160,6 +161,7 @@ def test_what_is_typed_is_told_in_whole_lines_and_its_end_is_the_end(tmp_path):
     assert re.search(r"said +You can say, for instance: .*, stop\.", run.stdout)
 
 
+@SLOW
 def test_a_timer_that_runs_is_waited_for_when_nothing_more_is_typed(tmp_path):
     (tmp_path / "app.toml").write_text('extends = "companion"\n')
     (tmp_path / "grammar.jsgf").write_text(

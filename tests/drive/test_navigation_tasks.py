@@ -469,6 +469,7 @@ def test_following_says_whom_it_lost(tmp_path: Path) -> None:
     assert "lost sight of p1" in str(ending)
 
 
+@pytest.mark.slow
 def test_following_says_that_the_way_is_blocked(tmp_path: Path) -> None:
     walls = "".join(f"[[wall]]\nfrom = [{x}, 0]\nto = [{x}, 4]\n" for x in (0, 3.2))
     ending = _end(Set(tmp_path, ROOM + walls))
