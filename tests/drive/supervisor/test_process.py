@@ -291,6 +291,7 @@ def test_a_supervisor_that_dies_leaves_a_base_at_rest_and_another_comes(driving)
     assert driving.state().report.rolled.linear > rolled
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("watchdog_by", [signal.SIGSTOP, signal.SIGKILL])
 @pytest.mark.parametrize("supervisor_by", [signal.SIGSTOP, signal.SIGKILL])
 def test_without_supervisor_and_watchdog_the_program_stops_the_base_and_starts_others(
