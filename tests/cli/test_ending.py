@@ -56,6 +56,7 @@ def is_recorded(folder):
     return pictures > 0 and first and len(samples) > 0 and (folder / "timeline.png").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
 def test_a_robot_that_is_asked_to_end_as_it_begins_leaves_a_whole_recording(
     robot, tmp_path, number

@@ -190,7 +190,6 @@ def test_the_tasks_of_2003_go_through_the_networks_of_a_robot(robot):
     assert not [name for name in robot.networks.runners if name.startswith("own ")]
 
 
-@pytest.mark.slow
 @pytest.mark.proves("T04")
 def test_a_way_that_is_not_free_fails_the_task(robot):
     with pytest.raises(HriError, match=r"got -?\d.* of 19.00 m far - clear the way"):
