@@ -326,6 +326,40 @@ class People:
 
 
 @dataclass(frozen=True, slots=True)
+class FoundObject:
+    """An object that was recognized in a picture."""
+
+    name: str
+    x: float
+    """Of its center, pixels from the left."""
+    y: float
+    """Pixels from the top."""
+    outline: tuple[tuple[float, float], ...]
+    """Corners of a polygon around it, pixels; parts of it may lie outside of the picture."""
+    confidence: float
+    """0 to 1."""
+    distance: float = math.nan
+    """Meters from the camera; NaN when its size is unknown."""
+    bearing: float = 0.0
+    """Radians from the robot's straight ahead to the left."""
+    elevation: float = 0.0
+    """Radians from the robot's straight ahead up."""
+
+
+@dataclass(frozen=True, slots=True)
+class Objects:
+    """The objects of one picture, the surest first."""
+
+    time: float
+    """Seconds, when the picture was taken."""
+    found: tuple[FoundObject, ...] = ()
+
+    def named(self, name: str) -> FoundObject | None:
+        """The surest of this name; None when none is there."""
+        return next((one for one in self.found if one.name == name), None)
+
+
+@dataclass(frozen=True, slots=True)
 class Frame:
     """A picture from a camera."""
 

@@ -1,0 +1,88 @@
+"""Where in a picture the object is that is shown, so that what is behind it is not learned."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.core.signals import Image
+from hri.vision.objects.object_model import Outline
+
+MIDDLE = 0.6
+"""Part of the picture, in each direction, in which an object is held up."""
+EVEN = 12.0
+"""Standard deviation, of 255, of a border that is one color."""
+DIFFERENT = 28
+"""Levels of a color by which a pixel is not the background's."""
+SMALLEST, LARGEST = 0.01, 0.95
+"""Parts of the picture; what is smaller or larger is no outline."""
+CORNER = 0.006
+"""How far an outline may be simplified, as a part of its length."""
+COARSE = 160
+"""Pixels, width of the picture in which an object is cut out of a room."""
+
+Mask = NDArray[np.uint8]
+
+
+def whole(image: Image) -> Outline:
+    """The outline of the whole picture."""
+    height, width = image.shape[:2]
+    return np.array([(0, 0), (width, 0), (width, height), (0, height)], np.float32)
+
+
+def middle(image: Image) -> Outline:
+    """The box in the middle in which an object is to be held."""
+    center = np.array([image.shape[1] / 2, image.shape[0] / 2], np.float32)
+    return np.asarray(center + (whole(image) - center) * MIDDLE, np.float32)
+
+
+def on_even_background(image: Image) -> Outline:
+    """What stands before a background of one color; the whole picture where there is none."""
+    border = np.concatenate([image[0], image[-1], image[:, 0], image[:, -1]]).astype(np.float32)
+    if border.std(axis=0).max() > EVEN:
+        return whole(image)
+    distance = np.abs(image.astype(np.float32) - np.median(border, axis=0)).max(axis=2)
+    outline = _largest((distance > DIFFERENT).astype(np.uint8))
+    return whole(image) if outline is None else outline
+
+
+def before(image: Image, background: Image) -> Outline | None:
+    """What has come before a background that the same camera saw; None when nothing has."""
+    blurred = [cv2.GaussianBlur(each, (0, 0), 2.0).astype(np.int16) for each in (image, background)]
+    return _largest((np.abs(blurred[0] - blurred[1]).max(axis=2) > DIFFERENT).astype(np.uint8))
+
+
+def in_the_middle(image: Image) -> Outline:
+    """What is held in the middle of a picture of a room (Rother et al., "GrabCut", 2004)."""
+    scale = COARSE / image.shape[1]
+    small = np.asarray(
+        cv2.resize(image, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA), np.uint8
+    )
+    (left, top), _, (right, bottom), _ = middle(small).astype(int).tolist()
+    mask = np.zeros(small.shape[:2], np.uint8)
+    models = np.zeros((1, 65)), np.zeros((1, 65))
+    cv2.setRNGSeed(0)
+    box = (left, top, right - left, bottom - top)
+    cv2.grabCut(small[..., ::-1].copy(), mask, box, *models, 3, cv2.GC_INIT_WITH_RECT)
+    outline = _largest((mask & 1).astype(np.uint8))
+    return middle(image) if outline is None else np.asarray(outline / scale, np.float32)
+
+
+def _largest(mask: Mask) -> Outline | None:
+    """The outline of the largest region, without its fringes; None when it is out of range."""
+    size = max(3, round(max(mask.shape) / 80)) | 1
+    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (size, size))
+    closed = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, kernel)
+    found, _ = cv2.findContours(
+        cv2.morphologyEx(closed, cv2.MORPH_OPEN, kernel),
+        cv2.RETR_EXTERNAL,
+        cv2.CHAIN_APPROX_SIMPLE,
+    )
+    if not found:
+        return None
+    contour = max(found, key=cv2.contourArea)
+    if not SMALLEST <= cv2.contourArea(contour) / mask.size <= LARGEST:
+        return None
+    corners = cv2.approxPolyDP(contour, CORNER * cv2.arcLength(contour, True), True)
+    return np.asarray(corners[:, 0], np.float32) if len(corners) >= 3 else None

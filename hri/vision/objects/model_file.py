@@ -1,0 +1,237 @@
+"""Model sets as files: `NAME.mdl`, and lists of names.
+
+The container is a ZIP archive that is stored without compression. `model_set.json` in it has the
+keys `format` (1), `method` and `objects`; an object has `name`, `learned` and `views`; a view has
+`picture`, `points` and `descriptors` (names of entries of the archive), `outline` (pairs of
+pixels), `scale` (meters to a pixel) and `source`. A picture is a JPEG; points are rows of two
+float32, descriptors rows of uint8, both without any header.
+
+A file of text is a list of names instead, one a line, with comments from "#": its objects have the
+labels of these names (`printed_label`), which things of the simulated room bear.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.core import paths
+from hri.core.errors import HriError
+from hri.core.reading import opened, read_text
+from hri.core.signals import Image
+from hri.core.writing import write_bytes
+from hri.vision.objects.cutout import whole
+from hri.vision.objects.learning import MOST_VIEWS, view_of
+from hri.vision.objects.local_features import METHODS, SIFT, Features
+from hri.vision.objects.object_model import ModelSet, ObjectModel, View
+from hri.vision.objects.printed_label import SIZE, WIDTH, printed_label
+
+KIND = "config/models"
+SUFFIX = ".mdl"
+MANIFEST = "model_set.json"
+FORMAT = 1
+MOST_OBJECTS = 1000
+LONGEST_NAME = 60
+LARGEST_FILE = 2_000_000_000
+"""Bytes of a set."""
+LARGEST_MANIFEST = 32_000_000
+LARGEST_ENTRY = 4_000_000
+LARGEST_SIDE = 2000
+"""Pixels of a picture."""
+MOST_FEATURES = 10_000
+"""Of a view."""
+MOST_CORNERS = 1000
+FARTHEST = 1e4
+"""Pixels of a point from the corner of its picture."""
+QUALITY = 92
+"""Of the pictures, as JPEG has it."""
+REMEDY = 'name a set that "hri object learn" wrote, or a list of names'
+
+
+def find_models(name: str) -> Path:
+    """The file of a set: a path, or a name in `config/models`. Raises HriError."""
+    return paths.find(KIND, name if name.endswith(SUFFIX) else name + SUFFIX)
+
+
+def load_models(path: Path, method: str = SIFT) -> ModelSet:
+    """Read a set; a list of names gets features of `method`. Raises HriError with what is wrong."""
+    with opened(path, "model set", LARGEST_FILE) as file:
+        if file.read(4) != b"PK\x03\x04":
+            return _of_names(path, method)
+        file.seek(0)
+        try:
+            with zipfile.ZipFile(file) as archive:
+                return _Reader(path, archive).read()
+        except (zipfile.BadZipFile, EOFError, NotImplementedError, RuntimeError) as error:
+            raise HriError(f"{path}: this model set is damaged: {error} - {REMEDY}") from error
+
+
+def save_models(path: Path, models: ModelSet) -> None:
+    """Write a set; an old file stays whole until the new one is. Raises HriError."""
+    if len(models.objects) > MOST_OBJECTS:
+        remedy = "split it: hri object split"
+        raise HriError(f"{path}: a set holds at most {MOST_OBJECTS} objects - {remedy}")
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_STORED) as archive:
+        objects = []
+        for number, model in enumerate(models.objects):
+            views = [
+                _write_view(archive, f"{number:04d}-{index:02d}", view)
+                for index, view in enumerate(model.views)
+            ]
+            objects.append({"name": model.name, "learned": model.learned, "views": views})
+        manifest = {"format": FORMAT, "method": models.method, "objects": objects}
+        _put(archive, MANIFEST, json.dumps(manifest, indent=1).encode())
+    write_bytes(path, buffer.getvalue())
+
+
+def _write_view(archive: zipfile.ZipFile, stem: str, view: View) -> dict[str, object]:
+    picture = np.ascontiguousarray(view.picture[..., ::-1])
+    _, coded = cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, QUALITY])
+    entries = {
+        "picture": (f"{stem}.jpg", coded.tobytes()),
+        "points": (f"{stem}.points", view.features.points.astype("<f4").tobytes()),
+        "descriptors": (f"{stem}.descriptors", view.features.descriptors.tobytes()),
+    }
+    for name, data in entries.values():
+        _put(archive, name, data)
+    names: dict[str, object] = {key: name for key, (name, _) in entries.items()}
+    outline = [[round(float(part), 2) for part in corner] for corner in view.outline]
+    return names | {"outline": outline, "scale": view.scale, "source": view.source}
+
+
+def _put(archive: zipfile.ZipFile, name: str, data: bytes) -> None:
+    # Without the time of day: the same set is the same file.
+    archive.writestr(zipfile.ZipInfo(name), data)
+
+
+def _of_names(path: Path, method: str) -> ModelSet:
+    lines = read_text(path, "model set").splitlines()
+    names = [name for line in lines if (name := line.partition("#")[0].strip())]
+    if len(names) > MOST_OBJECTS:
+        raise HriError(f"{path}: more than {MOST_OBJECTS} names - split the list")
+    for number, name in enumerate(names, 1):
+        if not is_name(name):
+            what = f'name {number} is "{name[:LONGEST_NAME]}"'
+            raise HriError(f"{path}: {what} - {NAME_REMEDY}")
+    labels = [(name, printed_label(name)) for name in dict.fromkeys(names)]
+    return ModelSet(
+        method,
+        tuple(
+            ObjectModel(name, (view_of(label, whole(label), method, WIDTH / SIZE, "its label"),))
+            for name, label in labels
+        ),
+    )
+
+
+NAME_REMEDY = f"a name is a line of 1 to {LONGEST_NAME} printable characters"
+
+
+def is_name(name: object) -> bool:
+    """Whether an object may be named so."""
+    return isinstance(name, str) and 0 < len(name) <= LONGEST_NAME and name.isprintable()
+
+
+class _Reader:
+    """Reads the entries of an archive, and believes none of them."""
+
+    def __init__(self, path: Path, archive: zipfile.ZipFile) -> None:
+        self._path, self._archive = path, archive
+
+    def read(self) -> ModelSet:
+        try:
+            manifest = json.loads(self._entry(MANIFEST, LARGEST_MANIFEST))
+        except (ValueError, RecursionError) as error:
+            raise self._error(f"{MANIFEST} is not JSON: {error}") from error
+        self._require(isinstance(manifest, dict), f"{MANIFEST} is not an object")
+        version = manifest.get("format")
+        self._require(version == FORMAT, f"its format is {version!r:.20}, not {FORMAT}")
+        method = manifest.get("method")
+        self._require(isinstance(method, str) and method in METHODS, f"method {method!r:.20}")
+        objects = manifest.get("objects")
+        self._require(isinstance(objects, list) and len(objects) <= MOST_OBJECTS, "objects")
+        self._width = METHODS[method].width
+        models = tuple(self._object(each) for each in objects)
+        names = [model.name for model in models]
+        self._require(len(set(names)) == len(names), "two objects have one name")
+        return ModelSet(method, models)
+
+    def _object(self, data: Any) -> ObjectModel:
+        self._require(isinstance(data, dict), "an object is not a table")
+        name, learned, views = data.get("name"), data.get("learned"), data.get("views")
+        self._require(is_name(name), f"an object is named {name!r:.80}")
+        self._require(isinstance(learned, str) and len(learned) <= LONGEST_NAME, f"{name}: learned")
+        is_list = isinstance(views, list) and 0 < len(views) <= MOST_VIEWS
+        self._require(is_list, f"{name}: views")
+        return ObjectModel(name, tuple(self._view(name, each) for each in views), learned)
+
+    def _view(self, name: str, data: Any) -> View:
+        self._require(isinstance(data, dict), f"{name}: a view is not a table")
+        picture = self._picture(name, data)
+        points = self._array(name, data, "points", 8).view("<f4").reshape(-1, 2)
+        self._require(bool((np.abs(points) < FARTHEST).all()), f"{name}: points")
+        descriptors = self._array(name, data, "descriptors", self._width)
+        descriptors = descriptors.reshape(-1, self._width)
+        is_even = len(points) == len(descriptors) <= MOST_FEATURES
+        self._require(is_even, f"{name}: {len(points)} points, {len(descriptors)} descriptors")
+        scale, source = data.get("scale"), data.get("source")
+        is_scale = isinstance(scale, (int, float)) and 0 <= scale <= 10
+        self._require(is_scale, f"{name}: scale")
+        self._require(isinstance(source, str) and len(source) <= 1000, f"{name}: source")
+        features = Features(points.astype(np.float32), descriptors)
+        return View(picture, self._outline(name, data), features, float(scale), source)
+
+    def _picture(self, name: str, data: Mapping[str, Any]) -> Image:
+        raw = np.frombuffer(self._named(name, data, "picture"), np.uint8)
+        decoded = cv2.imdecode(raw, cv2.IMREAD_COLOR) if raw.size else None
+        if decoded is None or max(decoded.shape) > LARGEST_SIDE:
+            raise self._error(f"{name}: a picture cannot be read")
+        return np.ascontiguousarray(decoded[..., ::-1])
+
+    def _array(self, name: str, data: Mapping[str, Any], key: str, row: int) -> NDArray[np.uint8]:
+        raw = self._named(name, data, key)
+        self._require(len(raw) % row == 0, f"{name}: {key} end in the middle of a row")
+        return np.frombuffer(raw, np.uint8)
+
+    def _outline(self, name: str, data: Mapping[str, Any]) -> NDArray[np.float32]:
+        try:
+            outline = np.array(data.get("outline"), np.float32)
+        except (TypeError, ValueError, OverflowError):
+            outline = np.zeros((0, 0), np.float32)
+        is_polygon = outline.ndim == 2 and outline.shape[1] == 2
+        is_polygon = is_polygon and 3 <= len(outline) <= MOST_CORNERS
+        self._require(is_polygon and bool((np.abs(outline) < FARTHEST).all()), f"{name}: outline")
+        return outline
+
+    def _named(self, name: str, data: Mapping[str, Any], key: str) -> bytes:
+        entry = data.get(key)
+        if not isinstance(entry, str):
+            raise self._error(f"{name}: {key}")
+        return self._entry(entry, LARGEST_ENTRY)
+
+    def _entry(self, name: str, largest: int) -> bytes:
+        try:
+            info = self._archive.getinfo(name)
+        except KeyError as error:
+            raise self._error(f"{name!r:.80} is missing") from error
+        self._require(info.file_size <= largest, f"{name} is larger than {largest} bytes")
+        try:
+            with self._archive.open(info) as file:
+                return file.read(largest)
+        except (zipfile.BadZipFile, OSError, ValueError) as error:
+            raise self._error(f"{name} cannot be read: {error}") from error
+
+    def _require(self, holds: bool, what: str) -> None:
+        if not holds:
+            raise self._error(what)
+
+    def _error(self, what: str) -> HriError:
+        return HriError(f"{self._path}: this model set is damaged: {what} - {REMEDY}")
