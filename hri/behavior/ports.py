@@ -44,6 +44,7 @@ DATATYPES: dict[str, type] = {
     "headpose": signals.HeadPose,
     "gesture": signals.HeadGesture,
     "people": signals.People,
+    "objects": signals.Objects,
     "twist": signals.Twist,
     "pose": signals.Pose2D,
     "range": signals.RangeReading,

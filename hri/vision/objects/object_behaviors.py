@@ -1,0 +1,170 @@
+"""Object recognition in a network."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from hri.behavior.behavior import Behavior, Context
+from hri.behavior.ports import Input, Output, Param
+from hri.core.errors import HriError, NotAvailable, did_you_mean
+from hri.core.service import Service
+from hri.core.signals import FoundObject, Frame, Objects
+from hri.hal.camera import Camera
+from hri.vision.behaviors import camera_of
+from hri.vision.camera_view import CameraView
+from hri.vision.objects.local_features import ORB, SIFT
+from hri.vision.objects.model_file import find_models, load_models
+from hri.vision.objects.object_model import ModelSet
+from hri.vision.objects.object_presence import MEMORY, ObjectPresence
+from hri.vision.objects.recognizer import ObjectRecognizer
+
+CENTIMETERS = 100.0
+
+
+class ObjRecRecognizer(Behavior):
+    """Recognizes the objects of a model set in the pictures of a camera, in a separate process.
+
+    `objects` has all of them. `model_name` and what belongs to it are of one object: when several
+    are in view, they take turns, picture by picture. Raises the events `object.seen` and
+    `object.lost`; and `vision.failed` with the `reason` when recognition fails, which restarts by
+    itself.
+    """
+
+    category = "vision"
+    modelset = Param("default.mdl", "a model set, or a list of names; its path, or its name")
+    field_of_view = Param(0.0, "radians; 0 is that of the camera", minimum=0.0, maximum=3.0)
+    only = Param("", "name of the one object to look for; empty looks for all of them")
+    camera_id = Param("camera", "id of the camera that takes the pictures; its pose is used")
+    features = Param(SIFT, "of a list of names; orb is for weak machines", among=(SIFT, ORB))
+    latency = Param(0.1, "seconds that it takes on a fake clock", minimum=0, maximum=1)
+
+    image = Input[Frame]("image", "pictures; the newest is seen when there is no time for all")
+    objects = Output[Objects]("objects", "all that were recognized, once for each picture seen")
+    model_name = Output[str]("string", "name of the object; nothing when none is in view")
+    x = Output[float]("double", "of its center, pixels from the left")
+    y = Output[float]("double", "of its center, pixels from the top")
+    distance = Output[float](
+        "double", "centimeters from the camera to it; nothing when its size is unknown"
+    )
+    bearing = Output[float]("double", "radians from the robot's straight ahead to the left")
+    confidence = Output[float]("double", "0 to 1")
+
+    def check(self) -> None:
+        self._recognizing = Recognizing(
+            find_models(self.modelset), self.only, self.features, CameraView()
+        )
+        self.names = tuple(model.name for model in self._recognizing.models().objects)
+
+    def start(self, context: Context) -> None:
+        self._events, self._resources = context.events, context.resources
+        self._camera: Camera | None = camera_of(context, self.camera_id)
+        try:
+            view = CameraView.of(self._camera) if self._camera else CameraView()
+            if self.field_of_view:
+                view = replace(view, field_of_view=self.field_of_view)
+            self._service: Service[Frame, Objects] = context.clock.service(
+                replace(self._recognizing, view=view), self.latency
+            )
+        except HriError:
+            self._give_back()  # a behavior that fails to start is not stopped
+            raise
+        self._presence = ObjectPresence()
+        self._frame: Frame | None = None
+        self._pan, self._turn, self._reported = 0.0, 0, -math.inf
+        self.last = Objects(-math.inf)
+        """What was recognized last."""
+
+    @property
+    def present(self) -> tuple[FoundObject, ...]:
+        """The objects that are there, as they were found last."""
+        return self._presence.present
+
+    def compute(self, now: float, dt: float) -> None:
+        """Collect results, and hand over the newest picture."""
+        try:
+            for objects in self._service.poll():
+                self._report(_panned(objects, self._pan), now)
+        except NotAvailable as error:
+            self._events.raise_event("vision.failed", reason=str(error))
+        if now - self._reported > MEMORY:
+            # Without pictures nothing is there that can be pointed at.
+            self._raise_lost(self._presence.forget(math.inf))
+        self._frame = self.image.value or self._frame
+        if self._frame is not None and not self._service.is_busy:
+            self._pan = self._camera.pan(self._frame.time) if self._camera else 0.0
+            self._service.ask(self._frame)
+            self._frame = None
+
+    def stop(self) -> None:
+        self._service.close()
+        self._give_back()
+
+    def _give_back(self) -> None:
+        if self._camera is not None:
+            self._resources.release(self._camera)
+            self._camera = None
+
+    def _report(self, objects: Objects, now: float) -> None:
+        self.last, self._reported = objects, now
+        self.objects.send(objects)
+        come, gone = self._presence.update(objects)
+        for one in come:
+            known = {} if math.isnan(one.distance) else {"distance": round(one.distance, 2)}
+            self._events.raise_event(
+                "object.seen", object=one.name, bearing=round(one.bearing, 3), **known
+            )
+        self._raise_lost(gone)
+        if objects.found:
+            self._send(objects.found[self._turn % len(objects.found)])
+            self._turn += 1
+
+    def _raise_lost(self, names: list[str]) -> None:
+        for name in names:
+            self._events.raise_event("object.lost", object=name)
+
+    def _send(self, one: FoundObject) -> None:
+        self.model_name.send(one.name)
+        self.x.send(one.x)
+        self.y.send(one.y)
+        self.bearing.send(one.bearing)
+        self.confidence.send(one.confidence)
+        if not math.isnan(one.distance):
+            self.distance.send(one.distance * CENTIMETERS)
+
+
+@dataclass(frozen=True, slots=True)
+class Recognizing:
+    """Makes a recognizer of a model set, where the work is done."""
+
+    path: Path
+    only: str
+    method: str
+    view: CameraView
+
+    def models(self) -> ModelSet:
+        """The set, or the one object of it. Raises HriError."""
+        models = load_models(self.path, self.method)
+        if not self.only:
+            return models
+        model = models.find(self.only)
+        if model is None:
+            remedy = did_you_mean(self.only, [one.name for one in models.objects])
+            raise HriError(f'{self.path.name} has no "{self.only}" - {remedy}')
+        return ModelSet(models.method, (model,))
+
+    def __call__(self) -> Callable[[Frame], Objects]:
+        recognizer = ObjectRecognizer(self.models(), self.view)
+        return lambda frame: Objects(frame.time, recognizer.recognize(frame.image))
+
+
+def _panned(objects: Objects, pan: float) -> Objects:
+    """The same objects, seen by a camera turned to the left by an angle, radians."""
+    if not pan:
+        return objects
+    turned = (
+        replace(one, bearing=math.remainder(one.bearing + pan, math.tau)) for one in objects.found
+    )
+    return replace(objects, found=tuple(turned))
