@@ -14,10 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.signals import Image
-from hri.vision.objects.local_features import Descriptors, FeatureExtractor
+from hri.vision.objects.local_features import METHODS, Descriptors, FeatureExtractor
 
-COUNT = 8000
-"""Features; twice as many make no difference."""
 SEED = 7
 SIZE = 640, 480
 """Of a picture, pixels."""
@@ -31,12 +29,13 @@ BLURS = 0.6, 1.5
 
 @lru_cache(maxsize=2)
 def decoys(method: str) -> Descriptors:
-    """`COUNT` descriptors of a method; always the same."""
+    """Descriptors of a method, as many as it wants; always the same."""
+    count = METHODS[method].decoys
     dice, extractor = np.random.default_rng(SEED), FeatureExtractor(method)
     parts: list[Descriptors] = []
-    while sum(map(len, parts)) < COUNT:
+    while sum(map(len, parts)) < count:
         parts.append(extractor.extract(_leaves(dice)).descriptors)
-    return np.concatenate(parts)[:COUNT]
+    return np.concatenate(parts)[:count]
 
 
 def _leaves(dice: np.random.Generator) -> Image:

@@ -10,7 +10,7 @@ import numpy as np
 
 from hri.core.errors import HriError
 from hri.core.signals import Image
-from hri.vision.objects.local_features import MOST_OF_VIEW, FeatureExtractor, Features
+from hri.vision.objects.local_features import FeatureExtractor, Features, resized
 from hri.vision.objects.object_model import ModelSet, ObjectModel, Outline, View
 from hri.vision.objects.recognizer import ObjectRecognizer
 
@@ -42,12 +42,12 @@ def view_of(
     high = np.clip(np.ceil(outline.max(axis=0)), low + 1, (width, height)).astype(int)
     cut = image[low[1] : high[1], low[0] : high[0]]
     shrunk = min(1.0, SIZE / max(cut.shape[:2]))
-    picture = _resized(cut, shrunk)
+    picture = resized(cut, shrunk)
     corners = np.asarray((outline - low) * shrunk, np.float32)
-    features = _features(picture, corners, FeatureExtractor(method, MOST_OF_VIEW))
+    features = _features(picture, corners, FeatureExtractor(method, is_for_view=True))
     kept = min(1.0, KEPT / max(picture.shape[:2]))
     return View(
-        _resized(picture, kept),
+        resized(picture, kept),
         np.asarray(corners * kept, np.float32),
         replace(features, points=np.asarray(features.points * kept, np.float32)),
         scale / (shrunk * kept),
@@ -63,7 +63,7 @@ def _features(picture: Image, outline: Outline, extractor: FeatureExtractor) -> 
     for scale in SCALES:
         seen = picture
         if scale < 1:
-            seen = np.asarray(cv2.GaussianBlur(_resized(picture, scale), (0, 0), BLUR), np.uint8)
+            seen = np.asarray(cv2.GaussianBlur(resized(picture, scale), (0, 0), BLUR), np.uint8)
         size = seen.shape[1], seen.shape[0]
         where = np.asarray(cv2.resize(mask, size, interpolation=cv2.INTER_NEAREST), np.uint8)
         found = extractor.extract(seen, where)
@@ -72,13 +72,6 @@ def _features(picture: Image, outline: Outline, extractor: FeatureExtractor) -> 
         np.concatenate([part.points for part in parts]),
         np.concatenate([part.descriptors for part in parts]),
     )
-
-
-def _resized(image: Image, scale: float) -> Image:
-    if scale == 1.0:
-        return np.ascontiguousarray(image)
-    size = max(1, round(image.shape[1] * scale)), max(1, round(image.shape[0] * scale))
-    return np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA), np.uint8)
 
 
 @dataclass(frozen=True, slots=True)

@@ -44,6 +44,8 @@ SMALLEST = 16.0
 """Pixels; sides of an object's box below it are not believed."""
 LARGEST = 6.0
 """Times as wide as the picture; a wider one is not believed."""
+PLAIN = 4.0
+"""Levels of gray; with less contrast two pictures cannot be compared."""
 COMPARED = 160
 """Pixels, longer side of the pictures that are compared."""
 
@@ -99,7 +101,7 @@ class ObjectRecognizer:
     def _seen(self, image: Image) -> Iterator[_Seen]:
         """Object after object: what belongs to one is not evidence for another."""
         assert self._index is not None
-        features = self._extractor.extract(image)
+        features = self._extractor.extract_shrunk(image)
         matches = self._index.match(features.descriptors)
         queries, entries = matches.queries, matches.entries
         tried: set[int] = set()
@@ -118,6 +120,7 @@ class ObjectRecognizer:
                 continue
             yield seen
             rest = ~_inside(features.points[queries], seen.outline)
+            rest &= ~np.isin(queries, queries[chosen])
             queries, entries = queries[rest], entries[rest]
 
     def _fitted(
@@ -135,11 +138,12 @@ class ObjectRecognizer:
         if homography is None or not _is_plausible(homography, view, size):
             return None
         likeness = _likeness(view, homography, image)
-        refined, count = _mapped(*self._guided(view, homography, features))
-        if refined is not None and _is_plausible(refined, view, size):
-            better = _likeness(view, refined, image)
-            if better > likeness:
-                homography, inliers, likeness = refined, count, better
+        if inliers < SURE_INLIERS or likeness < ALIKE:
+            refined, count = _mapped(*self._guided(view, homography, features))
+            if refined is not None and _is_plausible(refined, view, size):
+                better = _likeness(view, refined, image)
+                if better > likeness:
+                    homography, inliers, likeness = refined, count, better
         if likeness < (SURELY_ALIKE if inliers >= SURE_INLIERS else ALIKE):
             return None
         outline = _projected(homography, view.outline)
@@ -152,7 +156,7 @@ class ObjectRecognizer:
         expected = _projected(homography, view.features.points)
         low, high = expected.min(axis=0) - NEAR, expected.max(axis=0) + NEAR
         near = np.flatnonzero(((features.points >= low) & (features.points <= high)).all(axis=1))
-        away = np.linalg.norm(features.points[near, None] - expected[None], axis=2)
+        away = np.maximum(*np.abs(features.points[near].T[:, :, None] - expected.T[:, None]))
         likeness = self._extractor.likeness(features.descriptors[near], view.features.descriptors)
         likeness[away > NEAR] = -1.0
         if not likeness.size:
@@ -246,6 +250,8 @@ def _likeness(view: View, homography: Homography, image: Image) -> float:
         for each in (there, known)
     )
     one, other = one - one.mean(), other - other.mean()
+    if min(one.std(), other.std()) < PLAIN:
+        return 0.0  # where all is of one color, noise decides
     return float(one @ other / math.sqrt(max(one @ one, 1.0) * max(other @ other, 1.0)))
 
 
