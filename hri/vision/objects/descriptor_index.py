@@ -20,7 +20,7 @@ from hri.vision.objects.local_features import ORB, SIFT, Descriptors, rooted
 
 NEIGHBORS = 6
 """How many are looked up: one object seldom takes all of them."""
-TREES, CHECKS = 4, 48
+TREES, CHECKS = 4, 24
 """Of the k-d forest of SIFT: more are slower and miss less."""
 LSH = {"table_number": 8, "key_size": 14, "multi_probe_level": 1}
 """Tables of hashes for ORB, bits of a hash, and how many bits may differ."""
