@@ -148,7 +148,7 @@ def film(motion: Motion, seed: int, rate: float, duration: float = DURATION) -> 
     return Film([role], duration, rate, Optics(), lens, scene=seed)
 
 
-def told(kind: str, seed: int, rate: float) -> list[HeadGesture]:
+def told(seed: int, kind: str, rate: float) -> list[HeadGesture]:
     """All gestures reported in a film, without an open question."""
     made = film(FILMS[kind](seed), seed, rate)
     watching = PeopleGestures(answer_patterns())
@@ -179,14 +179,10 @@ def rows(quick: bool, workers: int) -> Iterator[Row]:
     for rate in RATES:
         for kind in FILMS:
             with worker_pool(workers) as pool:
-                each = pool.map(partial(_told_of, kind=kind, rate=rate), seeds)
+                each = pool.map(partial(told, kind=kind, rate=rate), seeds)
                 what = f"{kind}, {rate:g} a second"
                 found = list(progress(each, len(seeds), what))
             yield from _judged(kind, what, found)
-
-
-def _told_of(seed: int, kind: str, rate: float) -> list[HeadGesture]:
-    return told(kind, seed, rate)
 
 
 def _judged(kind: str, what: str, found: Sequence[list[HeadGesture]]) -> Iterator[Row]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache
 from pathlib import Path
 
@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 
 from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
-from hri.face.drawing.baking import DisplayList, Vector, pairs_of
+from hri.face.drawing.baking import DisplayList, Item, Opening, Shape, Vector, pairs_of
 from hri.face.drawing.blending import Blend
 from hri.face.drawing.cache import baked
-from hri.face.drawing.neck import following
 from hri.face.drawing.outline import Matrix
 from hri.face.settings import Settings, Weights, load_settings
 from hri.face.vocabulary import CORRECTIVE, MOTIONS, RHUBARB, TURNS, VISEMES, sides_of
@@ -157,6 +156,31 @@ class FaceModel:
 def _most(channel: str) -> float:
     """How far a channel goes: a head to its limits, and lids that are shut do not cross."""
     return 1.0 if channel in TURNS or channel.startswith("eyeBlink") else LARGEST_WEIGHT
+
+
+def following(display: DisplayList, top: float, bottom: float) -> Vector:
+    """How much each point [n] goes with the head, 0 to 1, by its height in the drawing at rest.
+
+    `top` and `bottom` are the heights between which that falls from 1 to 0, smoothly. Anchors of a
+    gradient count as within the height of their shape, so that light stays where it is drawn.
+    """
+    heights = display.neutral[1 : 2 * display.points : 2].copy()
+    for shape in _shapes(display.items):
+        first, last = shape.contours[0][0], shape.anchors[0]
+        outline = heights[first:last]
+        anchors = heights[last : shape.anchors[1]]
+        np.clip(anchors, outline.min(), outline.max(), out=anchors)
+    share = np.clip((bottom - heights) / (bottom - top), 0, 1)
+    return np.asarray(share * share * (3 - 2 * share), np.float32)
+
+
+def _shapes(items: Sequence[Item]) -> Iterator[Shape]:
+    for item in items:
+        if isinstance(item, Opening):
+            yield item.clip
+            yield from _shapes(item.content)
+        else:
+            yield item
 
 
 def load_face(name: str | Path = "robot") -> FaceModel:

@@ -169,7 +169,7 @@ class Movement:
             and now - held - running.start <= row.duration
             and all(swing.end - swing.start <= row.duration for swing in before)
             and self._dominates(row, axis, swings)
-            and (row.slowing >= 1 or self._slowing(running, axis) <= row.slowing)
+            and (row.slowing >= 1 or slowing(*self._since(running.start, axis)) <= row.slowing)
             and 2 * sum(self._leaps(swing, axis) for swing in swings) <= len(swings)
         )
 
@@ -211,9 +211,6 @@ class Movement:
         ]
         width = _range([angle for _, angle in seen])
         return max(steps, default=0.0) >= LEAP * width > 0.0
-
-    def _slowing(self, swing: Swing, axis: int) -> float:
-        return slowing(*self._since(swing.start, axis))
 
     def _held(self, swing: Swing, axis: int) -> float:
         """Seconds that the head has stayed where a swing led it."""
