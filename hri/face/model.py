@@ -239,7 +239,7 @@ def _load(folder: Path, stamps: Stamps) -> FaceModel:
 
 
 def _names(targets: Sequence[Path]) -> set[str]:
-    """What the drawings allow to be weighted. Raises HriError for a drawing nobody could use."""
+    """Names that the drawings give weights to. Raises HriError for an unusable drawing."""
     names: dict[str, Path] = {}
     for file in targets:
         if not _NAME.fullmatch(file.stem):

@@ -1,4 +1,4 @@
-"""The mouth while the robot talks: the track of the lips at what has really been heard."""
+"""The mouth of a talking robot: the lip track at the position that has really been heard."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ PICTURE_LEAD = 0.05
 """Seconds by which the track of the lips is read ahead of the sound: one frame until the
 picture is seen, and a little more, since lips that are early look right and late ones do not."""
 RAISED = {"browOuterUp": 0.4, "browInnerUp": 0.25, "headPitch": 0.12}
-"""What a stressed syllable lifts."""
+"""Weights that a stressed syllable adds."""
 
 _LIPS = 70.0
 """Stiffness in radians a second: shut within 100 ms of a cut."""
 _TALKING = 30.0
-"""Of how speech takes the mouth over, and gives it back."""
+"""Stiffness with which speech takes the mouth over, and gives it back."""
 
 
 class LipPlayer:

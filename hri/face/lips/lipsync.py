@@ -230,7 +230,7 @@ def _blended(segments: Sequence[VisemeSpan], times: Values, articulator: str) ->
 def closures(segments: Sequence[VisemeSpan]) -> dict[int, VisemeSpan]:
     """When the lips must be shut, or on the teeth, by the number of the segment.
 
-    Those on the teeth give way, and are left out where there is no way.
+    Those on the teeth give way, and are left out where there is no time for them.
     """
     wanted = {n: _closure(s) for n, s in enumerate(segments) if s.viseme in CLOSED}
     pressed = [closure for closure in wanted.values() if closure.viseme == PRESSED]
