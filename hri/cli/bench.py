@@ -32,6 +32,7 @@ RESEARCH = ("inputs", "people", "writes")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.epilog = "Missed limits are listed; the exit status is 0 all the same."
     about = f"what to measure; {', '.join(RESEARCH)} need a checkout"
     parser.add_argument("name", choices=BENCHES, help=about)
     about = "how long each case runs (behavior, companion)"
