@@ -49,9 +49,10 @@ class FaceModel:
         """What can be weighted, one number each: sides of targets and motions of the head."""
         self.correctives = tuple(CORRECTED.join(pair) for pair in display.products)
         """Products of two channels that have a drawing, such as "mouthSmileLeft*jawOpen"."""
-        self._index = {channel: number for number, channel in enumerate(self.channels)}
+        self.index = {channel: number for number, channel in enumerate(self.channels)}
+        """The place of each channel among them."""
         self._blend = Blend(display.neutral, display.rows)
-        pairs = [[self._index[name] for name in pair] for pair in display.products]
+        pairs = [[self.index[name] for name in pair] for pair in display.products]
         self._factors = np.array(pairs, np.intp).reshape(-1, 2).T
         self._largest = np.array([_most(name) for name in display.channels], np.float32)
         turned = np.array([pair[0] in TURNS for pair in display.products], bool)
@@ -98,8 +99,8 @@ class FaceModel:
         for name, weight in weights.items():
             if not math.isfinite(weight):
                 raise HriError(f"the weight of {name} is {weight} - give a finite number")
-            for channel in (name,) if name in self._index else self._sides(name):
-                vector[self._index[channel]] += weight
+            for channel in (name,) if name in self.index else self._sides(name):
+                vector[self.index[channel]] += weight
         return vector
 
     def _sides(self, name: str) -> tuple[str, ...]:
