@@ -10,7 +10,7 @@ from types import ModuleType
 from typing import Any
 
 from hri.bench.checkout import missing, research
-from hri.cli.messages import Within
+from hri.cli.terminal.messages import Within
 from hri.core.errors import HriError
 
 BENCHES: dict[str, tuple[str, ...]] = {

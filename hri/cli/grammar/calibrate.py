@@ -10,8 +10,8 @@ from pathlib import Path
 from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
 from hri.cli.grammar.manifest import read_manifest, spoken, usual_voices
-from hri.cli.messages import Within
-from hri.cli.progress_line import progress
+from hri.cli.terminal.messages import Within
+from hri.cli.terminal.progress_line import progress
 from hri.core.errors import HriError
 from hri.core.statistics import told
 from hri.speech.acceptance import STRICTNESS

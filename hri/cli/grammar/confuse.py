@@ -9,8 +9,8 @@ from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
 from hri.cli.grammar.expand import in_words
 from hri.cli.grammar.manifest import spoken, usual_voices
-from hri.cli.messages import Within
-from hri.cli.progress_line import progress, waiting
+from hri.cli.terminal.messages import Within
+from hri.cli.terminal.progress_line import progress, waiting
 from hri.core.statistics import told
 from hri.speech.acceptance import STRICTNESS
 from hri.speech.grammar import Grammar, load_grammar

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from hri.cli.progress_line import waiting
+from hri.cli.terminal.progress_line import waiting
 from hri.core import registry
 from hri.core.clock import RealClock
 from hri.core.errors import HriError

@@ -17,7 +17,7 @@ import numpy as np
 
 from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
-from hri.cli.messages import Within
+from hri.cli.terminal.messages import Within
 from hri.core import registry
 from hri.core.clock import RealClock
 from hri.core.errors import HriError, NotAvailable

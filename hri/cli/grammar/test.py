@@ -10,8 +10,8 @@ from pathlib import Path
 from hri.cli.grammar import explained
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
 from hri.cli.grammar.manifest import read_manifest
-from hri.cli.messages import Within
-from hri.cli.progress_line import progress
+from hri.cli.terminal.messages import Within
+from hri.cli.terminal.progress_line import progress
 from hri.core import paths
 from hri.core.errors import HriError, Mistakes
 from hri.core.quoting import message_line
