@@ -1,4 +1,4 @@
-"""Rows of the table of figures: what was measured, how sure it is, and whether it is enough."""
+"""Rows of the table of figures: what was measured, its confidence interval, and its limit."""
 
 from __future__ import annotations
 
