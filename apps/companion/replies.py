@@ -82,7 +82,7 @@ class Vocabulary:
 
 
 UNASKED = ("blocked", "bump", "battery_low", "nobody", "waiting", "no_stop")
-USUALLY_UNASKED = {"not_understood": "I did not understand. I know: {nearest}."}
+USUALLY_UNASKED = {"not_understood": "Sorry, I did not understand. You can say: {nearest}."}
 """What need not be written."""
 
 

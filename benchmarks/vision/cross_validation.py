@@ -42,7 +42,7 @@ CONTRADICTION = 2.5
 NAME = f"prompted, real heads, {FOLDS}-fold cross-validated"
 
 Moments = NDArray[np.float64]
-"""Number of the pose with which a gesture is told, infinity for never: [series, choices]."""
+"""Number of the pose at which a gesture is recognized, infinity for never: [series, choices]."""
 Confusion = NDArray[np.int_]
 """How many of each kind were taken for each kind: [done, told]."""
 

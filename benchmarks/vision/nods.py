@@ -1,4 +1,4 @@
-"""Films of someone who nods again and again, and of what must not be taken for it; nobody asks.
+"""Films of repeated nods, and of what must not be taken for one; no question is open.
 
 Before the first of the nods the head turns by 20 degrees; the pictures are blurred and noisy.
 """
@@ -31,13 +31,13 @@ SEEDS = 5
 DURATION = 30.0
 """Seconds of a film."""
 NODS, FOUND = 20, 18
-"""In a film, and how many of them must be told."""
+"""In a film, and how many of them must be recognized."""
 TURN_AT, TURN_S, TURN = 0.4, 0.5, math.radians(20)
 """When the head turns before the first nod, how long that takes, and how far it goes."""
 FIRST, EVERY = 1.2, 1.42
 """Seconds, when the first nod begins, and from each to the next."""
 SLACK = 0.4
-"""Seconds after its end in which a nod may still be told."""
+"""Seconds after its end in which a nod may still be recognized."""
 HERTZ, DEGREES, CYCLES = (1.7, 2.4), (6.0, 12.0), 2.0
 """Of the nods."""
 PICTURE_S = (0.25, 0.6)
@@ -71,7 +71,7 @@ class Nods:
         return held
 
     def spans(self) -> list[tuple[float, float]]:
-        """Beginning of each nod, and until when it may be told."""
+        """Beginning of each nod, and until when it may be recognized."""
         ends = [
             start + CYCLES / hertz for start, hertz in zip(self.starts, self.hertz, strict=True)
         ]
@@ -148,7 +148,7 @@ def film(motion: Motion, seed: int, rate: float, duration: float = DURATION) -> 
     return Film([role], duration, rate, Optics(), lens, scene=seed)
 
 
-def told(kind: str, seed: int, rate: float) -> list[HeadGesture]:
+def told(seed: int, kind: str, rate: float) -> list[HeadGesture]:
     """All gestures reported in a film, without an open question."""
     made = film(FILMS[kind](seed), seed, rate)
     watching = PeopleGestures(answer_patterns())
@@ -161,7 +161,7 @@ def told(kind: str, seed: int, rate: float) -> list[HeadGesture]:
 
 
 def hits(nods: Nods, gestures: Sequence[HeadGesture]) -> int:
-    """How many of the nods are told; each counts once."""
+    """How many of the nods are recognized; each counts once."""
     left = [gesture.time for gesture in gestures if gesture.kind == NOD]
     found = 0
     for begun, ended in nods.spans():
@@ -179,14 +179,10 @@ def rows(quick: bool, workers: int) -> Iterator[Row]:
     for rate in RATES:
         for kind in FILMS:
             with worker_pool(workers) as pool:
-                each = pool.map(partial(_told_of, kind=kind, rate=rate), seeds)
+                each = pool.map(partial(told, kind=kind, rate=rate), seeds)
                 what = f"{kind}, {rate:g} a second"
                 found = list(progress(each, len(seeds), what))
             yield from _judged(kind, what, found)
-
-
-def _told_of(seed: int, kind: str, rate: float) -> list[HeadGesture]:
-    return told(kind, seed, rate)
 
 
 def _judged(kind: str, what: str, found: Sequence[list[HeadGesture]]) -> Iterator[Row]:

@@ -25,7 +25,7 @@ from hri.vision.gestures.gesture_recognizer import GestureRecognizer
 GESTURES, QUICK_GESTURES = 200, 20
 RATES = (30.0, 15.0)
 SLACK = 0.7
-"""Seconds after its end in which a gesture may still be told."""
+"""Seconds after its end in which a gesture may still be recognized."""
 PRECISION, RECALL, ALARMS_A_MINUTE = 0.97, 0.90, 0.25
 LATENCY_S, SLOWEST_S = 0.45, 0.9
 """Median and 90th percentile."""
@@ -43,7 +43,7 @@ class Judgment:
     of: int = 0
     """Gestures that there were."""
     alarms: list[str] = field(default_factory=list)
-    """What was told though nobody did it: the gesture, and what was done instead."""
+    """False alarms: the reported gesture, and what was done instead."""
     latencies: list[float] = field(default_factory=list)
     """Seconds from the first movement, of the hits."""
     minutes: float = 0.0

@@ -1,4 +1,4 @@
-"""Behaviors that have devices."""
+"""Base class of behaviors that use devices."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ R = TypeVar("R", bound=Resource)
 
 
 class DeviceBehavior(Behavior):
-    """Base of behaviors with a device: gives back what it took when it stops."""
+    """A behavior with devices; it releases them when it stops."""
 
     category = "drivers"
 
@@ -25,7 +25,7 @@ class DeviceBehavior(Behavior):
         try:
             resource = self._resources.obtain(id, interface)
         except HriError:
-            # Who cannot start is not stopped either.
+            # A behavior that cannot start is never stopped.
             self._give_back()
             raise
         self._held.append(resource)

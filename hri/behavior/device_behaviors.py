@@ -1,4 +1,4 @@
-"""Devices as behaviors: sensors send what they read, the drive takes what it should do."""
+"""Devices as behaviors: sensors send their readings, the drive takes commands."""
 
 from __future__ import annotations
 

@@ -6,7 +6,7 @@ from enum import Enum
 
 
 class Effect(Enum):
-    """What needs someone's leave when it comes from outside; the value says it in a sentence."""
+    """An effect that needs permission when it comes from outside; the value describes it."""
 
     MOVES = "moves the robot"
     SPEAKS = "lets it speak"

@@ -190,14 +190,8 @@ def _read_port(element: Element, seen: set[str]) -> Port:
 
 def write_schema(schema: Schema) -> str:
     """The canonical text of a schema file."""
-    attributes = {
-        "type": schema.type,
-        "driver": schema.driver,
-        "display_name": schema.display_name,
-        "library": schema.library,
-        "category": schema.category,
-    }
-    root = Element("BehaviorSchema", attributes)
+    names = ("type", "driver", "display_name", "library", "category")
+    root = Element("BehaviorSchema", _attributes(schema, *names))
     root.children.extend(_parameter_element(parameter) for parameter in schema.parameters)
     for tag, ports in (("Inputs", schema.inputs), ("Outputs", schema.outputs)):
         if ports:
@@ -206,22 +200,16 @@ def write_schema(schema: Schema) -> str:
 
 
 def _port_element(port: Port) -> Element:
-    attributes = {
-        "name": port.name,
-        "datatype": port.datatype,
-        "description": port.description,
-        "semantic_type": port.semantic_type,
-    }
-    return Element("Port", attributes)
+    names = ("name", "datatype", "description", "semantic_type")
+    return Element("Port", _attributes(port, *names))
+
+
+def _attributes(of: Schema | Port | Parameter, *names: str) -> dict[str, str]:
+    return {name: getattr(of, name) for name in names}
 
 
 def _parameter_element(parameter: Parameter) -> Element:
-    attributes = {
-        "name": parameter.name,
-        "type": parameter.type,
-        "default": parameter.default,
-        "description": parameter.description,
-    }
+    attributes = _attributes(parameter, "name", "type", "default", "description")
     if parameter.minimum != -math.inf:
         attributes["minimum"] = Param.text(parameter.minimum)
     if parameter.maximum != math.inf:

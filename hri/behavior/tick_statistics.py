@@ -1,4 +1,4 @@
-"""How a network has been doing: how long its behaviors took, how late and how often it ticked."""
+"""Statistics of a running network: durations of its behaviors, lateness and number of its ticks."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 @dataclass(slots=True)
 class Timing:
-    """How long something took, over all its times; in seconds."""
+    """Durations of something that happens repeatedly, seconds."""
 
     count: int = 0
     total: float = 0.0
@@ -28,7 +28,7 @@ class Timing:
 
 @dataclass
 class Statistics:
-    """How a network has been doing; times in seconds."""
+    """Statistics of a network; times in seconds."""
 
     behaviors: dict[str, Timing] = field(default_factory=dict)
     """How long each behavior took, by its id."""

@@ -22,7 +22,7 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.network import DEFAULT_INTERVAL, Network
 from hri.behavior.ports import Input, Output
 from hri.behavior.runner import Runner
-from hri.bench.checkout import research
+from hri.bench.checkout import has_research, research
 from hri.bench.figures import machine, summary
 from hri.bench.workers import busy_processes
 from hri.core import child
@@ -96,7 +96,7 @@ def cost(count: int = BEHAVIORS, repeats: int = TICKS) -> dict[str, Any]:
     """
     runner = chain(count)
     contenders: dict[str, Callable[[], object]] = {"hri": lambda: runner.tick(0.0)}
-    peer = "not installed"
+    peer = "not installed" if has_research() else "compared only in a checkout of hri"
     if find_spec("py_trees") is not None and (trees := research("trees")) is not None:
         peer = version("py_trees")
         contenders |= {"py_trees_sequence": trees.sequence(count)}

@@ -1,4 +1,4 @@
-"""What every bench says beside its figures, and how figures are told."""
+"""The machine of a bench, and summaries of its figures."""
 
 from __future__ import annotations
 

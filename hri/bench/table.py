@@ -1,4 +1,4 @@
-"""Rows of the table of figures: what was measured, how sure it is, and whether it is enough."""
+"""Rows of the table of figures: what was measured, its confidence interval, and its limit."""
 
 from __future__ import annotations
 
@@ -83,13 +83,17 @@ def report(bench: str, rows: Sequence[Row], quick: bool) -> dict[str, Any]:
     """What a bench of rows prints: the rows, on what machine, and which missed or were skipped."""
     if not has_research():
         print("left out: what `make bench` measures in a checkout of hri", file=sys.stderr)
+    missed = [row["what"] for row in rows if not row.get("passed", True)]
+    if missed:
+        sample = " (small sample: repeat without --quick)" if quick else ""
+        print(f"limits missed{sample}: {'; '.join(missed)}", file=sys.stderr)
     return {
         "bench": bench,
         "machine": machine(),
         "load": [round(value, 2) for value in os.getloadavg()],
         "quick": quick,
         "rows": rows,
-        "missed": [row["what"] for row in rows if not row.get("passed", True)],
+        "missed": missed,
         "skipped": [row["what"] for row in rows if "skipped" in row],
     }
 

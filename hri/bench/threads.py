@@ -1,4 +1,4 @@
-"""How many threads a library may take while it is measured."""
+"""Limits the threads of a library while it is measured."""
 
 from __future__ import annotations
 

@@ -16,11 +16,11 @@ from hri.behavior.network_file import load_network
 from hri.behavior.runner import Runner
 from hri.behavior.tick_statistics import Statistics
 from hri.cli.door_options import add_door_options, doors_of
-from hri.cli.ending import Ending
-from hri.cli.exit_status import status_of
-from hri.cli.messages import LineFormatter, OptionParser, Within
 from hri.cli.port_plot import PortPlot
-from hri.cli.streams import unfailing_output
+from hri.cli.terminal.ending import Ending
+from hri.cli.terminal.exit_status import status_of
+from hri.cli.terminal.messages import LineFormatter, OptionParser, Within
+from hri.cli.terminal.streams import unfailing_output
 from hri.core.clock import Clock, FakeClock, RealClock
 from hri.core.errors import HriError, did_you_mean
 from hri.core.event_bus import EventBus

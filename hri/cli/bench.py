@@ -10,7 +10,7 @@ from types import ModuleType
 from typing import Any
 
 from hri.bench.checkout import missing, research
-from hri.cli.messages import Within
+from hri.cli.terminal.messages import Within
 from hri.core.errors import HriError
 
 BENCHES: dict[str, tuple[str, ...]] = {
@@ -32,6 +32,7 @@ RESEARCH = ("inputs", "people", "writes")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.epilog = "Missed limits are listed; the exit status is 0 all the same."
     about = f"what to measure; {', '.join(RESEARCH)} need a checkout"
     parser.add_argument("name", choices=BENCHES, help=about)
     about = "how long each case runs (behavior, companion)"

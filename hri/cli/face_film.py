@@ -12,7 +12,7 @@ from contextlib import closing, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
-from hri.cli.progress_line import progress
+from hri.cli.terminal.progress_line import progress
 from hri.core.errors import HriError
 from hri.core.signals import Image, Samples
 from hri.core.writing import replacing

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from hri.cli.progress_line import waiting
+from hri.cli.terminal.progress_line import waiting
 from hri.core.errors import HriError, did_you_mean
 from hri.robot import kept
 from hri.robot.kept import Trace

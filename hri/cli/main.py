@@ -6,8 +6,8 @@ import importlib
 import sys
 from collections.abc import Sequence
 
-from hri.cli.exit_status import status_of
-from hri.cli.messages import OptionParser
+from hri.cli.terminal.exit_status import status_of
+from hri.cli.terminal.messages import OptionParser
 from hri.core.errors import did_you_mean
 from hri.core.quoting import message_line
 
@@ -20,17 +20,20 @@ COMMANDS = {
     "network": ("hri.cli.network", "check, show and draw behavior networks"),
     "schema": ("hri.cli.schema", "export the schemas of behaviors as XML"),
     "grammar": ("hri.cli.grammar", "check, parse with, and expand grammars"),
-    "say": ("hri.cli.say", "say a text, or write it to a WAV file"),
+    "say": ("hri.cli.voice.say", "say a text, or write it to a WAV file"),
     "models": ("hri.cli.models", "list and fetch models of speech and faces"),
-    "voices": ("hri.cli.voices", "list the voices, by language"),
+    "voices": ("hri.cli.voice.voices", "list the voices, by language"),
     "face": ("hri.cli.face", "check, render and show faces"),
     "gesture": (
-        "hri.cli.gesture",
+        "hri.cli.vision.gesture",
         "report nods and shakes in a video, a camera or series of poses",
     ),
     "emotion": ("hri.cli.emotion", "check and try out emotions"),
     "forget": ("hri.cli.forget", "erase data kept about people, or about one person"),
-    "watch": ("hri.cli.watch", "show the camera's view: people, ids, pose, gaze and gestures"),
+    "watch": (
+        "hri.cli.vision.watch",
+        "show the camera's view: people, ids, pose, gaze and gestures",
+    ),
     "drive": ("hri.cli.drive", "drive a base by hand, with a live picture"),
     "token": ("hri.cli.token", "print the token with which other programs may move the robot"),
     "bench": ("hri.cli.bench", "measure, and print JSON"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 from collections.abc import Callable, Sequence
 
-from hri.cli.exit_status import status_of
+from hri.cli.terminal.exit_status import status_of
 
 
 def _program(name: str) -> Callable[..., int]:

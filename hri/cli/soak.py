@@ -6,7 +6,7 @@ import argparse
 
 from hri.bench.companion_soak import CompanionSoak
 from hri.bench.network_soak import Soak
-from hri.cli.messages import Within
+from hri.cli.terminal.messages import Within
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

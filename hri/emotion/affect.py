@@ -169,7 +169,7 @@ def sums(imprint: Imprint, older: Ledger) -> tuple[dict[str, float], Axes]:
 def renamed(imprint: Imprint, names: Mapping[str, str | None]) -> Imprint:
     """The same with people under other names: what they caused, and what is thought of them.
 
-    Of whose name becomes None nothing is thought any more; what they caused, nobody has done.
+    A name that becomes None loses its relation; what that person caused has no author any more.
     """
 
     def named(origin: Origin) -> Origin:

@@ -17,6 +17,7 @@ from hri.emotion.affect import Affect
 from hri.emotion.announcer import Announcer
 from hri.emotion.appraisal import OccEvent, name_of, people_of
 from hri.emotion.display import HONEST, felt_now, load_display
+from hri.emotion.files import Reloading
 from hri.emotion.keeper import Keeper
 from hri.emotion.label import CALM
 from hri.emotion.ledger import Cause
@@ -25,7 +26,6 @@ from hri.emotion.persistence import traces
 from hri.emotion.personality import load_personality
 from hri.emotion.reasons import labels_called, why_words
 from hri.emotion.relations import is_unnamed
-from hri.emotion.reloading import Reloading
 from hri.emotion.triggers import Triggers
 
 LOOK_EVERY_S = 1.0

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 from hri.core import paths
@@ -237,35 +238,20 @@ def _look(table: Table) -> EmotionLook:
     return look
 
 
-def _factor(table: Table) -> Rule:
-    weights = _weights(table)
-    rule = Rule(
-        *weights,
-        minimum=table.number("minimum", minimum=0.1, maximum=1),
-        maximum=table.number("maximum", minimum=1, maximum=3),
-    )
-    table.finish()
-    return rule
-
-
-def _height(table: Table) -> Rule:
-    weights = _weights(table)
-    rule = Rule(
-        *weights,
-        minimum=table.number("minimum", minimum=-1, maximum=0),
-        maximum=table.number("maximum", minimum=0, maximum=1),
-        rest=0.0,
-    )
-    table.finish()
-    return rule
-
-
-def _weights(table: Table) -> tuple[float, float, float]:
+def _rule(table: Table, least: float, rest: float, most: float) -> Rule:
+    """A rule with limits on both sides of its value at rest."""
     pleasure, arousal, dominance = (
         table.number(axis, 0.0, minimum=-2, maximum=2)
         for axis in ("pleasure", "arousal", "dominance")
     )
-    return pleasure, arousal, dominance
+    minimum = table.number("minimum", minimum=least, maximum=rest)
+    maximum = table.number("maximum", minimum=rest, maximum=most)
+    table.finish()
+    return Rule(pleasure, arousal, dominance, minimum, maximum, rest)
+
+
+_factor = partial(_rule, least=0.1, rest=1.0, most=3.0)
+_height = partial(_rule, least=-1.0, rest=0.0, most=1.0)
 
 
 def _rules(table: Table) -> dict[str, DisplayRule]:

@@ -53,12 +53,12 @@ def cause_of(drive: str) -> str:
     return f"drive.{drive}"
 
 
-def drives_in(table: Table, known: tuple[str, ...] = STILLED) -> list[str]:
+def drives_in(table: Table) -> list[str]:
     """The keys of a table of an authored file that is keyed by drive.
 
-    Raises AuthoringError for a name that is not among `known`.
+    Raises AuthoringError for a name that is not among STILLED.
     """
     for name in table.data:
-        if name not in known:
-            raise table.error(name, f'no drive "{name}" here', did_you_mean(name, known))
+        if name not in STILLED:
+            raise table.error(name, f'no drive "{name}" here', did_you_mean(name, STILLED))
     return list(table.data)

@@ -350,7 +350,7 @@ def _habituated(
 
 
 def _relation(imprint: Imprint, person: str | None) -> float:
-    """What the robot thought of a person just before the imprint, -1 to 1; 0 of nobody."""
+    """The relation to a person just before the imprint, -1 to 1; 0 without a person."""
     if person is None or person not in imprint.relations:
         return 0.0
     trace = imprint.relations[person].at(imprint.time, _FADING_RATE)

@@ -1,4 +1,4 @@
-"""How a running robot keeps its feelings in a file, and notices that it is to forget."""
+"""Keeps the feelings of a running robot in a file, and notices requests to forget."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class Keeper:
         return self._resumed(memory, dynamics, now)
 
     def forgotten(self, dynamics: Dynamics) -> Affect | None:
-        """What is still felt if someone had the robot forget something; None if nobody had."""
+        """The remaining feelings after a request to forget; None without one."""
         if not self._is_touched():
             return None
         try:

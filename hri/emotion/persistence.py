@@ -1,4 +1,4 @@
-"""What a robot still feels after a restart: its state in a file, with the time away counted.
+"""Feelings that outlast a restart: the state in a file, decayed by the time away.
 
 The file is the user's own, in the XDG state folder, and readable by nobody else. It holds names of
 people and what the robot thinks of them, so it can be looked at (it is JSON) and forgotten, as a

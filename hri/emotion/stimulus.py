@@ -53,7 +53,7 @@ class StimulusSpec:
     relation: float = 0.0
     """What it adds to the liking of who does it, in full strength, -1 to 1."""
     person: str = ""
-    """Who does it where the event has no property `person`; empty: nobody."""
+    """The person behind events without a property `person`; empty for none."""
     expects: tuple[Expectation, ...] = ()
     """What must be felt after it, for `hri emotion check`."""
 
@@ -69,7 +69,7 @@ class StimulusSpec:
         return self.formula.intensity(properties)
 
     def doer(self, properties: Mapping[str, Any]) -> str | None:
-        """Whom it comes from, for an event; None for nobody."""
+        """The person it comes from, for an event; None without one."""
         return name_of(properties.get("person") or self.person)
 
 

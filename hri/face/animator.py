@@ -135,11 +135,11 @@ class Animator:
             self._overridden = dict(weights)
 
     def _cause(self, why: str) -> None:
-        """A blink may come of this, unless eyes are nearly shut, or are about to be."""
+        """Perhaps blink, unless the eyes are nearly shut or about to be."""
         if max(self._shut, self._expressing.shuts) < NEARLY_SHUT:
             self._living.cause(why, self._now)
 
-    # --- what becomes of it ---
+    # --- results ---
 
     def step(self, now: float, dt: float, position: float | None = None) -> FaceWeights:
         """The weights of now, `dt` seconds after the last ones.
@@ -179,7 +179,7 @@ class Animator:
         return vector
 
     def _life(self) -> str:
-        """The state to live in: as the face looks, as it was told, or of who talks or rests."""
+        """The state of idle life: of the expression, else as requested, else talking or resting."""
         if self._expressing.label in idle.STATES:
             return self._expressing.label
         return self._state or ("resting" if self._speaking.speech is None else "talking")

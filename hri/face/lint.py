@@ -56,7 +56,7 @@ class Finding:
 
 
 def findings(model: FaceModel, folder: Path) -> list[Finding]:
-    """Everything there is to tell about a face that loads; `folder` is where it was loaded from.
+    """All findings about a face that loads; `folder` is where it was loaded from.
 
     Raises AuthoringError when it was changed and does not load any more.
     """
@@ -83,7 +83,7 @@ class _Inspection:
         self.size = np.array([model.display.width, model.display.height])
 
     def missing(self) -> Iterator[Finding]:
-        """Expressions nobody drew, and timing nobody thought of."""
+        """Expressions without a drawing, and timing left at the default."""
         missing = [label for label in LABELS if label not in self.model.expressions]
         if missing:
             what = f"{_listed(missing)} cannot be shown"
@@ -137,7 +137,7 @@ class _Inspection:
                     yield self._in_toml(kind, label, what, f"stay within {LARGEST_WEIGHT:g}")
 
     def alike(self) -> Iterator[Finding]:
-        """Expressions that nobody could tell apart."""
+        """Expressions that look the same."""
         seen: dict[bytes, str] = {}
         for label, weights in self.model.expressions.items():
             if label not in LABELS:

@@ -70,8 +70,7 @@ class WeightWriter:
         """Raises HriError when the file cannot be written."""
         self._model = model
         self._angles = _angles(model)
-        named = {channel: number for number, channel in enumerate(model.channels)}
-        arkit = [_channel(column) for column in TARGETS]
+        arkit, named = [_channel(column) for column in TARGETS], model.index
         self._numbers = [named.get(channel) for channel in arkit]
         taken = {*arkit, *self._angles}
         self._extras = [channel for channel in model.channels if channel not in taken]
@@ -168,8 +167,7 @@ def _places(path: Path, header: Sequence[str], model: FaceModel) -> list[tuple[i
     twice = {name for name in header if name and header.count(name) > 1}
     if twice:
         raise _wrong(path, 1, f"the column {min(twice)} is there twice", "delete one")
-    angles = _angles(model)
-    named = {channel: number for number, channel in enumerate(model.channels)}
+    angles, named = _angles(model), model.index
     found = []
     for column, name in enumerate(header):
         channel = _channel(name)

@@ -1,4 +1,4 @@
-"""All that keeps a face from being loaded: an author fixes it in one go."""
+"""All mistakes that keep a face from loading, so that an author can fix them in one go."""
 
 from __future__ import annotations
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache
 from pathlib import Path
 
@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 
 from hri.core import paths
 from hri.core.errors import HriError, did_you_mean
-from hri.face.drawing.baking import DisplayList, Vector, pairs_of
+from hri.face.drawing.baking import DisplayList, Item, Opening, Shape, Vector, pairs_of
 from hri.face.drawing.blending import Blend
 from hri.face.drawing.cache import baked
-from hri.face.drawing.neck import following
 from hri.face.drawing.outline import Matrix
 from hri.face.settings import Settings, Weights, load_settings
 from hri.face.vocabulary import CORRECTIVE, MOTIONS, RHUBARB, TURNS, VISEMES, sides_of
@@ -50,9 +49,10 @@ class FaceModel:
         """What can be weighted, one number each: sides of targets and motions of the head."""
         self.correctives = tuple(CORRECTED.join(pair) for pair in display.products)
         """Products of two channels that have a drawing, such as "mouthSmileLeft*jawOpen"."""
-        self._index = {channel: number for number, channel in enumerate(self.channels)}
+        self.index = {channel: number for number, channel in enumerate(self.channels)}
+        """The place of each channel among them."""
         self._blend = Blend(display.neutral, display.rows)
-        pairs = [[self._index[name] for name in pair] for pair in display.products]
+        pairs = [[self.index[name] for name in pair] for pair in display.products]
         self._factors = np.array(pairs, np.intp).reshape(-1, 2).T
         self._largest = np.array([_most(name) for name in display.channels], np.float32)
         turned = np.array([pair[0] in TURNS for pair in display.products], bool)
@@ -99,8 +99,8 @@ class FaceModel:
         for name, weight in weights.items():
             if not math.isfinite(weight):
                 raise HriError(f"the weight of {name} is {weight} - give a finite number")
-            for channel in (name,) if name in self._index else self._sides(name):
-                vector[self._index[channel]] += weight
+            for channel in (name,) if name in self.index else self._sides(name):
+                vector[self.index[channel]] += weight
         return vector
 
     def _sides(self, name: str) -> tuple[str, ...]:
@@ -159,6 +159,31 @@ def _most(channel: str) -> float:
     return 1.0 if channel in TURNS or channel.startswith("eyeBlink") else LARGEST_WEIGHT
 
 
+def following(display: DisplayList, top: float, bottom: float) -> Vector:
+    """How much each point [n] goes with the head, 0 to 1, by its height in the drawing at rest.
+
+    `top` and `bottom` are the heights between which that falls from 1 to 0, smoothly. Anchors of a
+    gradient count as within the height of their shape, so that light stays where it is drawn.
+    """
+    heights = display.neutral[1 : 2 * display.points : 2].copy()
+    for shape in _shapes(display.items):
+        first, last = shape.contours[0][0], shape.anchors[0]
+        outline = heights[first:last]
+        anchors = heights[last : shape.anchors[1]]
+        np.clip(anchors, outline.min(), outline.max(), out=anchors)
+    share = np.clip((bottom - heights) / (bottom - top), 0, 1)
+    return np.asarray(share * share * (3 - 2 * share), np.float32)
+
+
+def _shapes(items: Sequence[Item]) -> Iterator[Shape]:
+    for item in items:
+        if isinstance(item, Opening):
+            yield item.clip
+            yield from _shapes(item.content)
+        else:
+            yield item
+
+
 def load_face(name: str | Path = "robot") -> FaceModel:
     """A face by its name in `faces/`, or by the path of its folder.
 
@@ -215,7 +240,7 @@ def _load(folder: Path, stamps: Stamps) -> FaceModel:
 
 
 def _names(targets: Sequence[Path]) -> set[str]:
-    """What the drawings allow to be weighted. Raises HriError for a drawing nobody could use."""
+    """Names that the drawings give weights to. Raises HriError for an unusable drawing."""
     names: dict[str, Path] = {}
     for file in targets:
         if not _NAME.fullmatch(file.stem):

@@ -174,17 +174,13 @@ def mistakes_in(path: Path, targets: Collection[str]) -> list[AuthoringError]:
         if name in table or name not in _MAY_BE_LEFT_OUT:
             mistakes.keep(partial(read, part, channels))
     for name in ("expressions", "visemes"):
-        for _, below in mistakes.keep(partial(_below, table, name)) or ():
+        for _, below in mistakes.keep(partial(list[tuple[str, Table]], table.tables(name))) or ():
             mistakes.keep(partial(_weights, below, channels))
     mistakes.keep(partial(load_settings, path, targets))
     return sorted(
         {str(error): error for error in mistakes.errors}.values(),
         key=lambda error: (error.place.line, error.place.column),
     )
-
-
-def _below(table: Table, name: str) -> list[tuple[str, Table]]:
-    return list(table.tables(name))
 
 
 def _weights(table: Table, channels: Collection[str]) -> Weights:

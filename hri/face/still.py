@@ -14,7 +14,7 @@ from hri.core.signals import Gaze, Image
 from hri.face.drawing.baking import Vector
 from hri.face.model import FaceModel, load_face
 from hri.face.motion import idle
-from hri.face.motion.affect_map import affect_weights
+from hri.face.motion.affect_map import AffectMap
 from hri.face.motion.mixer import Layers, Mixer
 from hri.face.vocabulary import TURNS
 
@@ -111,7 +111,7 @@ def _feeling(
         return asked
     for name, value in (("valence", valence), ("arousal", arousal)):
         _check_range(name, value or 0.0, -1, 1)
-    mood = affect_weights(model, valence or 0.0, arousal or 0.0)
+    mood = AffectMap(model).weights(valence or 0.0, arousal or 0.0)
     mood = mood + np.float32(arousal or 0.0) * model.vector(model.settings.pupils)
     if expression == "neutral":
         return mood

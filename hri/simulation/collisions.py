@@ -61,7 +61,7 @@ class Collision:
 
     @property
     def cause(self) -> str:
-        """Who moved into whom, whether a sensor covered the person, and on which side."""
+        """Which of the two moved, whether a sensor covered the person, and on which side."""
         if not self.is_moving:
             return f"a person walked into the standing robot, {self.side}"
         seen = "covered by a sensor" if self.covered_by else "covered by no sensor"

@@ -1,4 +1,4 @@
-"""What a camera and a tracker would say of the people of a simulated world, without pictures."""
+"""A simulated camera and person tracker, without pictures."""
 
 from __future__ import annotations
 

@@ -29,6 +29,7 @@ PASSAGE = 0.15
 """Free on each side of it along a way to the goal: a door of 70 cm."""
 CELL = 0.1
 """Of the grid on which a way is looked for."""
+MOST_PIECES, WALKERS = 12, 3
 PIECES = ((1.9, 0.85), (1.4, 0.8), (0.8, 0.8), (1.2, 0.4), (0.9, 0.35), (0.5, 0.5))
 """Length and width of sofas, tables, shelves, chairs."""
 ROUNDS = (0.45, 0.3, 0.2, 0.15)
@@ -77,26 +78,26 @@ class Furnished:
         return "\n".join([*lines, ""])
 
 
-def furnished(seed: int, pieces: int = 12, walkers: int = 3) -> Furnished:
-    """The room of a seed: `pieces` of furniture at most, `walkers` people."""
+def furnished(seed: int) -> Furnished:
+    """The room of a seed: MOST_PIECES of furniture at most, WALKERS people."""
     for attempt in range(_TRIES):
         dice = random.Random(f"room {seed}/{attempt}")
         length, width = dice.uniform(5.5, 8.0), dice.uniform(4.5, 6.5)
-        obstacles = [*_walls(length, width), *_furniture(dice, length, width, pieces)]
+        obstacles = [*_walls(length, width), *_furniture(dice, length, width)]
         room = Room(obstacles)
         found = _start_and_goal(dice, room, length, width)
         if found is None:
             continue
         start, goal = found
         people: list[Point] = []
-        while len(people) < walkers:
+        while len(people) < WALKERS:
             place = _free_place(dice, room, length, width, PERSON + 0.1)
             if math.dist(place, start) > 1.5:
                 people.append(place)
         heading = round(dice.uniform(-math.pi, math.pi), 4)
         things = tuple(obstacles)
         return Furnished(seed, length, width, things, start, heading, goal, tuple(people))
-    raise ValueError(f"no room of seed {seed} has a way through - ask for less than {pieces}")
+    raise ValueError(f"no room of seed {seed} has a way through - take another seed")
 
 
 class Crowd:
@@ -187,10 +188,10 @@ def _walls(length: float, width: float) -> list[Obstacle]:
     ]
 
 
-def _furniture(dice: random.Random, length: float, width: float, pieces: int) -> list[Obstacle]:
+def _furniture(dice: random.Random, length: float, width: float) -> list[Obstacle]:
     """Some at the walls, some in the room, at any angle; some may touch each other."""
     found: list[Obstacle] = []
-    for _ in range(dice.randint(2 * pieces // 3, pieces)):
+    for _ in range(dice.randint(2 * MOST_PIECES // 3, MOST_PIECES)):
         x, y = dice.uniform(0.3, length - 0.3), dice.uniform(0.3, width - 0.3)
         if dice.random() < 0.35:
             found.append(Circle(x, y, dice.choice(ROUNDS)))

@@ -104,7 +104,7 @@ class Trip:
 
     @property
     def is_clean(self) -> bool:
-        """Whether it got there and drove into nothing and nobody."""
+        """Whether it got there without driving into anything or anyone."""
         return self.is_there and self.hits == self.people_hit == 0
 
 
@@ -202,7 +202,7 @@ class Journey:
         self._touches_thing = touches
 
     def _testify(self, now: float, pose: Pose2D) -> None:
-        """Note whom each sensor covers now."""
+        """Note which people each sensor covers now."""
         places = [person.place(now) for person in self.world.people]
         for sensor, people in hit_by(dict(self._ends(now, pose)), places).items():
             self._witness.see(now, sensor, people)

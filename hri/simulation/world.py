@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import os
 import zlib
+from dataclasses import dataclass
 from typing import ClassVar
 
 from hri.core import registry
@@ -25,13 +26,33 @@ from hri.simulation.beams import Beams
 from hri.simulation.people.person import RADIUS, SimulatedPerson, Spoken
 from hri.simulation.room import Circle, Room
 from hri.simulation.sight import Sighting, seen
-from hri.simulation.simulated_battery import Charge
 from hri.simulation.world_file import Item, PersonStart, WorldLayout, find_layout, load_layout
 
 BUMP_TIME = 0.3
 """Seconds that someone who pushes against the base presses the bumper."""
 _NEAREST = 1.0
 """Meters; someone who is nearer speaks more softly, so the voice gets no louder."""
+BATTERY_LIFE = 4 * 3600.0
+"""Seconds a full battery lasts when the robot only listens."""
+BATTERY_RANGE = 3000.0
+"""Meters the wheels turn on a full battery."""
+
+
+@dataclass(frozen=True, slots=True)
+class Charge:
+    """The charge of the battery at a moment, from which later charges follow."""
+
+    level: float
+    """0 (empty) to 1 (full)."""
+    time: float = 0.0
+    """Seconds."""
+    way: float = 0.0
+    """Meters the wheels had turned by then."""
+
+    def level_at(self, time: float, way: float) -> float:
+        """0 to 1, after standing and driving until then."""
+        used = (time - self.time) / BATTERY_LIFE + (way - self.way) / BATTERY_RANGE
+        return min(1.0, max(0.0, self.level - used))
 
 
 class SimulatedWorld(Resource):
@@ -200,7 +221,7 @@ class SimulatedWorld(Resource):
         return seen(self._items.values(), self._room_at(now), self.base.pose, field_of_view)
 
     def release(self) -> None:
-        """Nothing: the world goes on with nobody looking, until the manager closes."""
+        """Does nothing: the world goes on until the manager closes."""
 
     def _open(self) -> None:
         layout = _layout(self.description)
@@ -245,7 +266,7 @@ class SimulatedWorld(Resource):
         return SimulatedPerson(start.x, start.y, voice, seed, name=start.name, actor=start.actor)
 
     def _person_voice(self, start: PersonStart) -> Synthesizer | None:
-        """A person's voice; None, someone who cannot speak, where there is no library."""
+        """A person's voice; None (a person who cannot speak) without the library."""
         if chosen := self.description.text("voice"):
             return self.manager.obtain(chosen, Synthesizer)
         own = Description(
@@ -266,7 +287,7 @@ class SimulatedWorld(Resource):
 def _layout(description: Description) -> WorldLayout:
     """The layout the parameters ask for: a file beside the configuration, or a name.
 
-    Raises AuthoringError, also for a name nobody knows.
+    Raises AuthoringError, also for an unknown name.
     """
     name = description.text("file", "home")
     beside = description.place.path.parent / name

@@ -46,7 +46,7 @@ class PersonStart:
     name: str
     """What a visit calls them; empty for the only one."""
     actor: str
-    """Whom they look like; see `actors.ACTORS`."""
+    """Their look; a key of `actors.ACTORS`."""
     voice: str
     """A voice of espeak-ng."""
     words_per_minute: float
@@ -55,7 +55,7 @@ class PersonStart:
 
 @dataclass(frozen=True)
 class Item:
-    """A thing that can be recognized by its look; it is in nobody's way."""
+    """A thing that can be recognized by its look; it is not an obstacle."""
 
     name: str
     x: float

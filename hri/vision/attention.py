@@ -1,4 +1,4 @@
-"""Whom the robot attends to, of all it sees: the one who wants it most, and not by turns."""
+"""Picks the person the robot attends to, with hysteresis."""
 
 from __future__ import annotations
 

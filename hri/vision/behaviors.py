@@ -74,7 +74,7 @@ class PersonTracker(Behavior):
             self._events.raise_event("vision.failed", reason=str(error))
             self._tell(People(now), now)
         if self.last.persons and now - self._told >= MEMORY:
-            # No picture has come for so long: whoever was there is there no more.
+            # No picture has come for so long that everyone counts as gone.
             self._tell(People(now), now)
         self.is_seen.send(now - self._seen <= FRESH)
         self._frame = self.image.value or self._frame
@@ -93,7 +93,7 @@ class PersonTracker(Behavior):
             self._camera = None
 
     def _take(self, people: People, now: float) -> None:
-        """Tell of a picture; of one in which nothing could be seen there is nothing to tell."""
+        """Report the people of a new picture."""
         if people.time == self._pictured:
             return
         self._pictured = people.time
@@ -115,7 +115,7 @@ class PersonTracker(Behavior):
 
 
 class Attention(Behavior):
-    """Chooses whom the eyes look at: who is attended to, and for a moment who comes in."""
+    """Points the eyes at the attended person, and for a moment at a newcomer."""
 
     category = "vision"
 
@@ -131,7 +131,7 @@ class Attention(Behavior):
         self._seen = -math.inf
 
     def look_at(self, person: str) -> None:
-        """Look at this person for as long as they are there; at whom it likes for an empty id."""
+        """Look at this person as long as they are there; an empty id lets it choose."""
         self._asked = person
 
     def compute(self, now: float, dt: float) -> None:
@@ -151,7 +151,7 @@ class Attention(Behavior):
                 return
 
     def _glance(self, people: People, now: float) -> None:
-        """A newcomer draws a look, but not away from nobody."""
+        """Note a newcomer to glance at, if someone was there before."""
         here = {person.id for person in people.persons}
         new = [person.id for person in people.persons if person.id not in self._known]
         if new and self._known & here:

@@ -78,7 +78,7 @@ class Expressiveness:
         self._begun = self._time = 0.0
 
     def update(self, time: float, landmarks: Landmarks) -> Countenance:
-        """What the face does at a time in seconds. Landmarks that are not finite tell nothing."""
+        """What the face does at a time in seconds. Landmarks that are not finite are ignored."""
         if not np.isfinite(landmarks).all():
             return Countenance()
         measures = smile_of(landmarks), brows_of(landmarks), openness_of(landmarks)

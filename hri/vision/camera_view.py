@@ -54,7 +54,7 @@ class CameraView:
     def toward(self, x: float, y: float, size: Size) -> tuple[float, float]:
         """Bearing (to the left) and elevation (up) of a pixel from the camera, radians.
 
-        Against the robot's straight ahead, whatever way the camera is turned.
+        Relative to the robot's straight ahead, however the camera is turned.
         """
         ahead, left, up = self._ray(x, y, size)
         return math.atan2(left, ahead), math.atan2(up, math.hypot(ahead, left))

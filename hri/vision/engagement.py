@@ -1,4 +1,4 @@
-"""How far someone takes part: by how near they are and whether they look.
+"""Engagement of a person, from their distance and whether they look.
 
 Two zones as on Furhat: who comes within the outer one and looks is on the way to engaging, who
 comes within the inner one and looks is engaged, and stays so as far as the outer one. The four

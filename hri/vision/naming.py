@@ -1,4 +1,4 @@
-"""Names for the people who are seen, in a network whose owner wants that."""
+"""Names the people in sight, in networks whose owner wants that."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ LOOK_EVERY = 1.0
 
 
 class FaceNames(Behavior):
-    """Names the people it was told about; learns nobody by itself.
+    """Names the people it has been introduced to; learns nobody by itself.
 
     `remember` takes the face of a person for a name, `forget` erases one, `forget_all` everything.
     When someone else changes the file, as `hri forget` does, that counts within a second. Raises
@@ -126,7 +126,7 @@ class FaceNames(Behavior):
             log.warning("%s: %s", self.id, error)
 
     def _reread(self) -> None:
-        """Know whom the file knows, if someone else has changed it. Raises HriError."""
+        """Read the file again if someone else has changed it. Raises HriError."""
         path = paths.expanded(self.file)
         if self._recognizer is None or not self.file or (mark := _mark_of(path)) == self._mark:
             return
@@ -136,7 +136,7 @@ class FaceNames(Behavior):
         self._names = {id: name for id, name in self._names.items() if name in known}
 
     def _name(self, person: str, name: str) -> None:
-        """Call someone who is seen by a name; empty when nobody knows it."""
+        """Name a person in sight; an empty name means unknown."""
         if name and self._names.get(person) != name:
             self._events.raise_event("person.named", person=person, name=name)
         self._names[person] = name

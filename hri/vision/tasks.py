@@ -1,4 +1,4 @@
-"""What tasks do with people who are seen: wait for someone, look at someone."""
+"""Tasks with people in sight: wait for a person, look at a person."""
 
 from __future__ import annotations
 

@@ -231,7 +231,7 @@ def test_a_grammar_that_does_not_extend_the_companion_is_all_that_is_heard(put):
     grammar = "#JSGF V1.0; grammar joke;\npublic <joke> = tell me a joke;\n"
     robot = robot_of(put({**JOKE, "grammar.jsgf": grammar}))
     events = live(robot, 9, {1.0: "what is your name", 6.0: "tell me a joke"})
-    hint = "I did not understand. I know: tell me a joke."
+    hint = "Sorry, I did not understand. You can say: tell me a joke."
     assert said(events) == [hint, "What is brown and sticky? A stick."]
 
 
@@ -347,9 +347,9 @@ def test_what_is_not_understood_is_shown_and_hinted_at_once(put):
     }
     events = live(robot, 15, lines, looks)
     assert said(events) == [
-        "I did not understand. I know: tell me a joke.",
+        "Sorry, I did not understand. You can say: tell me a joke.",
         "My name is Robin.",
-        "I did not understand. I know: what can i say.",
+        "Sorry, I did not understand. You can say: what can i say.",
     ]
     assert seen == {2.0: "confused", 5.5: "confused"}
 

@@ -4,6 +4,7 @@ import pytest
 from hri.bench.behavior import chain, cost
 from hri.bench.ticks import INTERVAL, Stopwatch, figures
 from hri.bench.workers import busy_processes
+from hri.core import paths
 
 
 def test_the_chain_really_passes_a_number_on():
@@ -19,6 +20,12 @@ def test_the_cost_is_told_for_a_behavior_and_compared_where_a_peer_is():
     assert figures["hri_us"]["median"] > 0
     if figures["py_trees"] != "not installed":
         assert figures["times_faster_than_py_trees_sequence"] > 1
+
+
+def test_without_a_checkout_the_peer_is_not_called_missing(tmp_path, monkeypatch):
+    monkeypatch.setattr(paths, "house", lambda: tmp_path)
+    figures = cost(count=2, repeats=10)
+    assert figures["py_trees"] == "compared only in a checkout of hri"
 
 
 def test_lateness_and_period_are_told_against_the_deadlines():

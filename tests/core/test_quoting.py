@@ -7,7 +7,7 @@ from hypothesis import example, given, strategies as st
 
 from hri.behavior.library.printing import labeled
 from hri.cli.main import main
-from hri.cli.messages import LineFormatter
+from hri.cli.terminal.messages import LineFormatter
 from hri.core.errors import AuthoringError, AuthoringErrors, HriError, Place
 from hri.core.quoting import LONGEST_MESSAGE, LONGEST_QUOTE, escaped, message_line, quoted
 from hri.speech.grammar.lint.finding import warning

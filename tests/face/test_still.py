@@ -6,7 +6,7 @@ from hypothesis import given, settings, strategies as st
 
 from hri.core.errors import HriError
 from hri.face import load_face, render_face
-from hri.face.motion.affect_map import affect_weights
+from hri.face.motion.affect_map import AffectMap
 from hri.face.still import still_vector
 
 MODEL = load_face("robot")
@@ -46,9 +46,9 @@ def test_who_is_asleep_does_not_blink() -> None:
 
 def test_valence_and_arousal_are_a_mood_below_the_expression() -> None:
     pupils = MODEL.vector(MODEL.settings.pupils)
-    mood = affect_weights(MODEL, 0.8, 0.4) + 0.4 * pupils
+    mood = AffectMap(MODEL).weights(0.8, 0.4) + 0.4 * pupils
     assert difference(still_vector(MODEL, valence=0.8, arousal=0.4), mood) < 1e-6
-    assert difference(still_vector(MODEL, valence=0.8), affect_weights(MODEL, 0.8, 0.0)) < 1e-6
+    assert difference(still_vector(MODEL, valence=0.8), AffectMap(MODEL).weights(0.8, 0.0)) < 1e-6
     sad = MODEL.vector(MODEL.expression("sad"))
     half = still_vector(MODEL, "sad", 0.5, valence=0.8, arousal=0.4)
     steady = np.array(["eye" not in channel for channel in MODEL.channels])

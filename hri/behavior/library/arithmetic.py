@@ -1,7 +1,5 @@
-"""Sums, products, extremes.
-
-What did not come in does not count; nothing is sent when nothing came in. Nor is a result sent
-that is NaN, such as infinity minus infinity.
+"""Sums, products, extremes. Missing inputs are ignored; without any, nothing is sent. Nor is
+a result that is NaN, such as infinity minus infinity.
 """
 
 from __future__ import annotations

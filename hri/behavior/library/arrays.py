@@ -1,4 +1,4 @@
-"""Numbers taken out of arrays and put together again."""
+"""Splits arrays into numbers, and joins numbers to arrays."""
 
 from __future__ import annotations
 

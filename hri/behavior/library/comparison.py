@@ -1,4 +1,4 @@
-"""Two numbers compared; nothing is sent when one of them is missing."""
+"""Compares two numbers; nothing is sent when one of them is missing."""
 
 from __future__ import annotations
 

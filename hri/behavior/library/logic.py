@@ -1,4 +1,4 @@
-"""Truths combined. What did not come in does not count."""
+"""Combines booleans. Missing inputs are ignored."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Blocks that stood for slots of the board before links could name them; they load as ever."""
+"""Behaviors for slots of the board, from before links named slots; old networks still load."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Share(_OnBoard):
                     self._slot.set(port.value, now, port.spoken)
 
     def stop(self) -> None:
-        """What it shared ends with it: nobody is there who could change it."""
+        """Clear the slot, since nobody updates it anymore."""
         self._slot.clear()
 
 

@@ -1,4 +1,4 @@
-"""How soon a base stands when anything ends: measured by `hri.bench.stops` and `chain`."""
+"""How soon a base stops when any program ends; see `hri.bench.stops` and `broken_links`."""
 
 from __future__ import annotations
 

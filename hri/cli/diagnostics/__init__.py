@@ -9,8 +9,8 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import TypeVar
 
-from hri.cli.exit_status import status_of
-from hri.cli.messages import OptionParser
+from hri.cli.terminal.exit_status import status_of
+from hri.cli.terminal.messages import OptionParser
 from hri.core import paths
 from hri.core.clock import Clock, FakeClock, RealClock
 from hri.core.errors import NotAvailable

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from hri.cli import diagnostics
-from hri.cli.messages import Within
+from hri.cli.terminal.messages import Within
 from hri.core.errors import HriError, NotAvailable
 from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE

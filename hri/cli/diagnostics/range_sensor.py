@@ -7,7 +7,7 @@ import sys
 from collections.abc import Sequence
 
 from hri.cli import diagnostics
-from hri.cli.messages import Within
+from hri.cli.terminal.messages import Within
 from hri.core.errors import HriError
 from hri.core.signals import RangeReading
 from hri.hal.range_sensor import RangeSensor

@@ -12,8 +12,8 @@ from hri.cli.drive.teleop import Teleop
 from hri.cli.drive.terminal_view import TerminalView, own_terminal
 from hri.cli.drive.view import View
 from hri.cli.drive.window_view import WindowView
-from hri.cli.ending import Ending
 from hri.cli.probe import KINDS, ask_ports
+from hri.cli.terminal.ending import Ending
 from hri.core import paths
 from hri.core.clock import Clock, RealClock
 from hri.core.errors import HriError

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from hri.cli.drive.plan import Plan
 from hri.cli.drive.recorded import read_run
-from hri.cli.messages import Within
-from hri.cli.progress_line import progress, waiting
+from hri.cli.terminal.messages import Within
+from hri.cli.terminal.progress_line import progress, waiting
 from hri.core.errors import HriError
 from hri.hal.drivers.image_size import write_picture
 from hri.simulation.trips import DEFAULT_POLICY, POLICIES

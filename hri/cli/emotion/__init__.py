@@ -7,7 +7,7 @@ from contextlib import nullcontext
 
 from hri.cli import forget
 from hri.cli.emotion import check, list, simulate, watch
-from hri.cli.progress_line import waiting
+from hri.cli.terminal.progress_line import waiting
 
 COMMANDS = {
     "check": (check, "load all emotion files, run their self-tests, report what is wrong"),

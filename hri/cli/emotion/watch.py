@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 from hri.cli.emotion.output import json_line, mood_words
-from hri.cli.messages import Within
+from hri.cli.terminal.messages import Within
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.core.quoting import escaped

@@ -6,7 +6,7 @@ import argparse
 from contextlib import nullcontext
 
 from hri.cli.face import animate, check, export, list, new, render, sheet, show
-from hri.cli.progress_line import waiting
+from hri.cli.terminal.progress_line import waiting
 
 COMMANDS = {
     "render": (render, "draw one picture"),

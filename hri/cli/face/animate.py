@@ -7,7 +7,7 @@ from pathlib import Path
 
 from hri.cli.face.options import FACE, pixels
 from hri.cli.face_film import FaceFilm
-from hri.cli.voice_options import PLAIN_VOICE, open_voice
+from hri.cli.voice.voice_options import PLAIN_VOICE, open_voice
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.face import load_face

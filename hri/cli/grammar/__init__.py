@@ -11,7 +11,7 @@ import gc
 import importlib
 import sys
 
-from hri.cli.messages import OptionParser
+from hri.cli.terminal.messages import OptionParser
 from hri.core.errors import AuthoringError, AuthoringErrors, HriError
 
 COMMANDS = {

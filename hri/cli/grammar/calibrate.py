@@ -5,13 +5,14 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Iterable
+from dataclasses import asdict
 from pathlib import Path
 
 from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.engine import add_engine_arguments, started_engine
 from hri.cli.grammar.manifest import read_manifest, spoken, usual_voices
-from hri.cli.messages import Within
-from hri.cli.progress_line import progress
+from hri.cli.terminal.messages import Within
+from hri.cli.terminal.progress_line import progress
 from hri.core.errors import HriError
 from hri.core.statistics import told
 from hri.speech.acceptance import STRICTNESS
@@ -117,8 +118,7 @@ def _clips(options: argparse.Namespace, grammar: Grammar) -> Iterable[RecordedCl
         voices = tuple(options.voices or usual_voices())
         other = [sentence for sentence in OTHER_TALK if parse(grammar, sentence) is None]
         sentences = [*grammar.sample(options.sentences), *other]
-        total = len(sentences) * len(voices)
-        yield from progress(spoken(grammar, sentences, voices), total, "speaking and hearing")
+        yield from spoken(grammar, sentences, voices)
 
 
 def _show(scores: list[Score], best: Score, heard: list[Attempt]) -> None:
@@ -160,15 +160,5 @@ def _as_json(scores: list[Score], best: Score) -> dict[str, object]:
     return {
         "recommended": best.strictness,
         "too_few": _are_too_few(best),
-        "scores": [
-            {
-                "strictness": one.strictness,
-                "commands": one.commands,
-                "right": one.right,
-                "wrong": one.wrong,
-                "foreign": one.foreign,
-                "foreign_accepted": one.foreign_accepted,
-            }
-            for one in scores
-        ],
+        "scores": [asdict(one) for one in scores],
     }

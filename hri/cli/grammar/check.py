@@ -11,7 +11,7 @@ from typing import TextIO
 
 from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.excerpt import Excerpts
-from hri.cli.progress_line import waiting
+from hri.cli.terminal.progress_line import waiting
 from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, NotAvailable, Place
 from hri.speech.grammar import Grammar, read_grammar

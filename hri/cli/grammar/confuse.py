@@ -6,13 +6,12 @@ import argparse
 import json
 
 from hri.cli.grammar import FILE_HELP
-from hri.cli.grammar.engine import add_engine_arguments, started_engine
+from hri.cli.grammar.engine import add_engine_arguments, add_strictness, started_engine
 from hri.cli.grammar.expand import in_words
 from hri.cli.grammar.manifest import spoken, usual_voices
-from hri.cli.messages import Within
-from hri.cli.progress_line import progress, waiting
+from hri.cli.terminal.messages import Within
+from hri.cli.terminal.progress_line import waiting
 from hri.core.statistics import told
-from hri.speech.acceptance import STRICTNESS
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.expansion import count_ways
 from hri.speech.grammar.lint.confusion import FARTHEST, SoundAlike, sound_alikes
@@ -56,7 +55,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--speak", action="store_true", help="speak and recognize the sentences")
     parser.add_argument("--voices", nargs="+", metavar="VOICE", help="en-gb, flite:slt ...")
-    parser.add_argument("--strictness", type=Within(float, 0, 1), default=STRICTNESS, metavar="X")
+    add_strictness(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     add_engine_arguments(parser)
 
@@ -113,9 +112,8 @@ def _pair_as_json(pair: SoundAlike) -> dict[str, object]:
 
 def _by_ear(options: argparse.Namespace, grammar: Grammar, sentences: list[str]) -> int:
     voices = tuple(options.voices or usual_voices())
-    total = len(sentences) * len(voices)
     with started_engine(options, grammar) as engine:
-        clips = progress(spoken(grammar, sentences, voices), total, "speaking and hearing")
+        clips = spoken(grammar, sentences, voices)
         heard = [attempt(clip, engine, grammar) for clip in clips]
     confused = confusions(heard, grammar, options.strictness)
     missed = _missed(heard, grammar, options.strictness)

@@ -8,13 +8,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from hri.cli.progress_line import waiting
+from hri.cli.terminal.messages import Within
+from hri.cli.terminal.progress_line import waiting
 from hri.core import registry
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.hal.recognizer import Recognizer
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
+from hri.speech.acceptance import STRICTNESS
 from hri.speech.grammar import Grammar
 
 ENGINES = {
@@ -29,6 +31,12 @@ ENGINES = {
 def add_engine_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--engine", choices=ENGINES, default="automatic", help="the recognizer")
     parser.add_argument("--model", default="", metavar="DIR", help="model directory, for Vosk")
+
+
+def add_strictness(parser: argparse.ArgumentParser) -> None:
+    about = f"least confidence to accept, 0 to 1 ({STRICTNESS})"
+    limits = Within(float, 0, 1)
+    parser.add_argument("--strictness", type=limits, default=STRICTNESS, metavar="X", help=about)
 
 
 def _engine_of(options: argparse.Namespace) -> str:

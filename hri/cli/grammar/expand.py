@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from functools import partial
 
 from hri.cli.grammar import FILE_HELP
-from hri.cli.messages import Within
-from hri.cli.progress_line import waiting
+from hri.cli.terminal.messages import Within
+from hri.cli.terminal.progress_line import waiting
 from hri.core.errors import HriError, did_you_mean
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.expansion import (

@@ -16,8 +16,7 @@ from typing import Any, TextIO
 import numpy as np
 
 from hri.cli.grammar import FILE_HELP
-from hri.cli.grammar.engine import add_engine_arguments, started_engine
-from hri.cli.messages import Within
+from hri.cli.grammar.engine import add_engine_arguments, add_strictness, started_engine
 from hri.core import registry
 from hri.core.clock import RealClock
 from hri.core.errors import HriError, NotAvailable
@@ -29,7 +28,6 @@ from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer, Segment
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
-from hri.speech.acceptance import STRICTNESS
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.tags import spell_tags
 from hri.speech.hearing import Heard, hear, understand
@@ -72,13 +70,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--channel", choices=CHOICES, default=CHOICES[0], help="side of a stereo sound"
     )
-    parser.add_argument(
-        "--strictness",
-        type=Within(float, 0, 1),
-        default=STRICTNESS,
-        metavar="X",
-        help=f"least confidence to accept, 0 to 1 ({STRICTNESS})",
-    )
+    add_strictness(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object per line")
     parser.add_argument(
         "--question",

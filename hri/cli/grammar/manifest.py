@@ -16,11 +16,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 from typing import Self
 
 import numpy as np
 
+from hri.cli.terminal.progress_line import progress
 from hri.core.clock import RealClock
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 from hri.core.reading import read_text
@@ -153,11 +155,13 @@ def usual_voices() -> tuple[str, ...]:
 def spoken(
     grammar: Grammar, sentences: Sequence[str], voices: Sequence[str]
 ) -> Iterator[RecordedClip]:
-    """Each sentence in each voice, synthesized lazily; also those the grammar refuses."""
+    """Each sentence in each voice, synthesized lazily, with a progress bar; also those the grammar
+    refuses.
+    """
+    pairs = list(product(sentences, voices))
     with Voices() as speakers:
-        for sentence in sentences:
+        for sentence, voice in progress(pairs, len(pairs), "speaking and hearing"):
             found = parse(grammar, sentence)
             meaning = None if found is None else meaning_of(found)
-            for voice in voices:
-                samples, rate = speakers.speak(sentence, voice)
-                yield RecordedClip(f"{voice}: {sentence}", samples, rate, sentence, meaning)
+            samples, rate = speakers.speak(sentence, voice)
+            yield RecordedClip(f"{voice}: {sentence}", samples, rate, sentence, meaning)

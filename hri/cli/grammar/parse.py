@@ -9,8 +9,8 @@ import sys
 from collections.abc import Iterator
 
 from hri.cli.grammar import FILE_HELP
-from hri.cli.grammar.arguments import legible
-from hri.cli.progress_line import waiting
+from hri.cli.terminal.messages import legible
+from hri.cli.terminal.progress_line import waiting
 from hri.core.quoting import escaped, message_line
 from hri.speech.grammar import load_grammar
 from hri.speech.grammar.matching import (

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 
-from hri.cli.grammar.arguments import legible
+from hri.cli.terminal.messages import legible
 from hri.core.errors import HriError
 from hri.core.quoting import escaped
 from hri.speech.pronunciation.lexicon import (

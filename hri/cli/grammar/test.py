@@ -8,15 +8,13 @@ import sys
 from pathlib import Path
 
 from hri.cli.grammar import explained
-from hri.cli.grammar.engine import add_engine_arguments, started_engine
+from hri.cli.grammar.engine import add_engine_arguments, add_strictness, started_engine
 from hri.cli.grammar.manifest import read_manifest
-from hri.cli.messages import Within
-from hri.cli.progress_line import progress
+from hri.cli.terminal.progress_line import progress
 from hri.core import paths
 from hri.core.errors import HriError, Mistakes
 from hri.core.quoting import message_line
 from hri.core.statistics import told
-from hri.speech.acceptance import STRICTNESS
 from hri.speech.grammar import Grammar, analysis, read_grammar
 from hri.speech.grammar.lint.expectations import Failure, failures, meaning_of, read_expectations
 from hri.speech.trials import Attempt, attempt, confusions, score
@@ -43,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("files", nargs="*", type=Path, metavar="FILE", help="sentences to try")
     parser.add_argument("--audio", type=Path, metavar="MANIFEST", help="recordings to try")
     parser.add_argument("--grammar", metavar="GRAMMAR", help="file, or name of one in grammars/")
-    parser.add_argument("--strictness", type=Within(float, 0, 1), default=STRICTNESS, metavar="X")
+    add_strictness(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     add_engine_arguments(parser)
 

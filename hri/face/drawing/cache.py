@@ -79,7 +79,7 @@ def _key(drawings: Sequence[Path], head: HeadSettings | None) -> str:
 
 
 def _read(file: Path) -> DisplayList | None:
-    """What a file keeps; None when there is none, or it makes no sense."""
+    """The display list of a file; None when it is missing or damaged."""
     try:
         if not file.is_file() or file.stat().st_size > MOST_BYTES:
             return None

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.signals import Samples
-
-Values = NDArray[np.float64]
+from hri.face.lips.lipsync import ARTICULATORS, LEAST_WEIGHT, LipTrack, Values
+from hri.face.vocabulary import VISEMES
 
 STEP = 0.02
 """Seconds between two values."""
@@ -50,7 +50,7 @@ HISS_HZ = (2200.0, 3600.0)
 SHARP_HZ = 4200.0
 """A hiss with a higher mean is an s, with a lower one a sh."""
 
-_VISEMES = (*VOWELS, "SS", "CH")
+_HEARD = [VISEMES.index(viseme) for viseme in (*VOWELS, "SS", "CH")]
 _ORDER = 12
 """Of the linear prediction: one resonance a kilohertz, and the slope of the voice."""
 _SPECTRUM = 128
@@ -63,10 +63,10 @@ _PER_CHUNK = 100
 """Steps that are worked out together."""
 
 
-class EnvelopeTrack:
+class EnvelopeTrack(LipTrack):
     """A mouth that opens as the voice is loud, to the vowel that it sounds like.
 
-    Loudness is measured at once; what the voice sounds like is worked out when it is asked for.
+    Lips, jaw and tongue go together. Loudness is measured at once, vowels when they are asked for.
     """
 
     def __init__(self, samples: Samples, rate: int) -> None:
@@ -75,15 +75,13 @@ class EnvelopeTrack:
         self._emphasis = _calmed(np.clip(3 * self._level - 2, 0, 1)[:, None], 9)[:, 0]
         self._chunks: dict[int, Values] = {}
 
-    def weights(self, position: float, articulator: str = "lips") -> dict[str, float]:
-        """As `LipTrack.weights`; lips, jaw and tongue go together."""
+    def shape(self, position: float) -> Values:
         number, share = divmod(position / STEP - 0.5, 1)
-        shape = (1 - share) * self._shape(int(number)) + share * self._shape(int(number) + 1)
-        return {
-            viseme: float(weight)
-            for viseme, weight in zip(_VISEMES, shape, strict=True)
-            if weight > 1e-3
-        }
+        heard = (1 - share) * self._at(int(number)) + share * self._at(int(number) + 1)
+        heard[heard <= LEAST_WEIGHT] = 0.0
+        shape = np.zeros((len(VISEMES), len(ARTICULATORS)))
+        shape[_HEARD] = heard[:, None]
+        return shape
 
     def emphasis(self, position: float) -> float:
         middles = (np.arange(len(self._emphasis)) + 0.5) * STEP
@@ -91,9 +89,9 @@ class EnvelopeTrack:
             return 0.0
         return float(np.interp(position, middles, self._emphasis, left=0.0, right=0.0))
 
-    def _shape(self, number: int) -> Values:
+    def _at(self, number: int) -> Values:
         if not -_CALM <= number < len(self._level) + _CALM:
-            return np.zeros(len(_VISEMES))
+            return np.zeros(len(_HEARD))
         chunk, place = divmod(number, _PER_CHUNK)
         if chunk not in self._chunks:
             self._chunks[chunk] = self._work_out(chunk)
@@ -106,7 +104,7 @@ class EnvelopeTrack:
         level = np.zeros(len(numbers))
         heard = (numbers >= 0) & (numbers < len(self._level))
         level[heard] = self._level[numbers[heard]]
-        shapes = np.zeros((len(level), len(_VISEMES)))
+        shapes = np.zeros((len(level), len(_HEARD)))
         voiced = np.flatnonzero(level)
         if len(voiced):
             frames = self._frames.at(numbers[voiced])

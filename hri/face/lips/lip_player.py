@@ -1,4 +1,4 @@
-"""The mouth while the robot talks: the track of the lips at what has really been heard."""
+"""The mouth of a talking robot: the lip track at the position that has really been heard."""
 
 from __future__ import annotations
 
@@ -7,21 +7,22 @@ import math
 import numpy as np
 
 from hri.core.signals import Speech
-from hri.face.lips.lipsync import LipTrack, lip_track
-from hri.face.lips.viseme_shapes import VisemeShapes
+from hri.face.lips.envelope import EnvelopeTrack
+from hri.face.lips.lipsync import ARTICULATORS, LipTrack, PhonemeTrack
 from hri.face.model import FaceModel
 from hri.face.motion.spring import Follower, Spring, Values
+from hri.face.vocabulary import VISEMES
 
 PICTURE_LEAD = 0.05
 """Seconds by which the track of the lips is read ahead of the sound: one frame until the
 picture is seen, and a little more, since lips that are early look right and late ones do not."""
 RAISED = {"browOuterUp": 0.4, "browInnerUp": 0.25, "headPitch": 0.12}
-"""What a stressed syllable lifts."""
+"""Weights that a stressed syllable adds."""
 
 _LIPS = 70.0
 """Stiffness in radians a second: shut within 100 ms of a cut."""
 _TALKING = 30.0
-"""Of how speech takes the mouth over, and gives it back."""
+"""Stiffness with which speech takes the mouth over, and gives it back."""
 
 
 class LipPlayer:
@@ -34,7 +35,10 @@ class LipPlayer:
         self._latency = latency
         self._track: LipTrack | None = None
         self._followed: LipTrack | None = None
-        self._articulation = VisemeShapes(model)
+        self._shapes = np.array([model.vector(model.viseme(viseme)) for viseme in VISEMES])
+        self._articulators = [
+            ARTICULATORS.index(articulator_of(channel)) for channel in model.channels
+        ]
         there = {name: weight for name, weight in RAISED.items() if name in model.names}
         self._raised = model.vector(there).astype(float)
         self._rest = np.zeros(len(model.channels))
@@ -57,7 +61,20 @@ class LipPlayer:
         goal = self._rest
         if track is not None and position is not None:
             at = position + self._latency
-            goal = self._articulation.vector(track, at) + track.emphasis(at) * self._raised
+            weights = track.shape(at).astype(np.float32)[:, self._articulators]
+            goal = (weights * self._shapes).sum(axis=0) + track.emphasis(at) * self._raised
         leaps, self._followed = track is not self._followed, track
         talking = self._talking.follow(float(self.speech is not None), dt, _TALKING)
         return self._mouth.follow(goal, dt, leaps=leaps), float(talking)
+
+
+def lip_track(speech: Speech) -> LipTrack:
+    """The track of a speech: by its phonemes, or by its sound alone when it has none."""
+    if speech.phonemes:
+        return PhonemeTrack(speech.phonemes)
+    return EnvelopeTrack(speech.samples, speech.rate)
+
+
+def articulator_of(channel: str) -> str:
+    """What a channel belongs to when the face speaks; all but jaw and tongue goes with the lips."""
+    return next((name for name in ("jaw", "tongue") if channel.startswith(name)), "lips")

@@ -12,16 +12,15 @@ next to a P an F comes sooner or later than it sounds, and is cut where even tha
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.core.signals import Phoneme, Speech
-from hri.face.lips.envelope import EnvelopeTrack
+from hri.core.signals import Phoneme
 from hri.face.lips.phonemes import BREATH, Sound, is_arpabet, sound_of
 from hri.face.vocabulary import VISEMES
 
@@ -55,6 +54,8 @@ from the middle of a sound, with half of these; here a sound pulls fully from it
 """
 REACH = 0.25
 """Seconds around a sound beyond which its pull is nothing."""
+LEAST_WEIGHT = 1e-3
+"""Weights up to this are at rest."""
 
 FASTEST = {"lips": 1 / 0.06, "jaw": 1 / 0.08, "tongue": 1 / 0.05}
 """Of the full way a second."""
@@ -100,26 +101,24 @@ _INDEX = {viseme: number for number, viseme in enumerate(VISEMES)}
 _CLOSING = np.array([viseme in CLOSED for viseme in VISEMES])
 
 
-class LipTrack(Protocol):
+class LipTrack(ABC):
     """The mouth over a whole speech."""
 
-    def weights(self, position: float, articulator: str = "lips") -> dict[str, float]:
-        """Weights of visemes, 0 to 1.2, at a position in the speech, seconds; none at rest.
+    @abstractmethod
+    def shape(self, position: float) -> Values:
+        """Weights [visemes, articulators], 0 to 1.2, at a position in the speech, seconds.
 
-        `articulator` is one of ARTICULATORS: jaw and tongue may be elsewhere than the lips.
+        Rows are as in VISEMES, that of "sil" always 0; columns are as in ARTICULATORS.
         """
-        ...
 
+    @abstractmethod
     def emphasis(self, position: float) -> float:
         """Stress of the current syllable, 0 to 1; the brows follow it."""
-        ...
 
-
-def lip_track(speech: Speech) -> LipTrack:
-    """The track of a speech: by its phonemes, or by its sound alone when it has none."""
-    if speech.phonemes:
-        return PhonemeTrack(speech.phonemes)
-    return EnvelopeTrack(speech.samples, speech.rate)
+    def weights(self, position: float, articulator: str = "lips") -> dict[str, float]:
+        """The shape of one of ARTICULATORS by viseme, those at rest left out."""
+        weights = self.shape(position)[:, ARTICULATORS.index(articulator)]
+        return {VISEMES[number]: float(weights[number]) for number in np.flatnonzero(weights)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +140,7 @@ class VisemeSpan:
         return self.end - self.start
 
 
-class PhonemeTrack:
+class PhonemeTrack(LipTrack):
     """A mouth that follows phoneme times; worked out a second at a time, when it is asked for."""
 
     def __init__(self, phonemes: Sequence[Phoneme]) -> None:
@@ -164,20 +163,16 @@ class PhonemeTrack:
         stresses = [segment for segment in self.segments if segment.stressed]
         self._stressed = np.array([(s.start + s.end) / 2 for s in stresses])
         self._stress = np.array([min(s.duration / FULL_EMPHASIS, 1.0) for s in stresses])
-        self._chunks: dict[int, dict[str, Values]] = {}
+        self._chunks: dict[int, Values] = {}
 
-    def weights(self, position: float, articulator: str = "lips") -> dict[str, float]:
+    def shape(self, position: float) -> Values:
         first, last = self.segments[0].start - 2, self.segments[-1].end + 2
         position = min(max(position, first), last)
         step = math.floor(position / STEP)
         share = position / STEP - step
-        before, after = self._at(step, articulator), self._at(step + 1, articulator)
-        shape = (1 - share) * before + share * after
-        return {
-            viseme: float(weight)
-            for viseme, weight in zip(VISEMES[1:], shape[1:], strict=True)
-            if weight > 1e-3
-        }
+        shape: Values = (1 - share) * self._at(step) + share * self._at(step + 1)
+        shape[shape <= LEAST_WEIGHT] = 0.0
+        return shape
 
     def emphasis(self, position: float) -> float:
         if not len(self._stressed):
@@ -186,15 +181,15 @@ class PhonemeTrack:
         share = np.clip(1 - np.maximum(-away / EMPHASIS_RISE, away / EMPHASIS_FALL), 0, 1)
         return float((self._stress * share * share * (3 - 2 * share)).max())
 
-    def _at(self, number: int, articulator: str) -> Values:
+    def _at(self, number: int) -> Values:
         chunk, place = divmod(number, _PER_CHUNK)
         if chunk not in self._chunks:
             self._chunks[chunk] = self._work_out(chunk)
-        row: Values = self._chunks[chunk][articulator][place]
-        return row
+        shape: Values = self._chunks[chunk][place]
+        return shape
 
-    def _work_out(self, chunk: int) -> dict[str, Values]:
-        """Weights [steps, visemes] of each articulator over one chunk."""
+    def _work_out(self, chunk: int) -> Values:
+        """Weights [steps, visemes, articulators] over one chunk."""
         steps = np.arange(-_HALO, _PER_CHUNK + _HALO) + chunk * _PER_CHUNK
         times = steps.astype(np.float64) * STEP
         first = int(np.searchsorted(self._ends, times[0] - REACH))
@@ -203,12 +198,14 @@ class PhonemeTrack:
         shut = [
             c for c in self._closures if times[0] - REACH < c.end and c.start < times[-1] + REACH
         ]
-        shapes = {}
-        for articulator in ARTICULATORS:
-            shape = _closed(_blended(near, times, articulator), shut, times)
-            shapes[articulator] = _limited(shape, articulator)
-        _part(shapes["lips"], shut, times[_HALO:-_HALO])
-        return shapes
+        shapes = [
+            _limited(_closed(_blended(near, times, articulator), shut, times), articulator)
+            for articulator in ARTICULATORS
+        ]
+        _part(shapes[ARTICULATORS.index("lips")], shut, times[_HALO:-_HALO])
+        track = np.stack(shapes, axis=-1)
+        track[:, _INDEX["sil"]] = 0.0
+        return track
 
 
 def _blended(segments: Sequence[VisemeSpan], times: Values, articulator: str) -> Values:
@@ -233,7 +230,7 @@ def _blended(segments: Sequence[VisemeSpan], times: Values, articulator: str) ->
 def closures(segments: Sequence[VisemeSpan]) -> dict[int, VisemeSpan]:
     """When the lips must be shut, or on the teeth, by the number of the segment.
 
-    Those on the teeth give way, and are left out where there is no way.
+    Those on the teeth give way, and are left out where there is no time for them.
     """
     wanted = {n: _closure(s) for n, s in enumerate(segments) if s.viseme in CLOSED}
     pressed = [closure for closure in wanted.values() if closure.viseme == PRESSED]

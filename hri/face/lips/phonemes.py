@@ -92,7 +92,7 @@ _ONLY_ARPABET = {name for name in _ARPABET if len(name) > 1} - set(_ESPEAK)
 
 
 def is_arpabet(names: Iterable[str]) -> bool:
-    """Whether the sounds of a speech are written in ARPAbet: its vowels, of two capitals, tell."""
+    """Whether the sounds of a speech are ARPAbet, as its two-letter vowels show."""
     return any(name.strip("012") in _ONLY_ARPABET for name in names)
 
 

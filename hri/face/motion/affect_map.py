@@ -82,11 +82,6 @@ class AffectMap:
         return near, pull / pull.sum()
 
 
-def affect_weights(model: FaceModel, valence: float, arousal: float) -> Vector:
-    """Weights of all channels for one valence and arousal; see `AffectMap.weights`."""
-    return AffectMap(model).weights(valence, arousal)
-
-
 def _on_disc(valence: float, arousal: float) -> tuple[float, float]:
     """The point itself, or the nearest one of the rim."""
     length = max(math.hypot(valence, arousal), 1.0)

@@ -29,7 +29,7 @@ _CHANGE = 8.0
 
 
 class ExpressionBlender:
-    """What a face shows of what it feels."""
+    """Blends the expression of a face over its mood and state."""
 
     def __init__(self, model: FaceModel) -> None:
         self.label = ""

@@ -88,7 +88,7 @@ class GesturePlayer:
         return self._playing
 
     def follow(self, now: float, dt: float) -> Gestured:
-        """What the gesture that is made does now; or what is left of the last one."""
+        """The effect of the current gesture, or what is left of the last one."""
         size = len(self._model.channels)
         playing = self._current(now)
         goal = np.zeros(2 * size + 2) if playing is None else _goal(playing, now)

@@ -1,4 +1,4 @@
-"""The life of a face that does nothing: what `idle` says of its state, blended over."""
+"""Idle life over time: the states of `idle`, blended into each other."""
 
 from __future__ import annotations
 

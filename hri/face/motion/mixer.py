@@ -71,7 +71,6 @@ class Mixer:
         )
         self._inward = model.vector({name: 1.0 for name in INWARD if name in channels})
         self._eyes = np.flatnonzero(by_region(channels, {"eyes": 1.0}))
-        self._index = {channel: number for number, channel in enumerate(channels)}
 
     def mix(self, layers: Layers) -> Vector:
         """One weight for each channel of the model."""
@@ -82,7 +81,7 @@ class Mixer:
             blink *= 1 - self._lids.owned(owned)
         mixed = mixed * (1 - layers.talking * self._lost) + layers.viseme
         for name, weight in layers.idle.items():
-            number = self._index[name]
+            number = self.model.index[name]
             mixed[number] += weight if owned is None else weight * (1 - owned[number])
         mixed += (1 - self._lids.shut(mixed)) * self._looks(layers)
         mixed = self._lids.blinking(mixed, blink)

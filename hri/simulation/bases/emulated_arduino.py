@@ -102,19 +102,19 @@ class EmulatedArduino(Emulator):
         numbers = [_atoi(word) for word in words[1:3]] + [0, 0]
         actions: dict[bytes, Callable[[int, int, float], str]] = {
             b"a": self._analog,
-            b"b": self._baud,
-            b"c": self._agree,
+            b"b": lambda _first, _second, _now: f" {self.baud}",
+            b"c": _agree,
             b"d": self._digital,
             b"e": self._counts,
             b"m": self._roll,
             b"p": self._ping,
             b"r": self._reset_counts,
-            b"u": self._agree,
-            b"w": self._agree,
-            b"x": self._agree,
+            b"u": _agree,
+            b"w": _agree,
+            b"x": _agree,
         }
-        action = actions.get(words[0][:1], self._refuse)
-        return action(numbers[0], numbers[1], now).encode()
+        action = actions.get(words[0][:1])
+        return action(numbers[0], numbers[1], now).encode() if action else b"Invalid Command"
 
     def _roll(self, left: int, right: int, now: float) -> str:
         self._commanded = now
@@ -123,15 +123,6 @@ class EmulatedArduino(Emulator):
         rims = [max(-fastest, min(fastest, n * self._rim_speed)) for n in (left, right)]
         self.body.roll(rims[0], rims[1], now)
         return "OK"
-
-    def _agree(self, _first: int, _second: int, _now: float) -> str:
-        return "OK"
-
-    def _refuse(self, _first: int, _second: int, _now: float) -> str:
-        return "Invalid Command"
-
-    def _baud(self, _first: int, _second: int, _now: float) -> str:
-        return f" {self.baud}"
 
     def _counts(self, _first: int, _second: int, _now: float) -> str:
         return " ".join(
@@ -168,6 +159,10 @@ class EmulatedArduino(Emulator):
                 distance = self.body.distance(place, now)
                 return str(round(distance * 100)) if distance < SONAR_REACH else "0"
         return "0"
+
+
+def _agree(_first: int, _second: int, _now: float) -> str:
+    return "OK"
 
 
 def _is_weighty(command: bytes) -> bool:

@@ -67,7 +67,7 @@ CAPACITY_MAH = 2696
 VOLTS = (12.4, 16.2)
 """Of an empty and of a full battery."""
 LONGEST_GAP = 1.0
-"""Seconds; of a longer time that nobody asked for, only the end comes out."""
+"""Seconds; after a longer pause between calls, only the end of it is streamed."""
 
 
 class EmulatedCreate2(Emulator):
@@ -150,7 +150,7 @@ class EmulatedCreate2(Emulator):
             self._enter(PASSIVE, now)
 
     def _heed_buttons(self, now: float) -> None:
-        """Clean, or look for the dock, when nobody else has its motors."""
+        """Clean, or look for the dock, in passive mode."""
         newly, self._held = self.body.held - self._held, set(self.body.held)
         if self.mode == PASSIVE and newly & SETTING_OFF:
             self._roll(SEEKING, SEEKING, now)

@@ -110,7 +110,7 @@ class EmulatedPort(Port):
         if self.is_plugged and not self._is_open:
             self._is_open = True
             self._come.clear()
-            self.line.feed(b"", now)  # what nobody was there to hear
+            self.line.feed(b"", now)  # drop what came while it was closed
         return self._is_open
 
     def read(self, now: float) -> bytes:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from hri.simulation.people.soft_edges import Color
 
 DEFAULT_ACTOR = "ada"
-"""Whom people look like where nothing is said of it; see `actors.ACTORS`."""
+"""The default actor; see `actors.ACTORS`."""
 
 
 @dataclass(frozen=True, slots=True)

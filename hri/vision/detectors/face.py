@@ -60,7 +60,7 @@ def is_same(first: FaceBox, second: FaceBox) -> bool:
 def merged(found: Iterable[FoundFace]) -> list[FoundFace]:
     """One face for all findings of the same one: their average, weighted by their scores.
 
-    All findings must tell points, or none. The surest face comes first.
+    Either all findings have points, or none. The surest face comes first.
     """
     # The box decides between equal scores, so that the order never depends on the input's.
     rest = sorted(found, key=lambda face: (-face.score, *astuple(face.box)))

@@ -20,7 +20,7 @@ Points = NDArray[np.float32]
 POINTS = 40
 """How many points are followed at most."""
 ENOUGH = 8
-"""Fewer points tell nothing."""
+"""With fewer points, no motion is found."""
 FACE = (0.18, 0.20, 0.82, 0.72)
 """The part of a box that holds points: left, top, right, bottom; without hair and mouth."""
 WINDOW = (15, 15)

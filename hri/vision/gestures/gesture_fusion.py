@@ -15,10 +15,10 @@ from hri.vision.gestures.gesture_patterns import AXES, Pattern
 from hri.vision.gestures.gesture_recognizer import GestureRecognizer
 
 AGAIN = 1.25
-"""Seconds after which a signal may tell of a gesture again that goes on: the other may have been
-late, and who nods along nods again and again."""
+"""Seconds after which a signal may report a continuing gesture again: the other may have been late,
+and people who nod along nod again and again."""
 NEAR = 0.3
-"""Seconds by which movements that the two signals tell of may miss each other."""
+"""Seconds by which the movements in the two signals may miss each other."""
 ROLL = AXES.index("roll")
 """Invisible in the motion, so that the pose alone decides."""
 
@@ -38,7 +38,7 @@ class GestureFusion:
     def update(self, person: Person, prompted: bool = False) -> HeadGesture | None:
         """The gesture that is complete now, if any. `prompted`: an answer is expected.
 
-        The pose alone decides on someone of whom there has never been any motion.
+        For a person without any motion so far the pose alone decides.
         """
         found = self._of_pose.update(person.pose, prompted)
         if person.motion is not None:
@@ -60,7 +60,9 @@ def _with_less(pattern: Pattern) -> Pattern:
 
 
 def _agreed(pose: HeadGesture | None, motion: HeadGesture | None) -> HeadGesture | None:
-    """What both tell of movements that overlap: as sure as the pose, from the earlier onset."""
+    """The gesture in which both agree, if their movements overlap: as sure as the pose, from the
+    earlier onset.
+    """
     if pose is None or motion is None or pose.kind != motion.kind:
         return None
     onsets = pose.time - pose.latency, motion.time - motion.latency

@@ -45,11 +45,10 @@ MOST_POSES = 600
 class GestureRecognizer:
     """Takes the poses of one head, one by one, at 10 to 100 a second.
 
-    A gesture is told once, however long it lasts, or again after `again` seconds while it goes on
-    and no answer is expected; until the head rests one about another axis is told, too: a nod that
-    turns into a shake.
-    A pose with NaN, or of the same time as the one before, is passed over. After a gap, or when
-    time goes back, it starts again.
+    A gesture is reported once, however long it lasts, or again every `again` seconds while it goes
+    on and no answer is expected. A nod that turns into a shake is reported as both. A pose with
+    NaN, or of the same time as the one before, is ignored. After a gap, or when time goes back, it
+    starts again.
     """
 
     def __init__(self, patterns: Iterable[Pattern], again: float = math.inf) -> None:
@@ -61,7 +60,7 @@ class GestureRecognizer:
         self._axis: int | None = None
         """Of the current gesture; None when there is none."""
         self._told = -math.inf
-        """Seconds, when it was told."""
+        """Seconds, when it was reported."""
 
     def update(self, pose: HeadPose, prompted: bool = False) -> HeadGesture | None:
         """The gesture that this pose completes, if any. `prompted`: an answer is expected."""
@@ -92,7 +91,7 @@ class GestureRecognizer:
         return math.inf if prompted or math.isinf(self._again) else self._told
 
     def _goes_on(self, gesture: HeadGesture) -> bool:
-        """Whether a gesture is still the one that was told, and that not long ago."""
+        """Whether a gesture is still the one that was reported a short time ago."""
         is_same = self._axes[gesture.kind] == self._axis
         onset = gesture.time - gesture.latency
         return is_same and onset <= self._told and gesture.time - self._told < self._again
@@ -169,7 +168,7 @@ class Movement:
             and now - held - running.start <= row.duration
             and all(swing.end - swing.start <= row.duration for swing in before)
             and self._dominates(row, axis, swings)
-            and (row.slowing >= 1 or self._slowing(running, axis) <= row.slowing)
+            and (row.slowing >= 1 or slowing(*self._since(running.start, axis)) <= row.slowing)
             and 2 * sum(self._leaps(swing, axis) for swing in swings) <= len(swings)
         )
 
@@ -211,9 +210,6 @@ class Movement:
         ]
         width = _range([angle for _, angle in seen])
         return max(steps, default=0.0) >= LEAP * width > 0.0
-
-    def _slowing(self, swing: Swing, axis: int) -> float:
-        return slowing(*self._since(swing.start, axis))
 
     def _held(self, swing: Swing, axis: int) -> float:
         """Seconds that the head has stayed where a swing led it."""

@@ -21,7 +21,7 @@ SPEED_WINDOW = 0.06
 
 
 MOST_LATELY = 100
-"""Angles that are looked at to tell a rest, whatever their rate."""
+"""Angles from which a rest is detected, whatever their rate."""
 
 Point = tuple[float, float]
 """Seconds, and radians."""
@@ -48,7 +48,7 @@ class ZigZag:
 
     def __init__(self) -> None:
         self.last_turn = -math.inf
-        """Seconds, when a turn was told last."""
+        """Seconds, when a turn was found last."""
         self._turns: deque[Point] = deque(maxlen=KEPT)
         self._direction = 0
         self._low, self._high = (0.0, math.inf), (0.0, -math.inf)

@@ -1,4 +1,4 @@
-"""Which of several belongs to which of several others, for the least cost."""
+"""Assigns rows to columns at the least cost."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who someone is, for robots whose owner wants that: any face-embedding network will do.
+"""Recognizes faces with any face-embedding network, for robots whose owner wants that.
 
 An embedding turns the picture of a face into numbers that are alike for pictures of one person.
 A model is not included. Nothing is learned unless someone says a name, nothing leaves the
@@ -81,7 +81,7 @@ class Acquaintances:
         self._samples.clear()
 
     def name_of(self, vector: Vector) -> str:
-        """Whose face that is; empty when nobody's that is known."""
+        """The name for a face; empty when it is unknown."""
         vector = _normalized(vector)
         best, name = self._alike, ""
         for candidate in self.names:
@@ -103,7 +103,7 @@ class Acquaintances:
 
     @classmethod
     def load(cls, path: Path, alike: float = ALIKE) -> Acquaintances:
-        """Those of a file; nobody when there is none.
+        """Those of a file; none without a file.
 
         Raises AuthoringError for another file, HriError for one that cannot be read.
         """
@@ -131,7 +131,7 @@ class FaceRecognizer:
         self._embedder = embedder
 
     def name(self, image: Image, landmarks: Landmarks) -> str:
-        """Whose face that is in a picture; empty when nobody's that is known.
+        """The name for the face in a picture; empty when it is unknown.
 
         Raises HriError when the model fails.
         """

@@ -36,7 +36,7 @@ UNCONFIRMED = 1.5
 RENEWAL = 0.3
 """Seconds after which the points to follow are chosen again."""
 MAX_GAP = 0.5
-"""Seconds between two pictures; over more, no motion is told."""
+"""Seconds between two pictures; over more, no motion is reported."""
 JUMP = 0.5
 """Part of its side by which the region of a face may move beyond the motion of its points."""
 GROWTH = 1.6

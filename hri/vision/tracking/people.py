@@ -115,7 +115,7 @@ class PeopleTracker:
         self._attending = Attending()
 
     def _lose_all(self) -> None:
-        """Look for everyone again: who knows who sits there now."""
+        """Look for everyone again: people may have changed places."""
         for somebody in self._known:
             somebody.face = None
         self._searched = -math.inf
@@ -138,7 +138,7 @@ class PeopleTracker:
                 somebody.face = None
 
     def _urgency(self, seen: tuple[PersonTrack, FaceTrack]) -> tuple[bool, float, int]:
-        """Whose mesh comes first: that of the one attended to, then who has waited longest."""
+        """Order of fitting meshes: the attended person first, then who has waited longest."""
         somebody = seen[0]
         return somebody.id != self._attending.chosen, somebody.fitted, somebody.number
 
@@ -233,7 +233,7 @@ class PeopleTracker:
     # --- telling apart ---
 
     def _mix(self, time: float) -> None:
-        """Note who is so close to whom that faces may be taken for each other's."""
+        """Note pairs of people so close that their faces may be mixed up."""
         for one, other in itertools.combinations(self._known, 2):
             if one.face is None and other.face is None:
                 continue
@@ -243,7 +243,7 @@ class PeopleTracker:
                 self._part(time, one, other)
 
     def _part(self, time: float, one: PersonTrack, other: PersonTrack) -> None:
-        """Of two who have the same face, one is covered: the one whom place and size fit less."""
+        """Of two people with the same face, take it from the one whose place and size fit less."""
         face = one.face
         assert face is not None
         max((one, other), key=lambda somebody: somebody.identity.misfit(time, face)).face = None
@@ -272,7 +272,7 @@ class PeopleTracker:
         return [[s for s in self._known if s.number in group] for group in groups]
 
     def _sort_out(self, sight: Sight, group: list[PersonTrack]) -> None:
-        """Give each face of a group to whom it fits best."""
+        """Give each face of a group to the person it fits best."""
         faces = [somebody.face for somebody in group if somebody.face is not None]
         looks = [look_of(sight.image, face.region) for face in faces]
         costs = [
@@ -286,7 +286,7 @@ class PeopleTracker:
         ]
         for somebody, index in zip(group, assigned(costs), strict=True):
             somebody.face = None if index is None else faces[index]
-        # Who came up amidst the others and has no face was one of them.
+        # A track that began within the group and has no face was one of the others.
         self._known = [
             somebody
             for somebody in self._known
@@ -322,7 +322,7 @@ class PeopleTracker:
 class Seeing:
     """Makes a tracker with the detectors of a setting, where the work is done.
 
-    What of the setting cannot be had is told to the log; then it sees with less.
+    Detectors that are missing are logged; it then sees with the others.
     """
 
     setting: str

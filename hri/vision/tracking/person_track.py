@@ -1,4 +1,4 @@
-"""One person as the tracker knows them: what stays theirs while faces come and go."""
+"""The track of one person: what stays theirs while faces come and go."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What changes among the people who are there, told as it happens."""
+"""Reports changes among the people in sight as they happen."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from hri.core.signals import People, Person
 
 STEP = 0.3
-"""Meters someone must come nearer, or go away, before it is told."""
+"""Meters someone must come nearer, or move away, before it is reported."""
 SETTLING = 0.5
 """Seconds after which a newcomer's distance is taken for where they start from."""
 
@@ -27,7 +27,7 @@ class _Guest:
     entered: float
     is_looking: bool = False
     anchor: float = math.nan
-    """Meters, where they were when that was told last."""
+    """Meters, their distance at the last report."""
 
 
 class Presence:
@@ -37,7 +37,7 @@ class Presence:
         self._guests: dict[str, _Guest] = {}
 
     def update(self, people: People) -> list[Happening]:
-        """What happened since the last call, in the order it is to be told.
+        """What happened since the last call, in the order to report it.
 
         Names are `person.entered`, `person.left`, `person.approached`, `person.moved_away` (both
         with the `distance` in meters), `person.looked`, `person.looked_away`; besides,

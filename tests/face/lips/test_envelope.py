@@ -8,7 +8,8 @@ from hypothesis import given, strategies as st
 
 from hri.core.signals import Phoneme, Samples, Speech
 from hri.face.lips.envelope import VOWELS, EnvelopeTrack
-from hri.face.lips.lipsync import LipTrack, lip_track
+from hri.face.lips.lip_player import lip_track
+from hri.face.lips.lipsync import LipTrack
 from hri.face.vocabulary import VISEMES
 from tests.recorded import spoken_by_a_person
 

@@ -8,7 +8,7 @@ from hypothesis import given, strategies as st
 
 from hri.core.errors import HriError
 from hri.face import load_face
-from hri.face.motion.affect_map import NEIGHBORS, AffectMap, affect_weights
+from hri.face.motion.affect_map import NEIGHBORS, AffectMap
 from hri.face.motion.lids import Lids
 from tests.face.pixels import MODEL
 
@@ -20,7 +20,7 @@ SIDE = st.floats(-1, 1)
 def test_at_its_own_point_an_expression_is_all_that_shows(label: str) -> None:
     valence, arousal = MODEL.settings.affect[label]
     assert MAP.shares(valence, arousal)[label] == pytest.approx(1.0, abs=1e-9)
-    shown = affect_weights(MODEL, valence, arousal)
+    shown = AffectMap(MODEL).weights(valence, arousal)
     marks = MODEL.vector(dict.fromkeys(MODEL.settings.signs, 1.0)) != 0
     assert shown == pytest.approx(MODEL.vector(MODEL.expression(label)) * ~marks, abs=1e-6)
 
@@ -42,10 +42,10 @@ def test_calm_and_pleasure_look_content_and_awake(name: str) -> None:
     model = load_face(name)
     lids = Lids(model)
     for valence, arousal in ((0.6, -0.4), (0.5, -0.5), (1.0, -1.0), (0.3, -0.2)):
-        assert lids.shut(affect_weights(model, valence, arousal).astype(float)) < 0.15
+        assert lids.shut(AffectMap(model).weights(valence, arousal).astype(float)) < 0.15
     smile = model.channels.index("mouthSmileLeft") if "mouthSmile" in model.targets else None
     if smile is not None:
-        assert affect_weights(model, 0.6, -0.4)[smile] > 0.2
+        assert AffectMap(model).weights(0.6, -0.4)[smile] > 0.2
 
 
 def test_in_the_middle_of_the_circle_is_the_neutral_face() -> None:

@@ -1,7 +1,7 @@
 import pytest
 
 from hri.cli.main import main
-from hri.cli.network_picture import STEPS, strokes
+from hri.cli.network.picture import STEPS, strokes
 from hri.robot import load_app
 from tests.disk import full_disk
 

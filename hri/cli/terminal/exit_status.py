@@ -13,8 +13,8 @@ import sys
 from collections.abc import Callable
 from contextlib import suppress
 
-from hri.cli.messages import LineFormatter
-from hri.cli.streams import let_go, open_missing
+from hri.cli.terminal.messages import LineFormatter
+from hri.cli.terminal.streams import let_go, open_missing
 from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.quoting import message_line

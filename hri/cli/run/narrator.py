@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TextIO
 
 from hri.behavior.tick_statistics import Statistics
-from hri.cli.streams import let_go
+from hri.cli.terminal.streams import let_go
 from hri.core.quoting import message_line
 from hri.core.signals import Event
 from hri.face.behaviors import FaceRenderer

@@ -6,9 +6,9 @@ from contextlib import redirect_stderr, redirect_stdout
 
 import pytest
 
-from hri.cli import progress_line as module
 from hri.cli.main import main
-from hri.cli.progress_line import progress, waiting
+from hri.cli.terminal import progress_line as module
+from hri.cli.terminal.progress_line import progress, waiting
 
 
 class Terminal(io.StringIO):

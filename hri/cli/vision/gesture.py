@@ -10,8 +10,8 @@ from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
-from hri.cli.progress_line import waiting
-from hri.cli.watching import (
+from hri.cli.terminal.progress_line import waiting
+from hri.cli.vision.watching import (
     FILM_RATE,
     add_source,
     frames_of,

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hri.cli.watching import (
+from hri.cli.vision.watching import (
     FILM_RATE,
     LOOK,
     add_source,

@@ -12,7 +12,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from hri.cli.messages import Within
+from hri.cli.terminal.messages import Within
 from hri.core import paths
 from hri.core.clock import Clock
 from hri.core.errors import HriError

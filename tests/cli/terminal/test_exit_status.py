@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from hri.cli.exit_status import status_of
 from hri.cli.main import main
+from hri.cli.terminal.exit_status import status_of
 from hri.core.errors import HriError
 
 NETWORK = """\

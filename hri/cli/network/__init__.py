@@ -15,7 +15,7 @@ from hri.behavior.network_file import load_network
 from hri.behavior.network_layout import lay_out, stacked
 from hri.behavior.network_svg import to_svg
 from hri.behavior.writer import save_network, write_network
-from hri.cli.progress_line import waiting
+from hri.cli.terminal.progress_line import waiting
 from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.quoting import escaped, message_line
@@ -124,7 +124,7 @@ def draw(networks: list[Network], options: argparse.Namespace) -> int:
     if out.suffix == ".svg":
         write_text(out, to_svg(layout))
     elif out.suffix == ".png":
-        from hri.cli.network_picture import write_png
+        from hri.cli.network.picture import write_png
 
         write_png(layout, out)
     else:

@@ -13,7 +13,7 @@ from typing import Any
 import trio
 
 from hri.cli.face_film import FaceFilm
-from hri.cli.voice_options import NO_FILE, PLAIN_VOICE, open_voice
+from hri.cli.voice.voice_options import NO_FILE, PLAIN_VOICE, open_voice
 from hri.core.clock import RealClock
 from hri.core.errors import AuthoringError, HriError, did_you_mean
 from hri.core.reading import LARGEST_FILE

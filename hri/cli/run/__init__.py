@@ -10,12 +10,12 @@ from functools import partial
 from itertools import chain, count
 from pathlib import Path
 
-from hri.cli.changes import announce_changes
 from hri.cli.door_options import add_door_options, doors_of
-from hri.cli.ending import Ending
-from hri.cli.messages import LineFormatter, Within
-from hri.cli.narrator import Narrator
-from hri.cli.streams import unfailing_output
+from hri.cli.run.changes import announce_changes
+from hri.cli.run.narrator import Narrator
+from hri.cli.terminal.ending import Ending
+from hri.cli.terminal.messages import LineFormatter, Within
+from hri.cli.terminal.streams import unfailing_output
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
 from hri.core.privacy import PRIVATE_FOLDER

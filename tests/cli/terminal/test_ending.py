@@ -13,9 +13,9 @@ import pytest
 import trio
 
 from hri import Robot
-from hri.cli.ending import Ending
 from hri.cli.run import recordings_folder
-from hri.cli.streams import unfailing_output
+from hri.cli.terminal.ending import Ending
+from hri.cli.terminal.streams import unfailing_output
 from hri.core.clock import FakeClock
 from hri.core.event_log import read_events
 from hri.hal.drivers.wav_file import read_wav

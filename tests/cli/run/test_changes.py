@@ -4,7 +4,7 @@ from functools import partial
 
 import pytest
 
-from hri.cli.changes import announce_changes
+from hri.cli.run.changes import announce_changes
 from hri.robot import load_app
 from hri.task.context import TaskContext
 from tests.task.stage import Stage

@@ -1,4 +1,4 @@
-"""Log lines and messages about wrong options, escaped so that they cannot control a terminal."""
+"""Options, log lines and messages, escaped so that they cannot control a terminal."""
 
 from __future__ import annotations
 
@@ -55,3 +55,8 @@ class Within:
             limits = f", {least} or more" if is_open else f" from {least} to {self.highest:g}"
             raise argparse.ArgumentTypeError(f"{text} - write a number{limits}")
         return value
+
+
+def legible(text: str) -> str:
+    """A printable text: undecodable bytes become a replacement sign that no word contains."""
+    return text.encode("utf-8", "surrogateescape").decode("utf-8", "replace")

@@ -5,7 +5,7 @@ import io
 import pytest
 
 from hri.behavior.tick_statistics import Statistics
-from hri.cli.narrator import Narrator, missed_ticks
+from hri.cli.run.narrator import Narrator, missed_ticks
 from hri.core.clock import FakeClock
 from hri.robot import Robot
 

@@ -12,8 +12,8 @@ import pytest
 from hypothesis import given, strategies as st
 
 from hri.cli.main import main
-from hri.cli.watch import Watcher, show, write
-from hri.cli.watching import add_source, frames_of, interruption, opened_camera, paced
+from hri.cli.vision.watch import Watcher, show, write
+from hri.cli.vision.watching import add_source, frames_of, interruption, opened_camera, paced
 from hri.core.clock import FakeClock
 from hri.core.signals import FaceBox, Frame, HeadGesture, HeadPose, People, Person
 from hri.hal.drivers.memory import OffscreenScreen

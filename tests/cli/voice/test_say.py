@@ -7,7 +7,7 @@ import wave
 import pytest
 
 from hri.cli.main import main
-from hri.cli.say import prosody_of
+from hri.cli.voice.say import prosody_of
 from hri.core.signals import Prosody
 
 
