@@ -25,9 +25,10 @@ from numpy.typing import NDArray
 
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.core.privacy import folder_for
 from hri.core.reading import opened, read_text
 from hri.core.signals import Image
-from hri.core.writing import write_bytes
+from hri.core.writing import PRIVATE, write_bytes
 from hri.vision.objects.cutout import whole
 from hri.vision.objects.learning import MOST_VIEWS, view_of
 from hri.vision.objects.local_features import METHODS, SIFT, Features
@@ -61,6 +62,11 @@ def find_models(name: str) -> Path:
     return paths.find(KIND, name if name.endswith(SUFFIX) else name + SUFFIX)
 
 
+def own_models() -> Path:
+    """The set of the objects that the user has taught, which is private. Raises HriError."""
+    return paths.data_folder() / f"objects{SUFFIX}"
+
+
 def load_models(path: Path, method: str = SIFT) -> ModelSet:
     """Read a set; a list of names gets features of `method`. Raises HriError with what is wrong."""
     with opened(path, "model set", LARGEST_FILE) as file:
@@ -74,8 +80,16 @@ def load_models(path: Path, method: str = SIFT) -> ModelSet:
             raise HriError(f"{path}: this model set is damaged: {error} - {REMEDY}") from error
 
 
+def load_or_new(path: Path, method: str = SIFT) -> ModelSet:
+    """A set; an empty one of this method where there is no file yet. Raises HriError."""
+    return load_models(path, method) if paths.exists(path) else ModelSet(method)
+
+
 def save_models(path: Path, models: ModelSet) -> None:
-    """Write a set; an old file stays whole until the new one is. Raises HriError."""
+    """Write a set that only its owner may read; an old file stays whole until the new one is.
+
+    Raises HriError.
+    """
     if len(models.objects) > MOST_OBJECTS:
         remedy = "split it: hri object split"
         raise HriError(f"{path}: a set holds at most {MOST_OBJECTS} objects - {remedy}")
@@ -90,7 +104,8 @@ def save_models(path: Path, models: ModelSet) -> None:
             objects.append({"name": model.name, "learned": model.learned, "views": views})
         manifest = {"format": FORMAT, "method": models.method, "objects": objects}
         _put(archive, MANIFEST, json.dumps(manifest, indent=1).encode())
-    write_bytes(path, buffer.getvalue())
+    folder_for(path)
+    write_bytes(path, buffer.getvalue(), PRIVATE)
 
 
 def _write_view(archive: zipfile.ZipFile, stem: str, view: View) -> dict[str, object]:
