@@ -32,8 +32,9 @@ COMMANDS = {
     "forget": ("hri.cli.forget", "erase data kept about people, or about one person"),
     "watch": (
         "hri.cli.vision.watch",
-        "show the camera's view: people, ids, pose, gaze and gestures",
+        "show the camera's view: people, ids, pose, gaze, gestures, objects",
     ),
+    "object": ("hri.cli.object", "teach objects and recognize them in pictures"),
     "drive": ("hri.cli.drive", "drive a base by hand, with a live picture"),
     "token": ("hri.cli.token", "print the token with which other programs may move the robot"),
     "bench": ("hri.cli.bench", "measure, and print JSON"),

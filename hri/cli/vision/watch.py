@@ -5,13 +5,14 @@ from __future__ import annotations
 import argparse
 import math
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
+from hri.cli.vision import stills
 from hri.cli.vision.watching import (
     FILM_RATE,
     LOOK,
@@ -23,7 +24,7 @@ from hri.cli.vision.watching import (
 )
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import NotAvailable
-from hri.core.signals import Frame, HeadGesture, Image, People
+from hri.core.signals import FoundObject, Frame, HeadGesture, Image, People
 from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE
 from hri.hal.camera import Camera
@@ -40,6 +41,7 @@ KEYS = "escape: end; space: hold; l: landmarks; c: camera off and on"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_source(parser)
+    stills.add_arguments(parser)
     add = parser.add_argument
     add("--out", type=Path, metavar="FILM.mp4", help="write a film instead of opening a window")
     add(
@@ -47,11 +49,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add("--prompted", action="store_true", help="an answer is expected: a single nod is enough")
     add("--patterns", action="store_true", help="all gestures of gestures.toml, not nod and shake")
+    add("--objects", metavar="SET.mdl", help="recognize the objects of a set, too")
     add("--no-landmarks", action="store_true", help="hide the points of the faces")
 
 
 def run(options: argparse.Namespace) -> int:
     """Run until the source has ended, the window is closed, or Ctrl-C."""
+    if options.stills is not None:
+        stills.check(options)
+        return stills.run(options)
     is_live = options.out is None or _is_device(options)
     clock = RealClock() if is_live else FakeClock()
     with opened_camera(options, clock) as camera:
@@ -80,6 +86,8 @@ class Watcher:
     see: Callable[[Frame], People]
     recognize: Callable[[People], Iterable[HeadGesture]]
     has_landmarks: bool = True
+    find: Callable[[Image], Sequence[FoundObject]] = lambda image: ()
+    """Recognizes objects."""
     _recent: list[HeadGesture] = field(default_factory=list)
 
     @classmethod
@@ -101,11 +109,18 @@ class Watcher:
         def recognize(people: People) -> Iterable[HeadGesture]:
             return gestures.update(people, options.prompted)
 
-        return cls(tracker.see, recognize, not options.no_landmarks)
+        watcher = cls(tracker.see, recognize, not options.no_landmarks)
+        if options.objects is not None:
+            from hri.vision.objects.model_file import find_models, load_models
+            from hri.vision.objects.recognizer import ObjectRecognizer
+
+            models = load_models(find_models(options.objects))
+            watcher.find = ObjectRecognizer(models, CameraView.of(camera)).recognize
+        return watcher
 
     def look(self, frame: Frame) -> Image:
         """The frame with the results drawn in; gestures are printed."""
-        from hri.vision.detectors.overlay import draw
+        from hri.vision.detectors.overlay import draw, draw_objects
 
         people = self.see(frame)
         for gesture in self.recognize(people):
@@ -115,7 +130,8 @@ class Watcher:
                 f"{frame.time:7.2f} s  {who}  {gesture.kind}  {gesture.confidence:.2f}", flush=True
             )
         self._recent = [g for g in self._recent if 0 <= frame.time - g.time <= SHOWN]
-        return draw(frame.image, people, self._recent, self.has_landmarks)
+        seen = draw(frame.image, people, self._recent, self.has_landmarks)
+        return draw_objects(seen, self.find(frame.image))
 
 
 def write(path: Path, watcher: Watcher, frames: Iterator[Frame]) -> None:

@@ -46,6 +46,11 @@ def add_source(parser: argparse.ArgumentParser) -> None:
     add("--images", type=Path, metavar="FOLDER", help="a folder of pictures, in order")
     add("--camera", metavar="N", help="a camera of this machine: 0, 1 ... or its path")
     add("--simulated", action="store_true", help="a simulated person who nods and shakes the head")
+    add_view(parser)
+
+
+def add_view(parser: argparse.ArgumentParser) -> None:
+    """Add the options that say how a camera looks, and for how long."""
     add = parser.add_argument
     add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
     add("--mirror", action="store_true", help="correct a mirrored view")
@@ -92,7 +97,7 @@ def _devices(options: argparse.Namespace, pace: str) -> list[Description]:
     if options.images is not None:
         folder = {"folder": str(options.images), "pace": pace}
         return [Description("camera", "Hri.ImageFolderCamera", folder | view)]
-    if options.camera is not None:
+    if options.camera:
         device = {"device": options.camera}
         return [Description("camera", "Hri.Webcam", device | SIZE | view)]
     if options.simulated:

@@ -8,13 +8,14 @@ from collections.abc import Sequence
 import cv2
 import numpy as np
 
-from hri.core.signals import HeadGesture, HeadPose, Image, People, Person
+from hri.core.signals import FoundObject, HeadGesture, HeadPose, Image, People, Person
 
 Color = tuple[int, int, int]
 Point = tuple[int, int]
 
 CALM, LOOKING, HIDDEN, GESTURE = (90, 160, 255), (80, 220, 120), (150, 150, 150), (255, 210, 60)
 """Red, green, blue of a person's marks: seen, looking at the robot, out of sight, and a gesture."""
+OBJECT: Color = (230, 120, 240)
 AXES: tuple[Color, ...] = ((235, 80, 80), (80, 220, 120), (90, 160, 255))
 """Of the head's own left, down and ahead."""
 SMALLEST_FACE = 8.0
@@ -48,6 +49,19 @@ def draw(
                 [g.kind for g in gestures if g.person in (person.id, "")],
                 has_landmarks,
             )
+    return canvas
+
+
+def draw_objects(image: Image, found: Sequence[FoundObject]) -> Image:
+    """A copy of the picture with the outline, name and distance of each object."""
+    canvas = np.ascontiguousarray(image).copy()
+    size = _letter_size(canvas.shape[0])
+    for one in found:
+        corners = np.clip(np.rint(one.outline), -REACH, REACH).astype(np.int32)
+        cv2.polylines(canvas, [corners], True, OBJECT, 2, cv2.LINE_AA)
+        distance = "" if math.isnan(one.distance) else f" {one.distance:.2f} m"
+        at = max(0, int(corners[:, 0].min())), max(12, int(corners[:, 1].min()) - 4)
+        _write(canvas, one.name + distance, at, size, OBJECT)
     return canvas
 
 

@@ -37,6 +37,14 @@ def middle(image: Image) -> Outline:
     return np.asarray(center + (whole(image) - center) * MIDDLE, np.float32)
 
 
+def opaque(image: Image, alpha: Mask | None) -> Outline:
+    """What is not transparent, else what stands before a background of one color, else all."""
+    if alpha is None:
+        return on_even_background(image)
+    outline = _largest((alpha > 127).astype(np.uint8))
+    return whole(image) if outline is None else outline
+
+
 def on_even_background(image: Image) -> Outline:
     """What stands before a background of one color; the whole picture where there is none."""
     border = np.concatenate([image[0], image[-1], image[:, 0], image[:, -1]]).astype(np.float32)

@@ -1,0 +1,32 @@
+"""`hri object check`: what will be hard to recognize."""
+
+from __future__ import annotations
+
+import argparse
+
+from hri.cli.object.options import add_set, loaded
+from hri.cli.terminal.progress_line import progress
+from hri.vision.objects.learning import LEAST_FEATURES
+from hri.vision.objects.recognizer import ObjectRecognizer
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_set(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Exit status 1 when there is something to do."""
+    models = loaded(options)
+    recognizer = ObjectRecognizer(models)
+    problems = []
+    for model in progress(models.objects, len(models.objects), "checking"):
+        features = max(len(view.features) for view in model.views)
+        if features < LEAST_FEATURES:
+            problems.append(f"{model.name}: too plain, {features} features - show it nearer")
+        taken = {found.name for view in model.views for found in recognizer.recognize(view.picture)}
+        for other in sorted(taken - {model.name}):
+            problems.append(
+                f'{model.name}: looks like "{other}" - show what differs, or remove one'
+            )
+    print("\n".join(problems) or f"{len(models.objects)} objects, all told apart")
+    return 1 if problems else 0

@@ -1,0 +1,37 @@
+"""`hri object list`: the objects of a set."""
+
+from __future__ import annotations
+
+import argparse
+import json
+
+from hri.cli.object.options import add_set, loaded
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add_set(parser)
+    parser.add_argument("--json", action="store_true", help="as JSON")
+
+
+def run(options: argparse.Namespace) -> int:
+    models = loaded(options)
+    rows = [
+        {
+            "name": model.name,
+            "views": len(model.views),
+            "features": sum(len(view.features) for view in model.views),
+            "size_known": any(view.scale > 0 for view in model.views),
+            "learned": model.learned,
+        }
+        for model in models.objects
+    ]
+    if options.json:
+        print(json.dumps({"method": models.method, "objects": rows}))
+        return 0
+    for row in rows:
+        size = "size known" if row["size_known"] else "size unknown"
+        print(
+            f"{row['name']:20} {row['views']:2} views  {row['features']:5} features"
+            f"  {size:12}  {row['learned']}".rstrip()
+        )
+    return 0

@@ -1,0 +1,198 @@
+"""`hri watch --stills`: what is in pictures, each by itself, as JSON."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+from hri.cli.terminal.progress_line import progress
+from hri.core.errors import HriError
+from hri.core.signals import FaceBox, FoundObject, Frame, Person
+from hri.hal.drivers.still_image import StillImage, read_still
+from hri.vision.detectors.face import FoundFace, is_same
+
+Row = dict[str, Any]
+Look = Callable[[StillImage], list[Row]]
+
+SEARCHES, EVERY = 3, 0.5
+"""How often a picture is searched, and seconds between that the tracker is told: each search looks
+at other parts of it more closely."""
+BODY_HEIGHT = 1.7
+"""Meters, of an adult's body."""
+
+
+def run(options: argparse.Namespace) -> int:
+    """Exit status 1 when a picture could not be read."""
+    looks = _looks(options)
+    status = 0
+    for path in progress(options.stills, len(options.stills), "looking"):
+        try:
+            row = {"file": str(path)} | _row(read_still(path), looks)
+        except HriError as error:
+            print(error, file=sys.stderr)
+            row, status = {"file": str(path), "error": str(error)}, 1
+        print(json.dumps(row) if options.json else _line(row), flush=True)
+    return status
+
+
+def _row(still: StillImage, looks: dict[str, Look]) -> Row:
+    return {name: look(still) for name, look in looks.items()}
+
+
+def _looks(options: argparse.Namespace) -> dict[str, Look]:
+    """What is looked for: what was asked for, else people."""
+    looks: dict[str, Look] = {}
+    if options.people or options.objects is None:
+        looks["people"] = _people(options)
+    if options.objects is not None:
+        looks["objects"] = _objects(options)
+    return looks
+
+
+def _people(options: argparse.Namespace) -> Look:
+    from hri.vision.detectors.detector_choice import load_detectors
+    from hri.vision.tracking.people import PeopleTracker
+
+    detectors = load_detectors(options.detector)
+    for problem in detectors.problems:
+        print(problem, file=sys.stderr)
+    view = _view(options)
+
+    def look(still: StillImage) -> list[Row]:
+        tracker = PeopleTracker(detectors, view)
+        found: list[FoundFace] = []
+        for number in range(SEARCHES):
+            seen = tracker.see(Frame(still.image, EVERY * number, number))
+            found += detectors.finder.find(still.image, number)
+        persons = [person for person in seen.persons if person.is_visible]
+        rows = [_person_row(still, person, _confidence(person, found)) for person in persons]
+        return rows + _bodies(still, persons, view)
+
+    return look
+
+
+def _confidence(person: Person, found: Iterable[FoundFace]) -> float:
+    """How sure the detector was of the face, 0 to 1."""
+    box = person.pose.box
+    return max((face.score for face in found if box and is_same(face.box, box)), default=0.0)
+
+
+def _bodies(still: StillImage, persons: Iterable[Person], view: Any) -> list[Row]:
+    """Those whose face is not seen."""
+    from hri.vision.detectors.body import find_bodies
+
+    faces = [person.pose.box for person in persons]
+    height, width = still.image.shape[:2]
+    rows = []
+    for box, confidence in find_bodies(still.image):
+        if any(_has_inside(box, face) for face in faces if face is not None):
+            continue
+        distance = view.focal_length((width, height)) * BODY_HEIGHT / box.height
+        rows.append(
+            _box_row(still, box)
+            | {
+                "distance_m": round(distance, 3),
+                "yaw_deg": None,
+                "pitch_deg": None,
+                "roll_deg": None,
+                "confidence": round(confidence, 3),
+            }
+        )
+    return rows
+
+
+def _has_inside(body: FaceBox, face: FaceBox) -> bool:
+    x, y = face.x + face.width / 2, face.y + face.height / 2
+    return body.x <= x <= body.x + body.width and body.y <= y <= body.y + body.height
+
+
+def _objects(options: argparse.Namespace) -> Look:
+    from hri.vision.objects.model_file import find_models, load_models
+    from hri.vision.objects.recognizer import ObjectRecognizer
+
+    recognizer = ObjectRecognizer(load_models(find_models(options.objects)), _view(options))
+    return lambda still: object_rows(still, recognizer.recognize(still.image))
+
+
+def _view(options: argparse.Namespace) -> Any:
+    from hri.vision.camera_view import CameraView
+
+    return CameraView() if options.view is None else CameraView(math.radians(options.view))
+
+
+def object_rows(still: StillImage, found: Iterable[FoundObject]) -> list[Row]:
+    """The objects of a picture for JSON, in pixels of the picture as it is stored."""
+    return [
+        {
+            "name": one.name,
+            **_point(still, one.x, one.y),
+            "outline": [[*_point(still, x, y).values()] for x, y in one.outline],
+            "distance_m": _number(one.distance),
+            "confidence": round(one.confidence, 3),
+        }
+        for one in found
+    ]
+
+
+def _person_row(still: StillImage, person: Person, confidence: float) -> Row:
+    pose = person.pose
+    assert pose.box is not None
+    # Only the mesh shows how a head is turned.
+    angles = (pose.yaw, pose.pitch, pose.roll) if person.landmarks is not None else (math.nan,) * 3
+    yaw, pitch, roll = (_number(math.degrees(angle), 1) for angle in angles)
+    return _box_row(still, pose.box) | {
+        "distance_m": _number(person.distance),
+        "yaw_deg": yaw,
+        "pitch_deg": pitch,
+        "roll_deg": roll,
+        "confidence": _number(min(1.0, confidence)),
+    }
+
+
+def _box_row(still: StillImage, box: FaceBox) -> Row:
+    """A box of the upright picture in that which is stored."""
+    corners = [still.stored(box.x, box.y), still.stored(box.x + box.width, box.y + box.height)]
+    (left, right), (top, bottom) = (sorted(axis) for axis in zip(*corners, strict=True))
+    return {
+        "x": round(left, 1),
+        "y": round(top, 1),
+        "width": round(right - left, 1),
+        "height": round(bottom - top, 1),
+    }
+
+
+def _point(still: StillImage, x: float, y: float) -> Row:
+    across, down = still.stored(x, y)
+    return {"x": round(across, 1), "y": round(down, 1)}
+
+
+def _number(value: float, digits: int = 3) -> float | None:
+    """JSON has neither NaN nor infinity."""
+    return round(value, digits) if math.isfinite(value) else None
+
+
+def _line(row: Row) -> str:
+    """The same for people to read."""
+    parts = [f"{len(found)} {what}" for what, found in row.items() if isinstance(found, list)]
+    names = [one["name"] for one in row.get("objects", ())]
+    told = f" ({', '.join(names)})" if names else ""
+    return f"{row['file']}: {row.get('error') or ', '.join(parts) + told}"
+
+
+def check(options: argparse.Namespace) -> None:
+    """Raise HriError for options that go with pictures of a camera alone."""
+    for name in ("out", "video", "images", "camera"):
+        if getattr(options, name) is not None:
+            raise HriError(f"--{name} and --stills - give one of them")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("--stills", nargs="+", type=Path, metavar="FILE", help="look at pictures one by one")
+    add("--people", action="store_true", help="of --stills: report people (without --objects, too)")
+    add("--json", action="store_true", help="of --stills: one JSON object a picture")
