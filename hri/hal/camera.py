@@ -105,6 +105,9 @@ class Camera(Resource):
         self._watch(now, frame is not None)
         return frame
 
+    def look_ahead(self, is_ahead: bool) -> None:
+        """Ask a camera on a neck to look straight ahead, not at people; others always do."""
+
     def take(self, timeout: float = 5.0) -> Any:
         """Wait for the next picture, a Frame; in a task it is awaited: `await camera.take()`.
 

@@ -16,11 +16,16 @@ from hri.simulation.world_file import Item
 class Sighting:
     """An object in the picture."""
 
-    name: str
+    item: Item
     distance: float
     """Meters from the camera."""
     bearing: float
     """Radians from where the camera looks to the left."""
+
+    @property
+    def name(self) -> str:
+        """Of the object."""
+        return self.item.name
 
 
 def seen(items: Iterable[Item], room: Room, camera: Pose2D, field_of_view: float) -> list[Sighting]:
@@ -32,5 +37,5 @@ def seen(items: Iterable[Item], room: Room, camera: Pose2D, field_of_view: float
         if abs(bearing) <= field_of_view / 2:
             free = room.cast(camera.x, camera.y, camera.heading + bearing)
             if float(free) >= distance:
-                found.append(Sighting(item.name, distance, bearing))
+                found.append(Sighting(item, distance, bearing))
     return sorted(found, key=lambda sighting: sighting.distance)

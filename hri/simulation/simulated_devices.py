@@ -22,9 +22,10 @@ from hri.hal.motion import Way
 from hri.hal.moving_base import MovingBase
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Description
+from hri.simulation import things
 from hri.simulation.acoustics import RATE, Source
 from hri.simulation.in_world import InWorld, world_id
-from hri.simulation.people.actors import Appearance, Optics, render_people
+from hri.simulation.people.actors import Appearance, Drawable, Optics, render_people
 from hri.simulation.people.lens import Lens
 from hri.simulation.people.person import SimulatedPerson
 
@@ -269,14 +270,9 @@ class SimulatedRangeSensor(InWorld, RangeSensor):
         return float(self._errors[round(now * 1000) % len(self._errors)])
 
 
-class DrawnFrame(Frame):
-    """A picture of the simulated world: what is in it, the world knows."""
-
-    __slots__ = ()
-
-
 class SimulatedCamera(InWorld, Camera):
-    """Looks at the first person's face, from a neck that follows the place where they stand.
+    """Looks at the first person's face, from a neck that follows the place where they stand, or
+    ahead when `look_ahead` asks for that.
 
     `hres` and `vres` are the size of the picture in the files of 2003; `width` and `height` win.
     The others of `CAMERA` and `LENS` are the camera and its faults.
@@ -297,6 +293,7 @@ class SimulatedCamera(InWorld, Camera):
         self._optics = Optics(self.width, self.height, self.field_of_view)
         self._lens = Lens(**_faults(self.description), seed=self.world.seed_for(self.id))
         self._given = math.floor(self.manager.clock.now() * self._rate) - 1
+        self._is_ahead = False
         # Drawing takes many milliseconds, which the loop does not have. In fake time a picture is
         # there at once, as if a camera had taken it.
         self._worker: Worker[Frame] = self.manager.clock.worker(0.0)
@@ -305,8 +302,13 @@ class SimulatedCamera(InWorld, Camera):
         self._worker.close()
         super()._close()
 
+    def look_ahead(self, is_ahead: bool) -> None:
+        self._is_ahead = is_ahead
+
     def pan(self, now: float) -> float:
-        return self.world.bearing_of(self.world.person, now) if self.world.people else 0.0
+        if self._is_ahead or not self.world.people:
+            return 0.0
+        return self.world.bearing_of(self.world.person, now)
 
     def _read(self, now: float) -> Frame | None:
         drawn = self._worker.poll()
@@ -319,12 +321,18 @@ class SimulatedCamera(InWorld, Camera):
         return drawn[-1] if drawn else None
 
     def _picture(self, sequence: int) -> Callable[[], Frame]:
-        """What draws a picture of the people as they are now."""
+        """What draws a picture of the people and things as they are now."""
         time = sequence / self._rate
         there = (person for person in self.world.people if person.is_present(time))
-        shown = [looks for person in there if (looks := self._appearance(person, time))]
+        shown: list[Drawable] = [
+            looks for person in there if (looks := self._appearance(person, time))
+        ]
+        breadth = self.field_of_view + 2 * things.BEYOND
+        for sighting in self.world.seen_items(self.pan(time), breadth, time):
+            if (thing := things.appearance(sighting, self._optics)) is not None:
+                shown.append(thing)
         size, lens = self._optics.size, self._lens
-        return lambda: DrawnFrame(lens.take(render_people(shown, size), sequence), time, sequence)
+        return lambda: Frame(lens.take(render_people(shown, size), sequence), time, sequence)
 
     def _appearance(self, person: SimulatedPerson, time: float) -> Appearance | None:
         """How someone looks in the picture; None for who is beside or behind the camera."""

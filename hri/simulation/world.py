@@ -10,13 +10,13 @@ from __future__ import annotations
 import math
 import os
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from hri.core import registry
 from hri.core.errors import HriError, NotAvailable, did_you_mean
 from hri.core.geometry import seen_from
-from hri.core.signals import Twist
+from hri.core.signals import Pose2D, Twist
 from hri.hal.resource import Description, Resource
 from hri.hal.synthesizer import Synthesizer
 from hri.simulation.acoustics import Sound
@@ -211,14 +211,22 @@ class SimulatedWorld(Resource):
         self.advance(now)
         return self.beams.length(number, self._room_at(now), self.base.pose)
 
-    def place(self, name: str, x: float, y: float) -> None:
-        """Put an object somewhere in the room, in meters; one of that name moves there."""
-        self._items[name] = Item(name, x, y)
+    def place(self, name: str, x: float, y: float, color: str = "") -> None:
+        """Put an object somewhere in the room, in meters; one of that name moves there.
 
-    def seen_items(self, field_of_view: float, now: float) -> list[Sighting]:
-        """The objects that a camera sees that looks ahead from the middle of the base."""
+        A new one has a label with its name, or is a ball with a color of `world_file.COLORS`.
+        """
+        known = self._items.get(name, Item(name, x, y, color=color))
+        self._items[name] = replace(known, x=x, y=y)
+
+    def seen_items(self, pan: float, field_of_view: float, now: float) -> list[Sighting]:
+        """The objects that a camera sees that is turned to the left in the middle of the base."""
+        if not self._items:
+            return []
         self.advance(now)
-        return seen(self._items.values(), self._room_at(now), self.base.pose, field_of_view)
+        pose = self.base.pose
+        camera = Pose2D(pose.x, pose.y, pose.heading + pan)
+        return seen(self._items.values(), self._room_at(now), camera, field_of_view)
 
     def release(self) -> None:
         """Does nothing: the world goes on until the manager closes."""

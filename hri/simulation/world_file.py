@@ -3,24 +3,35 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from hri.core import paths
-from hri.core.errors import Place
+from hri.core.errors import Place, did_you_mean
 from hri.core.signals import Pose2D
 from hri.core.toml import Table, load_toml
+from hri.hal.drivers.image_size import picture_size
 from hri.simulation.people.actors import ACTORS
 from hri.simulation.people.looks import DEFAULT_ACTOR
 from hri.simulation.people.person import RADIUS
 from hri.simulation.room import Box, Circle, Obstacle, Room, Wall
+from hri.vision.objects.printed_label import WIDTH
 
 KIND = "config/worlds"
 MOST_OBSTACLES = 500
 MOST_PEOPLE = 8
 CLEAR_VOICE, CLEAR_RATE = "en-us+m5", 125.0
 """The voice and words a minute that were heard best of 18 that were tried."""
+COLORS: Mapping[str, tuple[int, int, int]] = {
+    "red": (205, 38, 34),
+    "green": (40, 150, 60),
+    "blue": (36, 84, 190),
+    "yellow": (232, 200, 40),
+    "orange": (235, 128, 30),
+    "purple": (126, 52, 150),
+}
+"""Of balls: red, green, blue."""
 _FARTHEST = 100.0
 _SMALLEST = 0.01
 
@@ -60,6 +71,12 @@ class Item:
     name: str
     x: float
     y: float
+    width: float = WIDTH
+    """Meters."""
+    picture: Path | None = None
+    """What it looks like; without one it has a label with its name."""
+    color: str = ""
+    """Of a ball, a key of `COLORS`; a thing that is not a ball has none."""
 
 
 @dataclass(frozen=True)
@@ -115,9 +132,16 @@ def _obstacles(root: Table) -> list[Obstacle]:
 
 def _item(table: Table) -> Item:
     x, y = _point(table, "at")
-    item = Item(str(table.string("name")), x, y)
+    name, picture = str(table.string("name")), str(table.string("picture", ""))
+    width = float(table.number("width", WIDTH, minimum=_SMALLEST, maximum=3.0))
+    color = str(table.string("color", ""))
+    if color and color not in COLORS:
+        raise table.error("color", f'unknown color "{color}"', did_you_mean(color, COLORS))
+    path = table.place("picture").path.parent / picture if picture else None
+    if path is not None and picture_size(path) is None:
+        raise table.error("picture", f"{path} is not a picture", "name a JPEG or PNG beside it")
     table.finish()
-    return item
+    return Item(name, x, y, width, path, color)
 
 
 def _drop(table: Table) -> Circle:

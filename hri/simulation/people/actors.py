@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import Protocol
 
 from hri.core.signals import Image
 from hri.simulation.people.backdrop import back_hair, body, room
@@ -117,6 +118,17 @@ class Appearance:
     brows: float = 0.0
     """-1 drawn together and down, 0 at rest, 1 raised."""
 
+    def paint(self, image: Image) -> None:
+        """Draw them into a picture."""
+        looks, scale = ACTORS[self.actor], self.height / 2
+        if looks.hair_length:
+            # It hangs on the head, so it swings to the side where the face does not look.
+            x = self.center[0] - 0.25 * scale * math.sin(self.yaw)
+            back_hair(looks).on(image, (x, self.center[1]), scale, self.roll)
+        body(looks).on(image, self.center, scale, 0.0)
+        mien = Mien.of(self.mouth, self.lids, self.smile, self.brows)
+        paint_head(image, looks, mien, (self.pitch, self.yaw, self.roll), self.center, self.height)
+
 
 HEAD_HEIGHT = 0.24
 """Meters from chin to crown, of an adult."""
@@ -162,22 +174,26 @@ class Optics:
         )
 
 
+class Drawable(Protocol):
+    """What can stand in a picture."""
+
+    @property
+    def height(self) -> float:
+        """Of a head at its distance, pixels: what is smaller is farther away."""
+
+    def paint(self, image: Image) -> None:
+        """Draw it into a picture."""
+
+
 def render_people(
-    appearances: Iterable[Appearance], size: tuple[int, int] = (320, 240), scene: int = 0
+    appearances: Iterable[Drawable], size: tuple[int, int] = (320, 240), scene: int = 0
 ) -> Image:
-    """The picture of these people in a room, the far ones first; the same for the same arguments.
+    """The picture of people, and things, in a room, the far ones first; the same for the same
+    arguments.
 
     `size` is width and height; each number of a `scene` is another room.
     """
     image = room(size, scene).copy()
     for shown in sorted(appearances, key=lambda shown: shown.height):
-        looks, scale = ACTORS[shown.actor], shown.height / 2
-        if looks.hair_length:
-            # It hangs on the head, so it swings to the side where the face does not look.
-            x = shown.center[0] - 0.25 * scale * math.sin(shown.yaw)
-            back_hair(looks).on(image, (x, shown.center[1]), scale, shown.roll)
-        body(looks).on(image, shown.center, scale, 0.0)
-        mien = Mien.of(shown.mouth, shown.lids, shown.smile, shown.brows)
-        angles = (shown.pitch, shown.yaw, shown.roll)
-        paint_head(image, looks, mien, angles, shown.center, shown.height)
+        shown.paint(image)
     return image

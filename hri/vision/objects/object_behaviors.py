@@ -39,7 +39,8 @@ class ObjRecRecognizer(Behavior):
     only = Param("", "name of the one object to look for; empty looks for all of them")
     camera_id = Param("camera", "id of the camera that takes the pictures; its pose is used")
     features = Param(SIFT, "of a list of names; orb is for weak machines", among=(SIFT, ORB))
-    latency = Param(0.1, "seconds that it takes on a fake clock", minimum=0, maximum=1)
+    looks_ahead = Param(True, "whether a camera on a neck looks ahead, not at people")
+    latency = Param(0.05, "seconds that it takes on a fake clock", minimum=0, maximum=1)
 
     image = Input[Frame]("image", "pictures; the newest is seen when there is no time for all")
     objects = Output[Objects]("objects", "all that were recognized, once for each picture seen")
@@ -65,6 +66,8 @@ class ObjRecRecognizer(Behavior):
             view = CameraView.of(self._camera) if self._camera else CameraView()
             if self.field_of_view:
                 view = replace(view, field_of_view=self.field_of_view)
+            if self._camera is not None and self.looks_ahead:
+                self._camera.look_ahead(True)
             self._service: Service[Frame, Objects] = context.clock.service(
                 replace(self._recognizing, view=view), self.latency
             )
@@ -104,6 +107,8 @@ class ObjRecRecognizer(Behavior):
 
     def _give_back(self) -> None:
         if self._camera is not None:
+            if self.looks_ahead:
+                self._camera.look_ahead(False)
             self._resources.release(self._camera)
             self._camera = None
 

@@ -16,7 +16,7 @@ from hri.core.signals import Image
 
 SIZE = 240
 """Pixels, width and height of a label."""
-WIDTH = 0.2
+WIDTH = 0.3
 """Meters, of the thing it stands for."""
 SHAPES = 40
 MARGIN = 12
