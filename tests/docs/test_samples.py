@@ -227,10 +227,10 @@ def test_the_recognized_object_is_followed_around(simulated):
 @pytest.mark.proves("P08")
 def test_the_objects_of_the_model_set_are_recognized_and_no_others(monkeypatch, capsys):
     monkeypatch.setenv("HRI_PATH", str(SAMPLES / "objrec"))
-    options = ["--config", str(SAMPLES / "objrec/resource-config.xml"), "--fast", "--duration=0.4"]
+    options = ["--config", str(SAMPLES / "objrec/resource-config.xml"), "--fast", "--duration=0.5"]
     assert behave.main([str(SAMPLES / "objrec/recognize.xml"), *options]) == 0
     names = re.findall(r"Input seen  string: (\w+)", capsys.readouterr().out)
-    assert names == ["apple", "pear"] * 2
+    assert names in (["apple", "pear"] * 2, ["pear", "apple"] * 2)
 
 
 @pytest.mark.proves("P08")

@@ -49,6 +49,13 @@ def test_a_world_file_says_where_objects_are(tmp_path) -> None:
     path.write_text(head + "at = [1, 2]\n")
     with pytest.raises(AuthoringError, match='"name" is missing'):
         load_layout(path)
-    path.write_text(head + 'name = "cup"\nat = [1, 2]\ncolor = "red"\n')
-    with pytest.raises(AuthoringError, match='unknown key "color"'):
-        load_layout(path)
+    path.write_text(head + 'name = "cup"\nat = [1, 2]\nwidth = 0.1\ncolor = "red"\n')
+    assert load_layout(path).items == (Item("cup", 1.0, 2.0, 0.1, None, "red"),)
+    for line, error in (
+        ('color = "rde"', 'unknown color "rde" - did you mean "red"'),
+        ('picture = "junk.png"', r"junk\.png is not a picture - name a JPEG or PNG"),
+        ("size = 1", 'unknown key "size"'),
+    ):
+        path.write_text(head + f'name = "cup"\nat = [1, 2]\n{line}\n')
+        with pytest.raises(AuthoringError, match=error):
+            load_layout(path)

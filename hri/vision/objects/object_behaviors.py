@@ -117,13 +117,14 @@ class ObjRecRecognizer(Behavior):
         self.objects.send(objects)
         come, gone = self._presence.update(objects)
         for one in come:
-            known = {} if math.isnan(one.distance) else {"distance": round(one.distance, 2)}
+            more = {} if math.isnan(one.distance) else {"distance": round(one.distance, 2)}
             self._events.raise_event(
-                "object.seen", object=one.name, bearing=round(one.bearing, 3), **known
+                "object.seen", object=one.name, bearing=round(one.bearing, 3), **more
             )
         self._raise_lost(gone)
         if objects.found:
-            self._send(objects.found[self._turn % len(objects.found)])
+            known = sorted(objects.found, key=lambda one: one.name)
+            self._send(known[self._turn % len(known)])
             self._turn += 1
 
     def _raise_lost(self, names: list[str]) -> None:

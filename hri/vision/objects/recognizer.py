@@ -46,6 +46,8 @@ LARGEST = 6.0
 """Times as wide as the picture; a wider one is not believed."""
 PLAIN = 4.0
 """Levels of gray; with less contrast two pictures cannot be compared."""
+LEAST_VISIBLE = 0.2
+"""Part of an object that must be within the picture."""
 COMPARED = 160
 """Pixels, longer side of the pictures that are compared."""
 
@@ -239,10 +241,16 @@ def _likeness(view: View, homography: Homography, image: Image) -> float:
     shrunk = min(COMPARED, side) / max(height, width)
     scale = np.diag((shrunk, shrunk, 1.0))
     size = max(8, round(width * shrunk)), max(8, round(height * shrunk))
-    there = cv2.warpPerspective(image, scale @ np.linalg.inv(homography), size)
+    way = scale @ np.linalg.inv(homography)
+    there = cv2.warpPerspective(image, way, size)
+    visible = cv2.warpPerspective(np.full(image.shape[:2], 255, np.uint8), way, size)
     known = cv2.resize(view.picture, size, interpolation=cv2.INTER_AREA)
     mask = np.zeros(size[::-1], np.uint8)
     cv2.fillPoly(mask, [np.rint(view.outline * shrunk).astype(np.int32)], 255)
+    whole = np.count_nonzero(mask)
+    mask &= visible
+    if np.count_nonzero(mask) < LEAST_VISIBLE * whole:
+        return 0.0
     one, other = (
         cv2.GaussianBlur(cv2.cvtColor(each, cv2.COLOR_RGB2GRAY), (0, 0), 1.5)[mask > 0].astype(
             float
