@@ -2,11 +2,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hri.simulation.behaviors import ObjRecRecognizer
 
 from hri.core.errors import HriError
 from hri.core.signals import Frame
 from hri.hal.resource import Description
-from hri.simulation.behaviors import ObjRecRecognizer
 from hri.simulation.simulated_devices import DrawnFrame
 from hri.simulation.world import SimulatedWorld
 from hri.testing import context
