@@ -1,4 +1,4 @@
-"""`hri object split`: some objects of a set in a file of their own."""
+"""`hri object split`: some objects of a set in a separate file."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ EVEN = 12.0
 DIFFERENT = 28
 """Levels of a color by which a pixel is not the background's."""
 SMALLEST, LARGEST = 0.01, 0.95
-"""Parts of the picture; what is smaller or larger is no outline."""
+"""Parts of the picture; what is smaller or larger is not an outline."""
 CORNER = 0.006
 """How far an outline may be simplified, as a part of its length."""
 COARSE = 160

@@ -29,7 +29,7 @@ KD_FOREST, LSH_INDEX = 1, 6
 RATIO = {SIFT: 0.85, ORB: 0.85}
 """A match counts when the best of another object is farther by this factor."""
 FARTHEST = {SIFT: 0.5, ORB: 64}
-"""A match is no farther: distance of two vectors of length 1, or differing bits of 256."""
+"""The largest distance of a match: of two vectors of length 1, or differing bits of 256."""
 NOBODY = -1
 """Owner of the decoys."""
 SEED = 20_040_101

@@ -91,8 +91,8 @@ class ObjectLearner:
     """Collects the views of one object."""
 
     def __init__(self, name: str, others: ModelSet) -> None:
-        """`others` are the objects that it must be told from; one of the same name does not
-        count.
+        """`others` are the objects that it must be distinguished from; one of the same
+        name does not count.
         """
         self._name, self._method = name, others.method
         self._others = ObjectRecognizer(others.without(name))
@@ -133,7 +133,7 @@ class ObjectLearner:
 
 
 def scale_from_width(outline: Outline, width: float) -> float:
-    """Meters to a pixel of an object whose outline is so many meters wide."""
+    """Meters to a pixel of an object whose outline is this many meters wide."""
     return width / max(1.0, float(np.ptp(outline[:, 0])))
 
 

@@ -7,13 +7,13 @@ from collections import deque
 from hri.core.signals import FoundObject, Objects
 
 SEEN_IN, OF_PICTURES = 2, 3
-"""An object has come when it is found in so many of so many pictures in a row."""
+"""An object has come when it is found in this many of this many pictures in a row."""
 MEMORY = 2.0
 """Seconds after which an object that is not found again is gone."""
 
 
 class ObjectPresence:
-    """Tells what comes and goes from what is found in picture after picture."""
+    """Reports what comes and goes from what is found in picture after picture."""
 
     def __init__(self) -> None:
         self._recent: deque[frozenset[str]] = deque(maxlen=OF_PICTURES)

@@ -29,7 +29,7 @@ LEAST_FOR_PLANE = 8
 ALIKE = 0.75
 """Correlation with the learned picture that is enough, by chance never reached; ..."""
 SURE_INLIERS, SURELY_ALIKE = 16, 0.4
-"""... with so many features that agree, a part of the object may be hidden."""
+"""... with this many features that agree, a part of the object may be hidden."""
 MOST_VIEWS = 12
 """Views that are looked at closer in one picture."""
 MOST_OBJECTS = 20

@@ -1,0 +1,1 @@
+"""Colors learned from pictures, and the blobs that have them."""

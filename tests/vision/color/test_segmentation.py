@@ -1,0 +1,74 @@
+import cv2
+import numpy as np
+import pytest
+
+from hri.core.errors import HriError
+from hri.vision.color.color_mixture import chroma, fit, ratio_table
+from hri.vision.color.segmentation import segment
+
+RED, BLUE, GRAY = (200, 30, 30), (30, 40, 200), (120, 120, 110)
+
+
+def drawn(*balls, size=(320, 240), seed=1):
+    """A noisy gray room with balls: color, center and radius."""
+    image = np.full((size[1], size[0], 3), GRAY, np.uint8)
+    for color, center, radius in balls:
+        cv2.circle(image, center, radius, color, -1)
+    noise = np.random.default_rng(seed).normal(0, 4, image.shape)
+    return np.clip(image + noise, 0, 255).astype(np.uint8)
+
+
+def samples(color):
+    image = np.full((40, 40, 3), color, np.uint8)
+    noise = np.random.default_rng(7).normal(0, 4, image.shape)
+    return chroma(np.clip(image + noise, 0, 255).astype(np.uint8)).reshape(-1, 2).astype(float)
+
+
+@pytest.fixture(scope="module")
+def tables():
+    background = fit(samples(GRAY), 2)
+    return {
+        name: ratio_table(fit(samples(color), 2), background)
+        for name, color in (("red", RED), ("blue", BLUE))
+    }
+
+
+def test_blobs_of_several_colors_have_place_and_size(tables):
+    image = drawn((RED, (80, 100), 30), (BLUE, (230, 60), 20))
+    red, blue = segment(image, tables)
+    assert (red.name, blue.name) == ("red", "blue"), "the largest comes first"
+    assert (red.x, red.y) == pytest.approx((80, 100), abs=1)
+    assert red.area == pytest.approx(np.pi * 30**2, rel=0.05)
+    assert red.box[2:] == pytest.approx((61, 61), abs=2)
+    assert (blue.x, blue.y) == pytest.approx((230, 60), abs=1)
+
+
+def test_an_empty_room_has_no_blobs(tables):
+    assert segment(drawn(), tables) == ()
+
+
+@pytest.mark.parametrize("size", [(1, 1), (33, 17), (1, 50)])
+def test_a_black_picture_of_any_size_has_no_blobs(tables, size):
+    assert segment(np.zeros((*size, 3), np.uint8), tables) == ()
+
+
+def test_the_same_seed_gives_the_same_mixture():
+    pixels = samples(RED)
+    assert np.array_equal(fit(pixels, 3, seed=5).means, fit(pixels, 3, seed=5).means)
+
+
+def test_a_mixture_finds_two_colors():
+    both = np.vstack([samples(RED), samples(BLUE)])
+    means = sorted(fit(both, 2).means.tolist())
+    expected = sorted([samples(RED).mean(axis=0).tolist(), samples(BLUE).mean(axis=0).tolist()])
+    assert np.allclose(means, expected, atol=2)
+
+
+def test_one_color_everywhere_can_be_fitted():
+    mixture = fit(np.full((100, 2), 128.0), 3)
+    assert np.allclose(mixture.means, 128.0)
+
+
+def test_too_few_pixels_are_refused():
+    with pytest.raises(HriError, match="draw a larger box"):
+        fit(np.zeros((3, 2)), 2)
