@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 
-from benchmarks.vision import cross_validation, crossing, nods, pose, recordings, videos
+from benchmarks.vision import cross_validation, crossing, nods, objects, pose, recordings, videos
 from hri.bench.table import Parts
 
 WORKERS = max(1, os.cpu_count() or 1)
@@ -15,6 +15,7 @@ PARTS: Parts = {
     "pose": pose.rows,
     "crossing": lambda quick: crossing.rows(quick, WORKERS),
     "nods": lambda quick: nods.rows(quick, WORKERS),
+    "objects": objects.rows,
     "films": lambda quick: videos.rows(quick, WORKERS),
 }
 """What `hri bench vision` measures in a checkout beside its own, in the order of the table."""

@@ -25,6 +25,8 @@ from hri.hal import choices
 from hri.robot.recording import BY_DATE, RECORDINGS, parts
 from hri.speech.pronunciation.guesses import GUESSES
 from hri.speech.pronunciation.lexicon import user_lexicon
+from hri.vision.objects.model_file import load_models, save_models
+from hri.vision.objects.object_model import ObjectModel
 from hri.vision.tracking.face_recognition import Acquaintances
 
 
@@ -183,6 +185,33 @@ class Devices(Kept):
         choices.save_choices(rest)
 
 
+class Objects(Kept):
+    """Objects that were shown, with cutouts of pictures; one may bear the name of whose it is."""
+
+    about = "objects that you taught"
+
+    def places(self) -> list[Path]:
+        return noted("objects")
+
+    def needs_yes(self, person: str | None) -> bool:
+        return person is None
+
+    def concerns(self, place: Path, person: str) -> bool:
+        return _mentions(place, person)  # the names stand in the file as they are
+
+    def forget(self, place: Path, person: str) -> None:
+        """The objects named so, and those from files named so; all when it cannot be used."""
+        try:
+            models = load_models(place)
+        except HriError:
+            self.delete(place)
+            return
+        for one in models.objects:
+            if _is_object_of(person, one):
+                models = models.without(one.name)
+        save_models(place, models)
+
+
 class Recordings(Kept):
     """Folders of recordings, wherever they are."""
 
@@ -231,7 +260,8 @@ class Pictures(Kept):
 
 
 KEPT: tuple[Kept, ...] = (
-    Feelings(), Faces(), LookedUpWords(), OwnWords(), Devices(), Recordings(), Pictures(),
+    Feelings(), Faces(), LookedUpWords(), OwnWords(), Devices(), Objects(), Recordings(),
+    Pictures(),
 )  # fmt: skip
 """The one list. What the program begins to keep about people is added here."""
 
@@ -289,6 +319,12 @@ def _is_of(person: str, line: str) -> bool:
     """Whether a line of a lexicon is for one of the names of a person, or a comment has it."""
     word = line if line.startswith(("#", ";")) else line.partition("\t")[0].split(" ")[0]
     return any(is_named(name, word) for name in person.split())
+
+
+def _is_object_of(person: str, model: ObjectModel) -> bool:
+    """Whether its name, or that of a file it was learned from, has the name of a person."""
+    texts = (model.name, *(view.source for view in model.views))
+    return any(is_named(person, text) for text in texts)
 
 
 def _mentions(file: Path, person: str) -> bool:

@@ -21,7 +21,9 @@ from hri.emotion.persistence import Memory, keep, memory_file, recall
 from hri.hal.choices import choices_file, save_choices
 from hri.hal.drivers.image_size import write_picture
 from hri.robot import kept
+from hri.vision.objects.model_file import load_models, own_models, save_models
 from hri.vision.tracking.face_recognition import Acquaintances
+from tests.vision.objects.pictures import learned
 
 ANNA = "Quillobrand"
 """No dictionary knows how she is said."""
@@ -103,6 +105,7 @@ def live(home, authored):
     assert main(["grammar", "pronounce", ANNA, "--add", "K W IH L"]) == 0
     assert main(["grammar", "pronounce", BEN, "--add", "W EH K S"]) == 0
     save_choices({"microphone": f"Headset of {ANNA}", "speaker": "USB"})
+    save_models(own_models(), learned(f"{ANNA}'s cup", "key"))
 
 
 @pytest.mark.proves("R11")
@@ -117,7 +120,7 @@ def test_nothing_of_who_was_forgotten_is_in_any_file_that_the_program_wrote(
     out = home / "out"
     kept_of_her = {
         "feelings.json", "feelings.json.new", "feelings.unusable-1.json", "faces.json",
-        "events.jsonl", "guessed-words-2.txt", "lexicon.txt", "devices.toml",
+        "events.jsonl", "guessed-words-2.txt", "lexicon.txt", "devices.toml", "objects.mdl",
     }  # fmt: skip
     assert holding(home, ANNA) == kept_of_her
     assert open_to_others(home) == set()
@@ -131,6 +134,7 @@ def test_nothing_of_who_was_forgotten_is_in_any_file_that_the_program_wrote(
     assert not out.exists()
     assert not whereabouts_file().exists() or str(out) not in whereabouts_file().read_text()
     assert BEN in recall(memory_file()).imprint.relations
+    assert [one.name for one in load_models(own_models()).objects] == ["key"]
     assert holding(home, BEN) == {"feelings.json", "lexicon.txt"}
 
     assert main(["emotion", "forget", "--yes"]) == 0
@@ -220,6 +224,8 @@ def test_what_cannot_be_read_keeps_nothing_else_from_being_forgotten(home, capsy
     memory_file().write_text(f'{{"damaged": "{ANNA}')
     (home / "faces.json").write_text(f'["{ANNA}"')
     note("faces", home / "faces.json")
+    save_models(own_models(), learned(f"{ANNA}'s cup"))
+    own_models().write_bytes(own_models().read_bytes()[:-100])
     a_recording(home / "out", f"\n{ANNA}\n")
     assert forget(ANNA, "--yes") == 0
     assert holding(home, ANNA) == set()

@@ -7,6 +7,7 @@ import argparse
 from hri.cli.object.options import add_set, loaded
 from hri.cli.terminal.progress_line import progress
 from hri.vision.objects.learning import LEAST_FEATURES
+from hri.vision.objects.object_model import ModelSet, ObjectModel
 from hri.vision.objects.recognizer import ObjectRecognizer
 
 
@@ -23,10 +24,21 @@ def run(options: argparse.Namespace) -> int:
         features = max(len(view.features) for view in model.views)
         if features < LEAST_FEATURES:
             problems.append(f"{model.name}: too plain, {features} features - show it nearer")
-        taken = {found.name for view in model.views for found in recognizer.recognize(view.picture)}
-        for other in sorted(taken - {model.name}):
+        for other in sorted(_lookalikes(model, models, recognizer)):
             problems.append(
                 f'{model.name}: looks like "{other}" - show what differs, or remove one'
             )
     print("\n".join(problems) or f"{len(models.objects)} objects, all told apart")
     return 1 if problems else 0
+
+
+def _lookalikes(model: ObjectModel, models: ModelSet, recognizer: ObjectRecognizer) -> set[str]:
+    """The others that it is taken for."""
+    names = _names(model, recognizer)
+    if model.name not in names:  # two that are the same are both not recognized
+        names |= _names(model, ObjectRecognizer(models.without(model.name)))
+    return names - {model.name}
+
+
+def _names(model: ObjectModel, recognizer: ObjectRecognizer) -> set[str]:
+    return {found.name for view in model.views for found in recognizer.recognize(view.picture)}

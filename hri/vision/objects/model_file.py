@@ -28,6 +28,7 @@ from hri.core.errors import HriError
 from hri.core.privacy import folder_for
 from hri.core.reading import opened, read_text
 from hri.core.signals import Image
+from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE, write_bytes
 from hri.vision.objects.cutout import whole
 from hri.vision.objects.learning import MOST_VIEWS, view_of
@@ -103,9 +104,10 @@ def save_models(path: Path, models: ModelSet) -> None:
             ]
             objects.append({"name": model.name, "learned": model.learned, "views": views})
         manifest = {"format": FORMAT, "method": models.method, "objects": objects}
-        _put(archive, MANIFEST, json.dumps(manifest, indent=1).encode())
+        _put(archive, MANIFEST, json.dumps(manifest, indent=1, ensure_ascii=False).encode())
     folder_for(path)
     write_bytes(path, buffer.getvalue(), PRIVATE)
+    note("objects", path)
 
 
 def _write_view(archive: zipfile.ZipFile, stem: str, view: View) -> dict[str, object]:

@@ -122,7 +122,6 @@ class ObjectRecognizer:
                 continue
             yield seen
             rest = ~_inside(features.points[queries], seen.outline)
-            rest &= ~np.isin(queries, queries[chosen])
             queries, entries = queries[rest], entries[rest]
 
     def _fitted(

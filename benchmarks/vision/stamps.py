@@ -1,0 +1,97 @@
+"""Pictures of things for the benches: the stamps of Tux Paint, cut out on transparent ground.
+
+Debian and its kin have them as the package `tuxpaint-stamps-default`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from hri.core.errors import NotAvailable
+from hri.core.signals import Image
+from hri.vision.objects.object_model import Outline
+
+FOLDER = Path("/usr/share/tuxpaint/stamps")
+SIDE = 360
+"""Pixels, the longer side of a thing."""
+TEXTURED = 100
+"""Features of SIFT, as OpenCV sets it, from which a thing counts as textured."""
+SMALLEST = 48
+"""Pixels, the shorter side of a thing in its file."""
+ALIKE = ("_mirror", "money", "dreydl", "pig_golden2")
+"""In the names of files that show nearly the same as another: nobody could tell them apart."""
+SEED = 11
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stamp:
+    """A flat thing."""
+
+    name: str
+    picture: Image
+    """Uint8, [height, width, 3], RGB."""
+    mask: Image
+    """Uint8, [height, width]: 255 where the thing is."""
+
+    @property
+    def outline(self) -> Outline:
+        """That of its largest part."""
+        found, _ = cv2.findContours(
+            (self.mask > 127).astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE
+        )
+        corners = cv2.approxPolyDP(max(found, key=cv2.contourArea), 2.0, True)
+        return np.asarray(corners[:, 0], np.float32)
+
+
+def read_stamps() -> list[Stamp]:
+    """All that are textured and differ from each other, in an order of chance that stays the same.
+
+    Raises NotAvailable where the package is not installed.
+    """
+    paths = sorted(FOLDER.rglob("*.png"))
+    if not paths:
+        raise NotAvailable(f"no pictures in {FOLDER} - apt install tuxpaint-stamps-default")
+    sift = cv2.SIFT.create()
+    stamps = [
+        stamp
+        for path in paths
+        if not any(word in path.as_posix() for word in ALIKE)
+        and (stamp := _read(path)) is not None
+        and len(sift.detect(stamp.picture, stamp.mask)) >= TEXTURED
+    ]
+    return [stamps[index] for index in np.random.default_rng(SEED).permutation(len(stamps))]
+
+
+def _read(path: Path) -> Stamp | None:
+    """None for a picture without a transparent ground, or of a few pixels."""
+    read = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
+    if read is None or read.ndim != 3 or read.shape[2] != 4:
+        return None
+    left, top, width, height = cv2.boundingRect((read[..., 3] > 127).astype(np.uint8))
+    if min(width, height) < SMALLEST:
+        return None
+    scale = SIDE / max(width, height)
+    how = cv2.INTER_AREA if scale < 1 else cv2.INTER_CUBIC
+    cut = read[top : top + height, left : left + width]
+    cut = np.asarray(cv2.resize(cut, None, fx=scale, fy=scale, interpolation=how), np.uint8)
+    mask = np.array(cut[..., 3], np.uint8)
+    opaque = np.array(cut[..., 2::-1], np.uint8)
+    opaque[mask <= 127] = 127
+    return Stamp(path.relative_to(FOLDER).with_suffix("").as_posix(), opaque, mask)
+
+
+def generated(number: int, dice: np.random.Generator) -> Stamp:
+    """A card with shapes of all sizes and a number, where there are not enough pictures."""
+    card = np.full((SIDE, SIDE, 3), dice.integers(0, 256, 3), np.uint8)
+    for _ in range(60):
+        center, color = dice.integers(0, SIDE, 2), [int(part) for part in dice.integers(0, 256, 3)]
+        corners = center + dice.normal(0, min(90.0, 6 / dice.uniform(0.05, 1)), (5, 2))
+        cv2.fillPoly(card, [cv2.convexHull(corners.astype(np.int32))], color, cv2.LINE_AA)
+    cv2.putText(card, f"{number}", (30, 200), cv2.FONT_HERSHEY_DUPLEX, 3, (255, 255, 255), 5)
+    soft = np.asarray(cv2.GaussianBlur(card, (0, 0), 0.8), np.uint8)
+    whole: Image = np.full((SIDE, SIDE), 255, np.uint8)
+    return Stamp(f"card {number}", soft, whole)

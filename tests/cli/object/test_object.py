@@ -1,0 +1,150 @@
+"""`hri object`: objects are taught, listed, tested, and forgotten."""
+
+import json
+
+import cv2
+import numpy as np
+import pytest
+
+from hri.cli.main import main
+from hri.vision.objects.model_file import load_models, own_models, save_models
+from hri.vision.objects.printed_label import printed_label
+from tests.vision.objects.pictures import VIEW, learned, room, standing
+
+
+@pytest.fixture(autouse=True)
+def home(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOME", str(tmp_path))
+    for name in ("CONFIG", "CACHE", "STATE", "DATA"):
+        monkeypatch.delenv(f"XDG_{name}_HOME", raising=False)
+    return tmp_path
+
+
+def hri_object(*words):
+    return main(["object", *map(str, words)])
+
+
+def picture(path, image):
+    cv2.imwrite(str(path), image[..., ::-1])
+    return path
+
+
+@pytest.mark.proves("R08")
+def test_an_object_that_was_taught_by_pictures_is_recognized_with_its_distance(home, capsys):
+    front = picture(home / "front.png", printed_label("front"))
+    back = picture(home / "back.png", printed_label("back"))
+    assert hri_object("learn", "box", "--images", front, back, front, "--width", 30, "--whole") == 0
+    told = capsys.readouterr().out.splitlines()
+    assert [line.partition(": ")[2].partition(":")[0] for line in told[:3]] == [
+        "view 1", "view 2", "not kept",
+    ]  # fmt: skip
+    assert told[3] == f'learned "box" from 2 views: {own_models()}'
+    there = picture(home / "there.png", standing("back", 0.7))
+    words = ("--objects", own_models(), "--json", "--view", np.degrees(VIEW.field_of_view))
+    assert main(["watch", "--stills", str(there), *map(str, words)]) == 0
+    (found,) = json.loads(capsys.readouterr().out)["objects"]
+    assert found["name"] == "box"
+    assert found["distance_m"] == pytest.approx(0.7, rel=0.03)
+
+
+def test_a_folder_of_pictures_and_junk_is_refused_at_the_junk(home, capsys):
+    folder = home / "pictures"
+    folder.mkdir()
+    picture(folder / "a.png", printed_label("cup"))
+    (folder / "b.png").write_text("junk")
+    assert hri_object("learn", "cup", "--images", folder) == 2
+    assert "b.png: not a readable picture" in capsys.readouterr().err
+    assert not own_models().exists()
+
+
+def test_what_is_too_plain_is_not_learned(home, capsys):
+    wall = picture(home / "wall.png", np.full((300, 300, 3), 140, np.uint8))
+    assert hri_object("learn", "wall", "--images", wall) == 2
+    assert "no picture shows enough of it" in capsys.readouterr().err
+
+
+def test_a_look_alike_is_reported_while_it_is_shown(home, capsys):
+    save_models(own_models(), learned("cup"))
+    again = picture(home / "again.png", printed_label("cup"))
+    assert hri_object("learn", "mug", "--images", again, "--whole") == 0
+    assert 'looks like "cup"' in capsys.readouterr().out
+    assert hri_object("check") == 1
+    assert 'looks like "' in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", ["", "x" * 61, "two\nlines"])
+def test_a_name_that_cannot_be_is_refused(home, capsys, name):
+    path = picture(home / "a.png", printed_label("cup"))
+    assert hri_object("learn", name, "--images", path) == 2
+    assert "a name is a line of 1 to 60 printable characters" in capsys.readouterr().err
+
+
+def test_a_video_teaches_views_of_what_is_in_the_middle(home, capsys):
+    film = home / "film.mp4"
+    writer = cv2.VideoWriter(str(film), cv2.VideoWriter.fourcc(*"mp4v"), 10, (640, 480))
+    for number in range(20):
+        image = standing("cup", 0.6, 0.01 * (number % 3), tilt=0.04 * number, image=room(5))
+        writer.write(np.ascontiguousarray(image[..., ::-1]))
+    writer.release()
+    assert hri_object("learn", "cup", "--video", film, "--distance", 60) == 0
+    assert 'learned "cup"' in capsys.readouterr().out
+    there = picture(home / "there.png", standing("cup", 0.8, -0.15, image=room(9)))
+    assert hri_object("test", there, "--json") == 0
+    assert [one["name"] for one in json.loads(capsys.readouterr().out)["objects"]] == ["cup"]
+    cut = home / "cut.mp4"
+    cut.write_bytes(film.read_bytes()[: film.stat().st_size // 2])
+    assert hri_object("learn", "cup", "--video", cut) == 2
+    assert "cut.mp4" in capsys.readouterr().err
+
+
+def test_the_objects_of_a_set_are_listed_shown_and_checked(home, capsys):
+    save_models(own_models(), learned("cup", "key"))
+    assert hri_object("list", "--json") == 0
+    listed = json.loads(capsys.readouterr().out)
+    assert listed["method"] == "sift"
+    assert [(one["name"], one["views"], one["size_known"]) for one in listed["objects"]] == [
+        ("cup", 1, True), ("key", 1, True),
+    ]  # fmt: skip
+    assert hri_object("list") == 0
+    assert capsys.readouterr().out.startswith("cup ")
+    assert hri_object("show", "cup", "--out", home / "cup.png") == 0
+    assert "30.0 cm wide" in capsys.readouterr().out
+    assert cv2.imread(str(home / "cup.png")).std() > 20
+    assert hri_object("check") == 0
+    assert "2 objects, all told apart" in capsys.readouterr().out
+
+
+def test_an_object_is_removed_and_a_wrong_name_changes_nothing(home, capsys):
+    save_models(own_models(), learned("cup", "key"))
+    assert hri_object("remove", "cup", "kex") == 2
+    assert 'no object "kex" in this set - did you mean "key"' in capsys.readouterr().err
+    assert hri_object("remove", "cup") == 0
+    assert capsys.readouterr().out == "removed cup; 1 left\n"
+    assert [one.name for one in load_models(own_models()).objects] == ["key"]
+
+
+def test_sets_are_merged_and_split(home, capsys):
+    for name in ("cup", "key"):
+        save_models(home / f"{name}.mdl", learned(name))
+    both = home / "both.mdl"
+    assert hri_object("merge", home / "cup.mdl", home / "key.mdl", "--out", both) == 0
+    assert [one.name for one in load_models(both).objects] == ["cup", "key"]
+    assert hri_object("split", "key", "--set", both, "--out", home / "one.mdl") == 0
+    assert [one.name for one in load_models(home / "one.mdl").objects] == ["key"]
+    save_models(home / "orb.mdl", learned("cup", method="orb"))
+    assert hri_object("merge", both, home / "orb.mdl", "--out", home / "x.mdl") == 2
+    assert "has features of orb" in capsys.readouterr().err
+
+
+def test_before_anything_is_taught_the_way_is_shown(home, capsys):
+    for words in (("list",), ("check",), ("show", "cup"), ("remove", "cup")):
+        assert hri_object(*words) == 2
+        assert "you have no objects yet - hri object learn NAME --camera" in capsys.readouterr().err
+
+
+def test_pictures_that_cannot_be_read_do_not_end_the_test_of_others(home, capsys):
+    save_models(own_models(), learned("cup"))
+    (home / "junk.png").write_text("junk")
+    there = picture(home / "there.png", standing("cup", 0.7))
+    assert hri_object("test", home / "junk.png", there) == 1
+    assert "there.png: cup (" in capsys.readouterr().out
