@@ -81,7 +81,7 @@ def _scene(stamp: Stamp, depth: float, scale: float, dice: np.random.Generator) 
     """`depth` is in pixels of the thing's picture, `scale` meters to one of them."""
     focal = VIEW.focal_length(SIZE)
     reach = max(stamp.picture.shape[:2]) * focal / depth / 2
-    x, y = (side / 2 + dice.uniform(-1, 1) * max(0.0, side / 2 - 0.8 * reach) for side in SIZE)
+    x, y = (side / 2 + dice.uniform(-1, 1) * max(0.0, side / 2 - 1.25 * reach) for side in SIZE)
     homography, center = _seen_from(stamp, x, y, depth, dice)
     thing, mask = (_warped(each, homography) for each in (stamp.picture, stamp.mask))
     cover = mask[..., None] / np.float32(255)

@@ -1,8 +1,8 @@
 """Notes where data about people is stored outside the robot's own folders.
 
-A recording, a film of the camera, or a file of faces, objects or feelings, lies where someone wanted it. So
-that all of it can be found and forgotten, its place is noted in the state folder, a JSON object a
-line:
+A recording, a film of the camera, or a file of faces, objects, or feelings, lies where someone
+wanted it. So that all of it can be found and forgotten, its place is noted in the state folder, a
+JSON object a line:
 `{"kind": "recording", "place": "/home/ann/out"}`.
 """
 

@@ -15,6 +15,7 @@ from hri.core.event_bus import EventBus
 from hri.core.geometry import placed
 from hri.core.signals import People, Person, Pose2D
 
+STAND = "stand where the camera sees you"
 LOST_S = 1.0
 """Without a sight of it for so long, a target is lost."""
 SEARCH_RATE = 0.6
@@ -71,6 +72,8 @@ class Ending:
     """How long it lasted."""
     halt: str = ""
     """What stopped it: "bump", "halt"; empty where another motion did."""
+    remedy: str = STAND
+    """What to do when nothing is seen."""
 
     def __bool__(self) -> bool:
         return self.is_in_sight
@@ -79,12 +82,12 @@ class Ending:
         who = self.person or "nobody"
         match self.reason:
             case Reason.TIME if not self.person:
-                return f"saw nobody for {self.seconds:.0f} s - stand where the camera sees you"
+                return f"saw nobody for {self.seconds:.0f} s - {self.remedy}"
             case Reason.TIME:
                 state = "in sight" if self.is_in_sight else "out of sight"
                 return f"followed {who}, {state} at the end: the {self.seconds:.0f} s are over"
             case Reason.LOST:
-                return f"lost sight of {who} and found nobody - stand where the camera sees you"
+                return f"lost sight of {who} for good - {self.remedy}"
             case Reason.BLOCKED:
                 return f"cannot come nearer to {who} - clear the way"
             case _:
@@ -99,7 +102,7 @@ class Following:
         self.manner = manner or FollowingManner()
         self.pursuit = Pursuit.WAITING
         self.person = ""
-        """Id of who was seen last by `look`; empty before."""
+        """Id of who was seen last by `look`, or name of what; empty before."""
         self._target: tuple[float, float] | None = None
         self._side = 1.0
         self._seen = self._looked = -math.inf

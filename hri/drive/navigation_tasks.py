@@ -16,14 +16,13 @@ from hri.core.clock import Worker
 from hri.core.errors import HriError
 from hri.core.geometry import after_move, wrapped
 from hri.core.signals import Event, People, Pose2D, Twist
-from hri.drive.avoidance import PERSON_RADIUS, Avoidance, Manner, turn_to
+from hri.drive.avoidance import Avoidance, Manner, turn_to
 from hri.drive.following import (
     Ending,
     Following,
     FollowingManner,
     Pursuit,
     Reason,
-    sight_of,
     tell,
     tell_ending,
 )
@@ -31,6 +30,7 @@ from hri.drive.goal_behaviors import PEOPLE
 from hri.drive.mechanics import mechanics_of, range_sensors
 from hri.drive.own_gate import see_to_gate
 from hri.drive.progress import Approach, Patience
+from hri.drive.target import Someone, Target
 from hri.drive.tasks import piloting
 from hri.drive.tasks_2003 import checked
 from hri.drive.wandering import Wandering
@@ -92,20 +92,23 @@ async def follow(
     `target.found` and in the end `target.left` (`reason`, `person`, `text`), and ValueError for a
     distance or a time that is not a number.
     """
-    return bool(await _followed(context, person, distance, seconds))
+    return bool(await follow_target(context, Someone(context, person), distance, seconds))
 
 
-async def _followed(context: TaskContext, person: str, distance: float, seconds: float) -> Ending:
-    """Follow someone; how that ended."""
+async def follow_target(
+    context: TaskContext, target: Target, distance: float, seconds: float
+) -> Ending:
+    """Follow someone or something, as `follow` does; how that ended."""
     _refuse_nan(distance, seconds)
     with _traveler(context) as traveler:
-        following, approach = traveler.following(distance), Approach(PATIENCE_S, NEARER)
+        following = traveler.following(distance, target)
+        approach = Approach(PATIENCE_S, NEARER)
         start, reason, halt = context.clock.now(), Reason.STOPPED, ""
 
         def steer(now: float, pose: Pose2D) -> Twist | None:
             nonlocal reason
             before = following.pursuit
-            following.look(now, pose, traveler.people, person)
+            target.look(following, now, pose)
             goal = following.goal(now, pose)
             if following.pursuit is not before:
                 tell(context.events, following.pursuit)
@@ -134,7 +137,7 @@ async def _followed(context: TaskContext, person: str, distance: float, seconds:
             stops.cancel()
         is_in_sight = following.pursuit is Pursuit.FOLLOWING
         lasted = context.clock.now() - start
-        ending = Ending(reason, following.person, is_in_sight, lasted, halt)
+        ending = Ending(reason, following.person, is_in_sight, lasted, halt, target.remedy)
         tell_ending(context.events, ending)
         return ending
 
@@ -146,18 +149,23 @@ async def come_here(context: TaskContext, person: str = "", distance: float = 1.
     looks around, once. It comes no nearer than it may while it moves, whatever distance is asked
     for. Raises ValueError for a distance that is not a number.
     """
+    return await come_to(context, Someone(context, person), distance)
+
+
+async def come_to(context: TaskContext, target: Target, distance: float) -> bool:
+    """Come to someone or something, as `come_here` does; whether it did."""
     _refuse_nan(distance)
     with _traveler(context) as traveler:
-        if not await _look_around(context, traveler, person):
+        if not await look_around(context, target):
             return False
-        following = traveler.following(distance)
+        following = traveler.following(distance, target)
         patience = Patience(PATIENCE_S, NEARER)
         is_there = False
 
         def steer(now: float, pose: Pose2D) -> Twist | None:
             nonlocal is_there
-            if (seen := following.look(now, pose, traveler.people, person)) is not None:
-                patience.is_over(now, seen.distance)
+            if (away := target.look(following, now, pose)) is not None:
+                patience.is_over(now, away)
             goal = following.goal(now, pose)
             if following.pursuit is Pursuit.LOST or patience.is_over(now, math.inf):
                 return None
@@ -172,15 +180,16 @@ async def come_here(context: TaskContext, person: str = "", distance: float = 1.
         return is_there
 
 
-async def _look_around(context: TaskContext, traveler: _Traveler, person: str) -> bool:
-    """Turn on the spot until they are in sight, once around at most; whether they are."""
-    turned, before = 0.0, traveler.pose(context.clock.now()).heading
+async def look_around(context: TaskContext, target: Target) -> bool:
+    """Turn on the spot until it is in sight, once around at most; whether it is."""
+    turned, before = 0.0, math.nan
     is_seen = False
 
     def steer(now: float, pose: Pose2D) -> Twist | None:
         nonlocal turned, before, is_seen
-        turned, before = turned + abs(wrapped(pose.heading - before)), pose.heading
-        is_seen = sight_of(traveler.people, person, now) is not None
+        if not math.isnan(before):
+            turned += abs(wrapped(pose.heading - before))
+        before, is_seen = pose.heading, target.is_seen(now)
         return None if is_seen or turned >= math.tau else Twist(0.0, SEARCH_RATE)
 
     with piloting(context) as pilot:
@@ -249,7 +258,7 @@ async def follow_person(
     """
     apart = in_si(UNIT_DISTANCE, distance) or FollowingManner().distance
     end = in_si(UNIT_TIME, seconds) or math.inf
-    return await checked(_followed(context, person, apart, end))
+    return await checked(follow_target(context, Someone(context, person), apart, end))
 
 
 @task("Hri.ComeHere")
@@ -289,11 +298,10 @@ class _Traveler:
         self._manner = Manner()
         self._avoidance = Avoidance(self._mechanics, self._manner)
 
-    def following(self, distance: float) -> Following:
-        """How it follows someone at such a distance, or the least that avoidance lets it reach."""
-        manner = self._manner
-        body = self._mechanics.radius + manner.margin
-        least = body + PERSON_RADIUS + manner.person_gap + manner.near
+    def following(self, distance: float, target: Target) -> Following:
+        """How it follows at such a distance, or the least that avoidance lets it reach."""
+        body = self._mechanics.radius + self._manner.margin
+        least = body + target.clearance + self._manner.near
         return Following(FollowingManner(distance=max(distance, least)))
 
     def release(self, context: TaskContext) -> None:

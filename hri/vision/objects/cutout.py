@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.core.signals import Image
+from hri.core.signals import FaceBox, Image
 from hri.vision.objects.object_model import Outline
 
 MIDDLE = 0.6
@@ -61,8 +63,11 @@ def before(image: Image, background: Image) -> Outline | None:
     return _largest((np.abs(blurred[0] - blurred[1]).max(axis=2) > DIFFERENT).astype(np.uint8))
 
 
-def in_the_middle(image: Image) -> Outline:
-    """What is held in the middle of a picture of a room (Rother et al., "GrabCut", 2004)."""
+def in_the_middle(image: Image, faces: Iterable[FaceBox] = ()) -> Outline:
+    """What is held in the middle of a picture of a room (Rother et al., "GrabCut", 2004).
+
+    A face that looks over it does not belong to it.
+    """
     scale = COARSE / image.shape[1]
     small = np.asarray(
         cv2.resize(image, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA), np.uint8
@@ -71,8 +76,17 @@ def in_the_middle(image: Image) -> Outline:
     mask = np.zeros(small.shape[:2], np.uint8)
     models = np.zeros((1, 65)), np.zeros((1, 65))
     cv2.setRNGSeed(0)
-    box = (left, top, right - left, bottom - top)
-    cv2.grabCut(small[..., ::-1].copy(), mask, box, *models, 3, cv2.GC_INIT_WITH_RECT)
+    mask[top:bottom, left:right] = cv2.GC_PR_FGD
+    for face in faces:
+        across, down = (
+            slice(max(0, int(low * scale)), max(0, int(high * scale)))
+            for low, high in ((face.x, face.x + face.width), (face.y, face.y + face.height))
+        )
+        mask[down, across] = cv2.GC_BGD
+    if not (mask == cv2.GC_PR_FGD).any():
+        return middle(image)
+    no_box = (0, 0, 0, 0)  # the mask says it all
+    cv2.grabCut(small[..., ::-1].copy(), mask, no_box, *models, 3, cv2.GC_INIT_WITH_MASK)
     outline = _largest((mask & 1).astype(np.uint8))
     return middle(image) if outline is None else np.asarray(outline / scale, np.float32)
 

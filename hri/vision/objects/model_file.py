@@ -38,6 +38,7 @@ from hri.vision.objects.printed_label import SIZE, WIDTH, printed_label
 
 KIND = "config/models"
 SUFFIX = ".mdl"
+OWN = f"objects{SUFFIX}"
 MANIFEST = "model_set.json"
 FORMAT = 1
 MOST_OBJECTS = 1000
@@ -59,13 +60,16 @@ REMEDY = 'name a set that "hri object learn" wrote, or a list of names'
 
 
 def find_models(name: str) -> Path:
-    """The file of a set: a path, or a name in `config/models`. Raises HriError."""
-    return paths.find(KIND, name if name.endswith(SUFFIX) else name + SUFFIX)
+    """The file of a set: a path, or a name in `config/models`; `OWN` is the user's own set, which
+    may not be there yet. Raises HriError.
+    """
+    name = name if name.endswith(SUFFIX) else name + SUFFIX
+    return own_models() if name == OWN else paths.find(KIND, name)
 
 
 def own_models() -> Path:
     """The set of the objects that the user has taught, which is private. Raises HriError."""
-    return paths.data_folder() / f"objects{SUFFIX}"
+    return paths.data_folder() / OWN
 
 
 def load_models(path: Path, method: str = SIFT) -> ModelSet:

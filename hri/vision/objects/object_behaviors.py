@@ -12,6 +12,7 @@ from hri.behavior.ports import Input, Output, Param
 from hri.core.errors import HriError, NotAvailable, did_you_mean
 from hri.core.service import Service
 from hri.core.signals import FoundObject, Frame, Objects
+from hri.core.writing import Mark, mark_of
 from hri.hal.camera import Camera
 from hri.vision.behaviors import camera_of
 from hri.vision.camera_view import CameraView
@@ -22,6 +23,8 @@ from hri.vision.objects.object_presence import MEMORY, ObjectPresence
 from hri.vision.objects.recognizer import ObjectRecognizer
 
 CENTIMETERS = 100.0
+CHECK_EVERY = 1.0
+"""Seconds between two looks at whether the set has changed."""
 
 
 class ObjRecRecognizer(Behavior):
@@ -34,11 +37,12 @@ class ObjRecRecognizer(Behavior):
     """
 
     category = "vision"
-    modelset = Param("default.mdl", "a model set, or a list of names; its path, or its name")
+    modelset = Param("default.mdl", "a model set, its path or name; objects.mdl is your own")
     field_of_view = Param(0.0, "radians; 0 is that of the camera", minimum=0.0, maximum=3.0)
     only = Param("", "name of the one object to look for; empty looks for all of them")
     camera_id = Param("camera", "id of the camera that takes the pictures; its pose is used")
     features = Param(SIFT, "of a list of names; orb is for weak machines", among=(SIFT, ORB))
+    interval = Param(0.0, "seconds between two looks at least", minimum=0, maximum=60)
     looks_ahead = Param(True, "whether a camera on a neck looks ahead, not at people")
     latency = Param(0.05, "seconds that it takes on a fake clock", minimum=0, maximum=1)
 
@@ -50,17 +54,25 @@ class ObjRecRecognizer(Behavior):
     distance = Output[float](
         "double", "centimeters from the camera to it; nothing when its size is unknown"
     )
+    range = Output[float]("double", "the distance in meters; nothing when its size is unknown")
     bearing = Output[float]("double", "radians from the robot's straight ahead to the left")
     confidence = Output[float]("double", "0 to 1")
 
+    _service: Service[Frame, Objects] | None
+    """None without a set."""
+    _mark: Mark | None
+    """Of the set as it was read last."""
+    _checked: float
+
     def check(self) -> None:
-        self._recognizing = Recognizing(
-            find_models(self.modelset), self.only, self.features, CameraView()
-        )
-        self.names = tuple(model.name for model in self._recognizing.models().objects)
+        path = find_models(self.modelset)
+        self._recognizing = Recognizing(path, self.only, self.features, CameraView())
+        if _mark(path) is not None:
+            self._recognizing.models()
 
     def start(self, context: Context) -> None:
         self._events, self._resources = context.events, context.resources
+        self._clock, self._service = context.clock, None
         self._camera: Camera | None = camera_of(context, self.camera_id)
         try:
             view = CameraView.of(self._camera) if self._camera else CameraView()
@@ -68,15 +80,15 @@ class ObjRecRecognizer(Behavior):
                 view = replace(view, field_of_view=self.field_of_view)
             if self._camera is not None and self.looks_ahead:
                 self._camera.look_ahead(True)
-            self._service: Service[Frame, Objects] = context.clock.service(
-                replace(self._recognizing, view=view), self.latency
-            )
+            self._recognizing = replace(self._recognizing, view=view)
+            self._begin()
         except HriError:
             self._give_back()  # a behavior that fails to start is not stopped
             raise
         self._presence = ObjectPresence()
         self._frame: Frame | None = None
-        self._pan, self._turn, self._reported = 0.0, 0, -math.inf
+        self._pan, self._turn = 0.0, 0
+        self._reported = self._asked = -math.inf
         self.last = Objects(-math.inf)
         """What was recognized last."""
 
@@ -87,23 +99,47 @@ class ObjRecRecognizer(Behavior):
 
     def compute(self, now: float, dt: float) -> None:
         """Collect results, and hand over the newest picture."""
+        if now - self._checked >= CHECK_EVERY:
+            self._checked = now
+            if _mark(self._recognizing.path) != self._mark:
+                self._end()
+                self._begin()
+        self._collect(now)
+        if now - self._reported > MEMORY:
+            # Without pictures nothing is there that can be pointed at.
+            self._raise_lost(self._presence.forget(math.inf))
+        self._frame = self.image.value or self._frame
+        if self._service is None or self._frame is None or self._service.is_busy:
+            return
+        if now - self._asked >= self.interval:
+            self._pan = self._camera.pan(self._frame.time) if self._camera else 0.0
+            self._service.ask(self._frame)
+            self._frame, self._asked = None, now
+
+    def stop(self) -> None:
+        self._end()
+        self._give_back()
+
+    def _begin(self) -> None:
+        """Start to recognize with the set as it is now; nothing where there is none yet."""
+        self._checked = self._clock.now()
+        self._mark = _mark(self._recognizing.path)
+        if self._mark is not None:
+            self._service = self._clock.service(self._recognizing, self.latency)
+
+    def _end(self) -> None:
+        if self._service is not None:
+            self._service.close()
+            self._service = None
+
+    def _collect(self, now: float) -> None:
+        if self._service is None:
+            return
         try:
             for objects in self._service.poll():
                 self._report(_panned(objects, self._pan), now)
         except NotAvailable as error:
             self._events.raise_event("vision.failed", reason=str(error))
-        if now - self._reported > MEMORY:
-            # Without pictures nothing is there that can be pointed at.
-            self._raise_lost(self._presence.forget(math.inf))
-        self._frame = self.image.value or self._frame
-        if self._frame is not None and not self._service.is_busy:
-            self._pan = self._camera.pan(self._frame.time) if self._camera else 0.0
-            self._service.ask(self._frame)
-            self._frame = None
-
-    def stop(self) -> None:
-        self._service.close()
-        self._give_back()
 
     def _give_back(self) -> None:
         if self._camera is not None:
@@ -139,6 +175,7 @@ class ObjRecRecognizer(Behavior):
         self.confidence.send(one.confidence)
         if not math.isnan(one.distance):
             self.distance.send(one.distance * CENTIMETERS)
+            self.range.send(one.distance)
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,6 +201,14 @@ class Recognizing:
     def __call__(self) -> Callable[[Frame], Objects]:
         recognizer = ObjectRecognizer(self.models(), self.view)
         return lambda frame: Objects(frame.time, recognizer.recognize(frame.image))
+
+
+def _mark(path: Path) -> Mark | None:
+    """By which a file is known again; None where there is none, or none that can be looked at."""
+    try:
+        return mark_of(path.stat())
+    except OSError:
+        return None
 
 
 def _panned(objects: Objects, pan: float) -> Objects:
