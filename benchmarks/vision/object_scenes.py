@@ -1,4 +1,4 @@
-"""Pictures of things in rooms, as a webcam sees them: tilted, blurred, in motion, with noise.
+"""Pictures of things in rooms, as a webcam sees them: tilted, blurred, with noise, or in motion.
 
 The rooms are photographs, `../shared/vision/stills`, beside the project.
 """
@@ -64,20 +64,24 @@ def _large_enough(image: Image) -> Image:
     return np.asarray(cv2.resize(image, None, fx=scale, fy=scale), np.uint8)
 
 
-def by_height(stamp: Stamp, part: float, dice: np.random.Generator) -> Scene:
-    """A thing whose longer side is this part of the picture's height."""
+def by_height(stamp: Stamp, part: float, dice: np.random.Generator, smear: int = 0) -> Scene:
+    """A thing whose longer side is this part of the picture's height; motion smears it by less
+    than `smear` pixels.
+    """
     longer = max(stamp.picture.shape[:2])
     focal = VIEW.focal_length(SIZE)
-    return _scene(stamp, focal / (part * SIZE[1]) * longer, 1.0, dice)
+    return _scene(stamp, focal / (part * SIZE[1]) * longer, 1.0, dice, smear)
 
 
 def by_distance(stamp: Stamp, meters: float, width: float, dice: np.random.Generator) -> Scene:
     """A thing of a width, meters, its longer side, this many meters away."""
     longer = max(stamp.picture.shape[:2])
-    return _scene(stamp, meters / width * longer, width / longer, dice)
+    return _scene(stamp, meters / width * longer, width / longer, dice, 0)
 
 
-def _scene(stamp: Stamp, depth: float, scale: float, dice: np.random.Generator) -> Scene:
+def _scene(
+    stamp: Stamp, depth: float, scale: float, dice: np.random.Generator, smear: int
+) -> Scene:
     """`depth` is in pixels of the thing's picture, `scale` meters to one of them."""
     focal = VIEW.focal_length(SIZE)
     reach = max(stamp.picture.shape[:2]) * focal / depth / 2
@@ -86,7 +90,9 @@ def _scene(stamp: Stamp, depth: float, scale: float, dice: np.random.Generator) 
     thing, mask = (_warped(each, homography) for each in (stamp.picture, stamp.mask))
     cover = mask[..., None] / np.float32(255)
     image = _room(dice) * (1 - cover) + thing * cover
-    return Scene(stamp, _photographed(image, dice), x, y, float(np.linalg.norm(center)) * scale)
+    return Scene(
+        stamp, _photographed(image, dice, smear), x, y, float(np.linalg.norm(center)) * scale
+    )
 
 
 def _seen_from(
@@ -122,13 +128,13 @@ def _room(dice: np.random.Generator) -> Image:
     return room[top : top + SIZE[1], left : left + SIZE[0]]
 
 
-def _photographed(image: NDArray[np.floating], dice: np.random.Generator) -> Image:
+def _photographed(image: NDArray[np.floating], dice: np.random.Generator, smear: int) -> Image:
     """With the light, the blur, and the noise of a webcam."""
-    length, toward = int(dice.integers(SMEAR)), dice.uniform(0, math.tau)
-    smear = np.zeros((7, 7), np.float32)
+    length, toward = int(dice.integers(max(1, smear))), dice.uniform(0, math.tau)
+    kernel = np.zeros((7, 7), np.float32)
     end = 3 + length * math.cos(toward), 3 + length * math.sin(toward)
-    cv2.line(smear, (3, 3), (int(end[0]), int(end[1])), 1.0)
-    seen = cv2.filter2D(image * dice.uniform(*LIGHT), -1, smear / smear.sum())
+    cv2.line(kernel, (3, 3), (int(end[0]), int(end[1])), 1.0)
+    seen = cv2.filter2D(image * dice.uniform(*LIGHT), -1, kernel / kernel.sum())
     seen = cv2.GaussianBlur(seen, (0, 0), LENS_BLUR) + dice.normal(0, NOISE, seen.shape)
     return np.asarray(np.clip(seen, 0, 255), np.uint8)
 
@@ -140,8 +146,8 @@ def film(
     for number in range(round(seconds * rate)):
         time = number / rate
         if int(time / 10) % 2 or not stamps:
-            image = _photographed(_room(dice).astype(np.float32), dice)
+            image = _photographed(_room(dice).astype(np.float32), dice, SMEAR)
         else:
             stamp = stamps[int(time) % len(stamps)]
-            image = by_height(stamp, dice.uniform(0.2, 0.6), dice).image
+            image = by_height(stamp, dice.uniform(0.2, 0.6), dice, SMEAR).image
         yield Frame(image, time, number)

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.progress import progress
-from benchmarks.vision.object_scenes import SIZE, VIEW, Scene, by_distance, by_height, film
+from benchmarks.vision.object_scenes import SIZE, SMEAR, VIEW, Scene, by_distance, by_height, film
 from benchmarks.vision.plain_matching import PlainMatching
 from benchmarks.vision.stamps import Stamp, generated, read_stamps
 from hri.bench.figures import summary
@@ -34,6 +34,7 @@ WIDTH = 0.3
 """Meters, the longer side of a thing."""
 RECALL = {1: 0.99, 100: 0.95, 250: 0.92}
 """By the number of objects in the set."""
+SETS_OF_ONE = 20
 RECALL_OF_1000, WRONG = 0.85, 0.005
 ORB_OBJECTS, TIMED = 10, 100
 MS = {SIFT: 120.0, ORB: 40.0}
@@ -55,8 +56,12 @@ def rows(quick: bool) -> Iterator[Row]:
 
 
 @lru_cache(maxsize=1)
-def _stamps() -> list[Stamp]:
+def _textured_and_others() -> tuple[list[Stamp], list[Stamp]]:
     return read_stamps()
+
+
+def _stamps() -> list[Stamp]:
+    return _textured_and_others()[0]
 
 
 def _learned(stamps: Sequence[Stamp], method: str = SIFT) -> ModelSet:
@@ -71,10 +76,10 @@ def _scale(stamp: Stamp) -> float:
     return WIDTH / int(max(stamp.picture.shape[:2]))
 
 
-def _scenes(stamps: Sequence[Stamp], count: int, seed: int) -> Iterator[Scene]:
+def _scenes(stamps: Sequence[Stamp], count: int, seed: int, smear: int = 0) -> Iterator[Scene]:
     dice = np.random.default_rng(SEED + seed)
     for _ in range(count):
-        yield by_height(stamps[int(dice.integers(len(stamps)))], HEIGHT, dice)
+        yield by_height(stamps[int(dice.integers(len(stamps)))], HEIGHT, dice, smear)
 
 
 def _is_right(scene: Scene, found: Sequence[FoundObject]) -> bool:
@@ -89,17 +94,32 @@ def _recall(count: int) -> Iterator[Row]:
     """By the number of objects in the set, with the wrong names; and by plain matching."""
     wrong = 0
     for objects, limit in RECALL.items():
-        stamps = _stamps()[:objects]
-        recognizer, right, mistaken = ObjectRecognizer(_learned(stamps), VIEW), 0, 0
-        scenes = list(_scenes(stamps, count, objects))
-        for scene in progress(scenes, count, f"{objects} objects"):
-            found = recognizer.recognize(scene.image)
-            right, mistaken = right + _is_right(scene, found), mistaken + _is_wrong(scene, found)
+        right = mistaken = 0
+        sets = SETS_OF_ONE if objects == 1 else 1
+        for number in range(sets):
+            stamps = _stamps()[number : number + objects]
+            recognizer = ObjectRecognizer(_learned(stamps), VIEW)
+            scenes = list(_scenes(stamps, count // sets, 1000 * number + objects))
+            for scene in progress(scenes, len(scenes), f"{objects} objects"):
+                found = recognizer.recognize(scene.image)
+                right += _is_right(scene, found)
+                mistaken += _is_wrong(scene, found)
         wrong += mistaken
-        yield _share(f"{objects} in the set: recall", right, count, at_least(limit), mistaken)
+        total = sets * (count // sets)
+        yield _share(f"{objects} in the set: recall", right, total, at_least(limit), mistaken)
         if objects == TIMED:
             yield _plain(stamps, scenes)
+            yield _moving(recognizer, stamps, count)
     yield share("wrong names, all of these", wrong, count * len(RECALL), at_most(WRONG))
+
+
+def _moving(recognizer: ObjectRecognizer, stamps: Sequence[Stamp], count: int) -> Row:
+    right = wrong = 0
+    for scene in _scenes(stamps, count, 3, SMEAR):
+        found = recognizer.recognize(scene.image)
+        right, wrong = right + _is_right(scene, found), wrong + _is_wrong(scene, found)
+    what = f"{len(stamps)} in the set, moving by up to {SMEAR - 1} pixels a picture: recall"
+    return _share(what, right, count, None, wrong)
 
 
 def _share(what: str, right: int, count: int, limit: Limit | None, wrong: int) -> Row:
@@ -155,7 +175,9 @@ def _unknown(seconds: float) -> Iterator[Row]:
     recognizer = ObjectRecognizer(_learned(_stamps()[:TIMED]), VIEW)
     presence, events, pictures = ObjectPresence(), 0, 0
     count, dice = round(seconds * RATE), np.random.default_rng(SEED + 1)
-    frames = film(_stamps()[TIMED:], seconds, RATE, dice)
+    strangers = [*_stamps()[TIMED:], *_textured_and_others()[1]]
+    dice.shuffle(strangers)
+    frames = film(strangers, seconds, RATE, dice)
     for frame in progress(frames, count, "unknown objects"):
         objects = recognizer.recognize(frame.image)
         pictures += bool(objects)

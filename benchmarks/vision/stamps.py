@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -18,8 +19,12 @@ from hri.vision.objects.object_model import Outline
 FOLDER = Path("/usr/share/tuxpaint/stamps")
 SIDE = 360
 """Pixels, the longer side of a thing."""
-TEXTURED = 100
-"""Features of SIFT, as OpenCV sets it, from which a thing counts as textured."""
+SHOWN = 0.4
+"""How large the benches show a thing, of `SIDE`."""
+TEXTURED = 40
+"""Features of SIFT, as OpenCV sets it, that a textured thing has at that size."""
+SOLID = 0.5
+"""Of its convex hull: through less than that one sees what is behind it."""
 SMALLEST = 48
 """Pixels, the shorter side of a thing in its file."""
 ALIKE = ("_mirror", "money", "dreydl", "pig_golden2")
@@ -47,23 +52,30 @@ class Stamp:
         return np.asarray(corners[:, 0], np.float32)
 
 
-def read_stamps() -> list[Stamp]:
-    """All that are textured and differ from each other, in an order of chance that stays the same.
+def read_stamps() -> tuple[list[Stamp], list[Stamp]]:
+    """Those that are textured, and the others, in an order of chance that stays the same.
 
     Raises NotAvailable where the package is not installed.
     """
     paths = sorted(FOLDER.rglob("*.png"))
     if not paths:
         raise NotAvailable(f"no pictures in {FOLDER} - apt install tuxpaint-stamps-default")
+    distinct = (path for path in paths if not any(word in path.as_posix() for word in ALIKE))
+    stamps = [stamp for path in distinct if (stamp := _read(path)) is not None]
+    stamps = [stamps[index] for index in np.random.default_rng(SEED).permutation(len(stamps))]
     sift = cv2.SIFT.create()
-    stamps = [
-        stamp
-        for path in paths
-        if not any(word in path.as_posix() for word in ALIKE)
-        and (stamp := _read(path)) is not None
-        and len(sift.detect(stamp.picture, stamp.mask)) >= TEXTURED
-    ]
-    return [stamps[index] for index in np.random.default_rng(SEED).permutation(len(stamps))]
+    textured = [stamp for stamp in stamps if _is_textured(stamp, sift)]
+    return textured, [stamp for stamp in stamps if stamp not in textured]
+
+
+def _is_textured(stamp: Stamp, sift: Any) -> bool:
+    points = cv2.findNonZero((stamp.mask > 127).astype(np.uint8))
+    hull = cv2.contourArea(cv2.convexHull(points))
+    picture, mask = (
+        cv2.resize(each, None, fx=SHOWN, fy=SHOWN, interpolation=cv2.INTER_AREA)
+        for each in (stamp.picture, stamp.mask)
+    )
+    return len(points) >= SOLID * hull and len(sift.detect(picture, mask)) >= TEXTURED
 
 
 def _read(path: Path) -> Stamp | None:

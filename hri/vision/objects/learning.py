@@ -18,8 +18,8 @@ SIZE = 400
 """Pixels, longer side of a learned view at most."""
 KEPT = 200
 """Pixels, longer side of the picture that is kept of it."""
-SCALES = (1.0, 0.6, 0.4)
-"""A view is looked at from afar, too: small and blurred it has other features."""
+SCALES = (0.7, 0.4, 0.28, 0.2)
+"""A view is looked at from afar: small and blurred it has other features."""
 BLUR = 1.0
 """Pixels, of the view from afar."""
 LEAST_FEATURES = 40
@@ -61,9 +61,7 @@ def _features(picture: Image, outline: Outline, extractor: FeatureExtractor) -> 
     cv2.fillPoly(mask, [np.rint(outline).astype(np.int32)], 255)
     parts = []
     for scale in SCALES:
-        seen = picture
-        if scale < 1:
-            seen = np.asarray(cv2.GaussianBlur(resized(picture, scale), (0, 0), BLUR), np.uint8)
+        seen = np.asarray(cv2.GaussianBlur(resized(picture, scale), (0, 0), BLUR), np.uint8)
         size = seen.shape[1], seen.shape[0]
         where = np.asarray(cv2.resize(mask, size, interpolation=cv2.INTER_NEAREST), np.uint8)
         found = extractor.extract(seen, where)
