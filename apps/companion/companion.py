@@ -35,6 +35,7 @@ from hri.task.task import TaskType
 from hri.task.task_run import Job
 from hri.vision.tasks import people_of
 
+from . import things
 from .replies import FILE, Question, Replies, Reply, Vocabulary, load_replies
 
 ALWAYS = ("stop", "wake")
@@ -81,6 +82,7 @@ class Companion:
         self.motion = Lane(context)
         self.face = Lane(context)
         self.gestures = Lane(context)
+        self.lessons = Lane(context)
         self.is_asleep = False
         self.has_asked_to_keep = False
         self.silent_until = -math.inf
@@ -167,6 +169,14 @@ class Companion:
         if self.may_speak:
             self.talk.start(verbs.say, words)
 
+    def words(self, key: str, **facts: str) -> str:
+        """What [unasked] says, filled in."""
+        return self.replies.unasked[key].format_map(facts)
+
+    def tell(self, key: str, **facts: str) -> None:
+        """Say what [unasked] says."""
+        self.say(self.words(key, **facts))
+
     @property
     def may_speak(self) -> bool:
         """Whether it may talk: it was not asked to be quiet."""
@@ -247,6 +257,21 @@ class Companion:
     async def _go_along(self, context: TaskContext) -> None:
         if self.person() is None or not await navigation_tasks.follow(context):
             self.say(self.replies.unasked["nobody"])
+
+    def _find(self, tags: dict[str, Any]) -> str | None:
+        return self._drive(things.find, self, tags["thing"])
+
+    def _learn(self, tags: dict[str, Any]) -> None:
+        self.lessons.start(things.learn, self, tags["thing"])
+
+    def _forget(self, tags: dict[str, Any]) -> None:
+        self.lessons.start(things.forget, self, tags["thing"])
+
+    def _see(self, tags: dict[str, Any]) -> str:
+        return things.seen_words(self)
+
+    def _where(self, tags: dict[str, Any]) -> str:
+        return things.where_words(self, tags["thing"])
 
     def _stop(self, tags: dict[str, Any]) -> None:
         self.motion.stop()

@@ -18,8 +18,15 @@ from hri.speech.grammar import Grammar
 from hri.speech.grammar.giving import sure_tags
 from hri.task.task import TaskType
 
+from . import things
+
 FILE = "replies.toml"
-ACTIONS = ("move", "turn", "come", "follow", "stop", "release", "quiet", "eyes", "sleep", "wake")
+# fmt: off
+ACTIONS = (
+    "move", "turn", "come", "follow", "stop", "release", "quiet", "eyes", "sleep", "wake",
+    "learn", "forget", "see", "where", "find",
+)
+# fmt: on
 """What the companion itself can do; other actions are tasks."""
 AFTER_YES = ("keep",)
 """What may be done after a yes: begin to save feelings."""
@@ -82,7 +89,10 @@ class Vocabulary:
 
 
 UNASKED = ("blocked", "bump", "battery_low", "nobody", "waiting", "no_stop")
-USUALLY_UNASKED = {"not_understood": "Sorry, I did not understand. You can say: {nearest}."}
+USUALLY_UNASKED = {
+    "not_understood": "Sorry, I did not understand. You can say: {nearest}.",
+    **things.WORDS,
+}
 """What need not be written."""
 
 
@@ -164,8 +174,9 @@ def _unasked(spoken: Table) -> dict[str, str]:
     unasked = {key: spoken.string(key) for key in known if key in spoken}
     for key in set(spoken.keys()) - set(known):
         raise spoken.error(key, f'unknown key "{key}"', did_you_mean(key, known))
-    if "not_understood" in unasked:
-        _check_braces(spoken, unasked["not_understood"], ["nearest"], "not_understood")
+    for key in USUALLY_UNASKED.keys() & unasked.keys():
+        filled_in = _fields(USUALLY_UNASKED[key])
+        _check_braces(spoken, unasked[key], filled_in, key)
     return unasked
 
 
@@ -250,6 +261,10 @@ def _question(entry: Table) -> Question:
     question = Question(ask, yes, no, entry.string("action", "", among=AFTER_YES))
     entry.finish()
     return question
+
+
+def _fields(text: str) -> list[str]:
+    return [field for _, field, _, _ in string.Formatter().parse(text) if field]
 
 
 def _check_braces(entry: Table, text: str, known: Collection[str], key: str = "say") -> None:

@@ -8,6 +8,8 @@ import pytest
 from hri.core import paths
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, AuthoringErrors, HriError
+from hri.core.geometry import placed
+from hri.core.signals import Pose2D
 from hri.hal.drive import Odometry
 from hri.hal.drivers.memory import OffscreenScreen
 from hri.robot import Robot
@@ -351,3 +353,39 @@ def test_it_does_not_ask_whom_nobody_hears_or_where_nothing_is_to_be_kept(tmp_pa
     visit = Visit(14, {1.0: "hello robot"}, parameters=asked, prepare=prepare)
     assert MAY_I not in [e.properties["text"] for e in visit.named("question.asked")]
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.proves("R08")
+def test_it_learns_a_thing_names_it_finds_it_and_forgets_it(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
+
+    def show(robot):
+        world = robot.resources.obtain("world", SimulatedWorld)
+        visitor = world.bearing_of(world.person, 9.0)
+        held_up = Pose2D(heading=visitor)
+        world.place("a label", *placed(held_up, 0.8, 0.0))
+        away = placed(held_up, -1.5, 0.8)
+        robot.clock.call_at(34.0, lambda: world.place("a label", *away))
+
+    lines = {
+        1: "hello robot",
+        6: "where is my cup",
+        13: "this is my cup",
+        24: "what do you see",
+        29: "where is my cup",
+        36: "you may move",
+        40: "find my cup",
+        66: "forget the cup",
+        71: "forget the cup",
+    }
+    visit = Visit(76, lines, prepare=show, devices=(SMALL_SCREEN,))
+    said = visit.said()
+    assert "I do not see your cup now. Say: find my cup." in said
+    assert "Now I know your cup." in said
+    assert "I see your cup." in said  # it hides the face
+    assert any(one.startswith("I see your cup on my left") for one in said)
+    assert "Here is your cup." in said
+    assert said[-2:] == [
+        "I have forgotten your cup.",
+        "I do not know your cup. Hold it up and say: this is my cup.",
+    ]

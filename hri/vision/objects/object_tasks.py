@@ -74,7 +74,7 @@ async def learn_object(
 ) -> int:
     """Learn an object that is held up in the middle of the picture and turned; the views of it.
 
-    It goes to the user's own set, in place of one of the same name. Raises `object.learning`
+    It goes to the own set of the user and replaces one of the same name. Raises `object.learning`
     (`object`, `views`, `is_new`, `reason`, `mistaken`) for each picture that is looked at. Fails
     when no picture shows enough of it, or the camera gives none.
     """
@@ -126,12 +126,14 @@ async def _show(
 
 
 def _faces(context: TaskContext) -> tuple[tuple[FaceBox, ...], float]:
-    """The faces in the picture, and how far away the nearest person holds something; or NaN."""
+    """The faces in the picture, and how far away the nearest person holds something; or NaN.
+
+    What is held up may hide a face: then the person is where they were before.
+    """
     tracker = context.find_behavior(PersonTracker)
     persons = tracker.last.persons if tracker is not None else ()
-    seen = [person for person in persons if person.is_visible]
-    nearest = min((p.distance for p in seen if math.isfinite(p.distance)), default=math.nan)
-    boxes = tuple(person.pose.box for person in seen if person.pose.box is not None)
+    nearest = min((p.distance for p in persons if math.isfinite(p.distance)), default=math.nan)
+    boxes = tuple(p.pose.box for p in persons if p.is_visible and p.pose.box is not None)
     return boxes, max(ARM, nearest - ARM) if math.isfinite(nearest) else math.nan
 
 

@@ -1,0 +1,95 @@
+"""What the companion does with things: it learns, names, places, finds and forgets them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from hri.core.errors import HriError
+from hri.core.signals import FoundObject
+from hri.robot.finding import find_object
+from hri.task.context import TaskContext
+from hri.vision.objects.object_tasks import forget_object, learn_object, objects_of
+
+if TYPE_CHECKING:
+    from .companion import Companion
+
+LOOKING_S = 5.0
+"""How long a thing is shown."""
+AHEAD = math.radians(15)
+"""To each side; what is farther aside is on the left or on the right."""
+WORDS: Mapping[str, str] = {
+    "learned": "Now I know your {thing}.",
+    "not_learned": "I could not see enough of your {thing}. Hold it nearer, in more light.",
+    "sees": "I see {things}.",
+    "sees_nothing": "I see nothing that I know.",
+    "sees_at": "I see your {thing} {place}.",
+    "not_in_sight": "I do not see your {thing} now. Say: find my {thing}.",
+    "found": "Here is your {thing}.",
+    "not_found": "I looked around, and I did not find your {thing}.",
+    "forgotten": "I have forgotten your {thing}.",
+    "unknown_thing": "I do not know your {thing}. Hold it up and say: this is my {thing}.",
+}
+"""What it says of them; `replies.toml` may say otherwise in [unasked]."""
+
+
+async def learn(context: TaskContext, companion: Companion, thing: str) -> None:
+    """Look at what is held up, and say whether that was enough."""
+    try:
+        await learn_object(context, thing, LOOKING_S)
+    except HriError:
+        companion.tell("not_learned", thing=thing)
+    else:
+        companion.tell("learned", thing=thing)
+
+
+async def forget(context: TaskContext, companion: Companion, thing: str) -> None:
+    """Forget it, and say so."""
+    try:
+        await forget_object(context, thing)
+    except HriError:
+        companion.tell("unknown_thing", thing=thing)
+    else:
+        companion.tell("forgotten", thing=thing)
+
+
+async def find(context: TaskContext, companion: Companion, thing: str) -> None:
+    """Look around for it, and go there."""
+    is_found = companion.camera.is_on and await find_object(context, thing)
+    companion.tell("found" if is_found else "not_found", thing=thing)
+
+
+def seen_words(companion: Companion) -> str:
+    """What is in sight."""
+    names = [f"your {name}" for name in dict.fromkeys(one.name for one in _seen(companion))]
+    if companion.person() is not None:
+        names.append("you")
+    if not names:
+        return companion.words("sees_nothing")
+    *others, last = names
+    return companion.words("sees", things=f"{', '.join(others)} and {last}" if others else last)
+
+
+def where_words(companion: Companion, thing: str) -> str:
+    """Where a thing is."""
+    for one in _seen(companion):
+        if one.name == thing:
+            return companion.words("sees_at", thing=thing, place=_place(one))
+    return companion.words("not_in_sight", thing=thing)
+
+
+def _seen(companion: Companion) -> tuple[FoundObject, ...]:
+    return objects_of(companion.context) if companion.camera.is_on else ()
+
+
+def _place(one: FoundObject) -> str:
+    if abs(one.bearing) < AHEAD:
+        side = "in front of me"
+    else:
+        side = "on my left" if one.bearing > 0 else "on my right"
+    if math.isnan(one.distance):
+        return side
+    if one.distance < 1:
+        return f"{side}, about {round(10 * one.distance) * 10} centimeters away"
+    return f"{side}, about {one.distance:.1f} meters away".replace(".0 meters", " meters")
