@@ -45,6 +45,8 @@ DATATYPES: dict[str, type] = {
     "gesture": signals.HeadGesture,
     "people": signals.People,
     "objects": signals.Objects,
+    "blobs": signals.ColorBlobs,
+    "motion": signals.Motion,
     "twist": signals.Twist,
     "pose": signals.Pose2D,
     "range": signals.RangeReading,

@@ -32,8 +32,9 @@ COMMANDS = {
     "forget": ("hri.cli.forget", "erase data kept about people, or about one person"),
     "watch": (
         "hri.cli.vision.watch",
-        "show the camera's view: people, ids, pose, gaze, gestures, objects",
+        "show the camera's view: people, ids, pose, gaze, gestures, objects, colors, motion",
     ),
+    "color": ("hri.cli.color", "teach colors and find them in pictures"),
     "object": ("hri.cli.object", "teach objects and recognize them in pictures"),
     "drive": ("hri.cli.drive", "drive a base by hand, with a live picture"),
     "token": ("hri.cli.token", "print the token with which other programs may move the robot"),

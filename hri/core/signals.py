@@ -326,6 +326,72 @@ class People:
 
 
 @dataclass(frozen=True, slots=True)
+class ColorBlob:
+    """A part of a picture that has a learned color."""
+
+    name: str
+    """Of the color."""
+    x: float
+    """Of its center, pixels from the left."""
+    y: float
+    """Pixels from the top."""
+    width: float
+    """Of the box around it, pixels."""
+    height: float
+    area: float
+    """Pixels."""
+    outline: tuple[tuple[float, float], ...]
+    """Corners of a polygon around it, pixels."""
+    bearing: float = 0.0
+    """Radians from the robot's straight ahead to the left."""
+    elevation: float = 0.0
+    """Radians from the robot's straight ahead up."""
+
+
+@dataclass(frozen=True, slots=True)
+class ColorBlobs:
+    """The blobs of one picture, the largest first."""
+
+    time: float
+    """Seconds, when the picture was taken."""
+    found: tuple[ColorBlob, ...] = ()
+
+    def largest(self, name: str = "") -> ColorBlob | None:
+        """The largest of a color; of all colors without a name."""
+        return next((blob for blob in self.found if name in ("", blob.name)), None)
+
+
+@dataclass(frozen=True, slots=True)
+class MovingRegion:
+    """A part of a picture that moves against what is behind it."""
+
+    x: float
+    """Of its center, pixels from the left."""
+    y: float
+    """Pixels from the top."""
+    width: float
+    """Of the box around it, pixels."""
+    height: float
+    bearing: float
+    """Radians from the robot's straight ahead to the left."""
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """How a picture has moved since the one before."""
+
+    time: float
+    """Seconds, when the picture was taken."""
+    elapsed: float
+    """Seconds since the one before."""
+    cells: NDArray[np.float32]
+    """Shape [rows, columns, 2]: pixels a second to the right and down, averaged over each cell,
+    without what the robot's own turning makes of it."""
+    regions: tuple[MovingRegion, ...] = ()
+    """What moves, the largest first."""
+
+
+@dataclass(frozen=True, slots=True)
 class FoundObject:
     """An object that was recognized in a picture."""
 

@@ -152,7 +152,7 @@ def test_the_decoder_comes_back_after_its_death(sphinx, companion, spoken):
     sphinx._process.kill()
     sphinx._process.wait()
 
-    assert [u.text for u in heard(sphinx, companion, spoken("turn left"))] == ["turn left"]
+    assert [u.text for u in heard(sphinx, companion, spoken("go forward"))] == ["go forward"]
 
 
 def test_typed_lines_are_heard(resources, companion):

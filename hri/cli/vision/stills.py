@@ -6,13 +6,13 @@ import argparse
 import json
 import math
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 from hri.cli.terminal.progress_line import progress
 from hri.core.errors import HriError
-from hri.core.signals import FaceBox, FoundObject, Frame, Person
+from hri.core.signals import ColorBlob, FaceBox, FoundObject, Frame, Image, Person
 from hri.hal.drivers.still_image import StillImage, read_still
 from hri.vision.detectors.face import FoundFace, is_same
 
@@ -47,10 +47,12 @@ def _row(still: StillImage, looks: dict[str, Look]) -> Row:
 def _looks(options: argparse.Namespace) -> dict[str, Look]:
     """What is looked for: what was asked for, else people."""
     looks: dict[str, Look] = {}
-    if options.people or options.objects is None:
+    if options.people or (options.objects is None and options.colors is None):
         looks["people"] = _people(options)
     if options.objects is not None:
         looks["objects"] = _objects(options)
+    if options.colors is not None:
+        looks["colors"] = _colors(options)
     return looks
 
 
@@ -119,6 +121,54 @@ def _objects(options: argparse.Namespace) -> Look:
     return lambda still: object_rows(still, recognizer.recognize(still.image))
 
 
+def _colors(options: argparse.Namespace) -> Look:
+    find = color_finder(options.colors)
+    return lambda still: color_rows(still, find(still.image))
+
+
+def color_finder(names: str) -> Callable[[Image], tuple[ColorBlob, ...]]:
+    """Finds the colors of these names, commas between; of none all that are known.
+
+    Each picture by itself: the light of one is not that of the next. Raises HriError.
+    """
+    from hri.vision.color.segmentation import ColorSegmenter
+
+    tables = color_tables(names)
+    return lambda image: ColorSegmenter(tables).segment(image)
+
+
+def color_tables(names: str) -> Mapping[str, Any]:
+    """The tables of colors of these names. Raises HriError."""
+    from hri.vision.color.color_model import color_names, find_color
+    from hri.vision.color.segmentation import tables_of
+
+    chosen = [name for name in names.split(",") if name] or color_names()
+    if not chosen:
+        raise HriError("no color is known - hri color learn NAME --images FILE --box X,Y,W,H")
+    return tables_of([find_color(name) for name in chosen])
+
+
+def color_rows(still: StillImage, found: Iterable[ColorBlob]) -> list[Row]:
+    """The blobs of a picture for JSON, in pixels of the picture as it is stored."""
+    return [
+        {
+            "name": one.name,
+            **_point(still, one.x, one.y),
+            **_size(still, one.width, one.height),
+            "area": round(one.area),
+            "outline": [[*_point(still, x, y).values()] for x, y in one.outline],
+        }
+        for one in found
+    ]
+
+
+def _size(still: StillImage, width: float, height: float) -> Row:
+    """A size of the upright picture in that which is stored."""
+    lies = still.orientation > 4
+    across, down = (height, width) if lies else (width, height)
+    return {"width": round(across, 1), "height": round(down, 1)}
+
+
 def _view(options: argparse.Namespace) -> Any:
     from hri.vision.camera_view import CameraView
 
@@ -179,7 +229,7 @@ def _number(value: float, digits: int = 3) -> float | None:
 def _line(row: Row) -> str:
     """The same for people to read."""
     parts = [f"{len(found)} {what}" for what, found in row.items() if isinstance(found, list)]
-    names = [one["name"] for one in row.get("objects", ())]
+    names = [one["name"] for what in ("objects", "colors") for one in row.get(what, ())]
     told = f" ({', '.join(names)})" if names else ""
     return f"{row['file']}: {row.get('error') or ', '.join(parts) + told}"
 

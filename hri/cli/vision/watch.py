@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -24,13 +25,24 @@ from hri.cli.vision.watching import (
 )
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import NotAvailable
-from hri.core.signals import FoundObject, Frame, HeadGesture, Image, People
+from hri.core.signals import (
+    ColorBlob,
+    FoundObject,
+    Frame,
+    HeadGesture,
+    Image,
+    Motion,
+    People,
+)
 from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE
 from hri.hal.camera import Camera
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.hal.screen import Screen
+
+if TYPE_CHECKING:
+    from hri.vision.camera_view import CameraView
 
 SHOWN = 1.5
 """Seconds that a gesture stays in the picture."""
@@ -50,6 +62,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--prompted", action="store_true", help="an answer is expected: a single nod is enough")
     add("--patterns", action="store_true", help="all gestures of gestures.toml, not nod and shake")
     add("--objects", metavar="SET.mdl", help="recognize the objects of a set, too")
+    about = "find colors, too: their names with commas between, or all"
+    add("--colors", nargs="?", const="", metavar="NAMES", help=about)
+    add("--motion", action="store_true", help="show what moves, too")
     add("--no-landmarks", action="store_true", help="hide the points of the faces")
 
 
@@ -88,6 +103,8 @@ class Watcher:
     has_landmarks: bool = True
     find: Callable[[Image], Sequence[FoundObject]] = lambda image: ()
     """Recognizes objects."""
+    find_colors: Callable[[Image], Sequence[ColorBlob]] = lambda image: ()
+    find_motion: Callable[[Frame], Motion | None] = lambda frame: None
     _recent: list[HeadGesture] = field(default_factory=list)
 
     @classmethod
@@ -116,11 +133,17 @@ class Watcher:
 
             models = load_models(find_models(options.objects))
             watcher.find = ObjectRecognizer(models, CameraView.of(camera)).recognize
+        if options.colors is not None:
+            from hri.vision.color.segmentation import ColorSegmenter
+
+            watcher.find_colors = ColorSegmenter(stills.color_tables(options.colors)).segment
+        if options.motion:
+            watcher.find_motion = _motion_finder(CameraView.of(camera))
         return watcher
 
     def look(self, frame: Frame) -> Image:
         """The frame with the results drawn in; gestures are printed."""
-        from hri.vision.detectors.overlay import draw, draw_objects
+        from hri.vision.detectors.overlay import draw, draw_blobs, draw_motion, draw_objects
 
         people = self.see(frame)
         for gesture in self.recognize(people):
@@ -131,7 +154,23 @@ class Watcher:
             )
         self._recent = [g for g in self._recent if 0 <= frame.time - g.time <= SHOWN]
         seen = draw(frame.image, people, self._recent, self.has_landmarks)
+        seen = draw_blobs(seen, self.find_colors(frame.image))
+        if (motion := self.find_motion(frame)) is not None:
+            seen = draw_motion(seen, motion)
         return draw_objects(seen, self.find(frame.image))
+
+
+def _motion_finder(view: CameraView) -> Callable[[Frame], Motion | None]:
+    """What moves before a camera that stands still."""
+    from hri.vision.motion.motion_finder import CameraMove, MotionFinder
+
+    finder = MotionFinder(view)
+
+    def find(frame: Frame) -> Motion | None:
+        found = finder.look(frame.image, frame.time, CameraMove(), 0.0)
+        return None if found is None else found.motion
+
+    return find
 
 
 def write(path: Path, watcher: Watcher, frames: Iterator[Frame]) -> None:

@@ -2,79 +2,135 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.core.signals import Image
-from hri.vision.color.color_mixture import Table
+from hri.core.signals import ColorBlob, Image
+from hri.vision.color.color_mixture import Table, ratio_table
+from hri.vision.color.color_model import load_color
 
+WIDEST = 320
+"""Pixels; a wider picture is shrunk."""
 LEAST = 0.001
 """Share of the picture below which a blob is noise."""
+MOST = 50
+"""Blobs of a color in a picture, the largest."""
 DARKEST = 30
 """Luma, 0 to 255, below which a pixel has no color that could be recognized."""
 LIKELY = 2.0
 """Log-likelihood ratio from which a pixel has the color."""
+FOLLOWED = 0.1
+"""Part of the way by which a table follows a change of light with each picture ..."""
+FARTHEST = 12.0
+"""... up to so many levels of chroma from where the color was learned."""
+
+Contour = Any
+Labels = NDArray[np.uint8]
+"""The number of a color from 1, 0 for none."""
 
 
-@dataclass(frozen=True, slots=True)
-class ColorBlob:
-    """A part of a picture that has one color."""
+class ColorSegmenter:
+    """Finds the blobs of colors, picture by picture, and follows slow changes of the light."""
 
-    name: str
-    """Of the color."""
-    x: float
-    """Of its center, pixels from the left."""
-    y: float
-    """Of its center, pixels from the top."""
-    box: tuple[int, int, int, int]
-    """Left, top, width and height in pixels."""
-    area: int
-    """Pixels."""
-    outline: tuple[tuple[int, int], ...]
-    """Corners, x and y in pixels."""
+    def __init__(self, tables: Mapping[str, Table]) -> None:
+        """`tables` are those of `ratio_table`, by the name of the color."""
+        self._names = list(tables)
+        self._tables = list(tables.values())
+        peaks = [np.unravel_index(int(table.argmax()), table.shape) for table in self._tables]
+        self._learned = [np.array(peak, float) for peak in peaks]
+        self._light = [np.zeros(2) for _ in tables]
+        """By color, how far its chroma has moved."""
+        self._shifts: list[tuple[int, ...]] = []
+        self._labels: Labels = np.zeros(65536, np.uint8)
 
+    def segment(self, image: Image) -> tuple[ColorBlob, ...]:
+        """The blobs of all colors (image: uint8, [height, width, 3], RGB), the largest first.
 
-def segment(image: Image, tables: Mapping[str, Table]) -> tuple[ColorBlob, ...]:
-    """The blobs of all colors, the largest first. A pixel has the one color that fits it best."""
-    height, width = image.shape[:2]
-    if not tables or not height or not width:
-        return ()
-    pixels = np.asarray(cv2.cvtColor(image, cv2.COLOR_RGB2YCrCb), np.uint8)
-    names = list(tables)
-    index = (pixels[..., 1].astype(np.uint16) << 8) | pixels[..., 2]
-    which = _label_table([tables[name] for name in names]).ravel().take(index)
-    which[pixels[..., 0] < DARKEST] = 0
-    least = max(LEAST * height * width, 1.0)
-    found = [
-        blob
-        for index, name in enumerate(names, start=1)
-        for blob in _blobs(name, np.asarray(which == index, np.uint8), least)
-    ]
-    return tuple(sorted(found, key=lambda blob: (-blob.area, blob.name, blob.box)))
+        A pixel has the one color that fits it best.
+        """
+        height, width = image.shape[:2]
+        if not self._names or not height or not width:
+            return ()
+        scale = min(1.0, WIDEST / width)
+        small = _shrunk(image, scale)
+        pixels = np.asarray(cv2.cvtColor(small, cv2.COLOR_RGB2YCrCb), np.uint8)
+        self._prepare()
+        which = self._labels.take((pixels[..., 1].astype(np.uint16) << 8) | pixels[..., 2])
+        which[pixels[..., 0] < DARKEST] = 0
+        found: list[ColorBlob] = []
+        for number, name in enumerate(self._names):
+            mask = (which == number + 1).view(np.uint8)
+            blobs = _blobs(name, mask, max(LEAST * mask.size, 1.0), width / small.shape[1])
+            self._follow(number, pixels, mask if blobs else None)
+            found += blobs
+        return tuple(sorted(found, key=lambda blob: (-blob.area, blob.name, blob.x, blob.y)))
 
-
-def _label_table(tables: list[Table]) -> NDArray[np.uint8]:
-    """By chroma, the number of the color from 1; 0 for the background."""
-    stacked = np.stack(tables)
-    return np.where(stacked.max(axis=0) >= LIKELY, stacked.argmax(axis=0) + 1, 0).astype(np.uint8)
-
-
-def _blobs(name: str, mask: NDArray[np.uint8], least: float) -> list[ColorBlob]:
-    count, labels, stats, centers = cv2.connectedComponentsWithStats(mask)
-    found = []
-    for part in range(1, count):
-        left, top, width, height, area = (int(number) for number in stats[part])
-        if area < least:
-            continue
-        own = np.asarray(labels[top : top + height, left : left + width] == part, np.uint8)
-        outlines, _ = cv2.findContours(
-            own, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_SIMPLE, offset=(left, top)
+    def _prepare(self) -> None:
+        """Make the labels anew when the light has changed by a level."""
+        shifts = [tuple(np.rint(light).astype(int).tolist()) for light in self._light]
+        if shifts == self._shifts:
+            return
+        self._shifts = shifts
+        stacked = np.stack(
+            [np.roll(table, by, (0, 1)) for table, by in zip(self._tables, shifts, strict=True)]
         )
-        outline = tuple((int(x), int(y)) for x, y in max(outlines, key=len).reshape(-1, 2))
-        x, y = (float(number) for number in centers[part])
-        found.append(ColorBlob(name, x, y, (left, top, width, height), area, outline))
-    return found
+        best = stacked.argmax(axis=0) + 1
+        self._labels = np.where(stacked.max(axis=0) >= LIKELY, best, 0).astype(np.uint8).ravel()
+
+    def _follow(self, number: int, pixels: NDArray[np.uint8], mask: Labels | None) -> None:
+        """Move with the chroma of what has the color, within bounds; back where nothing has."""
+        aim = np.zeros(2)
+        if mask is not None:
+            mean = cv2.mean(pixels, mask)
+            aim = np.array(mean[1:3]) - self._learned[number]
+        light = self._light[number]
+        light += FOLLOWED * (np.clip(aim, -FARTHEST, FARTHEST) - light)
+
+
+def tables_of(files: Iterable[Path]) -> dict[str, Table]:
+    """The tables of learned colors by their names. Raises HriError."""
+    models = [load_color(file) for file in files]
+    return {model.name: ratio_table(model.color, model.background) for model in models}
+
+
+def _shrunk(image: Image, scale: float) -> Image:
+    if scale == 1.0:
+        return image
+    size = max(1, round(image.shape[1] * scale)), max(1, round(image.shape[0] * scale))
+    return np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA), np.uint8)
+
+
+def _blobs(name: str, mask: Labels, least: float, scale: float) -> list[ColorBlob]:
+    """In pixels of the whole picture; `scale` is how many of them make one of the mask."""
+    contours, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_SIMPLE)
+    sizes = [(_pixels(contour), contour) for contour in contours]
+    large = sorted((one for one in sizes if one[0] >= least), key=lambda one: -one[0])
+    return [_blob(name, contour, pixels, scale) for pixels, contour in large[:MOST]]
+
+
+def _pixels(contour: Contour) -> float:
+    """How many pixels a contour holds, by Pick's theorem: it goes through their centers."""
+    return cv2.contourArea(contour) + cv2.arcLength(contour, True) / 2 + 1
+
+
+def _blob(name: str, contour: Contour, pixels: float, scale: float) -> ColorBlob:
+    left, top, width, height = cv2.boundingRect(contour)
+    moments = cv2.moments(contour)
+    x, y = left + (width - 1) / 2, top + (height - 1) / 2
+    if moments["m00"] > 0:
+        x, y = moments["m10"] / moments["m00"], moments["m01"] / moments["m00"]
+    corners = cv2.approxPolyDP(contour, 1.0, True).reshape(-1, 2) * scale
+    return ColorBlob(
+        name=name,
+        x=(x + 0.5) * scale - 0.5,
+        y=(y + 0.5) * scale - 0.5,
+        width=width * scale,
+        height=height * scale,
+        area=pixels * scale**2,
+        outline=tuple((float(a), float(b)) for a, b in corners.tolist()),
+    )

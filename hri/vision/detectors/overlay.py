@@ -8,7 +8,16 @@ from collections.abc import Sequence
 import cv2
 import numpy as np
 
-from hri.core.signals import FoundObject, HeadGesture, HeadPose, Image, People, Person
+from hri.core.signals import (
+    ColorBlob,
+    FoundObject,
+    HeadGesture,
+    HeadPose,
+    Image,
+    Motion,
+    People,
+    Person,
+)
 
 Color = tuple[int, int, int]
 Point = tuple[int, int]
@@ -22,6 +31,9 @@ SMALLEST_FACE = 8.0
 """Pixels; the marks of a smaller face would hide it."""
 REACH = 1e6
 """Pixels; points farther out, or NaN, are not drawn."""
+BLOB, MOVING = (255, 120, 220), (90, 200, 255)
+ARROW = 3.0
+"""Times the way between two pictures that an arrow is long."""
 FONT = cv2.FONT_HERSHEY_SIMPLEX
 
 
@@ -62,6 +74,37 @@ def draw_objects(image: Image, found: Sequence[FoundObject]) -> Image:
         distance = "" if math.isnan(one.distance) else f" {one.distance:.2f} m"
         at = max(0, int(corners[:, 0].min())), max(12, int(corners[:, 1].min()) - 4)
         _write(canvas, one.name + distance, at, size, OBJECT)
+    return canvas
+
+
+def draw_blobs(image: Image, found: Sequence[ColorBlob]) -> Image:
+    """A copy of the picture with the outline and name of each blob of a color."""
+    canvas = np.ascontiguousarray(image).copy()
+    size = _letter_size(canvas.shape[0])
+    for one in found:
+        corners = np.clip(np.rint(one.outline), -REACH, REACH).astype(np.int32)
+        cv2.polylines(canvas, [corners], True, BLOB, 2, cv2.LINE_AA)
+        at = max(0, int(corners[:, 0].min())), max(12, int(corners[:, 1].min()) - 4)
+        _write(canvas, one.name, at, size, BLOB)
+    return canvas
+
+
+def draw_motion(image: Image, motion: Motion) -> Image:
+    """A copy of the picture with an arrow for each cell that moves, and a box for each region."""
+    canvas = np.ascontiguousarray(image).copy()
+    rows, columns = motion.cells.shape[:2]
+    across, down = canvas.shape[1] / max(1, columns), canvas.shape[0] / max(1, rows)
+    steps = motion.cells * motion.elapsed
+    for row, column in np.argwhere(np.hypot(steps[..., 0], steps[..., 1]) >= 1):
+        start = np.array([(column + 0.5) * across, (row + 0.5) * down])
+        ends = [
+            np.clip(np.rint(end), -REACH, REACH).astype(int)
+            for end in (start, start + steps[row, column] * ARROW)
+        ]
+        cv2.arrowedLine(canvas, ends[0], ends[1], MOVING, 1, cv2.LINE_AA)
+    for one in motion.regions:
+        corner = round(one.x - one.width / 2), round(one.y - one.height / 2)
+        cv2.rectangle(canvas, (*corner, round(one.width), round(one.height)), MOVING, 2)
     return canvas
 
 

@@ -320,7 +320,7 @@ def test_a_hundred_thousand_sentences_are_parsed_in_no_time(write):
 
 
 def test_the_vocabulary_is_told(companion):
-    assert {"distance", "angle", "emotion", "eyes"} == companion.tag_names()
+    assert {"distance", "angle", "emotion", "eyes", "thing"} == companion.tag_names()
     assert {"forward", "ninety"} <= companion.words()
     assert list(companion.sentences_of("turn", 2)) == ["turn left", "turn left a little"]
 

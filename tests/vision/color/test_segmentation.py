@@ -4,7 +4,7 @@ import pytest
 
 from hri.core.errors import HriError
 from hri.vision.color.color_mixture import chroma, fit, ratio_table
-from hri.vision.color.segmentation import segment
+from hri.vision.color.segmentation import ColorSegmenter
 
 RED, BLUE, GRAY = (200, 30, 30), (30, 40, 200), (120, 120, 110)
 
@@ -35,21 +35,21 @@ def tables():
 
 def test_blobs_of_several_colors_have_place_and_size(tables):
     image = drawn((RED, (80, 100), 30), (BLUE, (230, 60), 20))
-    red, blue = segment(image, tables)
+    red, blue = ColorSegmenter(tables).segment(image)
     assert (red.name, blue.name) == ("red", "blue"), "the largest comes first"
     assert (red.x, red.y) == pytest.approx((80, 100), abs=1)
     assert red.area == pytest.approx(np.pi * 30**2, rel=0.05)
-    assert red.box[2:] == pytest.approx((61, 61), abs=2)
+    assert (red.width, red.height) == pytest.approx((61, 61), abs=2)
     assert (blue.x, blue.y) == pytest.approx((230, 60), abs=1)
 
 
 def test_an_empty_room_has_no_blobs(tables):
-    assert segment(drawn(), tables) == ()
+    assert ColorSegmenter(tables).segment(drawn()) == ()
 
 
 @pytest.mark.parametrize("size", [(1, 1), (33, 17), (1, 50)])
 def test_a_black_picture_of_any_size_has_no_blobs(tables, size):
-    assert segment(np.zeros((*size, 3), np.uint8), tables) == ()
+    assert ColorSegmenter(tables).segment(np.zeros((*size, 3), np.uint8)) == ()
 
 
 def test_the_same_seed_gives_the_same_mixture():

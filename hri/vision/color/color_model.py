@@ -1,0 +1,197 @@
+"""A learned color, and its file `NAME.color`.
+
+The file is JSON with the keys `format` (1), `learned` (a day), and `color` and `background`: the
+mixtures of their chroma, each with `weights`, `means` and `covariances`. It has numbers alone, no
+pictures.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.core import paths
+from hri.core.errors import HriError, did_you_mean
+from hri.core.privacy import folder_for
+from hri.core.reading import parse_json, read_text
+from hri.core.signals import Image
+from hri.core.writing import PRIVATE, write_text
+from hri.vision.color.color_mixture import ColorMixture, Samples, chroma, fit
+
+KIND = "config/colors"
+SUFFIX = ".color"
+FORMAT = 1
+COMPONENTS, BEHIND = 2, 4
+"""Gaussians of a color, and of what is behind it."""
+AROUND = 1.0
+"""Of a box's size: what is nearer to it may have the color, too, and is not background."""
+SPREAD = 16.0
+"""Variance of chroma, squared levels, by which another light and another shade may differ."""
+MOST_COMPONENTS = 16
+LARGEST_VARIANCE = 1e5
+LONGEST_NAME = 60
+REMEDY = "learn it again: hri color learn"
+
+Box = tuple[int, int, int, int]
+"""Left, top, width and height in pixels."""
+
+
+@dataclass(frozen=True, slots=True)
+class ColorModel:
+    """How a color looks to a camera, and what was behind it."""
+
+    name: str
+    color: ColorMixture
+    background: ColorMixture
+    learned: str = ""
+    """The day."""
+
+
+def learn_color(
+    name: str, pictures: Iterable[tuple[Image, Sequence[Box]]], day: str = ""
+) -> ColorModel:
+    """Learn from pictures (uint8, [height, width, 3], RGB) and the boxes that show the color.
+
+    What is farther from the boxes is background. Raises HriError when a box is outside of its
+    picture, or there is too little of either.
+    """
+    inside: list[Samples] = []
+    outside: list[Samples] = []
+    for image, boxes in pictures:
+        has_color, is_behind = np.zeros(image.shape[:2], bool), np.ones(image.shape[:2], bool)
+        for box in boxes:
+            has_color[_within(box, image)] = True
+            is_behind[_around(box)] = False
+        pixels = chroma(image).astype(float)
+        inside.append(pixels[has_color])
+        outside.append(pixels[is_behind])
+    if not inside:
+        raise HriError(f"no picture to learn {name} from - give one")
+    color = fit(np.concatenate(inside), COMPONENTS)
+    spread = replace(color, covariances=color.covariances + SPREAD * np.eye(2))
+    return ColorModel(name, spread, fit(np.concatenate(outside), BEHIND), day)
+
+
+def _within(box: Box, image: Image) -> tuple[slice, slice]:
+    left, top, width, height = box
+    is_inside = 0 <= left < image.shape[1] and 0 <= top < image.shape[0]
+    if not (is_inside and width > 0 and height > 0):
+        size = f"{image.shape[1]} x {image.shape[0]}"
+        what = f"the box {left},{top},{width},{height} is outside of a picture of {size}"
+        raise HriError(f"{what} - give left, top, width and height in pixels")
+    return slice(top, top + height), slice(left, left + width)
+
+
+def _around(box: Box) -> tuple[slice, slice]:
+    left, top, width, height = box
+    beside, over = int(AROUND * width), int(AROUND * height)
+    rows = slice(max(0, top - over), top + height + over)
+    return rows, slice(max(0, left - beside), left + width + beside)
+
+
+def own_colors() -> Path:
+    """The folder of the colors that the user has taught. Raises HriError."""
+    return paths.data_folder() / "colors"
+
+
+def color_names() -> list[str]:
+    """All that can be found by name, sorted."""
+    own = (file.name for file in own_colors().glob(f"*{SUFFIX}"))
+    found = (name for name in (*own, *paths.names(KIND)) if name.endswith(SUFFIX))
+    return sorted({name.removesuffix(SUFFIX) for name in found})
+
+
+def find_color(name: str) -> Path:
+    """The file of a color: a path, or a name of the user's own or in `config/colors`.
+
+    Raises HriError.
+    """
+    if paths.exists(own := own_colors() / f"{Path(name).name}{SUFFIX}") and is_name(name):
+        return own
+    if name.endswith(SUFFIX):
+        return paths.find(KIND, name)
+    if name not in color_names():
+        raise HriError(f'no color "{name}" - {did_you_mean(name, color_names())}')
+    return paths.find(KIND, f"{name}{SUFFIX}")
+
+
+def is_name(name: str) -> bool:
+    """Whether a color may be named so: it is the name of its file."""
+    return 0 < len(name) <= LONGEST_NAME and all(c.isalnum() or c in "-_ " for c in name)
+
+
+def load_color(path: Path) -> ColorModel:
+    """Read a color. Raises HriError with what is wrong."""
+    try:
+        data = parse_json(read_text(path, "color"))
+    except (ValueError, RecursionError) as error:
+        raise _damaged(path, f"it is not JSON: {error}") from error
+    if not isinstance(data, dict) or data.get("format") != FORMAT:
+        raise _damaged(path, f'"format" is not {FORMAT}')
+    learned = data.get("learned", "")
+    if not isinstance(learned, str) or len(learned) > LONGEST_NAME:
+        raise _damaged(path, '"learned" is not a day')
+    return ColorModel(
+        path.stem, _mixture(path, data, "color"), _mixture(path, data, "background"), learned
+    )
+
+
+def save_color(path: Path, model: ColorModel) -> None:
+    """Write a color. Raises HriError."""
+    data = {
+        "format": FORMAT,
+        "learned": model.learned,
+        "color": _written(model.color),
+        "background": _written(model.background),
+    }
+    folder_for(path)
+    write_text(path, json.dumps(data, indent=1) + "\n", PRIVATE)
+
+
+def _written(mixture: ColorMixture) -> dict[str, object]:
+    return {
+        "weights": mixture.weights.round(5).tolist(),
+        "means": mixture.means.round(3).tolist(),
+        "covariances": mixture.covariances.round(3).tolist(),
+    }
+
+
+def _mixture(path: Path, data: dict[str, Any], key: str) -> ColorMixture:
+    part = data.get(key)
+    if not isinstance(part, dict):
+        raise _damaged(path, f'"{key}" is not a table')
+    weights = _numbers(path, part, f"{key}.weights", 1)
+    count = len(weights)
+    means = _numbers(path, part, f"{key}.means", 2)
+    covariances = _numbers(path, part, f"{key}.covariances", 3)
+    fits = means.shape == (count, 2) and covariances.shape == (count, 2, 2)
+    if not (0 < count <= MOST_COMPONENTS and fits):
+        raise _damaged(path, f'the parts of "{key}" do not fit together')
+    variances = covariances[:, [0, 1], [0, 1]]
+    is_real = (
+        (weights > 0).all() and (np.linalg.det(covariances) > 0).all() and (variances > 0).all()
+    )
+    if not (is_real and variances.max() < LARGEST_VARIANCE and np.abs(means).max() < 1e3):
+        raise _damaged(path, f'"{key}" has numbers that no color has')
+    symmetric = (covariances + covariances.transpose(0, 2, 1)) / 2
+    return ColorMixture(weights / weights.sum(), means, symmetric)
+
+
+def _numbers(path: Path, part: dict[str, Any], key: str, axes: int) -> NDArray[np.float64]:
+    try:
+        numbers = np.array(part.get(key.rpartition(".")[2]), np.float64)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise _damaged(path, f'"{key}" is not made of numbers') from error
+    if numbers.ndim != axes or not np.isfinite(numbers).all():
+        raise _damaged(path, f'"{key}" is not made of numbers')
+    return numbers
+
+
+def _damaged(path: Path, what: str) -> HriError:
+    return HriError(f"{path}: this color is damaged: {what} - {REMEDY}")

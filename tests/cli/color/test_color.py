@@ -1,0 +1,127 @@
+"""`hri color`: colors are taught, listed, shown, tested, checked, and removed."""
+
+import json
+
+import cv2
+import numpy as np
+import pytest
+
+from hri.cli.main import main
+from hri.vision.color.color_model import own_colors
+from tests.vision.color.test_segmentation import BLUE, RED, drawn
+
+IMAGE = drawn((RED, (80, 100), 30), (BLUE, (230, 60), 20))
+
+
+@pytest.fixture(autouse=True)
+def home(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+    return tmp_path
+
+
+@pytest.fixture
+def balls(home):
+    path = home / "balls.png"
+    cv2.imwrite(str(path), IMAGE[..., ::-1])
+    return str(path)
+
+
+def hri_color(*words):
+    return main(["color", *map(str, words)])
+
+
+@pytest.mark.proves("R10")
+def test_colors_that_were_taught_by_boxes_and_clicks_are_found(home, balls, capsys):
+    assert hri_color("learn", "ball", "--images", balls, "--box", "65,85,30,30") == 0
+    assert hri_color("learn", "cube", "--images", balls, "--click", "230,60") == 0
+    other = home / "other.png"
+    cv2.imwrite(str(other), drawn((RED, (200, 150), 30), seed=5)[..., ::-1])
+    capsys.readouterr()
+    words = ["watch", "--stills", balls, str(other), "--colors", "ball,cube", "--json"]
+    assert main(words) == 0
+    first, second = map(json.loads, capsys.readouterr().out.splitlines())
+    assert [one["name"] for one in first["colors"]] == ["ball", "cube"]
+    (ball,) = second["colors"]
+    assert ball.keys() == {"name", "x", "y", "width", "height", "area", "outline"}
+    assert (ball["x"], ball["y"]) == pytest.approx((200, 150), abs=1.5)
+    assert ball["width"] == pytest.approx(61, abs=3)
+    assert hri_color("test", other, "--colors", "ball") == 0
+    assert "ball at (20" in capsys.readouterr().out
+
+
+def test_without_a_box_the_middle_is_learned(home, capsys):
+    path = home / "middle.png"
+    cv2.imwrite(str(path), drawn((BLUE, (160, 120), 50))[..., ::-1])
+    assert hri_color("learn", "cube", "--images", path) == 0
+    assert hri_color("test", path, "--colors", "cube") == 0
+    assert "cube at (160, 120)" in capsys.readouterr().out
+
+
+def test_colors_are_listed_shown_checked_and_removed(home, balls, capsys):
+    hri_color("learn", "ball", "--images", balls, "--box", "65,85,30,30")
+    capsys.readouterr()
+    assert hri_color("list", "--json") == 0
+    assert [one["name"] for one in json.loads(capsys.readouterr().out)] == ["ball", "red_ball"]
+    assert hri_color("show", "ball", "--out", home / "ball.png") == 0
+    assert "of all chroma has it" in capsys.readouterr().out
+    assert cv2.imread(str(home / "ball.png")).shape == (256, 256, 3)
+    assert hri_color("check", "ball") == 0
+    assert hri_color("remove", "bal") == 2
+    assert 'no color "bal" of your own - did you mean "ball"' in capsys.readouterr().err
+    assert hri_color("remove", "ball") == 0
+    assert not list(own_colors().glob("*"))
+
+
+def test_two_that_are_the_same_and_one_that_is_damaged_are_reported(home, balls, capsys):
+    for name in ("ball", "apple"):
+        hri_color("learn", name, "--images", balls, "--box", "65,85,30,30")
+    (own_colors() / "bad.color").write_text("{")
+    capsys.readouterr()
+    assert hri_color("check") == 1
+    told = capsys.readouterr().out
+    assert 'apple: "ball" is nearly the same color' in told
+    assert "bad.color: this color is damaged" in told
+    assert hri_color("list") == 1
+
+
+@pytest.mark.parametrize("name", ["", "../evil", "a/b", "x" * 61])
+def test_a_name_that_is_no_name_of_a_file_is_refused(balls, capsys, name):
+    assert hri_color("learn", name, "--images", balls) == 2
+    assert "is not a valid name for a color" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("box", ["1,2,3", "a,b,c,d", "1,2,3,4,5"])
+def test_a_box_that_is_not_four_numbers_is_refused(balls, capsys, box):
+    with pytest.raises(SystemExit):
+        hri_color("learn", "ball", "--images", balls, "--box", box)
+    assert "4 whole numbers with commas between" in capsys.readouterr().err
+
+
+def test_a_folder_of_junk_is_refused(home, capsys):
+    (home / "junk").mkdir()
+    (home / "junk" / "a.png").write_text("junk")
+    assert hri_color("learn", "ball", "--images", home / "junk") == 2
+    assert "a.png: not a readable picture" in capsys.readouterr().err
+
+
+def test_a_film_shows_the_colors_and_what_moves(home, capsys):
+    film = home / "film.mp4"
+    writer = cv2.VideoWriter(str(film), cv2.VideoWriter.fourcc(*"mp4v"), 10, (320, 240))
+    for number in range(10):
+        image = drawn((RED, (80 + 8 * number, 100), 30), seed=number)
+        writer.write(np.ascontiguousarray(image[..., ::-1]))
+    writer.release()
+    out = home / "seen.mp4"
+    words = [
+        "--video",
+        film,
+        "--out",
+        out,
+        "--colors",
+        "red_ball",
+        "--motion",
+        "--detector",
+        "haar",
+    ]
+    assert main(["watch", *map(str, words)]) == 0
+    assert out.stat().st_size > 1000
