@@ -31,6 +31,7 @@ GROUPS = [
     *("behavior/speech", "behavior/unit_test", "behavior/vision"),
     *("task", "task/custom", "task/parallel", "task/events", "task/primitive"),
     "objrec",
+    "color",
 ]
 
 
@@ -217,10 +218,10 @@ def test_the_recognized_object_is_followed_around(simulated):
 
     name = "dollar_front.jpg"
     world.place(name, 2.2, -0.3)
-    assert run("behavior/tracking/tracking.xml", simulated, 12.0)
+    assert run("behavior/tracking/tracking.xml", simulated, 8.0)
     assert apart(2.2, -0.3) == pytest.approx(1.0, abs=0.2)
     world.place(name, 3.5, -0.8)
-    run("behavior/tracking/tracking.xml", simulated, 15.0)
+    run("behavior/tracking/tracking.xml", simulated, 9.0)
     assert apart(3.5, -0.8) == pytest.approx(1.0, abs=0.2)
 
 
@@ -264,3 +265,13 @@ def test_samples_are_short():
     for path in Path(SAMPLES).rglob("*.*"):
         if path.suffix in (".py", ".xml", ".toml"):
             assert len(path.read_text().splitlines()) <= 70, path
+
+
+@pytest.mark.proves("P08", "R09", "R10")
+def test_a_red_ball_is_found_and_nothing_moves(capsys):
+    options = ["--config", str(SAMPLES / "color/resource-config.xml"), "--fast", "--duration=1"]
+    assert behave.main([str(SAMPLES / "color/colors.xml"), *options]) == 0
+    printed = capsys.readouterr().out
+    assert "string: red_ball" in printed
+    assert re.search(r"double: 2\.[12]", printed)
+    assert "boolean: true" not in printed
