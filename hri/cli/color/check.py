@@ -34,7 +34,7 @@ def run(options: argparse.Namespace) -> int:
             continue
         masks[model.name] = mask = _chroma_of(model)
         if mask.mean() > WIDE:
-            problems.append(f"{name}: {mask.mean():.0%} of all chroma has it - learn it anew")
+            problems.append(f"{name}: {mask.mean():.0%} of all chroma has it - learn it again")
         if not mask.any():
             problems.append(f"{name}: it is like its background - learn it before another one")
     for (one, first), (other, second) in combinations(masks.items(), 2):

@@ -27,7 +27,7 @@ LIKELY = 2.0
 FOLLOWED = 0.1
 """Part of the way by which a table follows a change of light with each picture ..."""
 FARTHEST = 12.0
-"""... up to so many levels of chroma from where the color was learned."""
+"""... up to this many levels of chroma from where the color was learned."""
 
 Contour = Any
 Labels = NDArray[np.uint8]
@@ -71,7 +71,7 @@ class ColorSegmenter:
         return tuple(sorted(found, key=lambda blob: (-blob.area, blob.name, blob.x, blob.y)))
 
     def _prepare(self) -> None:
-        """Make the labels anew when the light has changed by a level."""
+        """Make the labels again when the light has changed by a level."""
         shifts = [tuple(np.rint(light).astype(int).tolist()) for light in self._light]
         if shifts == self._shifts:
             return
