@@ -346,6 +346,8 @@ class ColorBlob:
     """Radians from the robot's straight ahead to the left."""
     elevation: float = 0.0
     """Radians from the robot's straight ahead up."""
+    confidence: float = 1.0
+    """Probability that its mean chroma is of this color, not of another or of the background."""
 
 
 @dataclass(frozen=True, slots=True)

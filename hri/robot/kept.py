@@ -25,6 +25,7 @@ from hri.hal import choices
 from hri.robot.recording import BY_DATE, RECORDINGS, parts
 from hri.speech.pronunciation.guesses import GUESSES
 from hri.speech.pronunciation.lexicon import user_lexicon
+from hri.vision.color.color_model import own_color_files
 from hri.vision.objects.model_file import load_models, save_models
 from hri.vision.objects.object_model import ObjectModel
 from hri.vision.tracking.face_recognition import Acquaintances
@@ -212,6 +213,24 @@ class Objects(Kept):
         save_models(place, models)
 
 
+class Colors(Kept):
+    """Files of colors; one may bear the name of whose it is."""
+
+    about = "a color that you taught"
+
+    def places(self) -> list[Path]:
+        return list(dict.fromkeys((*own_color_files(), *noted("colors"))))
+
+    def needs_yes(self, person: str | None) -> bool:
+        return person is None
+
+    def concerns(self, place: Path, person: str) -> bool:
+        return is_named(person, place.stem)  # it holds only numbers
+
+    def forget(self, place: Path, person: str) -> None:
+        self.delete(place)
+
+
 class Recordings(Kept):
     """Folders of recordings, wherever they are."""
 
@@ -260,7 +279,7 @@ class Pictures(Kept):
 
 
 KEPT: tuple[Kept, ...] = (
-    Feelings(), Faces(), LookedUpWords(), OwnWords(), Devices(), Objects(), Recordings(),
+    Feelings(), Faces(), LookedUpWords(), OwnWords(), Devices(), Objects(), Colors(), Recordings(),
     Pictures(),
 )  # fmt: skip
 """The one list. What the program begins to keep about people is added here."""

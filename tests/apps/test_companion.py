@@ -19,7 +19,8 @@ from hri.simulation.world import SimulatedWorld
 from hri.testing import live_for
 from tests.devices import BLIND, SMALL_SCREEN, live_microphone
 
-SLOW_CAMERA = Description("camera", "Hri.SimulatedCamera", {"rate": "5"}, "world")
+SLOW = {"width": "640", "height": "480", "rate": "5"}
+SLOW_CAMERA = Description("camera", "Hri.SimulatedCamera", SLOW, "world")
 
 
 class KeyedScreen(OffscreenScreen):

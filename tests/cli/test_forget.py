@@ -21,6 +21,7 @@ from hri.emotion.persistence import Memory, keep, memory_file, recall
 from hri.hal.choices import choices_file, save_choices
 from hri.hal.drivers.image_size import write_picture
 from hri.robot import kept
+from hri.vision.color.color_model import find_color, load_color, own_colors, save_color
 from hri.vision.objects.model_file import load_models, own_models, save_models
 from hri.vision.tracking.face_recognition import Acquaintances
 from tests.vision.objects.pictures import learned
@@ -106,6 +107,9 @@ def live(home, authored):
     assert main(["grammar", "pronounce", BEN, "--add", "W EH K S"]) == 0
     save_choices({"microphone": f"Headset of {ANNA}", "speaker": "USB"})
     save_models(own_models(), learned(f"{ANNA}'s cup", "key"))
+    color = load_color(find_color("red_ball"))
+    for name in (f"{ANNA} shirt", "sky"):
+        save_color(own_colors() / f"{name}.color", color)
 
 
 @pytest.mark.proves("R11")
@@ -121,6 +125,7 @@ def test_nothing_of_who_was_forgotten_is_in_any_file_that_the_program_wrote(
     kept_of_her = {
         "feelings.json", "feelings.json.new", "feelings.unusable-1.json", "faces.json",
         "events.jsonl", "guessed-words-2.txt", "lexicon.txt", "devices.toml", "objects.mdl",
+        f"{ANNA} shirt.color",
     }  # fmt: skip
     assert holding(home, ANNA) == kept_of_her
     assert open_to_others(home) == set()
@@ -135,6 +140,7 @@ def test_nothing_of_who_was_forgotten_is_in_any_file_that_the_program_wrote(
     assert not whereabouts_file().exists() or str(out) not in whereabouts_file().read_text()
     assert BEN in recall(memory_file()).imprint.relations
     assert [one.name for one in load_models(own_models()).objects] == ["key"]
+    assert [file.name for file in own_colors().iterdir()] == ["sky.color"]
     assert holding(home, BEN) == {"feelings.json", "lexicon.txt"}
 
     assert main(["emotion", "forget", "--yes"]) == 0

@@ -46,4 +46,4 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _chroma_of(model: ColorModel) -> np.ndarray[tuple[int, int], np.dtype[np.bool_]]:
-    return np.asarray(ratio_table(model.color, model.background) >= LIKELY)
+    return np.asarray(ratio_table(model.color, model.background).ratios >= LIKELY)

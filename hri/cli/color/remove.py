@@ -6,7 +6,7 @@ import argparse
 
 from hri.core.errors import HriError, did_you_mean
 from hri.core.writing import delete
-from hri.vision.color.color_model import SUFFIX, own_colors
+from hri.vision.color.color_model import own_color_files
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -14,7 +14,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    own = {file.stem: file for file in own_colors().glob(f"*{SUFFIX}")}
+    own = {file.stem: file for file in own_color_files()}
     for name in options.names:
         if name not in own:
             raise HriError(f'no color "{name}" of your own - {did_you_mean(name, own)}')

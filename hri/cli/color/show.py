@@ -28,7 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     model = load_color(find_color(options.name))
-    has_color = ratio_table(model.color, model.background) >= LIKELY
+    has_color = ratio_table(model.color, model.background).ratios >= LIKELY
     red, blue = np.mgrid[:256, :256].astype(np.uint8)
     plane = np.dstack([np.full((256, 256), LUMA, np.uint8), red, blue])
     picture = cv2.cvtColor(plane, cv2.COLOR_YCrCb2RGB).astype(np.float32)

@@ -156,6 +156,7 @@ def color_rows(still: StillImage, found: Iterable[ColorBlob]) -> list[Row]:
             **_point(still, one.x, one.y),
             **_size(still, one.width, one.height),
             "area": round(one.area),
+            "confidence": round(one.confidence, 3),
             "outline": [[*_point(still, x, y).values()] for x, y in one.outline],
         }
         for one in found

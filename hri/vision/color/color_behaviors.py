@@ -14,7 +14,7 @@ from hri.core.signals import ColorBlob, ColorBlobs, Frame, People
 from hri.hal.camera import Camera
 from hri.vision.behaviors import camera_of
 from hri.vision.camera_view import CameraView
-from hri.vision.color.color_mixture import FEWEST, Table
+from hri.vision.color.color_mixture import FEWEST, ColorTable
 from hri.vision.color.color_model import find_color
 from hri.vision.color.segmentation import ColorSegmenter, tables_of
 from hri.vision.color.skin import SKIN, skin_samples, skin_table
@@ -61,13 +61,13 @@ class ColorSegmentation(Behavior):
         if self._camera is not None and self.looks_ahead:
             self._camera.look_ahead(True)
         self._segmenter = ColorSegmenter(self._tables)
-        self._worker: Worker[Table] = context.clock.worker(LEARNING_S)
+        self._worker: Worker[ColorTable] = context.clock.worker(LEARNING_S)
         self._learned = -math.inf
 
     def compute(self, now: float, dt: float) -> None:
         """Look at a picture."""
         for table in self._worker.poll():
-            self._segmenter = ColorSegmenter({**self._tables, SKIN: table})
+            self._segmenter.learn(SKIN, table)
         if (frame := self.image.value) is None:
             return
         if self.skin:

@@ -16,8 +16,6 @@ from hri.core.signals import Image
 
 Samples = NDArray[np.float64]
 """Chroma of pixels, shape [n, 2]: Cr and Cb, 0 to 255."""
-Table = NDArray[np.float32]
-"""Log-likelihood ratio of a color to the background, shape [256, 256]: by Cr, then by Cb."""
 
 STEPS = 30
 FLOOR = 4.0
@@ -100,9 +98,20 @@ def _improved(mixture: ColorMixture, samples: Samples) -> ColorMixture:
     return ColorMixture(mass / mass.sum(), means, covariances + FLOOR * np.eye(2))
 
 
-def ratio_table(color: ColorMixture, background: ColorMixture) -> Table:
-    """How much likelier each chroma is in the color than in the background."""
+@dataclass(frozen=True, slots=True)
+class ColorTable:
+    """How much likelier each chroma is in a color than in its background."""
+
+    ratios: NDArray[np.float32]
+    """Log-likelihood ratios, shape [256, 256]: by Cr, then by Cb."""
+    center: NDArray[np.float64]
+    """Mean chroma of the color, shape [2]."""
+
+
+def ratio_table(color: ColorMixture, background: ColorMixture) -> ColorTable:
+    """The table of a color."""
     levels = np.arange(256.0)
     every = np.stack(np.meshgrid(levels, levels, indexing="ij"), axis=-1).reshape(-1, 2)
     behind = np.logaddexp(background.log_likelihood(every), np.log(UNSEEN / 256**2))
-    return np.asarray((color.log_likelihood(every) - behind).reshape(256, 256), np.float32)
+    ratios = (color.log_likelihood(every) - behind).reshape(256, 256).astype(np.float32)
+    return ColorTable(ratios, color.weights @ color.means)

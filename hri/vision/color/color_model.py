@@ -21,6 +21,7 @@ from hri.core.errors import HriError, did_you_mean
 from hri.core.privacy import folder_for
 from hri.core.reading import parse_json, read_text
 from hri.core.signals import Image
+from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE, write_text
 from hri.vision.color.color_mixture import ColorMixture, Samples, chroma, fit
 
@@ -100,9 +101,14 @@ def own_colors() -> Path:
     return paths.data_folder() / "colors"
 
 
+def own_color_files() -> list[Path]:
+    """The files of the colors that the user has taught, sorted. Raises HriError."""
+    return sorted(own_colors().glob(f"*{SUFFIX}"))
+
+
 def color_names() -> list[str]:
     """All that can be found by name, sorted."""
-    own = (file.name for file in own_colors().glob(f"*{SUFFIX}"))
+    own = (file.name for file in own_color_files())
     found = (name for name in (*own, *paths.names(KIND)) if name.endswith(SUFFIX))
     return sorted({name.removesuffix(SUFFIX) for name in found})
 
@@ -143,7 +149,7 @@ def load_color(path: Path) -> ColorModel:
 
 
 def save_color(path: Path, model: ColorModel) -> None:
-    """Write a color. Raises HriError."""
+    """Write a color that only its owner may read. Raises HriError."""
     data = {
         "format": FORMAT,
         "learned": model.learned,
@@ -152,6 +158,8 @@ def save_color(path: Path, model: ColorModel) -> None:
     }
     folder_for(path)
     write_text(path, json.dumps(data, indent=1) + "\n", PRIVATE)
+    if path.parent.resolve() != own_colors().resolve():
+        note("colors", path)
 
 
 def _written(mixture: ColorMixture) -> dict[str, object]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.signals import ColorBlob, Image
-from hri.vision.color.color_mixture import Table, ratio_table
+from hri.vision.color.color_mixture import ColorTable, ratio_table
 from hri.vision.color.color_model import load_color
 
 WIDEST = 320
@@ -37,16 +38,33 @@ Labels = NDArray[np.uint8]
 class ColorSegmenter:
     """Finds the blobs of colors, picture by picture, and follows slow changes of the light."""
 
-    def __init__(self, tables: Mapping[str, Table]) -> None:
+    def __init__(self, tables: Mapping[str, ColorTable]) -> None:
         """`tables` are those of `ratio_table`, by the name of the color."""
-        self._names = list(tables)
-        self._tables = list(tables.values())
-        peaks = [np.unravel_index(int(table.argmax()), table.shape) for table in self._tables]
-        self._learned = [np.array(peak, float) for peak in peaks]
-        self._light = [np.zeros(2) for _ in tables]
+        self._names: list[str] = []
+        self._tables: list[ColorTable] = []
+        self._light: list[NDArray[np.float64]] = []
         """By color, how far its chroma has moved."""
         self._shifts: list[tuple[int, ...]] = []
         self._labels: Labels = np.zeros(65536, np.uint8)
+        for name, table in tables.items():
+            self.learn(name, table)
+
+    def learn(self, name: str, table: ColorTable) -> None:
+        """Look for one more color, or for one from now on in the light of now."""
+        if name not in self._names:
+            self._names.append(name)
+            self._tables.append(table)
+            self._light.append(np.zeros(2))
+        number = self._names.index(name)
+        self._tables[number] = table
+        self._light[number] = np.zeros(2)
+        self._shifts = []
+
+    @property
+    def light(self) -> dict[str, tuple[float, float]]:
+        """By color, by how many levels of Cr and Cb it has moved with the light."""
+        shifts = ((float(cr), float(cb)) for cr, cb in self._light)
+        return dict(zip(self._names, shifts, strict=True))
 
     def segment(self, image: Image) -> tuple[ColorBlob, ...]:
         """The blobs of all colors (image: uint8, [height, width, 3], RGB), the largest first.
@@ -56,8 +74,8 @@ class ColorSegmenter:
         height, width = image.shape[:2]
         if not self._names or not height or not width:
             return ()
-        scale = min(1.0, WIDEST / width)
-        small = _shrunk(image, scale)
+        small = _shrunk(image, min(1.0, WIDEST / width))
+        scale = width / small.shape[1]
         pixels = np.asarray(cv2.cvtColor(small, cv2.COLOR_RGB2YCrCb), np.uint8)
         self._prepare()
         which = self._labels.take((pixels[..., 1].astype(np.uint16) << 8) | pixels[..., 2])
@@ -65,7 +83,10 @@ class ColorSegmenter:
         found: list[ColorBlob] = []
         for number, name in enumerate(self._names):
             mask = (which == number + 1).view(np.uint8)
-            blobs = _blobs(name, mask, max(LEAST * mask.size, 1.0), width / small.shape[1])
+            blobs = [
+                _blob(name, part, count, scale, self._confidence(number, part, pixels, mask))
+                for count, part in _parts(mask, max(LEAST * mask.size, 1.0))
+            ]
             self._follow(number, pixels, mask if blobs else None)
             found += blobs
         return tuple(sorted(found, key=lambda blob: (-blob.area, blob.name, blob.x, blob.y)))
@@ -77,22 +98,36 @@ class ColorSegmenter:
             return
         self._shifts = shifts
         stacked = np.stack(
-            [np.roll(table, by, (0, 1)) for table, by in zip(self._tables, shifts, strict=True)]
+            [
+                np.roll(table.ratios, by, (0, 1))
+                for table, by in zip(self._tables, shifts, strict=True)
+            ]
         )
         best = stacked.argmax(axis=0) + 1
         self._labels = np.where(stacked.max(axis=0) >= LIKELY, best, 0).astype(np.uint8).ravel()
+
+    def _confidence(
+        self, number: int, part: Contour, pixels: NDArray[np.uint8], mask: Labels
+    ) -> float:
+        """How likely the mean chroma of a part of the mask is of this color, 0 to 1."""
+        left, top, width, height = cv2.boundingRect(part)
+        box = slice(top, top + height), slice(left, left + width)
+        chroma = np.array(cv2.mean(pixels[box], mask[box])[1:3])
+        places = [np.clip(chroma - shift, 0, 255).astype(int) for shift in self._shifts]
+        ratios = [float(table.ratios[*at]) for table, at in zip(self._tables, places, strict=True)]
+        return math.exp(ratios[number] - float(np.logaddexp.reduce([0.0, *ratios])))
 
     def _follow(self, number: int, pixels: NDArray[np.uint8], mask: Labels | None) -> None:
         """Move with the chroma of what has the color, within bounds; back where nothing has."""
         aim = np.zeros(2)
         if mask is not None:
             mean = cv2.mean(pixels, mask)
-            aim = np.array(mean[1:3]) - self._learned[number]
+            aim = np.array(mean[1:3]) - self._tables[number].center
         light = self._light[number]
         light += FOLLOWED * (np.clip(aim, -FARTHEST, FARTHEST) - light)
 
 
-def tables_of(files: Iterable[Path]) -> dict[str, Table]:
+def tables_of(files: Iterable[Path]) -> dict[str, ColorTable]:
     """The tables of learned colors by their names. Raises HriError."""
     models = [load_color(file) for file in files]
     return {model.name: ratio_table(model.color, model.background) for model in models}
@@ -105,12 +140,11 @@ def _shrunk(image: Image, scale: float) -> Image:
     return np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA), np.uint8)
 
 
-def _blobs(name: str, mask: Labels, least: float, scale: float) -> list[ColorBlob]:
-    """In pixels of the whole picture; `scale` is how many of them make one of the mask."""
+def _parts(mask: Labels, least: float) -> list[tuple[float, Contour]]:
+    """The largest connected parts: how many pixels they have, and their outlines."""
     contours, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_SIMPLE)
     sizes = [(_pixels(contour), contour) for contour in contours]
-    large = sorted((one for one in sizes if one[0] >= least), key=lambda one: -one[0])
-    return [_blob(name, contour, pixels, scale) for pixels, contour in large[:MOST]]
+    return sorted((one for one in sizes if one[0] >= least), key=lambda one: -one[0])[:MOST]
 
 
 def _pixels(contour: Contour) -> float:
@@ -118,7 +152,8 @@ def _pixels(contour: Contour) -> float:
     return cv2.contourArea(contour) + cv2.arcLength(contour, True) / 2 + 1
 
 
-def _blob(name: str, contour: Contour, pixels: float, scale: float) -> ColorBlob:
+def _blob(name: str, contour: Contour, pixels: float, scale: float, confidence: float) -> ColorBlob:
+    """In pixels of the whole picture; `scale` is how many of them make one of the mask."""
     left, top, width, height = cv2.boundingRect(contour)
     moments = cv2.moments(contour)
     x, y = left + (width - 1) / 2, top + (height - 1) / 2
@@ -133,4 +168,5 @@ def _blob(name: str, contour: Contour, pixels: float, scale: float) -> ColorBlob
         height=height * scale,
         area=pixels * scale**2,
         outline=tuple((float(a), float(b)) for a, b in corners.tolist()),
+        confidence=confidence,
     )

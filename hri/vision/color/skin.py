@@ -10,7 +10,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from hri.core.signals import FaceBox, Image
-from hri.vision.color.color_mixture import Samples, Table, chroma, fit, ratio_table
+from hri.vision.color.color_mixture import ColorTable, Samples, chroma, fit, ratio_table
 
 SKIN = "skin"
 """The name of its blobs."""
@@ -34,7 +34,7 @@ def skin_samples(image: Image, faces: Iterable[FaceBox]) -> tuple[Samples, Sampl
     return _some(pixels[inside]), _some(pixels[outside])
 
 
-def skin_table(skin: Samples, background: Samples) -> Table:
+def skin_table(skin: Samples, background: Samples) -> ColorTable:
     """How much likelier each chroma is in skin. Raises HriError for too few pixels."""
     return ratio_table(fit(skin, COMPONENTS), fit(background, BEHIND))
 

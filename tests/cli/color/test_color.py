@@ -42,7 +42,8 @@ def test_colors_that_were_taught_by_boxes_and_clicks_are_found(home, balls, caps
     first, second = map(json.loads, capsys.readouterr().out.splitlines())
     assert [one["name"] for one in first["colors"]] == ["ball", "cube"]
     (ball,) = second["colors"]
-    assert ball.keys() == {"name", "x", "y", "width", "height", "area", "outline"}
+    assert list(ball) == [*("name", "x", "y", "width", "height", "area", "confidence", "outline")]
+    assert 0.9 < ball["confidence"] <= 1.0
     assert (ball["x"], ball["y"]) == pytest.approx((200, 150), abs=1.5)
     assert ball["width"] == pytest.approx(61, abs=3)
     assert hri_color("test", other, "--colors", "ball") == 0

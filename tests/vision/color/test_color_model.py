@@ -143,7 +143,7 @@ def test_skin_is_learned_from_the_face_that_is_seen(name, faces_of):
     (face,) = faces_of(image)
     table = skin_table(*skin_samples(image, [face]))
     levels = chroma(image)
-    is_skin = table[levels[..., 0], levels[..., 1]] >= LIKELY
+    is_skin = table.ratios[levels[..., 0], levels[..., 1]] >= LIKELY
     center = FaceBox(
         face.x + face.width * 0.2, face.y + face.height * 0.2, face.width * 0.6, face.height * 0.6
     )

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from hri.core.errors import HriError
-from hri.vision.color.color_mixture import chroma, fit, ratio_table
+from hri.vision.color.color_mixture import ColorTable, chroma, fit, ratio_table
 from hri.vision.color.segmentation import ColorSegmenter
 
 RED, BLUE, GRAY = (200, 30, 30), (30, 40, 200), (120, 120, 110)
@@ -72,3 +72,33 @@ def test_one_color_everywhere_can_be_fitted():
 def test_too_few_pixels_are_refused():
     with pytest.raises(HriError, match="draw a larger box"):
         fit(np.zeros((3, 2)), 2)
+
+
+def test_a_new_color_leaves_the_light_of_the_others_as_it_is(tables):
+    """Skin is learned again and again; a lamp that has come on must not be forgotten each time."""
+    segmenter = ColorSegmenter(tables)
+    for step in range(60):
+        tint = 1 + (np.array((0.85, 1.0, 1.12)) - 1) * step / 59 * 1.6
+        image = np.clip(drawn((RED, (80, 100), 30), seed=step) * tint, 0, 255).astype(np.uint8)
+        before = segmenter.segment(image)
+    assert ColorSegmenter(tables).segment(image) == ()
+    nothing = ColorTable(np.full((256, 256), -10.0, np.float32), np.zeros(2))
+    segmenter.learn("skin", nothing)
+    assert [one.name for one in segmenter.segment(image)] == [one.name for one in before] == ["red"]
+
+
+def test_a_blob_that_might_be_another_color_has_less_confidence(tables):
+    image = drawn((RED, (80, 100), 30))
+    (alone,) = ColorSegmenter(tables).segment(image)
+    assert 0.9 < alone.confidence <= 1.0
+    red = tables["red"]
+    twins = {"one": red, "other": ColorTable(red.ratios - 0.1, red.center)}
+    (doubtful,) = ColorSegmenter(twins).segment(image)
+    assert doubtful.confidence == pytest.approx(1 / (1 + np.exp(-0.1)), abs=0.01)
+
+
+def test_in_the_light_in_which_it_was_learned_a_color_stays_where_it_is(tables):
+    segmenter = ColorSegmenter(tables)
+    for seed in range(40):
+        segmenter.segment(drawn((RED, (80, 100), 30), (BLUE, (230, 60), 20), seed=seed))
+    assert all(max(map(abs, shift)) <= 2 for shift in segmenter.light.values())
