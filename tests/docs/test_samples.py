@@ -26,7 +26,8 @@ from tests.net.conftest import WITHIN, Taken
 SAMPLES = paths.house() / "docs" / "samples"
 GROUPS = [
     *("driver/base", "driver/face", "driver/speech"),
-    *("behavior/emotion", "behavior/navigation", "behavior/tracking", "behavior/network"),
+    *("behavior/emotion", "behavior/navigation", "behavior/tracking", "behavior/color"),
+    "behavior/network",
     "behavior/resource",
     *("behavior/speech", "behavior/unit_test", "behavior/vision"),
     *("task", "task/custom", "task/parallel", "task/events", "task/primitive"),
@@ -231,6 +232,20 @@ def test_the_objects_of_the_model_set_are_recognized_and_no_others(monkeypatch, 
     assert behave.main([str(SAMPLES / "objrec/recognize.xml"), *options]) == 0
     names = re.findall(r"Input seen  string: (\w+)", capsys.readouterr().out)
     assert names in (["apple", "pear"] * 2, ["pear", "apple"] * 2)
+
+
+@pytest.mark.proves("P08", "R10")
+def test_the_red_ball_is_found_by_its_color_and_the_blue_one_is_not(monkeypatch, capsys):
+    folder = SAMPLES / "behavior/color"
+    monkeypatch.setenv("HRI_PATH", str(folder))
+    options = ["--config", str(folder / "resource-config.xml"), "--fast", "--duration=0.5"]
+    assert behave.main([str(folder / "colors.xml"), *options]) == 0
+    printed = capsys.readouterr().out
+    names = re.findall(r"Input seen  string: (.+)", printed)
+    assert names == ["red_ball"] * 5
+    numbers = [float(text) for text in re.findall(r"Input seen  double: (\S+)", printed)]
+    assert numbers[::2] == pytest.approx([0.197] * 5, abs=0.01)
+    assert numbers[1::2] == pytest.approx([1.53] * 5, rel=0.02)
 
 
 @pytest.mark.proves("P08")
