@@ -12,11 +12,15 @@ from hri.core.geometry import placed
 from hri.core.signals import Pose2D
 from hri.hal.drive import Odometry
 from hri.hal.drivers.memory import OffscreenScreen
+from hri.hal.resource import Description
 from hri.robot import Robot
 from hri.robot.app import load_app
 from hri.simulation.world import SimulatedWorld
 from hri.testing import live_for
 from tests.devices import BLIND, SMALL_SCREEN, live_microphone
+
+SLOW = {"width": "640", "height": "480", "rate": "5"}
+SLOW_CAMERA = Description("camera", "Hri.SimulatedCamera", SLOW, "world")
 
 
 class KeyedScreen(OffscreenScreen):
@@ -378,7 +382,7 @@ def test_it_learns_a_thing_names_it_finds_it_and_forgets_it(tmp_path, monkeypatc
         66: "forget the cup",
         71: "forget the cup",
     }
-    visit = Visit(76, lines, prepare=show, devices=(SMALL_SCREEN,))
+    visit = Visit(76, lines, prepare=show, devices=(SMALL_SCREEN, SLOW_CAMERA))
     said = visit.said()
     assert "I do not see your cup now. Say: find my cup." in said
     assert "Now I know your cup." in said

@@ -26,12 +26,12 @@ from tests.net.conftest import WITHIN, Taken
 SAMPLES = paths.house() / "docs" / "samples"
 GROUPS = [
     *("driver/base", "driver/face", "driver/speech"),
-    *("behavior/emotion", "behavior/navigation", "behavior/tracking", "behavior/color"),
-    "behavior/network",
+    *("behavior/emotion", "behavior/navigation", "behavior/tracking", "behavior/network"),
     "behavior/resource",
     *("behavior/speech", "behavior/unit_test", "behavior/vision"),
     *("task", "task/custom", "task/parallel", "task/events", "task/primitive"),
     "objrec",
+    "color",
 ]
 
 
@@ -218,10 +218,10 @@ def test_the_recognized_object_is_followed_around(simulated):
 
     name = "dollar_front.jpg"
     world.place(name, 2.2, -0.3)
-    assert run("behavior/tracking/tracking.xml", simulated, 12.0)
+    assert run("behavior/tracking/tracking.xml", simulated, 8.0)
     assert apart(2.2, -0.3) == pytest.approx(1.0, abs=0.2)
     world.place(name, 3.5, -0.8)
-    run("behavior/tracking/tracking.xml", simulated, 15.0)
+    run("behavior/tracking/tracking.xml", simulated, 9.0)
     assert apart(3.5, -0.8) == pytest.approx(1.0, abs=0.2)
 
 
@@ -232,20 +232,6 @@ def test_the_objects_of_the_model_set_are_recognized_and_no_others(monkeypatch, 
     assert behave.main([str(SAMPLES / "objrec/recognize.xml"), *options]) == 0
     names = re.findall(r"Input seen  string: (\w+)", capsys.readouterr().out)
     assert names in (["apple", "pear"] * 2, ["pear", "apple"] * 2)
-
-
-@pytest.mark.proves("P08", "R10")
-def test_the_red_ball_is_found_by_its_color_and_the_blue_one_is_not(monkeypatch, capsys):
-    folder = SAMPLES / "behavior/color"
-    monkeypatch.setenv("HRI_PATH", str(folder))
-    options = ["--config", str(folder / "resource-config.xml"), "--fast", "--duration=0.5"]
-    assert behave.main([str(folder / "colors.xml"), *options]) == 0
-    printed = capsys.readouterr().out
-    names = re.findall(r"Input seen  string: (.+)", printed)
-    assert names == ["red_ball"] * 5
-    numbers = [float(text) for text in re.findall(r"Input seen  double: (\S+)", printed)]
-    assert numbers[::2] == pytest.approx([0.197] * 5, abs=0.01)
-    assert numbers[1::2] == pytest.approx([1.53] * 5, rel=0.02)
 
 
 @pytest.mark.proves("P08")
@@ -279,3 +265,13 @@ def test_samples_are_short():
     for path in Path(SAMPLES).rglob("*.*"):
         if path.suffix in (".py", ".xml", ".toml"):
             assert len(path.read_text().splitlines()) <= 70, path
+
+
+@pytest.mark.proves("P08", "R09", "R10")
+def test_a_red_ball_is_found_and_nothing_moves(capsys):
+    options = ["--config", str(SAMPLES / "color/resource-config.xml"), "--fast", "--duration=1"]
+    assert behave.main([str(SAMPLES / "color/colors.xml"), *options]) == 0
+    printed = capsys.readouterr().out
+    assert "string: red_ball" in printed
+    assert re.search(r"double: 2\.[12]", printed)
+    assert "boolean: true" not in printed

@@ -98,7 +98,7 @@ def _middle(image: Image) -> Box:
 
 
 def _numbers(count: int) -> type:
-    """A type for argparse: this many whole numbers with commas between."""
+    """A type for argparse: whole numbers with commas between."""
 
     class Numbers(tuple[int, ...]):
         def __new__(cls, text: str) -> Numbers:

@@ -33,7 +33,7 @@ class ColorSegmentation(Behavior):
     """
 
     category = "vision"
-    colors = Param("", "names of colors, or paths of their files, with spaces between")
+    colors = Param("red_ball", "names of colors, or paths of their files, with spaces between")
     skin = Param(False, 'whether the skin of the people who are seen is a color, named "skin"')
     width = Param(0.0, "meters, of what has the color; 0: its distance stays unknown", minimum=0)
     camera_id = Param("camera", "id of the camera that takes the pictures; its pose is used")

@@ -79,7 +79,7 @@ def test_a_network_without_a_known_color_is_refused(colors):
 )
 def test_skin_of_whoever_is_seen_becomes_a_color(lent, name, face):
     image = picture(name)
-    behavior = started(lent, skin=True)
+    behavior = started(lent, colors="", skin=True)
     pose = HeadPose(0.0, 0.0, 0.0, 0.0, _within(face, image))
     people = People(0.0, (Person("p1", pose),))
     frame = Frame(image, 0.0, 0)
