@@ -87,6 +87,8 @@ class ObjRecRecognizer(Behavior):
             raise
         self._presence = ObjectPresence()
         self._frame: Frame | None = None
+        self.newest: Frame | None = None
+        """The newest picture."""
         self._pan, self._turn = 0.0, 0
         self._reported = self._asked = -math.inf
         self.last = Objects(-math.inf)
@@ -108,7 +110,8 @@ class ObjRecRecognizer(Behavior):
         if now - self._reported > MEMORY:
             # Without pictures nothing is there that can be pointed at.
             self._raise_lost(self._presence.forget(math.inf))
-        self._frame = self.image.value or self._frame
+        if self.image.value is not None:
+            self._frame = self.newest = self.image.value
         if self._service is None or self._frame is None or self._service.is_busy:
             return
         if now - self._asked >= self.interval:

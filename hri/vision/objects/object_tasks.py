@@ -105,12 +105,15 @@ async def _show(
     name: str,
 ) -> None:
     """Show picture after picture until time is up."""
-    view = CameraView.of(camera)
+    view, shown = CameraView.of(camera), context.clock.now()
+    recognizer = context.find_behavior(ObjRecRecognizer)
     while True:
-        frame = camera.read(context.clock.now())
-        if frame is None:
+        # A network that reads the camera has the pictures.
+        frame = camera.read(context.clock.now()) if recognizer is None else recognizer.newest
+        if frame is None or frame.time < shown:
             await context.clock.sleep(LOOK_EVERY)
             continue
+        shown = math.nextafter(frame.time, math.inf)
         faces, distance = _faces(context)
         scale = scale_from_distance(distance, view.focal_length((frame.width, frame.height)))
         progress = await _answer(context, lesson, _Picture(frame.image, faces, scale))
@@ -142,6 +145,7 @@ async def _answer(
 ) -> _Progress:
     while lesson.is_busy:
         await context.clock.sleep(LOOK_EVERY)
+        lesson.poll()  # the answer to a question that time was up for
     lesson.ask(question)
     while not (answers := lesson.poll()):
         await context.clock.sleep(LOOK_EVERY)
