@@ -161,6 +161,16 @@ def names(path: Path) -> object:
     return read_names(path, "friend")
 
 
+def color(path: Path) -> object:
+    """A color, and what is done with it."""
+    import numpy as np
+
+    from hri.vision.color.segmentation import ColorSegmenter, tables_of
+
+    noise = np.random.default_rng(1).integers(0, 256, (12, 16, 3), np.uint8)
+    return ColorSegmenter(tables_of([path])).segment(noise)
+
+
 def people(path: Path) -> object:
     """Faces by name."""
     from hri.vision.tracking.face_recognition import Acquaintances

@@ -37,6 +37,7 @@ READERS: dict[str, Reader] = {
     "app": Reader(calls.app, good.apps, "app/app.toml"),
     "archive": Reader(calls.archive, good.archives, "a.zip", is_text=False),
     "choice of devices": Reader(calls.choices, good.choices, "home/hri/devices.toml"),
+    "color": Reader(calls.color, _shipped("config/colors/*.color"), "a.color"),
     "emotion display": _named(
         "hri.emotion.display:load_display", _shipped("emotions/display.toml"), "display.toml"
     ),

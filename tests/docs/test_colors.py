@@ -1,14 +1,25 @@
 """The page about colors: what it shows works, and its tables are whole."""
 
 import argparse
+import math
 import re
 from dataclasses import fields
 from pathlib import Path
 
+import pytest
+
+from hri.behavior.behavior import Context
 from hri.behavior.network_file import load_network
+from hri.behavior.runner import Runner
 from hri.cli.color import COMMANDS, learn
 from hri.core import paths
+from hri.core.clock import FakeClock
+from hri.core.event_bus import EventBus
+from hri.core.geometry import seen_from
 from hri.core.signals import ColorBlob
+from hri.hal.resource_manager import ResourceManager
+from hri.simulation.world import SimulatedWorld
+from hri.testing import live
 from hri.vision.color.color_behaviors import ColorSegmentation
 
 PAGE = (Path(__file__).parents[2] / "docs/colors.md").read_text()
@@ -25,12 +36,22 @@ def rows(head):
     return {name for line in lines for name in re.findall(r"`([^`]+)`", line.split("|")[1])}
 
 
-def test_the_network_of_the_page_loads(tmp_path):
+@pytest.mark.proves("R10")
+def test_the_network_of_the_page_finds_the_skin_of_whoever_is_there(tmp_path):
     path = tmp_path / "colors.xml"
     path.write_text(block("xml"))
     network = load_network(path)
     network.check()
-    assert len(network.behaviors) == 3
+    with ResourceManager.load("simulated", FakeClock()) as resources:
+        context = Context(resources.clock, EventBus(resources.clock), resources)
+        runner = Runner(network, context)
+        live(context, [runner], 4.0)
+        assert runner.statistics.failures == 0
+        world = resources.obtain("world", SimulatedWorld)
+        x, y = seen_from(world.base.pose, *world.person.place(resources.clock.now()))
+    found = network["colors"].blobs.value.found
+    assert {blob.name for blob in found} == {"skin"}
+    assert min(abs(blob.bearing - math.atan2(y, x)) for blob in found) < 0.05
 
 
 def test_the_tables_name_each_parameter_and_output():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Iterator
 
@@ -21,10 +22,12 @@ PICTURES, QUICK_PICTURES = 300, 60
 COLORS = {"red": (200, 40, 36), "green": (40, 150, 60), "blue": (36, 84, 190)}
 FLOW_MS, COLOR_MS = 5.0, 2.0
 SEED = 9
+LIGHTS, WARMTH = 60, 0.12
+"""Pictures of one turn of the light, and the part by which it becomes warmer and colder."""
 
 
 def rows(quick: bool) -> Iterator[Row]:
-    """Flow at 320x240, and three colors at 640x480."""
+    """Flow at 320x240, and three colors at 640x480 in a light that changes."""
     count = QUICK_PICTURES if quick else PICTURES
     with one_thread():
         yield _flow(count)
@@ -53,10 +56,16 @@ def _colors(count: int) -> Row:
         box = center[0] - 30, center[1] - 30, 60, 60
         model = learn_color(name, [(image, [box])])
         tables[name] = ratio_table(model.color, model.background)
-    noisy = np.clip(image + dice.normal(0, 5, image.shape), 0, 255).astype(np.uint8)
+    views = [_lit(image, step / LIGHTS, dice) for step in range(LIGHTS)]
     segmenter = ColorSegmenter(tables)
     what = "three colors at 640x480"
-    return _cost(what, lambda n: segmenter.segment(noisy), count, COLOR_MS)
+    return _cost(what, lambda n: segmenter.segment(views[n % LIGHTS]), count, COLOR_MS)
+
+
+def _lit(image: Image, turn: float, dice: np.random.Generator) -> Image:
+    """The picture in another light, with the noise of a camera."""
+    light = 1 + WARMTH * math.sin(math.tau * turn) * np.array([1, 0, -1])
+    return np.clip(image * light + dice.normal(0, 5, image.shape), 0, 255).astype(np.uint8)
 
 
 def _cost(what: str, job: Callable[[int], object], count: int, limit: float) -> Row:

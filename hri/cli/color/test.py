@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from pathlib import Path
 
-from hri.cli.terminal.progress_line import progress
-from hri.cli.vision.stills import color_finder, color_rows
-from hri.core.errors import HriError
-from hri.hal.drivers.still_image import read_still
+from hri.cli.vision.stills import color_finder, color_rows, look_through
+from hri.hal.drivers.still_image import StillImage
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -22,19 +19,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Exit status 1 when a picture could not be read."""
-    status = 0
     find = color_finder(options.colors)
-    for path in progress(options.images, len(options.images), "looking"):
-        try:
-            still = read_still(path)
-        except HriError as error:
-            print(error, file=sys.stderr)
-            status = 1
-            continue
+
+    def report(still: StillImage, path: Path) -> str:
         rows = color_rows(still, find(still.image))
         if options.json:
-            print(json.dumps({"file": str(path), "colors": rows}))
-            continue
+            return json.dumps({"file": str(path), "colors": rows})
         found = [f"{row['name']} at ({row['x']:g}, {row['y']:g})" for row in rows]
-        print(f"{path}: {', '.join(found) or 'none of the colors'}")
-    return status
+        return f"{path}: {', '.join(found) or 'none of the colors'}"
+
+    return look_through(options.images, "looking", report)

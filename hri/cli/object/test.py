@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from pathlib import Path
 
 from hri.cli.object.options import add_set, loaded
-from hri.cli.terminal.progress_line import progress
-from hri.cli.vision.stills import object_rows
-from hri.core.errors import HriError
-from hri.hal.drivers.still_image import read_still
+from hri.cli.vision.stills import look_through, object_rows
+from hri.hal.drivers.still_image import StillImage
 from hri.vision.objects.recognizer import ObjectRecognizer
 
 
@@ -24,18 +21,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Exit status 1 when a picture could not be read."""
     recognizer = ObjectRecognizer(loaded(options))
-    status = 0
-    for path in progress(options.images, len(options.images), "recognizing"):
-        try:
-            still = read_still(path)
-        except HriError as error:
-            print(error, file=sys.stderr)
-            status = 1
-            continue
+
+    def report(still: StillImage, path: Path) -> str:
         rows = object_rows(still, recognizer.recognize(still.image))
         if options.json:
-            print(json.dumps({"file": str(path), "objects": rows}))
-            continue
+            return json.dumps({"file": str(path), "objects": rows})
         names = [f"{row['name']} ({row['confidence']:.2f})" for row in rows]
-        print(f"{path}: {', '.join(names) or 'nothing known'}")
-    return status
+        return f"{path}: {', '.join(names) or 'nothing known'}"
+
+    return look_through(options.images, "recognizing", report)

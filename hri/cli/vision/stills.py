@@ -6,7 +6,7 @@ import argparse
 import json
 import math
 import sys
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -37,6 +37,22 @@ def run(options: argparse.Namespace) -> int:
             print(error, file=sys.stderr)
             row, status = {"file": str(path), "error": str(error)}, 1
         print(json.dumps(row) if options.json else _line(row), flush=True)
+    return status
+
+
+def look_through(
+    paths: Sequence[Path], doing: str, report: Callable[[StillImage, Path], str]
+) -> int:
+    """Print a line about each picture; exit status 1 when one could not be read."""
+    status = 0
+    for path in progress(paths, len(paths), doing):
+        try:
+            still = read_still(path)
+        except HriError as error:
+            print(error, file=sys.stderr)
+            status = 1
+        else:
+            print(report(still, path))
     return status
 
 

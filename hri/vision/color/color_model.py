@@ -35,7 +35,10 @@ AROUND = 1.0
 SPREAD = 16.0
 """Variance of chroma, squared levels, by which another light and another shade may differ."""
 MOST_COMPONENTS = 16
-LARGEST_VARIANCE = 1e5
+LEAST_WEIGHT = 1e-5
+LEAST_VARIANCE, LARGEST_VARIANCE = 1.0, 1e5
+FARTHEST = 1e3
+"""Levels; no mean is there."""
 LONGEST_NAME = 60
 REMEDY = "learn it again: hri color learn"
 
@@ -164,7 +167,7 @@ def save_color(path: Path, model: ColorModel) -> None:
 
 def _written(mixture: ColorMixture) -> dict[str, object]:
     return {
-        "weights": mixture.weights.round(5).tolist(),
+        "weights": np.maximum(mixture.weights, LEAST_WEIGHT).round(5).tolist(),
         "means": mixture.means.round(3).tolist(),
         "covariances": mixture.covariances.round(3).tolist(),
     }
@@ -181,14 +184,20 @@ def _mixture(path: Path, data: dict[str, Any], key: str) -> ColorMixture:
     fits = means.shape == (count, 2) and covariances.shape == (count, 2, 2)
     if not (0 < count <= MOST_COMPONENTS and fits):
         raise _damaged(path, f'the parts of "{key}" do not fit together')
-    variances = covariances[:, [0, 1], [0, 1]]
-    is_real = (
-        (weights > 0).all() and (np.linalg.det(covariances) > 0).all() and (variances > 0).all()
+    is_bounded = (
+        ((weights >= LEAST_WEIGHT) & (weights <= 1)).all()
+        and np.abs(means).max() < FARTHEST
+        and np.abs(covariances).max() < LARGEST_VARIANCE
     )
-    if not (is_real and variances.max() < LARGEST_VARIANCE and np.abs(means).max() < 1e3):
+    covariances = np.tril(covariances) + np.tril(covariances, -1).transpose(0, 2, 1)
+    if not is_bounded or _least_variance(covariances) < LEAST_VARIANCE:
         raise _damaged(path, f'"{key}" has numbers that no color has')
-    symmetric = (covariances + covariances.transpose(0, 2, 1)) / 2
-    return ColorMixture(weights / weights.sum(), means, symmetric)
+    return ColorMixture(weights / weights.sum(), means, covariances)
+
+
+def _least_variance(covariances: NDArray[np.float64]) -> float:
+    """In any direction; negative where there is no such Gaussian."""
+    return float(np.linalg.eigvalsh(covariances).min())
 
 
 def _numbers(path: Path, part: dict[str, Any], key: str, axes: int) -> NDArray[np.float64]:

@@ -29,6 +29,7 @@ FOLLOWED = 0.1
 """Part of the way by which a table follows a change of light with each picture ..."""
 FARTHEST = 12.0
 """... up to this many levels of chroma from where the color was learned."""
+MARGIN = math.ceil(FARTHEST)
 
 Contour = Any
 Labels = NDArray[np.uint8]
@@ -42,6 +43,8 @@ class ColorSegmenter:
         """`tables` are those of `ratio_table`, by the name of the color."""
         self._names: list[str] = []
         self._tables: list[ColorTable] = []
+        self._wide: list[NDArray[np.float32]] = []
+        """The ratios with a margin, in which they move with the light."""
         self._light: list[NDArray[np.float64]] = []
         """By color, how far its chroma has moved."""
         self._shifts: list[tuple[int, ...]] = []
@@ -54,9 +57,11 @@ class ColorSegmenter:
         if name not in self._names:
             self._names.append(name)
             self._tables.append(table)
+            self._wide.append(table.ratios)
             self._light.append(np.zeros(2))
         number = self._names.index(name)
         self._tables[number] = table
+        self._wide[number] = np.pad(table.ratios, MARGIN, mode="edge")
         self._light[number] = np.zeros(2)
         self._shifts = []
 
@@ -97,14 +102,14 @@ class ColorSegmenter:
         if shifts == self._shifts:
             return
         self._shifts = shifts
-        stacked = np.stack(
-            [
-                np.roll(table.ratios, by, (0, 1))
-                for table, by in zip(self._tables, shifts, strict=True)
-            ]
-        )
-        best = stacked.argmax(axis=0) + 1
-        self._labels = np.where(stacked.max(axis=0) >= LIKELY, best, 0).astype(np.uint8).ravel()
+        best = np.full((256, 256), LIKELY, np.float32)
+        labels = np.zeros((256, 256), np.uint8)
+        for number, (ratios, (cr, cb)) in enumerate(zip(self._wide, shifts, strict=True)):
+            moved = ratios[MARGIN - cr : MARGIN - cr + 256, MARGIN - cb : MARGIN - cb + 256]
+            is_better = moved > best
+            np.copyto(best, moved, where=is_better)
+            np.copyto(labels, np.uint8(number + 1), where=is_better)
+        self._labels = labels.ravel()
 
     def _confidence(
         self, number: int, part: Contour, pixels: NDArray[np.uint8], mask: Labels

@@ -126,3 +126,35 @@ def test_a_film_shows_the_colors_and_what_moves(home, capsys):
     ]
     assert main(["watch", *map(str, words)]) == 0
     assert out.stat().st_size > 1000
+
+
+def half(path):
+    """Cut a file in half."""
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+    return path
+
+
+def test_files_that_were_cut_in_half_are_refused_in_a_line(home, balls, capsys):
+    hri_color("learn", "ball", "--images", balls, "--box", "65,85,30,30")
+    cut = half(own_colors() / "ball.color")
+    capsys.readouterr()
+    assert hri_color("test", balls, "--colors", "ball") == 2
+    assert f"{cut}: this color is damaged" in capsys.readouterr().err
+    film = home / "film.mp4"
+    writer = cv2.VideoWriter(str(film), cv2.VideoWriter.fourcc(*"mp4v"), 10, (320, 240))
+    for seed in range(10):
+        writer.write(np.ascontiguousarray(drawn((RED, (80, 100), 30), seed=seed)[..., ::-1]))
+    writer.release()
+    assert hri_color("learn", "cup", "--video", half(film)) == 2
+    told = capsys.readouterr().err.strip().splitlines()
+    assert str(film) in told[-1]
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 7), (3, 5)])
+def test_a_picture_of_a_few_pixels_teaches_nothing(home, capsys, shape):
+    path = home / "tiny.png"
+    cv2.imwrite(str(path), np.full((*shape, 3), 90, np.uint8))
+    assert hri_color("learn", "ball", "--images", path) == 2
+    assert "too few for a color" in capsys.readouterr().err
+    assert hri_color("test", path, "--colors", "red_ball") == 0
+    assert "none of the colors" in capsys.readouterr().out

@@ -1,6 +1,7 @@
 """Colors are learned from boxes, kept as numbers, and nothing damaged is believed."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -39,6 +40,13 @@ def test_what_is_learned_from_a_box_is_found_after_it_was_written_and_read(red):
     assert (blob.x, blob.y) == pytest.approx((200, 150), abs=1)
     assert blob.area == pytest.approx(np.pi * 25**2, rel=0.08)
     assert load_color(red).learned == "2026-11-23"
+
+
+def test_a_component_that_hardly_counts_is_written_so_that_it_can_be_read(red, tmp_path):
+    model = load_color(red)
+    color = replace(model.color, weights=np.array([1e-9, 1 - 1e-9]))
+    save_color(tmp_path / "red.color", replace(model, color=color))
+    assert load_color(tmp_path / "red.color").color.weights == pytest.approx([0, 1], abs=1e-4)
 
 
 def test_several_colors_are_told_apart(tmp_path):
@@ -104,6 +112,16 @@ DAMAGE = {
     "a negative variance": lambda data: data["background"].update(
         covariances=[[[-1, 0], [0, 1]]] * 4
     ),
+    "a variance that no number can square": lambda data: data["color"].update(
+        covariances=[[[1e300, 0], [0, 1e300]]] * 2
+    ),
+    "a variance far below a level": lambda data: data["color"].update(
+        covariances=[[[1e-300, 0], [0, 1e-300]]] * 2
+    ),
+    "covariances that no color has": lambda data: data["color"].update(
+        covariances=[[[10, 20], [20, 10]]] * 2
+    ),
+    "a weight that is next to nothing": lambda data: data["color"].update(weights=[5e-324, 1]),
     "no weight": lambda data: data["color"].update(weights=[0, 0]),
     "infinity": lambda data: data["color"].update(weights=[1e999, 1]),
     "a day of a thousand letters": lambda data: data.update(learned="x" * 1000),
