@@ -15,6 +15,7 @@ from hri.hal.camera import Camera
 from hri.vision.behaviors import camera_of
 from hri.vision.camera_view import CameraView
 from hri.vision.motion.motion_finder import CameraMove, FoundMotion, MotionFinder
+from hri.vision.tracking.egomotion import Egomotion
 
 SEEN_IN, OF_PICTURES = 2, 3
 """Something moves when it does in this many of this many pictures in a row."""
@@ -42,18 +43,20 @@ class _MovingPictures(Behavior):
         self._finder = MotionFinder(view)
         self._worker: Worker[FoundMotion | None] = context.clock.worker(self.latency)
         self._frame: Frame | None = None
-        self._pose = Pose2D()
+        self._pose, self._own = Pose2D(), Egomotion()
 
     def compute(self, now: float, dt: float) -> None:
         """Collect results, and hand over the newest picture."""
         self._pose = self.place.value or self._pose
+        self._own.add(now, self._pose.heading)
         self._frame = self.image.value or self._frame
         self._collect(now)
         if self._frame is None or self._worker.is_busy:
             return
         frame, self._frame = self._frame, None
         pan = self._camera.pan(frame.time) if self._camera else 0.0
-        place = CameraMove(self._pose.heading + pan, self._pose.x, self._pose.y)
+        heading = self._own.heading(frame.time) + pan
+        place = CameraMove(heading, self._pose.x, self._pose.y)
         self._worker.submit(partial(self._finder.look, frame.image, frame.time, place, pan))
         self._collect(now)
 
@@ -75,7 +78,11 @@ class _MovingPictures(Behavior):
 
 
 class MotionFlow(_MovingPictures):
-    """How the picture moves: a field of cells of 16 pixels, its mean, and how it grows."""
+    """How the picture moves: a field of cells of 16 pixels, its mean, and how it grows.
+
+    What the robot's own turning and driving make of the field is subtracted; how the picture grows
+    keeps what driving makes of it, since that is what a collision announces itself by.
+    """
 
     x = Output[float]("double", "mean of the field, pixels a second to the right")
     y = Output[float]("double", "mean of the field, pixels a second down")

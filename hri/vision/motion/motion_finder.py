@@ -33,10 +33,11 @@ SMALLEST_REGION = 3
 """Cells."""
 STEPS = 5
 """Of the fit of the shared motion."""
-TURNING = math.radians(0.2)
-"""Between two pictures; a camera that turns less stands still."""
+CLOCKS = 0.5
+"""Part of what turning makes of a picture that clocks may have wrong: those of wheels and camera
+differ by some milliseconds, and turns begin and end."""
 DRIVING = 0.002
-"""Meters between two pictures; the same for the base."""
+"""Meters between two pictures; a base that drives less stands still."""
 
 Cells = NDArray[np.float32]
 
@@ -109,16 +110,14 @@ class MotionFinder:
     ) -> Cells:
         """A turn to the left moves the picture to the right, the more the farther aside."""
         turn = math.remainder(now.heading - before.heading, math.tau)
-        if abs(turn) < TURNING:
-            return cells
         size = gray.shape[1], gray.shape[0]
         focal = self._view.focal_length(size)
         x, y = _centers(cells, size)
         rest = cells.copy()
         rest[..., 0] -= focal * turn * (1 + (x / focal) ** 2)
         rest[..., 1] -= turn * x * y / focal
-        # The clocks of wheels and camera differ by some milliseconds.
-        return np.asarray(rest - np.median(rest, axis=(0, 1)), np.float32)
+        unsure = CLOCKS * focal * abs(turn)
+        return np.asarray(rest - np.clip(np.median(rest, axis=(0, 1)), -unsure, unsure), np.float32)
 
     def _region(
         self, box: tuple[int, int, int, int], scale: float, size: tuple[int, int], pan: float

@@ -53,10 +53,12 @@ class Egomotion:
 
     def turned(self, start: float, end: float) -> float:
         """Radians by which the camera turned to the left; 0 where nothing is known of it."""
-        return self._heading(end) - self._heading(start) if self._times else 0.0
+        return self.heading(end) - self.heading(start)
 
-    def _heading(self, time: float) -> float:
-        """The heading at a time; that of the nearest known time beyond them."""
+    def heading(self, time: float) -> float:
+        """The heading at a time; that of the nearest known time beyond them, else 0."""
+        if not self._times:
+            return 0.0
         after = bisect.bisect_left(self._times, time)
         if after == 0:
             return self._headings[0]

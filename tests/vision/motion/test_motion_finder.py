@@ -66,7 +66,7 @@ def test_a_still_room_does_not_move_whatever_the_noise_and_the_light(wall, noise
 
 
 @pytest.mark.proves("R09")
-@pytest.mark.parametrize("degrees", [-3.0, -1.0, 1.0, 2.5])
+@pytest.mark.parametrize("degrees", [-3.0, -1.0, -0.18, 0.1, 1.0, 2.5])
 def test_what_moves_because_the_camera_turns_is_subtracted(wall, degrees):
     turn = math.radians(degrees)
     before, after = CameraMove(0.3), CameraMove(0.3 + turn)
@@ -77,6 +77,17 @@ def test_what_moves_because_the_camera_turns_is_subtracted(wall, degrees):
         seen(wall, thing=(120, 80)), seen(wall, turn, thing=(x, 80), seed=1), before, after
     )
     assert abs(walker.motion.regions[0].x - (x + 16)) < 30
+
+
+def test_someone_who_fills_most_of_the_picture_moves_also_while_the_camera_turns(wall):
+    before, after = CameraMove(0.0), CameraMove(math.radians(0.3))
+    cloth = np.random.default_rng(4).integers(0, 255, (24, 20, 3)).astype(np.uint8)
+    patch = cv2.resize(cloth, (200, 240), interpolation=cv2.INTER_CUBIC)
+    first, second = seen(wall), seen(wall, after.heading, seed=1)
+    first[:, 60:260], second[:, 67:267] = patch, patch
+    largest = compared(first, second, before, after).motion.regions[0]
+    assert largest.width > 150
+    assert abs(largest.x - 163) < 30
 
 
 @pytest.mark.proves("R09")
