@@ -25,7 +25,8 @@ from hri.hal.resource import Description
 from hri.simulation import things
 from hri.simulation.acoustics import RATE, Source
 from hri.simulation.in_world import InWorld, world_id
-from hri.simulation.people.actors import Appearance, Drawable, Optics, render_people
+from hri.simulation.people.actors import Appearance, Drawable, Optics, render_before
+from hri.simulation.people.backdrop import room_toward
 from hri.simulation.people.lens import Lens
 from hri.simulation.people.person import SimulatedPerson
 
@@ -61,6 +62,8 @@ SPEAKER_LEVEL = (-12.0, -60.0, 0.0)
 """Default, least and most of how loud a speaker is at the microphone, dB."""
 SPEAKER_DELAY = (0.01, 0.0, 0.15)
 """Default, least and most of the seconds until it is heard there."""
+HEADING_DIGITS = 4
+"""Of radians: less does not move a picture by a tenth of a pixel."""
 NOISES = 4099
 """How many errors a range sensor makes before they repeat."""
 
@@ -331,8 +334,14 @@ class SimulatedCamera(InWorld, Camera):
         for sighting in self.world.seen_items(self.pan(time), breadth, time):
             if (thing := things.appearance(sighting, self._optics)) is not None:
                 shown.append(thing)
-        size, lens = self._optics.size, self._lens
-        return lambda: Frame(lens.take(render_people(shown, size), sequence), time, sequence)
+        optics, lens = self._optics, self._lens
+        heading = round(self.world.base.pose.heading + self.pan(time), HEADING_DIGITS)
+
+        def picture() -> Frame:
+            backdrop = room_toward(optics.size, optics.field_of_view, heading)
+            return Frame(lens.take(render_before(backdrop, shown), sequence), time, sequence)
+
+        return picture
 
     def _appearance(self, person: SimulatedPerson, time: float) -> Appearance | None:
         """How someone looks in the picture; None for who is beside or behind the camera."""

@@ -13,14 +13,16 @@ from hri.bench.figures import summary
 from hri.bench.table import Row, amount, at_most
 from hri.bench.threads import one_thread
 from hri.core.signals import Image
+from hri.vision.camera_view import CameraView
 from hri.vision.color.color_mixture import ratio_table
 from hri.vision.color.color_model import learn_color
 from hri.vision.color.segmentation import ColorSegmenter
 from hri.vision.motion.block_flow import BlockFlowFinder
+from hri.vision.motion.motion_finder import CameraMove, MotionFinder
 
 PICTURES, QUICK_PICTURES = 300, 60
 COLORS = {"red": (200, 40, 36), "green": (40, 150, 60), "blue": (36, 84, 190)}
-FLOW_MS, COLOR_MS = 5.0, 2.0
+FLOW_MS, MOTION_MS, COLOR_MS = 5.0, 10.0, 2.0
 SEED = 9
 LIGHTS, WARMTH = 60, 0.12
 """Pictures of one turn of the light, and the part by which it becomes warmer and colder."""
@@ -31,6 +33,7 @@ def rows(quick: bool) -> Iterator[Row]:
     count = QUICK_PICTURES if quick else PICTURES
     with one_thread():
         yield _flow(count)
+        yield _motion(count)
         yield _colors(count)
 
 
@@ -42,8 +45,23 @@ def _flow(count: int) -> Row:
     ]
     finder = BlockFlowFinder()
     return _cost(
-        "block flow at 320x240", lambda n: finder.update(views[n % len(views)]), count, FLOW_MS
+        "block flow at 320x240",
+        lambda n: finder.between(views[n % 8], views[(n + 1) % 8]),
+        count,
+        FLOW_MS,
     )
+
+
+def _motion(count: int) -> Row:
+    scene = _room(np.random.default_rng(SEED), (700, 540))
+    views = [np.ascontiguousarray(scene[:480, 5 * n : 5 * n + 640]) for n in range(8)]
+    finder = MotionFinder(CameraView())
+
+    def look(n: int) -> object:
+        return finder.look(views[n % 8], n / 15, CameraMove(0.005 * n, 0.01 * n), 0.0)
+
+    what = "what moves at 640x480, as seen by a robot that turns and drives"
+    return _cost(what, look, count, MOTION_MS)
 
 
 def _colors(count: int) -> Row:

@@ -193,7 +193,12 @@ def render_people(
 
     `size` is width and height; each number of a `scene` is another room.
     """
-    image = room(size, scene).copy()
+    return render_before(room(size, scene), appearances)
+
+
+def render_before(backdrop: Image, appearances: Iterable[Drawable]) -> Image:
+    """The picture of people, and things, before a backdrop, the far ones first."""
+    image = backdrop.copy()
     for shown in sorted(appearances, key=lambda shown: shown.height):
         shown.paint(image)
     return image

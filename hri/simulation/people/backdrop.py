@@ -90,6 +90,27 @@ def room(size: tuple[int, int], scene: int = 0) -> Image:
     return cv2.GaussianBlur(image, (0, 0), max(0.5, width / 160)).astype(np.uint8)
 
 
+@lru_cache(maxsize=8)
+def room_toward(size: tuple[int, int], field_of_view: float, heading: float) -> Image:
+    """The room at home from a camera that is turned by `heading` to the left, radians.
+
+    The room is a cylinder around the camera; beyond one picture of it its mirror image follows.
+    Shared, as that of `room`.
+    """
+    width, height = size
+    focal = width / 2 / math.tan(field_of_view / 2)
+    angle = np.arctan((np.arange(width) - (width - 1) / 2) / focal)
+    bearing = (angle - heading + math.pi) % math.tau - math.pi
+    turned = (bearing + field_of_view / 2) % (2 * field_of_view)
+    there = np.minimum(turned, 2 * field_of_view - turned) - field_of_view / 2
+    down = np.arange(height) - (height - 1) / 2
+    x = np.broadcast_to(focal * np.tan(there) + (width - 1) / 2, (height, width))
+    y = down[:, None] * (np.cos(angle) / np.cos(there)) + (height - 1) / 2
+    maps = x.astype(np.float32), y.astype(np.float32)
+    seen = cv2.remap(room(size), *maps, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    return np.asarray(seen, np.uint8)
+
+
 def _furnished(scene: int) -> tuple[tuple[Color, Color], tuple[Box, ...]]:
     """A wall and what stands before it."""
     dice = random.Random(f"room {scene}")

@@ -55,19 +55,17 @@ class BlockFlow:
 
 
 class BlockFlowFinder:
-    """Finds the flow from each picture to the next."""
+    """Finds the flow from one picture to another."""
 
     def __init__(self) -> None:
         self._flow = cv2.DISOpticalFlow_create(cv2.DISOPTICAL_FLOW_PRESET_FAST)  # type: ignore[attr-defined]
-        self._before: Gray | None = None
 
-    def update(self, gray: Gray) -> BlockFlow | None:
-        """The flow since the picture before; None for the first, a tiny one, or another size."""
-        before, self._before = self._before, gray
-        if before is None or before.shape != gray.shape or min(gray.shape) < SMALLEST:
+    def between(self, before: Gray, now: Gray) -> BlockFlow | None:
+        """What has moved, by where it is now; None for tiny pictures, or of two sizes."""
+        if before.shape != now.shape or min(now.shape) < SMALLEST:
             return None
         # Always from nothing: a guess from the picture before would make the result depend on it.
-        dense = self._flow.calc(before, gray, None)
-        rows, columns = gray.shape[0] // CELL, gray.shape[1] // CELL
+        dense = -self._flow.calc(now, before, None)
+        rows, columns = now.shape[0] // CELL, now.shape[1] // CELL
         whole = dense[: rows * CELL, : columns * CELL].reshape(rows, CELL, columns, CELL, 2)
         return BlockFlow(np.asarray(whole.mean(axis=(1, 3)), np.float32))

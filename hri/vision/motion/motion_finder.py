@@ -72,14 +72,23 @@ class FoundMotion:
         return self.flow.time_to_contact(self.motion.elapsed)
 
 
+@dataclass(frozen=True, slots=True)
+class _Looked:
+    """The picture before."""
+
+    shape: tuple[int, ...]
+    gray: NDArray[np.uint8]
+    time: float
+    place: CameraMove
+
+
 class MotionFinder:
     """Compares each picture with the one before."""
 
     def __init__(self, view: CameraView) -> None:
         self._view = view
         self._finder = BlockFlowFinder()
-        self._shape: tuple[int, ...] = ()
-        self._before: tuple[float, NDArray[np.uint8], CameraMove] | None = None
+        self._before: _Looked | None = None
 
     def look(self, image: Image, time: float, place: CameraMove, pan: float) -> FoundMotion | None:
         """What has moved since the picture before; None where there is none to compare with.
@@ -87,37 +96,39 @@ class MotionFinder:
         `image` is uint8, [height, width, 3], RGB, taken at a time (seconds) and place; `pan` is
         what the camera is turned to the left of the robot's straight ahead, radians.
         """
-        if image.shape != self._shape:
-            self._shape, self._finder, self._before = image.shape, BlockFlowFinder(), None
         gray, scale = _gray(image)
-        before, self._before = self._before, (time, gray, place)
-        flow = self._finder.update(gray)
-        if flow is None or before is None or not 0 < time - before[0] <= LONGEST_S:
+        before, self._before = self._before, _Looked(image.shape, gray, time, place)
+        if before is None or before.shape != image.shape or not 0 < time - before.time <= LONGEST_S:
             return None
-        elapsed = time - before[0]
-        turned = BlockFlow(self._without_turning(flow.cells, before[2], place, gray))
-        cells = turned.cells
-        if math.dist((place.x, place.y), (before[2].x, before[2].y)) > DRIVING:
+        turn = math.remainder(place.heading - before.place.heading, math.tau)
+        seen, is_known = self._turned(before.gray, turn)
+        seen[is_known == 0] = gray[is_known == 0]
+        flow = self._finder.between(seen, gray)
+        if flow is None:
+            return None
+        cells = _without_late_turning(flow.cells, self._view.focal_length(gray.shape[::-1]) * turn)
+        turned = BlockFlow(cells)
+        if math.dist((place.x, place.y), (before.place.x, before.place.y)) > DRIVING:
             cells = cells - _shared(cells)
-        moving = _moving(cells, flow.cells - cells, before[1], gray)
-        size = image.shape[1], image.shape[0]
+        moving = _moving(cells, flow.cells - cells, seen, gray)
+        moving[_by_cell(is_known) < 255] = 0
+        elapsed, size = time - before.time, (image.shape[1], image.shape[0])
         regions = tuple(self._region(box, scale, size, pan) for box in _boxes(moving))
         speed = np.asarray(cells / np.float32(scale * elapsed), np.float32)
         return FoundMotion(Motion(time, elapsed, speed, regions), turned)
 
-    def _without_turning(
-        self, cells: Cells, before: CameraMove, now: CameraMove, gray: NDArray[np.uint8]
-    ) -> Cells:
-        """A turn to the left moves the picture to the right, the more the farther aside."""
-        turn = math.remainder(now.heading - before.heading, math.tau)
+    def _turned(
+        self, gray: NDArray[np.uint8], turn: float
+    ) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
+        """A picture as a camera sees it that has turned to the left, and 255 where it is known."""
         size = gray.shape[1], gray.shape[0]
         focal = self._view.focal_length(size)
-        x, y = _centers(cells, size)
-        rest = cells.copy()
-        rest[..., 0] -= focal * turn * (1 + (x / focal) ** 2)
-        rest[..., 1] -= turn * x * y / focal
-        unsure = CLOCKS * focal * abs(turn)
-        return np.asarray(rest - np.clip(np.median(rest, axis=(0, 1)), -unsure, unsure), np.float32)
+        camera = np.array([[focal, 0, size[0] / 2], [0, focal, size[1] / 2], [0, 0, 1]])
+        rotation, _ = cv2.Rodrigues(np.array([0.0, turn, 0.0]))
+        way = camera @ rotation @ np.linalg.inv(camera)
+        known = cv2.warpPerspective(np.full_like(gray, 255), way, size, flags=cv2.INTER_NEAREST)
+        seen = cv2.warpPerspective(gray, way, size, flags=cv2.INTER_LINEAR)
+        return np.asarray(seen, np.uint8), np.asarray(known, np.uint8)
 
     def _region(
         self, box: tuple[int, int, int, int], scale: float, size: tuple[int, int], pan: float
@@ -128,29 +139,33 @@ class MotionFinder:
         return MovingRegion(x, y, width, height, math.remainder(bearing + pan, math.tau))
 
 
+def _without_late_turning(cells: Cells, shift: float) -> Cells:
+    """Without what is left of a turn that moved the picture by this many pixels."""
+    unsure = CLOCKS * abs(shift)
+    return np.asarray(cells - np.clip(np.median(cells, axis=(0, 1)), -unsure, unsure), np.float32)
+
+
 def _moving(
     cells: Cells, camera: Cells, before: NDArray[np.uint8], gray: NDArray[np.uint8]
 ) -> NDArray[np.uint8]:
     """Which cells move, [rows, columns]: by themselves they are fast, and what the camera's motion
     makes of the picture before is not what is there now.
     """
-    rows, columns = cells.shape[:2]
-    there = gray[: rows * CELL, : columns * CELL]
-    expected, is_known = _moved(before, camera, there.shape)
-    levels = _by_cell(np.asarray(cv2.absdiff(expected, there), np.uint8))
+    expected, is_known = _moved(before, camera)
+    levels = _by_cell(np.asarray(cv2.absdiff(expected, gray), np.uint8))
     noise = max(LEAST_NOISE, float(np.percentile(levels, 20)))
     is_moving = np.hypot(cells[..., 0], cells[..., 1]) > SLOWEST
     is_moving &= levels > SURE * noise
     return np.asarray(is_moving & (_by_cell(is_known) > 254), np.uint8)
 
 
-def _moved(
-    before: NDArray[np.uint8], flow: Cells, shape: tuple[int, ...]
-) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
+def _moved(before: NDArray[np.uint8], flow: Cells) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
     """A picture as a flow moves it, and 255 where it was in the picture before."""
-    size = shape[1], shape[0]
-    whole = cv2.resize(np.ascontiguousarray(flow), size, interpolation=cv2.INTER_LINEAR)
-    y, x = np.mgrid[: shape[0], : shape[1]].astype(np.float32)
+    y, x = np.indices(before.shape, np.float32)
+    across, down = (np.asarray((each + 0.5) / CELL - 0.5, np.float32) for each in (x, y))
+    whole = cv2.remap(
+        np.ascontiguousarray(flow), across, down, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE
+    )
     from_x, from_y = x - whole[..., 0], y - whole[..., 1]
     moved = cv2.remap(before, from_x, from_y, cv2.INTER_LINEAR)
     inside = np.full(before.shape, 255, np.uint8)
@@ -163,6 +178,7 @@ def _moved(
 def _by_cell(picture: NDArray[np.uint8]) -> NDArray[np.float64]:
     """Its mean over each cell."""
     rows, columns = picture.shape[0] // CELL, picture.shape[1] // CELL
+    picture = picture[: rows * CELL, : columns * CELL]
     return np.asarray(picture.reshape(rows, CELL, columns, CELL).mean(axis=(1, 3)))
 
 
@@ -175,13 +191,6 @@ def _gray(image: Image) -> tuple[NDArray[np.uint8], float]:
     else:
         scale = 1.0
     return np.asarray(gray, np.uint8), scale
-
-
-def _centers(cells: Cells, size: tuple[int, int]) -> tuple[Cells, Cells]:
-    """Where the middles of the cells are, pixels from the middle of the picture."""
-    rows, columns = cells.shape[:2]
-    y, x = np.mgrid[:rows, :columns].astype(np.float32) * CELL + CELL / 2
-    return np.asarray(x - size[0] / 2, np.float32), np.asarray(y - size[1] / 2, np.float32)
 
 
 def _shared(cells: Cells) -> Cells:

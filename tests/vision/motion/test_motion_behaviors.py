@@ -68,6 +68,29 @@ def test_a_thing_that_is_carried_by_starts_and_ends_motion(lent):
 
 
 @pytest.mark.proves("R09")
+@pytest.mark.parametrize("turn", [-0.04, 0.01, 0.03])
+def test_a_robot_that_turns_notices_only_what_moves(lent, turn):
+    world = lent.resources.obtain("world", SimulatedWorld)
+    happened = events_of(lent)
+    detector = started(MotionDetector("motion"), lent)
+    world.place("cup", 2.0, 0.0)
+
+    def turning(number):
+        world.base.pose = Pose2D(0.0, 0.0, turn * number)
+
+    watched(detector, lent, 1.0, turning, lambda: world.base.pose)
+    assert happened == []
+
+    def carried_by(number):
+        world.base.pose = Pose2D(0.0, 0.0, turn * (10 + number))
+        bearing = turn * (10 + number) - 0.03 * number
+        world.place("cup", 1.2 * math.cos(bearing), 1.2 * math.sin(bearing))
+
+    watched(detector, lent, 1.0, carried_by, lambda: world.base.pose)
+    assert happened == ["motion.started"]
+
+
+@pytest.mark.proves("R09")
 def test_the_flow_says_when_the_robot_will_be_there(lent):
     world = lent.resources.obtain("world", SimulatedWorld)
     flow = started(MotionFlow("flow"), lent)
