@@ -14,7 +14,7 @@ import numpy as np
 from benchmarks.progress import progress
 from benchmarks.vision.object_scenes import SIZE, SMEAR, VIEW, Scene, by_distance, by_height, film
 from benchmarks.vision.plain_matching import PlainMatching
-from benchmarks.vision.stamps import Stamp, generated, read_stamps
+from benchmarks.vision.stamps import Stamp, generated, is_solid, read_stamps
 from hri.bench.figures import summary
 from hri.bench.table import Limit, Row, amount, at_least, at_most, share
 from hri.bench.threads import one_thread
@@ -24,6 +24,7 @@ from hri.vision.objects.local_features import ORB, SIFT
 from hri.vision.objects.model_file import load_models, save_models
 from hri.vision.objects.object_model import ModelSet, ObjectModel
 from hri.vision.objects.object_presence import ObjectPresence
+from hri.vision.objects.plain_objects import is_colorful
 from hri.vision.objects.recognizer import ObjectRecognizer
 
 SEED = 230_000
@@ -37,6 +38,7 @@ RECALL = {1: 0.99, 100: 0.95, 250: 0.92}
 SETS_OF_ONE = 20
 RECALL_OF_1000, WRONG = 0.85, 0.005
 ORB_OBJECTS, TIMED = 10, 100
+PLAIN_OBJECTS, NOT_MISTAKEN, MISTAKEN = 10, 0.8, 0.03
 MS = {SIFT: 120.0, ORB: 40.0}
 LEARNING_S = 1.0
 FILM_S, QUICK_FILM_S, RATE = 600.0, 60.0, 5.0
@@ -50,6 +52,7 @@ def rows(quick: bool) -> Iterator[Row]:
     with one_thread():
         yield from _recall(scenes)
         yield from _recall_of_1000(scenes)
+        yield from _without_texture(SETS_OF_ONE if quick else scenes // PLAIN_OBJECTS)
         yield from _unknown(QUICK_FILM_S if quick else FILM_S)
         yield from _cost(min(scenes, 100))
         yield from _distance(scenes // 5)
@@ -163,6 +166,30 @@ def _recall_of_1000(count: int) -> Iterator[Row]:
     yield amount("the same: file", size, "MB", None)
     yield amount("the same: memory", memory, "MB", None)
     yield amount("the same: loading", started, "s", None)
+
+
+def _without_texture(sets: int) -> Iterator[Row]:
+    """Colorful things with hardly any features, ten in a set."""
+    plain = [
+        stamp
+        for stamp in _textured_and_others()[1]
+        if is_solid(stamp) and is_colorful(view_of(stamp.picture, stamp.outline, SIFT))
+    ]
+    right = wrong = count = 0
+    dice = np.random.default_rng(SEED + 4)
+    for _ in progress(range(sets), sets, "plain objects"):
+        chosen = [plain[index] for index in dice.choice(len(plain), PLAIN_OBJECTS, replace=False)]
+        recognizer = ObjectRecognizer(_learned(chosen), VIEW)
+        for stamp in chosen:
+            scene = by_height(stamp, HEIGHT, dice)
+            found = recognizer.recognize(scene.image)
+            right, wrong = right + _is_right(scene, found), wrong + _is_wrong(scene, found)
+            count += 1
+    what = f"{PLAIN_OBJECTS} plain objects in the set, of {len(plain)}: "
+    named = {"right_name": round(right / count, 3)}
+    limit = at_least(NOT_MISTAKEN)
+    yield share(what + "right name or none", count - wrong, count, limit) | named
+    yield share(what + "wrong name", wrong, count, at_most(MISTAKEN))
 
 
 def _memory() -> float:

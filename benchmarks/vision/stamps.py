@@ -68,14 +68,18 @@ def read_stamps() -> tuple[list[Stamp], list[Stamp]]:
     return textured, [stamp for stamp in stamps if stamp not in textured]
 
 
-def _is_textured(stamp: Stamp, sift: Any) -> bool:
+def is_solid(stamp: Stamp) -> bool:
+    """Whether one hardly sees through it."""
     points = cv2.findNonZero((stamp.mask > 127).astype(np.uint8))
-    hull = cv2.contourArea(cv2.convexHull(points))
+    return len(points) >= SOLID * cv2.contourArea(cv2.convexHull(points))
+
+
+def _is_textured(stamp: Stamp, sift: Any) -> bool:
     picture, mask = (
         cv2.resize(each, None, fx=SHOWN, fy=SHOWN, interpolation=cv2.INTER_AREA)
         for each in (stamp.picture, stamp.mask)
     )
-    return len(points) >= SOLID * hull and len(sift.detect(picture, mask)) >= TEXTURED
+    return is_solid(stamp) and len(sift.detect(picture, mask)) >= TEXTURED
 
 
 def _read(path: Path) -> Stamp | None:

@@ -6,8 +6,8 @@ import argparse
 
 from hri.cli.object.options import add_set, loaded
 from hri.cli.terminal.progress_line import progress
-from hri.vision.objects.learning import LEAST_FEATURES
 from hri.vision.objects.object_model import ModelSet, ObjectModel
+from hri.vision.objects.plain_objects import is_colorful
 from hri.vision.objects.recognizer import ObjectRecognizer
 
 
@@ -22,7 +22,7 @@ def run(options: argparse.Namespace) -> int:
     problems = []
     for model in progress(models.objects, len(models.objects), "checking"):
         features = max(len(view.features) for view in model.views)
-        if features < LEAST_FEATURES:
+        if not any(is_colorful(view) or not view.is_plain for view in model.views):
             problems.append(f"{model.name}: too plain, {features} features - show it nearer")
         for other in sorted(_lookalikes(model, models, recognizer)):
             problems.append(

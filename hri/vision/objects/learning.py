@@ -12,6 +12,7 @@ from hri.core.errors import HriError
 from hri.core.signals import Image
 from hri.vision.objects.local_features import FeatureExtractor, Features, resized
 from hri.vision.objects.object_model import ModelSet, ObjectModel, Outline, View
+from hri.vision.objects.plain_objects import is_colorful
 from hri.vision.objects.recognizer import ObjectRecognizer
 
 SIZE = 400
@@ -22,10 +23,10 @@ SCALES = (0.7, 0.4, 0.28, 0.2)
 """A view is looked at from afar: small and blurred it has other features."""
 BLUR = 1.0
 """Pixels, of the view from afar."""
-LEAST_FEATURES = 40
-"""With fewer an object is too plain to be known again by its texture."""
 KNOWN = 0.8
 """Confidence with which a view that shows nothing new is recognized."""
+KNOWN_PLAIN = 0.45
+"""The same of a plain view."""
 MOST_VIEWS = 12
 """Of an object."""
 
@@ -102,17 +103,18 @@ class ObjectLearner:
         view = view_of(image, outline, self._method, scale, source)
         others = self._others.recognize(view.picture)
         mistaken = others[0].name if others else ""
-        if len(view.features) < LEAST_FEATURES:
+        if view.is_plain and not is_colorful(view):
             return Shown(view, False, f"too plain: {len(view.features)} features", mistaken)
         if len(self._views) >= MOST_VIEWS:
             return Shown(view, False, f"{MOST_VIEWS} views are enough", mistaken)
         if self._known is not None:
             found = self._known.recognize(view.picture)
-            if found and found[0].confidence >= KNOWN:
+            if found and found[0].confidence >= (KNOWN_PLAIN if view.is_plain else KNOWN):
                 return Shown(view, False, "looks like a view before", mistaken)
         self._views.append(view)
         self._known = ObjectRecognizer(ModelSet(self._method, (self._model(""),)))
-        return Shown(view, True, f"{len(view.features)} features", mistaken)
+        reason = "plain, known by color and shape" if view.is_plain else ""
+        return Shown(view, True, reason or f"{len(view.features)} features", mistaken)
 
     @property
     def count(self) -> int:
@@ -122,7 +124,7 @@ class ObjectLearner:
     def model(self, day: str) -> ObjectModel:
         """The object. Raises HriError when no picture was good enough."""
         if not self._views:
-            remedy = "show it nearer and in more light, or teach its color: hri color learn"
+            remedy = "show it nearer and in more light"
             raise HriError(f"{self._name}: no picture shows enough of it - {remedy}")
         return self._model(day)
 

@@ -16,6 +16,7 @@ from hri.core.writing import Mark, mark_of
 from hri.hal.camera import Camera
 from hri.vision.behaviors import camera_of
 from hri.vision.camera_view import CameraView
+from hri.vision.objects.embedding import Embedding
 from hri.vision.objects.local_features import ORB, SIFT
 from hri.vision.objects.model_file import find_models, load_models
 from hri.vision.objects.object_model import ModelSet
@@ -42,6 +43,9 @@ class ObjRecRecognizer(Behavior):
     only = Param("", "name of the one object to look for; empty looks for all of them")
     camera_id = Param("camera", "id of the camera that takes the pictures; its pose is used")
     features = Param(SIFT, "of a list of names; orb is for weak machines", among=(SIFT, ORB))
+    embedding = Param(
+        "", "an ONNX network that describes pictures, for plain objects; empty for none"
+    )
     interval = Param(0.0, "seconds between two looks at least", minimum=0, maximum=60)
     looks_ahead = Param(True, "whether a camera on a neck looks ahead, not at people")
     latency = Param(0.05, "seconds that it takes on a fake clock", minimum=0, maximum=1)
@@ -66,7 +70,10 @@ class ObjRecRecognizer(Behavior):
 
     def check(self) -> None:
         path = find_models(self.modelset)
-        self._recognizing = Recognizing(path, self.only, self.features, CameraView())
+        network = Path(self.embedding) if self.embedding else None
+        self._recognizing = Recognizing(path, self.only, self.features, CameraView(), network)
+        if network is not None:
+            Embedding(network)
         if _mark(path) is not None:
             self._recognizing.models()
 
@@ -189,6 +196,8 @@ class Recognizing:
     only: str
     method: str
     view: CameraView
+    network: Path | None = None
+    """Of the embedding."""
 
     def models(self) -> ModelSet:
         """The set, or the one object of it. Raises HriError."""
@@ -202,7 +211,8 @@ class Recognizing:
         return ModelSet(models.method, (model,))
 
     def __call__(self) -> Callable[[Frame], Objects]:
-        recognizer = ObjectRecognizer(self.models(), self.view)
+        embedding = Embedding(self.network) if self.network is not None else None
+        recognizer = ObjectRecognizer(self.models(), self.view, embedding)
         return lambda frame: Objects(frame.time, recognizer.recognize(frame.image))
 
 

@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 from hri.core.signals import Image
 from hri.vision.objects.local_features import Features
 
+LEAST_FEATURES = 40
+"""With fewer a view is too plain to be known again by its texture."""
+
 Outline = NDArray[np.float32]
 """A polygon, shape [corners, 2]: x and y in pixels."""
 
@@ -28,6 +31,11 @@ class View:
     """Meters of the object to a pixel of the picture; 0 when unknown."""
     source: str = ""
     """The file or the camera that it is from."""
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether it must be known by its color and shape."""
+        return len(self.features) < LEAST_FEATURES
 
 
 @dataclass(frozen=True, slots=True)

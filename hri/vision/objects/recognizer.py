@@ -8,7 +8,7 @@ RANSAC: Fischler and Bolles, 1981).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,8 +19,10 @@ from numpy.typing import NDArray
 from hri.core.signals import FoundObject, Image
 from hri.vision.camera_view import CameraView
 from hri.vision.objects.descriptor_index import DescriptorIndex
+from hri.vision.objects.embedding import Embedding
 from hri.vision.objects.local_features import FeatureExtractor, Features, Points
 from hri.vision.objects.object_model import ModelSet, Outline, View
+from hri.vision.objects.plain_objects import PlainRecognizer
 
 LEAST_VOTES = 4
 """Matches without which a view is not looked at closer."""
@@ -71,9 +73,22 @@ class _Seen:
 class ObjectRecognizer:
     """Looks for the objects of a set, picture by picture; the same picture gives the same."""
 
-    def __init__(self, models: ModelSet, view: CameraView | None = None) -> None:
-        """`view` gives the distance and bearing; without one that of a usual webcam."""
+    def __init__(
+        self,
+        models: ModelSet,
+        view: CameraView | None = None,
+        embedding: Embedding | None = None,
+    ) -> None:
+        """`view` gives the distance and bearing; without one that of a usual webcam.
+
+        Objects without texture are found by color and shape, or by shape and `embedding`.
+        """
         self._view = view or CameraView()
+        self._plain = PlainRecognizer(
+            [model for model in models.objects if all(one.is_plain for one in model.views)],
+            self._view,
+            embedding,
+        )
         self._extractor = FeatureExtractor(models.method)
         owned = [
             (number, model.name, view)
@@ -94,15 +109,15 @@ class ObjectRecognizer:
 
     def recognize(self, image: Image) -> tuple[FoundObject, ...]:
         """The objects in a picture (uint8, [height, width, 3], RGB), the surest first."""
-        if self._index is None:
-            return ()
         size = image.shape[1], image.shape[0]
         found = [self._described(seen, size) for seen in self._seen(image)]
+        found += [one for one in self._plain.recognize(image) if not _is_covered(one, found)]
         return tuple(sorted(found, key=lambda one: -one.confidence))
 
     def _seen(self, image: Image) -> Iterator[_Seen]:
         """Object after object: what belongs to one is not evidence for another."""
-        assert self._index is not None
+        if self._index is None:
+            return
         features = self._extractor.extract_shrunk(image)
         matches = self._index.match(features.descriptors)
         queries, entries = matches.queries, matches.entries
@@ -215,6 +230,12 @@ def _inside(places: Points, outline: Outline) -> NDArray[np.bool_]:
     polygon = outline.reshape(-1, 1, 2)
     tests = [cv2.pointPolygonTest(polygon, (float(x), float(y)), False) >= 0 for x, y in places]
     return np.array(tests, bool)
+
+
+def _is_covered(one: FoundObject, others: Sequence[FoundObject]) -> bool:
+    """Whether the middle of an object lies within another."""
+    place = np.array([[one.x, one.y]], np.float32)
+    return any(_inside(place, np.array(other.outline, np.float32))[0] for other in others)
 
 
 def _mapped(known: Points, places: Points) -> tuple[Homography | None, int]:
