@@ -36,6 +36,8 @@ COLORFUL = 20.0
 """Levels by which a plain object's color must differ from gray."""
 LEAST_PIXELS = 200
 """Of a view."""
+ENOUGH_PIXELS = 2000
+"""Of them, for its colors."""
 COMPONENTS = 3
 """Gaussians of an object's colors."""
 LIGHTS = (0.65, 0.85, 1.0, 1.15)
@@ -191,6 +193,7 @@ def _pixels(view: View) -> Samples:
 
 def _learned(name: str, view: View, embedding: Embedding | None) -> _Known:
     pixels = _pixels(view)
+    pixels = pixels[:: max(1, len(pixels) // ENOUGH_PIXELS)]
     # Chroma grows with the light.
     lit = np.concatenate([(pixels - 128) * gain + 128 for gain in LIGHTS])
     mixture = fit(lit, COMPONENTS)

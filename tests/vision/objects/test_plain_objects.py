@@ -74,7 +74,7 @@ def wall(light=1.0):
 
 
 @pytest.mark.proves("R08")
-@settings(max_examples=20)
+@settings(max_examples=12)
 @given(
     st.sampled_from(sorted(SHAPES)),
     st.integers(60, 110),
