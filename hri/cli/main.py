@@ -14,6 +14,7 @@ from hri.core.quoting import message_line
 COMMANDS = {
     "companion": ("hri.cli.companion", "start the companion (same as `run companion`)"),
     "run": ("hri.cli.run", "start an app by name or path"),
+    "studio": ("hri.cli.studio", "run an app with a web page: see it think, talk to it, stop it"),
     "doctor": ("hri.cli.doctor", "test microphone, speaker, camera, screen, base and models"),
     "devices": ("hri.cli.devices", "list the devices of a configuration, and which are present"),
     "new": ("hri.cli.new", "create a driver, behavior, task, primitive, app or face"),

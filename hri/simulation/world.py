@@ -219,6 +219,11 @@ class SimulatedWorld(Resource):
         known = self._items.get(name, Item(name, x, y, color=color))
         self._items[name] = replace(known, x=x, y=y)
 
+    @property
+    def items(self) -> tuple[Item, ...]:
+        """The objects in the room."""
+        return tuple(self._items.values())
+
     def seen_items(self, pan: float, field_of_view: float, now: float) -> list[Sighting]:
         """The objects that a camera sees that is turned to the left in the middle of the base."""
         if not self._items:

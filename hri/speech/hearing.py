@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import replace
+from typing import Protocol
 
 from hri.core.signals import Rejection, Samples, Utterance
 from hri.hal.drivers.resampling import resample
-from hri.hal.recognizer import Recognizer, Segment
+from hri.hal.recognizer import Hypothesis, Recognizer, Segment
 from hri.speech.acceptance import STRICTNESS, judge
 from hri.speech.grammar import Grammar
 from hri.speech.turn import Turn
@@ -20,6 +21,12 @@ SILENT_AFTER = 0.2
 Heard = Utterance | Rejection
 Stopwatch = Callable[[], float]
 """Seconds that only ever grow."""
+
+
+class Decoder(Protocol):
+    """The part of a recognizer that finds the words of a piece of speech."""
+
+    def decode(self, segment: Segment, rules: Collection[str] | None = None) -> Hypothesis: ...
 
 
 def stopped() -> float:
@@ -62,7 +69,7 @@ def hear(
 
 
 def understand(
-    engine: Recognizer,
+    engine: Decoder,
     grammar: Grammar,
     segment: Segment,
     strictness: float,
@@ -82,7 +89,7 @@ def understand(
 
 
 def anticipate(
-    engine: Recognizer, grammar: Grammar, segment: Segment, strictness: float, turn: Turn | None
+    engine: Decoder, grammar: Grammar, segment: Segment, strictness: float, turn: Turn | None
 ) -> Heard:
     """What a piece of speech is by the rules that count; it may still go on."""
     hypothesis = engine.decode(segment, None if turn is None else turn.rules(grammar))
@@ -90,7 +97,7 @@ def anticipate(
 
 
 def _untimely(
-    engine: Recognizer, grammar: Grammar, segment: Segment, strictness: float, turn: Turn
+    engine: Decoder, grammar: Grammar, segment: Segment, strictness: float, turn: Turn
 ) -> Rejection | None:
     """The sentence that was said of a rule that does not count now; None when none was."""
     if turn.rules(grammar) == frozenset(grammar.public_rules):

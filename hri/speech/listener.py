@@ -21,6 +21,7 @@ from hri.speech.echo import EchoCanceller, OwnVoice
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar_stack import GrammarStack, Layer
 from hri.speech.hearing import SILENT_AFTER, STEP, Heard, anticipate, understand
+from hri.speech.recognizers.typed import LineDecoder
 from hri.speech.turn import FOLLOW_UP, Turn, Wakefulness
 
 MOST_WAITING = 20
@@ -101,7 +102,7 @@ class Listener(Behavior):
     def start(self, context: Context) -> None:
         path = paths.find("grammars", self.grammar)
         self._first = load_grammar(path)
-        self._events = context.events
+        self._events, self._clock = context.events, context.clock
         self._recognizer = context.resources.obtain(self.recognizer_id, Recognizer)
         microphone = context.resources.obtain(self.microphone_id, Microphone)
         self._ear = microphone.listen(self._recognizer.rate)
@@ -171,6 +172,15 @@ class Listener(Behavior):
             self._grammars.reload_when_changed(now)
 
     # --- hearing ---
+
+    def type_line(self, text: str) -> None:
+        """Hear a typed line as if it had been said; little words too many or too few are forgiven.
+
+        Nothing happens for an empty one.
+        """
+        now = self._clock.now()
+        if text.strip():
+            self._waiting.append((Segment(now, now, text=text.strip()), _Piece()))
 
     @property
     def is_idle(self) -> bool:
@@ -250,7 +260,8 @@ class Listener(Behavior):
             layer = self._grammars.in_force
             assert layer is not None
             assert layer.grammar is not None
-            heard = understand(self._recognizer, layer.grammar, segment, self.strictness, turn)
+            engine = LineDecoder(layer.grammar) if segment.text else self._recognizer
+            heard = understand(engine, layer.grammar, segment, self.strictness, turn)
             if layer is self._grammars.in_force:
                 break  # else another grammar came meanwhile, and the words may be of either
         grammar = layer.grammar

@@ -13,6 +13,7 @@ from pathlib import Path
 from hri.cli.door_options import add_door_options, doors_of
 from hri.cli.run.changes import announce_changes
 from hri.cli.run.narrator import Narrator
+from hri.cli.run.studio_options import add_studio_options, show_address, studio_of
 from hri.cli.terminal.ending import Ending
 from hri.cli.terminal.messages import LineFormatter, Within
 from hri.cli.terminal.streams import unfailing_output
@@ -75,6 +76,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add("--face", default="robot", metavar="NAME", help="from faces/")
     add("--captions", action="store_true", help="show captions below the face")
     add("--demo", action="store_true", help="a simulated person visits for two minutes")
+    add("--studio", action="store_true", help="serve a page on which to see and steer the robot")
+    add_studio_options(parser)
     add_door_options(parser)
 
 
@@ -114,6 +117,7 @@ def _run(options: argparse.Namespace, ending: Ending) -> int:
         doors=doors_of(options),
     )
     tasks = robot.app.load_tasks()
+    studio = studio_of(robot, options) if options.studio else None
     narrator = Narrator(robot)
     mention_kept(options, narrator)
     session = Session(robot, options, narrator, ending)
@@ -121,8 +125,13 @@ def _run(options: argparse.Namespace, ending: Ending) -> int:
         is_unseen = {"microphone", "camera", "screen"} <= open_senses(robot)
         if robot.record is None and is_unseen and not options.headless and not options.fast:
             robot.record = recordings_folder(robot)
-        robot.live_until_over(*tasks, *session.jobs())
+        if studio is not None:
+            studio.start()
+            show_address(studio, options, narrator.tell)
+        robot.live_until_over(*tasks, *session.jobs(), *(studio.jobs() if studio else ()))
     finally:
+        if studio is not None:
+            studio.close()
         robot.close()
     if robot.recording is not None:
         robot.recording.plot()

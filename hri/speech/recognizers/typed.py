@@ -97,6 +97,18 @@ class TypedRecognizer(Recognizer):
         return []
 
     def decode(self, segment: Segment, rules: Collection[str] | None = None) -> Hypothesis:
+        return LineDecoder(self._grammar).decode(segment, rules)
+
+
+class LineDecoder:
+    """Finds the sentence of a grammar that is nearest to a typed line."""
+
+    def __init__(self, grammar: WrittenGrammar | None) -> None:
+        """Without a grammar every line is taken as it is."""
+        self._grammar = grammar
+
+    def decode(self, segment: Segment, rules: Collection[str] | None = None) -> Hypothesis:
+        """`segment` has the line as its text; `rules` are those that count, all by default."""
         text = segment.text.lower()
         near = nearest(self._grammar, text, rules=rules) if self._grammar is not None else None
         if near is None:

@@ -1,0 +1,32 @@
+"""The options of the studio, and what is said about its address."""
+
+from __future__ import annotations
+
+import argparse
+import webbrowser
+from collections.abc import Callable
+
+from hri.cli.terminal.messages import Within
+from hri.robot import Robot
+from hri.studio.session import PORT, StudioSession
+
+
+def add_studio_options(parser: argparse.ArgumentParser) -> None:
+    """Add `--port` and `--open`."""
+    about = "where the studio's page is (%(default)s); 0 takes any free port"
+    parser.add_argument("--port", type=Within(int, 0, 65535), default=PORT, metavar="P", help=about)
+    parser.add_argument("--open", action="store_true", help="open the studio's page in a browser")
+
+
+def studio_of(robot: Robot, options: argparse.Namespace) -> StudioSession:
+    """The studio of a robot. Raises HriError where the port is taken."""
+    return StudioSession(robot, options.port, options.allow_remote)
+
+
+def show_address(
+    studio: StudioSession, options: argparse.Namespace, tell: Callable[[str], object]
+) -> None:
+    """Print where the page is, and open it when asked to."""
+    tell(f"studio    {studio.address()}")
+    if options.open:
+        webbrowser.open(studio.address())

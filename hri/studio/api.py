@@ -1,0 +1,66 @@
+"""The interface over HTTP as an OpenAPI document: a script can do all that the page does."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from hri.studio.commands import COMMANDS, FARTHEST, LONGEST_TEXT, Command
+
+_KINDS: dict[type, dict[str, Any]] = {
+    str: {"type": "string", "minLength": 1, "maxLength": LONGEST_TEXT},
+    float: {"type": "number", "minimum": -FARTHEST, "maximum": FARTHEST},
+    bool: {"type": "boolean"},
+}
+_ANSWERS = {
+    "200": {"description": "done"},
+    "400": {"description": "the arguments are wrong; `error` says how"},
+    "401": {"description": "no cookie and no token"},
+    "409": {"description": "the robot refuses; `error` says why"},
+}
+
+
+def openapi() -> dict[str, Any]:
+    """The document, OpenAPI 3.1."""
+    paths: dict[str, Any] = {f"/api/v1/{name}": _path(name, c) for name, c in COMMANDS.items()}
+    paths["/api/v1/state"] = _get("state", "the newest value of each topic")
+    paths["/api/v1/live"] = _get(
+        "live",
+        "a WebSocket. It sends JSON, {topic, value} or {event}, and pictures: a byte (1 + the place "
+        'in "face", "camera"), the time (big-endian double, seconds), a JPEG. It takes '
+        '{"pictures": ["face", "camera"]}: those that are wanted.',
+    )
+    return {
+        "openapi": "3.1.0",
+        "info": {"title": "hri studio", "version": "1"},
+        "security": [{"token": []}, {"cookie": []}],
+        "components": {
+            "securitySchemes": {
+                "token": {"type": "http", "scheme": "bearer", "description": "of `hri token`"},
+                "cookie": {"type": "apiKey", "in": "cookie", "name": "hri_studio_PORT"},
+            }
+        },
+        "paths": paths,
+    }
+
+
+def _path(name: str, command: Command) -> dict[str, Any]:
+    properties = {
+        key: {**_KINDS[argument.kind], "description": argument.about}
+        for key, argument in command.arguments.items()
+    }
+    schema = {"type": "object", "properties": properties, "additionalProperties": False}
+    if properties:
+        schema["required"] = list(properties)
+    post: dict[str, Any] = {
+        "operationId": name,
+        "summary": command.about,
+        "requestBody": {"content": {"application/json": {"schema": schema}}},
+        "responses": _ANSWERS,
+    }
+    if command.is_open:
+        post["description"] = "On this machine it needs neither cookie nor token."
+    return {"post": post}
+
+
+def _get(name: str, about: str) -> dict[str, Any]:
+    return {"get": {"operationId": name, "summary": about, "responses": _ANSWERS}}

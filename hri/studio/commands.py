@@ -1,0 +1,92 @@
+"""What the page, or a script, can ask of the robot: one table, with what each command takes.
+
+The server and the interface's document are made from it; `actions` has what the robot then does.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from hri.core.errors import HriError, did_you_mean
+from hri.studio.link import STOP
+
+LONGEST_TEXT = 500
+"""Letters."""
+FARTHEST = 100.0
+"""Meters of a place from the middle of the room."""
+
+
+@dataclass(frozen=True, slots=True)
+class Argument:
+    """What a command takes."""
+
+    kind: type
+    about: str
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """Something that the robot, or its simulated room, can be asked to do."""
+
+    about: str
+    arguments: Mapping[str, Argument] = field(default_factory=dict)
+    is_open: bool = False
+    """Whether anyone on this machine may ask, without code or token."""
+
+
+_TEXT = {"text": Argument(str, "what is said")}
+_PLACE = {
+    "x": Argument(float, "meters ahead, in the room"),
+    "y": Argument(float, "meters to the left, in the room"),
+}
+_ON = {"on": Argument(bool, "whether it is")}
+COMMANDS: Mapping[str, Command] = {
+    STOP: Command("stop the base at once, until it is released", is_open=True),
+    "release": Command("let the base move again"),
+    "hear": Command("hear a typed sentence as if it had been said", _TEXT),
+    "say": Command("say a text", _TEXT),
+    "hush": Command("end what is being said, and forget what waits"),
+    "mute": Command("make it deaf, or let it hear again", _ON),
+    "watch": Command("switch the camera on or off", _ON),
+    "visitor_say": Command("let the simulated person speak", _TEXT),
+    "visitor_nod": Command("let the simulated person nod"),
+    "visitor_shake": Command("let the simulated person shake the head"),
+    "visitor_go": Command("let the simulated person walk to a place", _PLACE),
+    "visitor_enter": Command("let the simulated person come in"),
+    "visitor_leave": Command("let the simulated person go out"),
+    "bump": Command("let someone push against the base"),
+    "place": Command(
+        "put a thing into the simulated room, or move it",
+        {"name": Argument(str, "of the thing"), **_PLACE},
+    ),
+}
+"""By name; the interface over HTTP has each as `POST /api/v1/NAME`."""
+
+
+def checked(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
+    """The arguments of a command as it wants them. Raises HriError for what is wrong with them."""
+    if name not in COMMANDS:
+        raise HriError(f'no command "{name}" - {did_you_mean(name, COMMANDS)}')
+    wanted = COMMANDS[name].arguments
+    for other in given.keys() - wanted.keys():
+        raise HriError(f'{name} takes no "{other}" - {did_you_mean(other, wanted, "leave it out")}')
+    return {key: _checked(key, argument, given.get(key)) for key, argument in wanted.items()}
+
+
+def _checked(key: str, argument: Argument, value: Any) -> Any:
+    if argument.kind is bool and isinstance(value, bool):
+        return value
+    if argument.kind is str and isinstance(value, str) and 0 < len(value.strip()) <= LONGEST_TEXT:
+        return value.strip()
+    if argument.kind is float and isinstance(value, (int, float)) and not isinstance(value, bool):
+        if math.isfinite(value) and abs(value) <= FARTHEST:
+            return float(value)
+    wants = {
+        bool: "true or false",
+        str: f"a text of at most {LONGEST_TEXT} letters",
+        float: f"a number from -{FARTHEST:g} to {FARTHEST:g}",
+    }[argument.kind]
+    raise HriError(f'"{key}" must be {wants} - {argument.about}')

@@ -1,0 +1,410 @@
+"""The studio's server: hands on what the robot does, and asks the robot what the page wants.
+
+It runs in a separate process, which ends with the link to the robot. A page that reads too slowly
+gets the newest values, and misses old ones.
+"""
+
+from __future__ import annotations
+
+import itertools
+import json
+import socket
+import sys
+import time
+from collections import deque
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass, field
+from functools import partial
+from importlib import resources
+from typing import Any
+
+import hypercorn.trio
+import trio
+from hypercorn.config import Config
+from starlette.applications import Starlette
+from starlette.requests import HTTPConnection, Request
+from starlette.responses import JSONResponse, RedirectResponse, Response
+from starlette.routing import Route, WebSocketRoute
+from starlette.types import ASGIApp, Receive, Scope, Send
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from hri.core.errors import HriError
+from hri.core.token import is_token
+from hri.studio.access import Cookies, is_loopback, is_own_host, is_own_origin
+from hri.studio.api import openapi
+from hri.studio.commands import COMMANDS, checked
+from hri.studio.link import PICTURES, TEXT, LinkError, Unpacker, packed_json
+
+MOST_PAGES = 32
+"""Pages that look at once."""
+MOST_EVENTS = 300
+"""Events that a page gets when it comes, and that wait for one that reads slowly."""
+LONGEST_BODY = 65_536
+"""Bytes of a request."""
+PATIENCE = 2.0
+"""Seconds that the robot has to answer."""
+TYPES = {"html": "text/html", "js": "text/javascript", "css": "text/css", "svg": "image/svg+xml"}
+HEADERS = {
+    "content-security-policy": "default-src 'self'; img-src 'self' blob:; object-src 'none'; "
+    "base-uri 'none'; form-action 'self'; frame-ancestors 'none'",
+    "x-content-type-options": "nosniff",
+    "referrer-policy": "no-referrer",
+    "cache-control": "no-store",
+    "cross-origin-resource-policy": "same-origin",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """What the robot says at the start."""
+
+    port: int
+    secret: str
+    """Of cookies."""
+    allows_remote: bool
+
+    @property
+    def cookie(self) -> str:
+        """The name of the cookie: pages of one host share theirs, whatever their port."""
+        return f"hri_studio_{self.port}"
+
+
+@dataclass(eq=False)
+class Page:
+    """One page that looks, and what it does not have yet."""
+
+    values: dict[str, str] = field(default_factory=dict)
+    pictures: dict[int, bytes] = field(default_factory=dict)
+    events: deque[str] = field(default_factory=lambda: deque(maxlen=MOST_EVENTS))
+    wanted: frozenset[str] = frozenset()
+    news: trio.Event = field(default_factory=trio.Event)
+
+    def take(self) -> list[str | bytes]:
+        """All that is new; the page has it from now on."""
+        found: list[str | bytes] = [*self.values.values(), *self.events]
+        found += self.pictures.values()
+        for waiting in (self.values, self.events, self.pictures):
+            waiting.clear()
+        self.news = trio.Event()
+        return found
+
+
+class Hub:
+    """The robot as the server knows it, and the pages that look at it."""
+
+    def __init__(self, link: trio.SocketStream) -> None:
+        self._link = link
+        self._sending = trio.Lock()
+        self._numbers = itertools.count(1)
+        self._answers: dict[int, trio.MemorySendChannel[dict[str, Any]]] = {}
+        self.values: dict[str, Any] = {}
+        self._events: deque[str] = deque(maxlen=MOST_EVENTS)
+        self.pages: set[Page] = set()
+
+    async def follow(self) -> None:
+        """Take what the robot sends, until it has ended."""
+        unpacker = Unpacker()
+        async for data in self._link:
+            for kind, content in unpacker.feed(bytes(data)):
+                if kind == TEXT:
+                    self._take(json.loads(content), content.decode())
+                else:
+                    self._show(kind, content)
+
+    def _take(self, message: dict[str, Any], text: str) -> None:
+        if "answer" in message:
+            channel = self._answers.pop(message["answer"], None)
+            if channel is not None:
+                channel.send_nowait(message)
+            return
+        if "topic" in message:
+            self.values[message["topic"]] = message["value"]
+        else:
+            self._events.append(text)
+        for page in self.pages:
+            if "topic" in message:
+                page.values[message["topic"]] = text
+            else:
+                page.events.append(text)
+            page.news.set()
+
+    def _show(self, kind: int, content: bytes) -> None:
+        name = next(name for name, number in PICTURES.items() if number == kind)
+        for page in self.pages:
+            if name in page.wanted:
+                page.pictures[kind] = bytes((kind,)) + content
+                page.news.set()
+
+    async def add(self, page: Page) -> None:
+        """Let a page look: it begins with the newest of everything."""
+        page.values = {
+            topic: json.dumps({"topic": topic, "value": value})
+            for topic, value in self.values.items()
+        }
+        page.events.extend(self._events)
+        page.news.set()
+        self.pages.add(page)
+
+    async def remove(self, page: Page) -> None:
+        """It looks no more."""
+        self.pages.discard(page)
+        await self.want()
+
+    async def want(self) -> None:
+        """Tell the robot which pictures someone looks at."""
+        wanted = frozenset[str]().union(*(page.wanted for page in self.pages))
+        await self._send({"wanted": sorted(wanted)})
+
+    async def ask(self, command: str, arguments: dict[str, Any]) -> Any:
+        """The robot's answer. Raises HriError for a refusal, or where none comes."""
+        number = next(self._numbers)
+        sender, receiver = trio.open_memory_channel[dict[str, Any]](1)
+        self._answers[number] = sender
+        try:
+            await self._send({"number": number, "command": command, "with": arguments})
+            with trio.fail_after(PATIENCE):
+                answer = await receiver.receive()
+        except trio.TooSlowError:
+            raise HriError("the robot does not answer - it may be busy, or has ended") from None
+        finally:
+            self._answers.pop(number, None)
+        if answer["error"] is not None:
+            raise HriError(answer["error"])
+        return answer["result"]
+
+    async def _send(self, message: dict[str, Any]) -> None:
+        async with self._sending:
+            try:
+                await self._link.send_all(packed_json(message))
+            except trio.BrokenResourceError:
+                raise HriError("the robot has ended") from None
+
+
+class Guard:
+    """Refuses hosts and pages that are not ours, and bodies that are too long; adds headers."""
+
+    def __init__(self, app: ASGIApp, settings: Settings) -> None:
+        self._app, self._settings = app, settings
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] not in ("http", "websocket"):
+            await self._app(scope, receive, send)
+            return
+        asked = HTTPConnection(scope)
+        host = asked.headers.get("host", "")
+        why = ""
+        if not is_own_host(host, self._settings.allows_remote):
+            why = "this name is not the studio's - use the address that it printed"
+        elif not is_own_origin(asked.headers.get("origin"), host):
+            why = "another site's page may not use the studio"
+        elif not _is_short(asked.headers.get("content-length", "0")):
+            why = f"at most {LONGEST_BODY} bytes are taken"
+        if not why:
+            await self._app(scope, receive, partial(_send_with_headers, send))
+        elif scope["type"] == "http":
+            await JSONResponse({"error": why}, 403, HEADERS)(scope, receive, send)
+        else:
+            await WebSocket(scope, receive, send).close(1008)
+
+
+def _is_short(length: str) -> bool:
+    return length.isdecimal() and len(length) < 10 and int(length) <= LONGEST_BODY
+
+
+async def _send_with_headers(send: Send, message: Any) -> None:
+    if message["type"] == "http.response.start":
+        own = [(name.encode(), value.encode()) for name, value in HEADERS.items()]
+        message = {**message, "headers": [*message["headers"], *own]}
+    await send(message)
+
+
+class Studio:
+    """The routes."""
+
+    def __init__(self, hub: Hub, settings: Settings) -> None:
+        self._hub, self._settings = hub, settings
+        self._cookies = Cookies(settings.secret)
+
+    def app(self) -> ASGIApp:
+        """All of it, behind the guard."""
+        commands = [
+            Route(f"/api/v1/{name}", partial(self._command, name), methods=["POST"])
+            for name in COMMANDS
+        ]
+        routes = [
+            Route("/", self._page),
+            Route("/{name:str}.{suffix:str}", self._file),
+            Route("/api/v1/openapi.json", self._openapi),
+            Route("/api/v1/state", self._state),
+            Route("/api/v1/codes", self._code, methods=["POST"]),
+            WebSocketRoute("/api/v1/live", self._live),
+            *commands,
+        ]
+        return Guard(Starlette(routes=routes), self._settings)
+
+    async def _page(self, request: Request) -> Response:
+        code = request.query_params.get("code")
+        if code is None:
+            return _file("index.html")
+        response = RedirectResponse("/", 303)
+        if await self._hub.ask("redeem", {"code": code}):
+            cookie = self._cookies.new(time.time())
+            response.set_cookie(self._settings.cookie, cookie, httponly=True, samesite="strict")
+        return response
+
+    async def _file(self, request: Request) -> Response:
+        return _file(f"{request.path_params['name']}.{request.path_params['suffix']}")
+
+    async def _openapi(self, request: Request) -> Response:
+        return JSONResponse(openapi())
+
+    async def _state(self, request: Request) -> Response:
+        if not self._is_known(request):
+            return _stranger()
+        return JSONResponse(self._hub.values)
+
+    async def _code(self, request: Request) -> Response:
+        if not self._is_known(request):
+            return _stranger()
+        return await self._answered("code", {})
+
+    async def _command(self, name: str, request: Request) -> Response:
+        client = request.client.host if request.client else ""
+        is_open = COMMANDS[name].is_open and is_loopback(client)
+        if not is_open and not self._is_known(request):
+            return _stranger()
+        try:
+            body = await _body(request)
+            given = json.loads(body) if body else {}
+            if not isinstance(given, dict):
+                raise HriError("the body must be a JSON object")
+            arguments = checked(name, given)
+        except (HriError, ValueError, RecursionError) as error:
+            return JSONResponse({"error": str(error)}, 400)
+        return await self._answered(name, arguments)
+
+    async def _answered(self, command: str, arguments: dict[str, Any]) -> Response:
+        try:
+            return JSONResponse({"result": await self._hub.ask(command, arguments)})
+        except HriError as error:
+            return JSONResponse({"error": str(error)}, 409)
+
+    async def _live(self, websocket: WebSocket) -> None:
+        if not self._is_known(websocket):
+            await websocket.close(1008)
+            return
+        if len(self._hub.pages) >= MOST_PAGES:
+            await websocket.close(1013)
+            return
+        await websocket.accept()
+        page = Page()
+        await self._hub.add(page)
+        try:
+            async with trio.open_nursery() as nursery:
+                nursery.start_soon(_send_news, websocket, page)
+                await self._listen(websocket, page)
+                nursery.cancel_scope.cancel()
+        except* (WebSocketDisconnect, RuntimeError, OSError):
+            pass  # it has gone
+        finally:
+            with trio.CancelScope(shield=True):
+                await self._hub.remove(page)
+
+    async def _listen(self, websocket: WebSocket, page: Page) -> None:
+        """Which pictures it wants, until it goes."""
+        while True:
+            message = await websocket.receive()
+            if message["type"] == "websocket.disconnect":
+                return
+            try:
+                wanted = json.loads(message.get("text") or "{}")["pictures"]
+                page.wanted = frozenset(wanted) & PICTURES.keys()
+            except (ValueError, KeyError, TypeError, RecursionError):
+                await websocket.close(1003)
+                return
+            await self._hub.want()
+
+    def _is_known(self, asked: HTTPConnection) -> bool:
+        """Whether it has the cookie, or shows the token."""
+        cookie = asked.cookies.get(self._settings.cookie, "")
+        if self._cookies.is_good(cookie, time.time()):
+            return True
+        kind, _, token = asked.headers.get("authorization", "").partition(" ")
+        try:
+            return kind.lower() == "bearer" and is_token(token)
+        except HriError:
+            return False
+
+
+async def _send_news(websocket: WebSocket, page: Page) -> None:
+    while True:
+        await page.news.wait()
+        for message in page.take():
+            if isinstance(message, bytes):
+                await websocket.send_bytes(message)
+            else:
+                await websocket.send_text(message)
+
+
+async def _body(request: Request) -> bytes:
+    """The whole body. Raises HriError for one that is too long, whatever its head said."""
+    body = b""
+    async for part in request.stream():
+        body += part
+        if len(body) > LONGEST_BODY:
+            raise HriError(f"at most {LONGEST_BODY} bytes are taken")
+    return body
+
+
+def _stranger() -> Response:
+    remedy = "open the address that the studio printed, or show the token (hri token)"
+    return JSONResponse({"error": f"the studio does not know you - {remedy}"}, 401)
+
+
+def _file(name: str) -> Response:
+    """A file of the page."""
+    suffix = name.rpartition(".")[2]
+    found = resources.files("hri.studio") / "built" / name
+    if "/" in name or suffix not in TYPES or not found.is_file():
+        return JSONResponse({"error": "not found"}, 404)
+    return Response(found.read_bytes(), media_type=TYPES[suffix])
+
+
+async def serve(listening: int, link: int, settings: Settings) -> None:
+    """Serve on an open socket until the link to the robot has ended."""
+    stream = trio.SocketStream(trio.socket.from_stdlib_socket(socket.socket(fileno=link)))
+    hub = Hub(stream)
+    config = Config()
+    config.bind = [f"fd://{listening}"]
+    config.errorlog = None
+    config.wsgi_max_body_size = LONGEST_BODY
+    config.websocket_max_message_size = LONGEST_BODY
+    config.graceful_timeout = 0.2
+    ended = trio.Event()
+
+    async def follow() -> None:
+        try:
+            await hub.follow()
+        except (OSError, trio.BrokenResourceError, LinkError):
+            pass
+        ended.set()
+
+    app: Callable[..., Awaitable[None]] = Studio(hub, settings).app()
+    async with trio.open_nursery() as nursery:
+        nursery.start_soon(follow)
+        await hypercorn.trio.serve(app, config, shutdown_trigger=ended.wait, mode="asgi")
+        nursery.cancel_scope.cancel()
+
+
+def main() -> int:
+    """`python -m hri.studio.server LISTENING LINK`: the numbers of two open sockets; the settings
+    come on standard input.
+    """
+    listening, link = map(int, sys.argv[1:3])
+    settings = Settings(**json.loads(sys.stdin.buffer.read()))
+    trio.run(serve, listening, link, settings)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,147 @@
+"""A robot with a studio: the server beside it, its address, and what the page asks."""
+
+from __future__ import annotations
+
+import json
+import logging
+import os
+import secrets
+import socket
+import subprocess
+import threading
+from collections.abc import Callable
+
+from hri.core import child
+from hri.core.errors import HriError
+from hri.robot import Robot
+from hri.studio.access import Codes
+from hri.studio.actions import Asked, obey
+from hri.studio.link import RobotEnd
+from hri.studio.live import Live
+from hri.task.context import TaskContext
+
+PORT = 8311
+"""Where the page is, unless told otherwise."""
+LOOK_EVERY = 0.02
+"""Seconds between two looks at what the page asks."""
+AGAIN_AFTER = 0.2
+"""Seconds until a server that has ended is started again."""
+PATIENCE = 3.0
+"""Seconds that a server has to end."""
+CODE = "code"
+"""The request for another code."""
+
+log = logging.getLogger("hri.studio")
+
+
+class StudioSession:
+    """Made before the robot lives; `jobs` run with it, `close` ends the server."""
+
+    def __init__(self, robot: Robot, port: int = PORT, allows_remote: bool = False) -> None:
+        """Listens at once. Raises HriError where it cannot."""
+        self._robot = robot
+        self._socket = _listening(port, allows_remote)
+        self.port: int = self._socket.getsockname()[1]
+        self._codes = Codes()
+        self._link = RobotEnd()
+        self._live = Live(robot, self._link)
+        self._is_closed = threading.Event()
+        self._config = {
+            "port": self.port,
+            "secret": secrets.token_urlsafe(32),
+            "allows_remote": allows_remote,
+        }
+        self._child: subprocess.Popen[bytes] | None = None
+        self._keeper = threading.Thread(target=self._keep_server, name="studio", daemon=True)
+
+    def start(self) -> None:
+        """Start the server, and let the page have the face; before the robot lives."""
+        self._live.join_screen()
+        self._keeper.start()
+
+    def address(self) -> str:
+        """The page, with another code that works once."""
+        return f"http://127.0.0.1:{self.port}/?code={self._codes.new()}"
+
+    def jobs(self) -> list[Callable[[TaskContext], object]]:
+        """The tasks that run beside the robot's own."""
+        return [self._live.watch, self._obey]
+
+    async def _obey(self, context: TaskContext) -> None:
+        """Do what the page asks, in the robot's loop."""
+        asked = Asked(self._robot, context)
+        while True:
+            while self._link.requests:
+                request = self._link.requests.popleft()
+                try:
+                    result = self._done(asked, request.command, request.arguments)
+                    self._link.answer(request.number, result=result)
+                except HriError as error:
+                    self._link.answer(request.number, error=str(error))
+            await context.clock.sleep(LOOK_EVERY)
+
+    def _done(self, asked: Asked, command: str, arguments: dict[str, object]) -> object:
+        if command == CODE:
+            return self.address()
+        if command == "redeem":
+            return self._codes.redeem(str(arguments.get("code", "")))
+        obey(asked, command, arguments)
+        return None
+
+    def _keep_server(self) -> None:
+        """Start the server, and again when it has ended. The port stays ours meanwhile: a page that
+        comes back waits instead of being refused.
+        """
+        while not self._is_closed.is_set():
+            ours, theirs = socket.socketpair()
+            fds = (self._socket.fileno(), theirs.fileno())
+            words = child.command("-m", "hri.studio.server", *map(str, fds))
+            try:
+                self._child = subprocess.Popen(
+                    words,
+                    stdin=subprocess.PIPE,
+                    pass_fds=fds,
+                    env=child.environment(),
+                    start_new_session=True,  # Ctrl-C is for the robot, which ends the server
+                )
+            except OSError as error:
+                log.error("the studio cannot start: %s", error)
+                return
+            theirs.close()
+            self._give(self._child)
+            self._link.attach(ours)
+            self._child.wait()
+            self._link.detach()
+            if not self._is_closed.wait(AGAIN_AFTER):
+                log.error("the studio's server has ended - it starts again")
+
+    def _give(self, server: subprocess.Popen[bytes]) -> None:
+        """The settings, which no other user can read there."""
+        assert server.stdin is not None
+        try:
+            server.stdin.write(json.dumps(self._config).encode())
+            server.stdin.close()
+        except OSError:  # it has ended already, and is started again
+            log.debug("the studio's server ended before it began")
+
+    def close(self) -> None:
+        """End the server; a second call does nothing."""
+        self._is_closed.set()
+        self._link.close()
+        if self._child is not None:
+            try:
+                self._child.wait(PATIENCE)
+            except subprocess.TimeoutExpired:
+                self._child.kill()
+        self._socket.close()
+
+
+def _listening(port: int, allows_remote: bool) -> socket.socket:
+    host = "0.0.0.0" if allows_remote else "127.0.0.1"
+    try:
+        return socket.create_server((host, port), backlog=64)
+    except (OSError, OverflowError) as error:
+        code = getattr(error, "errno", None)
+        reason = os.strerror(code) if code else str(error)
+        remedy = "choose another --port, or 0 for any that is free"
+        raise HriError(f"cannot listen on {host}:{port}: {reason} - {remedy}") from error
