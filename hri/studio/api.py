@@ -25,8 +25,8 @@ def openapi() -> dict[str, Any]:
     paths["/api/v1/state"] = _get("state", "the newest value of each topic")
     paths["/api/v1/live"] = _get(
         "live",
-        "a WebSocket. It sends JSON, {topic, value} or {event}, and pictures: a byte (1 + the place "
-        'in "face", "camera"), the time (big-endian double, seconds), a JPEG. It takes '
+        "a WebSocket. It sends JSON, {topic, value} or {event}, and pictures: a byte (2 for the "
+        "face, 3 for the camera), the time (big-endian double, seconds), and a JPEG. It takes "
         '{"pictures": ["face", "camera"]}: those that are wanted.',
     )
     return {

@@ -5,7 +5,6 @@ The server and the interface's document are made from it; `actions` has what the
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -77,13 +76,13 @@ def checked(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _checked(key: str, argument: Argument, value: Any) -> Any:
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
     if argument.kind is bool and isinstance(value, bool):
         return value
     if argument.kind is str and isinstance(value, str) and 0 < len(value.strip()) <= LONGEST_TEXT:
         return value.strip()
-    if argument.kind is float and isinstance(value, (int, float)) and not isinstance(value, bool):
-        if math.isfinite(value) and abs(value) <= FARTHEST:
-            return float(value)
+    if argument.kind is float and is_number and -FARTHEST <= value <= FARTHEST:
+        return float(value)
     wants = {
         bool: "true or false",
         str: f"a text of at most {LONGEST_TEXT} letters",

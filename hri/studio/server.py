@@ -10,9 +10,9 @@ import itertools
 import json
 import socket
 import sys
-import time
 from collections import deque
 from collections.abc import Awaitable, Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from importlib import resources
@@ -28,6 +28,7 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp, Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.core.token import is_token
 from hri.studio.access import Cookies, is_loopback, is_own_host, is_own_origin
@@ -248,7 +249,7 @@ class Studio:
             return _file("index.html")
         response = RedirectResponse("/", 303)
         if await self._hub.ask("redeem", {"code": code}):
-            cookie = self._cookies.new(time.time())
+            cookie = self._cookies.new(_now())
             response.set_cookie(self._settings.cookie, cookie, httponly=True, samesite="strict")
         return response
 
@@ -327,13 +328,18 @@ class Studio:
     def _is_known(self, asked: HTTPConnection) -> bool:
         """Whether it has the cookie, or shows the token."""
         cookie = asked.cookies.get(self._settings.cookie, "")
-        if self._cookies.is_good(cookie, time.time()):
+        if self._cookies.is_good(cookie, _now()):
             return True
         kind, _, token = asked.headers.get("authorization", "").partition(" ")
         try:
             return kind.lower() == "bearer" and is_token(token)
         except HriError:
             return False
+
+
+def _now() -> float:
+    """Seconds since 1970: a cookie outlives the server."""
+    return RealClock().wall().timestamp()
 
 
 async def _send_news(websocket: WebSocket, page: Page) -> None:
@@ -383,10 +389,8 @@ async def serve(listening: int, link: int, settings: Settings) -> None:
     ended = trio.Event()
 
     async def follow() -> None:
-        try:
+        with suppress(OSError, trio.BrokenResourceError, LinkError):
             await hub.follow()
-        except (OSError, trio.BrokenResourceError, LinkError):
-            pass
         ended.set()
 
     app: Callable[..., Awaitable[None]] = Studio(hub, settings).app()

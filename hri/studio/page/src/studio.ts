@@ -1,0 +1,205 @@
+// The page: shows the state, and binds the commands to buttons and keys.
+
+
+import { bindKeys, type Action } from "./commands";
+import { Connection, type Picture } from "./connection";
+import { element, list, replace } from "./dom";
+import { Map } from "./map";
+import { MoodCurve } from "./mood";
+import { empty, note, summary, take, type Person, type State } from "./state";
+
+const VISITOR: [string, string, string][] = [
+  ["visitor_nod", "Nod", "y"],
+  ["visitor_shake", "Shake the head", "n"],
+  ["visitor_enter", "Come in", "i"],
+  ["visitor_leave", "Leave", "o"],
+  ["bump", "Bump the robot", "b"],
+];
+
+const state: State = empty();
+const curve = new MoodCurve(element("mood-curve"));
+const map = new Map(element("map"), (x, y) => void ask("visitor_go", { x, y }));
+let isDrawn = true;
+const shown: Partial<Record<Picture, string>> = {};
+
+const connection = new Connection({
+  message(message) {
+    take(state, message, now());
+    drawSoon();
+  },
+  picture(which, jpeg) {
+    const image = element<HTMLImageElement>(`${which}-picture`);
+    const address = URL.createObjectURL(jpeg);
+    image.src = address;
+    if (shown[which]) URL.revokeObjectURL(shown[which]!);
+    shown[which] = address;
+  },
+  linked(isLinked, isKnown) {
+    const why = isKnown ? "no link to the robot - it comes back by itself" : "open the address that hri studio printed: this browser is not known yet";
+    element("link").textContent = isLinked ? "linked" : "no link";
+    document.body.classList.toggle("unlinked", !isLinked);
+    say(isLinked ? "" : why);
+  },
+});
+
+function now(): number {
+  return performance.now() / 1000;
+}
+
+async function ask(command: string, given: Record<string, unknown> = {}): Promise<void> {
+  try {
+    await connection.ask(command, given);
+    say("");
+  } catch (error) {
+    say(error instanceof TypeError ? "no link to the robot" : (error as Error).message);
+  }
+}
+
+function say(words: string): void {
+  const notice = element("notice");
+  notice.textContent = words;
+  notice.hidden = words === "";
+}
+
+function drawSoon(): void {
+  if (!isDrawn) return;
+  isDrawn = false;
+  requestAnimationFrame(() => {
+    isDrawn = true;
+    draw();
+  });
+}
+
+function draw(): void {
+  const { about, base, feeling, people, speech, world, devices } = state.values;
+  const robot = element("robot");
+  robot.textContent = about ? `${about.app}, ${about.is_simulated ? "simulated" : "real"}` : "";
+  robot.className = about?.is_simulated ? "badge simulated" : "badge real";
+  const isStopped = base?.is_stopped ?? false;
+  document.body.classList.toggle("stopped", isStopped);
+  element("release").hidden = !isStopped;
+  element("stop").hidden = about !== undefined && !about.has_base;
+  element("mood").textContent = feeling ? `I am ${feeling.words}` : "";
+  element("why").textContent = feeling?.why ?? "";
+  replace(element("emotions"), Object.entries(feeling?.emotions ?? {}).sort((a, b) => b[1] - a[1]).slice(0, 6).map(bar));
+  curve.draw(state.moods);
+  const said = element("said");
+  const isAtEnd = said.scrollHeight - said.scrollTop - said.clientHeight < 40;
+  list(element("lines"), state.lines, (line) => ({ text: line.text, detail: line.detail, kind: line.who, time: line.time }));
+  if (isAtEnd) said.scrollTop = said.scrollHeight;
+  list(element("events"), state.events.filter((one) => one.event !== "odometry").reverse(), (event) => ({ text: event.event, detail: summary(event), kind: "", time: event.t }));
+  element("hearing").textContent = speech?.is_muted ? "deaf" : speech?.is_speaking ? "speaks" : speech?.is_hearing ? "hears a voice" : "listens";
+  press("mute", speech?.is_muted ?? false);
+  press("watch", people?.is_on ?? false);
+  drawPeople(people?.persons ?? [], people?.is_on ?? false);
+  map.draw(world, base, people?.persons ?? []);
+  const [x, y, heading] = base?.pose ?? [0, 0, 0];
+  const place = base?.pose ? `x ${x.toFixed(2)} m, y ${y.toFixed(2)} m, ${Math.round((heading * 180) / Math.PI)}°` : "no base";
+  element("where").textContent = isStopped ? `${base!.why}. Release it to let it move.` : place;
+  element("battery").textContent = base?.battery == null ? "" : `Battery ${Math.round(base.battery * 100)} %`;
+  list(element("device-list"), devices ?? [], (one) => ({ text: one.id, detail: one.stand_in ? `missing; ${one.says} stands in` : one.says, kind: one.stand_in ? "missing" : "" }));
+  for (const id of ["visitor", "visitor-sentence"]) element(id).hidden = !world?.people.length;
+}
+
+function bar([name, value]: [string, number]): HTMLElement {
+  const row = document.createElement("label");
+  const meter = document.createElement("meter");
+  meter.max = 1;
+  meter.value = value;
+  row.append(name.replaceAll("_", " "), meter);
+  return row;
+}
+
+function press(id: string, isPressed: boolean): void {
+  element(id).setAttribute("aria-pressed", String(isPressed));
+}
+
+function drawPeople(persons: Person[], isOn: boolean): void {
+  const image = element<HTMLImageElement>("camera-picture");
+  const boxes = element("boxes");
+  image.hidden = !isOn;
+  boxes.setAttribute("viewBox", `0 0 ${image.naturalWidth || 320} ${image.naturalHeight || 240}`);
+  const found = isOn ? persons.filter((one) => one.box !== null) : [];
+  replace(boxes, found.map((one) => {
+    const [x, y, width, height] = one.box!;
+    const box = document.createElementNS("http://www.w3.org/2000/svg", "rect");
+    for (const [name, value] of Object.entries({ x, y, width, height })) box.setAttribute(name, String(value));
+    box.setAttribute("class", one.is_looking ? "looking" : "");
+    return box;
+  }));
+  list(element("people"), persons, (one) => ({
+    text: one.name || one.id,
+    detail: [one.distance === null ? "" : `${one.distance.toFixed(1)} m`, one.is_looking ? "looks at the robot" : "looks away", one.engagement].filter(Boolean).join(", "),
+    kind: one.is_attended ? "attended" : "",
+  }));
+}
+
+function toggle(id: string, command: string): void {
+  void ask(command, { on: element(id).getAttribute("aria-pressed") !== "true" });
+}
+
+function send(field: string, command: string): void {
+  const input = element<HTMLInputElement>(field);
+  const text = input.value.trim();
+  if (text === "") return;
+  input.value = "";
+  void ask(command, { text });
+}
+
+const actions: Action[] = [
+  { about: "stop the base at once", key: "Escape", always: true, run: () => void ask("stop") },
+  { about: "let the base move again", key: "r", run: () => void ask("release") },
+  { about: "write a sentence to the robot", key: "/", run: () => element("text").focus() },
+  { about: "let it fall silent", key: "h", run: () => void ask("hush") },
+  { about: "make it deaf, or let it hear", key: "m", run: () => toggle("mute", "mute") },
+  { about: "switch the camera", key: "c", run: () => toggle("watch", "watch") },
+  ...VISITOR.map(([command, words, key]) => ({ about: `simulated person: ${words.toLowerCase()}`, key, run: () => void ask(command) })),
+  { about: "show the keys", key: "?", run: () => element<HTMLDialogElement>("help").showModal() },
+];
+
+function bind(): void {
+  const clicks: Record<string, () => void> = {
+    stop: () => void ask("stop"),
+    release: () => void ask("release"),
+    mute: () => toggle("mute", "mute"),
+    watch: () => toggle("watch", "watch"),
+    speak: () => send("text", "say"),
+    keys: () => element<HTMLDialogElement>("help").showModal(),
+  };
+  for (const [id, run] of Object.entries(clicks)) element(id).addEventListener("click", run);
+  const forms: Record<string, () => void> = {
+    sentence: () => send("text", "hear"),
+    "visitor-sentence": () => send("visitor-text", "visitor_say"),
+  };
+  for (const [id, run] of Object.entries(forms))
+    element(id).addEventListener("submit", (event) => {
+      event.preventDefault();
+      run();
+    });
+  for (const [command, words] of VISITOR) {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.textContent = words;
+    button.addEventListener("click", () => void ask(command));
+    element("visitor").append(button);
+  }
+  const keys = element("key-list");
+  for (const action of actions) {
+    const key = document.createElement("dt");
+    const about = document.createElement("dd");
+    key.textContent = action.key ?? "";
+    about.textContent = action.about;
+    keys.append(key, about);
+  }
+  bindKeys(actions);
+}
+
+bind();
+connection.want(["face", "camera"]);
+connection.open();
+document.addEventListener("visibilitychange", () => connection.want(document.hidden ? [] : ["face", "camera"]));
+setInterval(() => {
+  note(state, now());
+  drawSoon();
+}, 500);
+draw();
