@@ -116,6 +116,8 @@ class RobotEnd:
         self.requests: deque[Request] = deque(maxlen=MOST_REQUESTS)
         self.wanted: frozenset[str] = frozenset()
         """Pictures that someone looks at."""
+        self.reader: threading.Thread | None = None
+        """Of what the server sends, until it has ended."""
         threading.Thread(target=self._write, name="studio link", daemon=True).start()
 
     def put(self, topic: str, value: Any) -> None:
@@ -150,7 +152,10 @@ class RobotEnd:
             self._socket, self.wanted = server, frozenset()
             self._fresh = dict.fromkeys(self._values)
             self._changed.notify()
-        threading.Thread(target=self._read, args=(server,), name="studio", daemon=True).start()
+        self.reader = threading.Thread(
+            target=self._read, args=(server,), name="studio", daemon=True
+        )
+        self.reader.start()
 
     def detach(self) -> None:
         """The server has ended."""
@@ -169,7 +174,7 @@ class RobotEnd:
 
     def _read(self, server: socket.socket) -> None:
         unpacker = Unpacker()
-        with suppress(OSError, LinkError):
+        with suppress(OSError, LinkError, ValueError, KeyError, TypeError):
             while data := server.recv(_CHUNK):
                 for kind, content in unpacker.feed(data):
                     if kind == TEXT:

@@ -12,7 +12,7 @@ import socket
 import sys
 from collections import deque
 from collections.abc import Awaitable, Callable
-from contextlib import suppress
+from contextlib import aclosing, suppress
 from dataclasses import dataclass, field
 from functools import partial
 from importlib import resources
@@ -355,10 +355,11 @@ async def _send_news(websocket: WebSocket, page: Page) -> None:
 async def _body(request: Request) -> bytes:
     """The whole body. Raises HriError for one that is too long, whatever its head said."""
     body = b""
-    async for part in request.stream():
-        body += part
-        if len(body) > LONGEST_BODY:
-            raise HriError(f"at most {LONGEST_BODY} bytes are taken")
+    async with aclosing(request.stream()) as parts:
+        async for part in parts:
+            body += part
+            if len(body) > LONGEST_BODY:
+                raise HriError(f"at most {LONGEST_BODY} bytes are taken")
     return body
 
 

@@ -59,6 +59,11 @@ class StudioSession:
         self._live.join_screen()
         self._keeper.start()
 
+    @property
+    def server(self) -> int:
+        """The process of the server that runs, or ran last; 0 before the first."""
+        return self._child.pid if self._child is not None else 0
+
     def address(self) -> str:
         """The page, with another code that works once."""
         return f"http://127.0.0.1:{self.port}/?code={self._codes.new()}"

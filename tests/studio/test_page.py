@@ -1,0 +1,136 @@
+"""The page in a browser: it shows the robot, talks to it, stops it, and works by keyboard alone."""
+
+import os
+import shutil
+import signal
+from contextlib import contextmanager
+
+import pytest
+
+from tests.studio.living import live_with_studio
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or ""
+pytest.importorskip("playwright", reason="no playwright - pip install hri[dev]")
+from playwright.sync_api import expect, sync_playwright  # noqa: E402
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not CHROMIUM, reason="no Chromium - apt install chromium"),
+]
+DESKTOP, PHONE = {"width": 1360, "height": 900}, {"width": 390, "height": 844}
+
+
+@contextmanager
+def opened(address, size=DESKTOP, **more):
+    """The page of a studio, once it is linked; what goes wrong in it is an error."""
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        try:
+            page = browser.new_context(viewport=size, **more).new_page()
+            page.set_default_timeout(20_000)
+            wrong, asked = [], []
+            page.on("pageerror", lambda error: wrong.append(str(error)))
+            page.on("request", lambda request: asked.append(request.url))
+            page.goto(address)
+            expect(page.locator("#link")).to_have_text("linked", timeout=20_000)
+            yield page
+            assert wrong == []
+            own = (address.partition("?")[0], "blob:", "ws://127.0.0.1:")
+            assert [url for url in asked if not url.startswith(own)] == []
+        finally:
+            browser.close()
+
+
+def used(script, **more):
+    """What a script finds that uses the page."""
+
+    def use(studio, robot):
+        with opened(studio.address(), **more) as page:
+            return script(page, studio)
+
+    return live_with_studio(use)
+
+
+def test_it_shows_the_face_what_it_sees_feels_and_says():
+    def script(page, studio):
+        expect(page.locator("#robot")).to_have_text("companion, simulated")
+        for picture in ("face", "camera"):
+            page.wait_for_function(f"document.getElementById('{picture}-picture').naturalWidth > 0")
+        page.fill("#text", "hello")
+        page.keyboard.press("Enter")
+        expect(page.locator("#lines .person")).to_contain_text("hello")
+        expect(page.locator("#lines .robot").first).not_to_be_empty()
+        expect(page.locator("#mood")).to_contain_text("I am")
+        expect(page.locator("#people li").first).to_contain_text("m")
+        assert page.locator("#map .wall").count() >= 4
+        assert page.locator("#device-list li").count() >= 8
+
+    used(script)
+
+
+def test_the_stop_key_works_everywhere_and_the_stop_stays_until_it_is_released():
+    def script(page, studio):
+        page.fill("#text", "go forward")
+        page.keyboard.press("Escape")
+        expect(page.locator("#where")).to_contain_text("I stopped because someone pressed stop")
+        expect(page.locator("#release")).to_be_visible()
+        page.click("#release")
+        expect(page.locator("#release")).to_be_hidden()
+
+    used(script)
+
+
+def test_everything_is_reached_by_the_keyboard_and_has_a_name():
+    def script(page, studio):
+        names = page.evaluate(
+            """() => [...document.querySelectorAll("button, input")]
+                 .filter((one) => one.offsetParent !== null)
+                 .map((one) => one.innerText || one.labels?.[0]?.innerText || "")"""
+        )
+        reached = set()
+        for _ in range(3 * len(names)):
+            page.keyboard.press("Tab")
+            reached.add(
+                page.evaluate(
+                    "document.activeElement.innerText || "
+                    "document.activeElement.labels?.[0]?.innerText || ''"
+                )
+            )
+        assert all(names)
+        assert set(names) <= reached
+        page.locator("body").press("?")
+        expect(page.locator("#help")).to_be_visible()
+        page.keyboard.press("Enter")
+        expect(page.locator("#help")).to_be_hidden()
+
+    used(script)
+
+
+def test_it_comes_back_when_the_server_was_killed():
+    def script(page, studio):
+        os.kill(studio.server, signal.SIGKILL)
+        expect(page.locator("#link")).to_have_text("no link")
+        expect(page.locator("#link")).to_have_text("linked")
+
+    used(script)
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_it_fits_a_phone(scheme):
+    def script(page, studio):
+        width = page.evaluate("document.documentElement.scrollWidth")
+        return width, page.locator("#stop").is_visible()
+
+    assert used(script, size=PHONE, color_scheme=scheme) == (PHONE["width"], True)
+
+
+def test_a_browser_that_is_not_known_says_what_to_do():
+    def script(studio, robot):
+        with sync_playwright() as playwright:
+            browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+            page = browser.new_page()
+            page.goto(studio.address().partition("?")[0])
+            expect(page.locator("#notice")).to_contain_text("open the address that hri studio")
+            browser.close()
+
+    live_with_studio(script)
