@@ -14,6 +14,7 @@ import numpy as np
 
 from hri.core.errors import NotAvailable
 from hri.core.signals import Image
+from hri.vision.objects.cutout import opaque
 from hri.vision.objects.object_model import Outline
 
 FOLDER = Path("/usr/share/tuxpaint/stamps")
@@ -44,12 +45,8 @@ class Stamp:
 
     @property
     def outline(self) -> Outline:
-        """That of its largest part."""
-        found, _ = cv2.findContours(
-            (self.mask > 127).astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE
-        )
-        corners = cv2.approxPolyDP(max(found, key=cv2.contourArea), 2.0, True)
-        return np.asarray(corners[:, 0], np.float32)
+        """As the robot cuts it out."""
+        return opaque(self.picture, self.mask)
 
 
 def read_stamps() -> tuple[list[Stamp], list[Stamp]]:
@@ -61,7 +58,9 @@ def read_stamps() -> tuple[list[Stamp], list[Stamp]]:
     if not paths:
         raise NotAvailable(f"no pictures in {FOLDER} - apt install tuxpaint-stamps-default")
     distinct = (path for path in paths if not any(word in path.as_posix() for word in ALIKE))
-    stamps = [stamp for path in distinct if (stamp := _read(path)) is not None]
+    found = [stamp for path in distinct if (stamp := _read(path)) is not None]
+    # Some lie in two folders.
+    stamps = list({stamp.picture.tobytes(): stamp for stamp in found}.values())
     stamps = [stamps[index] for index in np.random.default_rng(SEED).permutation(len(stamps))]
     sift = cv2.SIFT.create()
     textured = [stamp for stamp in stamps if _is_textured(stamp, sift)]

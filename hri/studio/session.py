@@ -10,9 +10,13 @@ import socket
 import subprocess
 import threading
 from collections.abc import Callable
+from contextlib import suppress
+
+import psutil
 
 from hri.core import child
 from hri.core.errors import HriError
+from hri.core.quoting import message_line
 from hri.robot import Robot
 from hri.studio.access import Codes
 from hri.studio.actions import Asked, obey
@@ -28,6 +32,8 @@ AGAIN_AFTER = 0.2
 """Seconds until a server that has ended is started again."""
 PATIENCE = 3.0
 """Seconds that a server has to end."""
+LONGEST_NAME = 80
+"""Letters of the program that has the port."""
 CODE = "code"
 """The request for another code."""
 
@@ -147,6 +153,16 @@ def _listening(port: int, allows_remote: bool) -> socket.socket:
         return socket.create_server((host, port), backlog=64)
     except (OSError, OverflowError) as error:
         code = getattr(error, "errno", None)
-        reason = os.strerror(code) if code else str(error)
-        remedy = "choose another --port, or 0 for any that is free"
+        reason = _holder(port) or (os.strerror(code) if code else str(error))
+        remedy = "end it, or choose another --port (0 takes any that is free)"
         raise HriError(f"cannot listen on {host}:{port}: {reason} - {remedy}") from error
+
+
+def _holder(port: int) -> str:
+    """Which program listens on a port; empty where the system does not say."""
+    with suppress(psutil.Error, OSError):
+        for one in psutil.net_connections("tcp"):
+            if one.status == psutil.CONN_LISTEN and one.laddr.port == port and one.pid:
+                words = " ".join(psutil.Process(one.pid).cmdline())
+                return f"process {one.pid} has it: {message_line(words)[:LONGEST_NAME]}"
+    return ""

@@ -113,6 +113,7 @@ def test_a_port_that_is_taken_is_refused_with_what_to_do():
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         robot = Robot("companion", "simulated", notice=lambda _: None)
-        with pytest.raises(HriError, match=rf"cannot listen on 127.0.0.1:{port}: .* - choose"):
+        holder = rf"cannot listen on 127.0.0.1:{port}: process {os.getpid()} has it: .* - end it"
+        with pytest.raises(HriError, match=holder):
             StudioSession(robot, port)
         robot.close()

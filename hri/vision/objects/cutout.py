@@ -19,6 +19,8 @@ DIFFERENT = 28
 """Levels of a color by which a pixel is not the background's."""
 SMALLEST, LARGEST = 0.01, 0.95
 """Parts of the picture; what is smaller or larger is not an outline."""
+MAIN = 0.8
+"""Of the whole, a part that stands for it."""
 CORNER = 0.006
 """How far an outline may be simplified, as a part of its length."""
 COARSE = 160
@@ -43,7 +45,7 @@ def opaque(image: Image, alpha: Mask | None) -> Outline:
     """What is not transparent, else what stands before a background of one color, else all."""
     if alpha is None:
         return on_even_background(image)
-    outline = _largest((alpha > 127).astype(np.uint8))
+    outline = _largest((alpha > 127).astype(np.uint8), has_parts=True)
     return whole(image) if outline is None else outline
 
 
@@ -91,8 +93,11 @@ def in_the_middle(image: Image, faces: Iterable[FaceBox] = ()) -> Outline:
     return middle(image) if outline is None else np.asarray(outline / scale, np.float32)
 
 
-def _largest(mask: Mask) -> Outline | None:
-    """The outline of the largest region, without its fringes; None when it is out of range."""
+def _largest(mask: Mask, *, has_parts: bool = False) -> Outline | None:
+    """The outline of the largest region, without its fringes; None when it is out of range.
+
+    What `has_parts` is around all of them, unless the others hardly count.
+    """
     size = max(3, round(max(mask.shape) / 80)) | 1
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (size, size))
     closed = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, kernel)
@@ -104,6 +109,8 @@ def _largest(mask: Mask) -> Outline | None:
     if not found:
         return None
     contour = max(found, key=cv2.contourArea)
+    if has_parts and cv2.contourArea(contour) < MAIN * sum(map(cv2.contourArea, found)):
+        contour = cv2.convexHull(np.concatenate(found))
     if not SMALLEST <= cv2.contourArea(contour) / mask.size <= LARGEST:
         return None
     corners = cv2.approxPolyDP(contour, CORNER * cv2.arcLength(contour, True), True)
