@@ -76,7 +76,7 @@ def _parser() -> argparse.ArgumentParser:
 
 CATEGORIES = (
     *("behave", "behavior", "drive", "emotion", "events", "face", "net", "network", "recording"),
-    *("resources", "service", "task", "vision", "whereabouts"),
+    *("resources", "service", "studio", "task", "vision", "whereabouts"),
 )
 """Values of `--debug`: the parts of `hri` that write a log."""
 

@@ -23,11 +23,12 @@ BENCHES: dict[str, tuple[str, ...]] = {
     "net": (),
     "people": ("quick",),
     "speech": ("quick", "recordings", "draw"),
+    "studio": ("quick",),
     "vision": ("quick", "only"),
     "writes": ("quick",),
 }
 """Each is a module with `measure(...) -> dict`; the options that it takes."""
-RESEARCH = ("inputs", "people", "writes")
+RESEARCH = ("inputs", "people", "studio", "writes")
 """Those of the folder `benchmarks`; the others are of `hri.bench`."""
 
 
@@ -37,7 +38,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("name", choices=BENCHES, help=about)
     about = "how long each case runs (behavior, companion)"
     parser.add_argument("--seconds", type=Within(float, 1, 3600), metavar="S", help=about)
-    about = "take every sixth sentence (speech), a tenth (drive, face, people, vision, writes)"
+    about = "take every sixth sentence (speech), a tenth (drive, face, people, vision, writes);"
+    about += " a fifth of the time (studio)"
     parser.add_argument("--quick", action="store_true", default=None, help=about)
     about = "run only this part, such as rooms (drive) or nods (vision), or this reader (inputs);"
     about += " a wrong name lists them all"

@@ -9,7 +9,6 @@ import secrets
 import socket
 import subprocess
 import threading
-from collections.abc import Callable
 from contextlib import suppress
 
 import psutil
@@ -17,7 +16,7 @@ import psutil
 from hri.core import child
 from hri.core.errors import HriError
 from hri.core.quoting import message_line
-from hri.robot import Robot
+from hri.robot import Job, Robot
 from hri.studio.access import Codes
 from hri.studio.actions import Asked, obey
 from hri.studio.link import RobotEnd
@@ -74,7 +73,7 @@ class StudioSession:
         """The page, with another code that works once."""
         return f"http://127.0.0.1:{self.port}/?code={self._codes.new()}"
 
-    def jobs(self) -> list[Callable[[TaskContext], object]]:
+    def jobs(self) -> list[Job]:
         """The tasks that run beside the robot's own."""
         return [self._live.watch, self._obey]
 

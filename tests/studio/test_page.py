@@ -55,7 +55,8 @@ def test_it_shows_the_face_what_it_sees_feels_and_says():
     def script(page, studio):
         expect(page.locator("#robot")).to_have_text("companion, simulated")
         for picture in ("face", "camera"):
-            page.wait_for_function(f"document.getElementById('{picture}-picture').naturalWidth > 0")
+            image = page.locator(f"#{picture}-picture")
+            expect(image).not_to_have_js_property("naturalWidth", 0)
         page.fill("#text", "hello")
         page.keyboard.press("Enter")
         expect(page.locator("#lines .person")).to_contain_text("hello")
