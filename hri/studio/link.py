@@ -19,7 +19,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import cv2
-import numpy as np
 
 from hri.core.errors import HriError
 from hri.core.signals import Image
@@ -52,7 +51,11 @@ def packed(kind: int, content: bytes) -> bytes:
 
 def packed_json(value: Any) -> bytes:
     """A message of JSON; numbers that JSON does not have are null."""
-    return packed(TEXT, json.dumps(finite(value), separators=(",", ":")).encode())
+    try:
+        text = json.dumps(value, separators=(",", ":"), allow_nan=False)
+    except (ValueError, TypeError):
+        text = json.dumps(finite(value), separators=(",", ":"))
+    return packed(TEXT, text.encode())
 
 
 def finite(value: Any) -> Any:
@@ -221,6 +224,7 @@ class RobotEnd:
 
 
 def _compressed(topic: str, image: Image, time: float) -> bytes:
-    shrunk = np.ascontiguousarray(image[..., ::-1])
-    _, data = cv2.imencode(".jpg", shrunk, (cv2.IMWRITE_JPEG_QUALITY, QUALITY))
+    # Both leave the interpreter to the robot's loop meanwhile, which numpy would not.
+    turned = cv2.cvtColor(image, cv2.COLOR_RGB2BGR)
+    _, data = cv2.imencode(".jpg", turned, (cv2.IMWRITE_JPEG_QUALITY, QUALITY))
     return packed(PICTURES[topic], _TIME.pack(time) + data.tobytes())

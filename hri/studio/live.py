@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping
+from functools import lru_cache
 from typing import Any
 
 from hri.behavior.device_behaviors import CameraFrames
@@ -20,7 +22,7 @@ from hri.hal.screen import Screen
 from hri.hal.tee import TeeScreen
 from hri.robot import Robot
 from hri.robot.recording import REJECTED
-from hri.simulation.room import Circle, Wall
+from hri.simulation.room import Box, Circle, Room, Wall
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Listener, Voice
 from hri.studio.link import RobotEnd
@@ -30,6 +32,8 @@ API = 1
 """Version of the interface."""
 EVERY = 0.1
 """Seconds between two looks at the values."""
+RATES = {"face": 22.0, "camera": 10.0}
+"""Pictures a second at most."""
 MOST_CAUSES = 6
 """Causes of a feeling that are shown."""
 FAINT = 0.02
@@ -41,6 +45,7 @@ class Live:
 
     def __init__(self, robot: Robot, link: RobotEnd) -> None:
         self._robot, self._link = robot, link
+        self._pictures = _Pictures(link)
         self._topics: Mapping[str, Callable[[TaskContext, float], Any]] = {
             "devices": self._devices,
             "speech": self._speech,
@@ -56,7 +61,7 @@ class Live:
             return
         resources = self._robot.resources
         screen = resources.obtain("screen", Screen)
-        page = _PageScreen(screen, self._link)
+        page = _PageScreen(screen, self._pictures)
         tee = TeeScreen(screen, page)
         tee.activate()
         resources.substitute("screen", tee)
@@ -66,11 +71,10 @@ class Live:
         self._link.put("about", self._about())
         self._robot.events.subscribe("*", self._tell)
         self._watch_camera(context)
-        while True:
-            now = context.clock.now()
-            for topic, look in self._topics.items():
-                self._link.put(topic, look(context, now))
-            await context.clock.sleep(EVERY)
+        # One after the other: the loop has other things to do in between.
+        for topic, look in itertools.cycle(self._topics.items()):
+            self._link.put(topic, look(context, context.clock.now()))
+            await context.clock.sleep(EVERY / len(self._topics))
 
     def _tell(self, event: Event) -> None:
         # Words that were rejected were said to someone else: the page gets them no more than a
@@ -87,8 +91,7 @@ class Live:
                     return
 
     def _see(self, frame: Frame, now: float) -> None:
-        if "camera" in self._link.wanted:
-            self._link.put_picture("camera", frame.image, frame.time)
+        self._pictures.put("camera", frame.image, frame.time)
 
     # --- topics ---
 
@@ -172,13 +175,8 @@ class Live:
         world = self._world_of()
         if world is None:
             return None
-        walls = [o for o in world.room.obstacles if isinstance(o, Wall)]
-        boxes = [o.sides() for o in world.room.obstacles if not isinstance(o, (Wall, Circle))]
-        rounds = [o for o in world.room.obstacles if isinstance(o, Circle)]
-        sides = [*walls, *(side for box in boxes for side in box)]
         return {
-            "walls": [[_short(part) for part in (w.x1, w.y1, w.x2, w.y2)] for w in sides],
-            "circles": [[_short(part) for part in (c.x, c.y, c.radius)] for c in rounds],
+            **_drawn(world.room),
             "people": [
                 {
                     "name": person.name,
@@ -194,16 +192,42 @@ class Live:
         return next(iter(self._robot.resources.opened(SimulatedWorld)), None)
 
 
-class _PageScreen(Screen):
-    """Hands the pictures of the face to the link, while someone looks at the page."""
+@lru_cache(maxsize=2)
+def _drawn(room: Room) -> dict[str, Any]:
+    """The lines and circles of a room."""
+    walls = [one for one in room.obstacles if isinstance(one, Wall)]
+    sides = [side for one in room.obstacles if isinstance(one, Box) for side in one.sides()]
+    rounds = [one for one in room.obstacles if isinstance(one, Circle)]
+    return {
+        "walls": [[_short(p) for p in (w.x1, w.y1, w.x2, w.y2)] for w in (*walls, *sides)],
+        "circles": [[_short(p) for p in (c.x, c.y, c.radius)] for c in rounds],
+    }
 
-    def __init__(self, screen: Screen, link: RobotEnd) -> None:
+
+class _Pictures:
+    """Hands pictures to the link while someone looks at them, and not too many."""
+
+    def __init__(self, link: RobotEnd) -> None:
+        self._link = link
+        self._due = dict.fromkeys(RATES, -math.inf)
+
+    def put(self, topic: str, image: Image, time: float) -> None:
+        """A picture of a key of `RATES`, taken at a time."""
+        if topic in self._link.wanted and time >= self._due[topic]:
+            gap = 1 / RATES[topic]
+            self._due[topic] = max(self._due[topic] + gap, time)
+            self._link.put_picture(topic, image, time)
+
+
+class _PageScreen(Screen):
+    """Shows the face on the page."""
+
+    def __init__(self, screen: Screen, pictures: _Pictures) -> None:
         Resource.__init__(self, Description("studio", "Hri.OffscreenScreen"), screen.manager)
-        self.width, self.height, self._link = screen.width, screen.height, link
+        self.width, self.height, self._pictures = screen.width, screen.height, pictures
 
     def show(self, image: Image, time: float) -> None:
-        if "face" in self._link.wanted:
-            self._link.put_picture("face", image, time)
+        self._pictures.put("face", image, time)
 
 
 def _sensors(context: TaskContext) -> Iterator[RangeSensor]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import os
 import socket
 import sys
 from collections import deque
@@ -42,6 +43,8 @@ MOST_EVENTS = 300
 """Events that a page gets when it comes, and that wait for one that reads slowly."""
 LONGEST_BODY = 65_536
 """Bytes of a request."""
+NICE = 5
+"""Steps by which the robot goes before, when the processor is busy."""
 PATIENCE = 2.0
 """Seconds that the robot has to answer."""
 TYPES = {"html": "text/html", "js": "text/javascript", "css": "text/css", "svg": "image/svg+xml"}
@@ -406,6 +409,8 @@ def main() -> int:
     come on standard input.
     """
     listening, link = map(int, sys.argv[1:3])
+    with suppress(OSError):
+        os.nice(NICE)
     settings = Settings(**json.loads(sys.stdin.buffer.read()))
     trio.run(serve, listening, link, settings)
     return 0
