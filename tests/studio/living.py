@@ -1,4 +1,4 @@
-"""A simulated companion with a studio, and a script that uses it from outside meanwhile."""
+"""A simulated companion with a studio, which tests use from outside while it lives."""
 
 import threading
 from contextlib import closing, contextmanager
@@ -12,34 +12,31 @@ from hri.studio.session import StudioSession
 
 HEADLESS = [Description("screen", "Hri.OffscreenScreen"), Description("voice", "Hri.SilentVoice")]
 LONGEST = 3600.0
-"""Simulated seconds in which the script has to end."""
+"""Simulated seconds after which a robot ends that a test has forgotten."""
 
 
-def live_with_studio(script, app="companion"):
-    """Run `script(studio, robot)` in a thread while the robot lives; what it returned."""
+@contextmanager
+def living(app="companion"):
+    """A robot that lives in a thread, with its studio."""
     robot = Robot(app, "simulated", clock=FakeClock(), devices=HEADLESS, notice=lambda _: None)
     studio = StudioSession(robot, port=0)
-    found = []
+    is_over = threading.Event()
 
-    async def use(context):
-        def run():
-            try:
-                found.append(script(studio, robot))
-            except BaseException as error:
-                found.append(error)
-
-        thread = threading.Thread(target=run)
-        thread.start()
-        while thread.is_alive() and context.clock.now() < LONGEST:
+    async def go_on(context):
+        while not is_over.is_set() and context.clock.now() < LONGEST:
             await context.clock.sleep(0.05)
         robot.finish()
 
+    jobs = (*robot.app.load_tasks(), *studio.jobs(), go_on)
+    thread = threading.Thread(target=lambda: robot.live_until_over(*jobs))
     with closing(robot), closing(studio):
         studio.start()
-        robot.live_until_over(*robot.app.load_tasks(), *studio.jobs(), use)
-    if isinstance(found[0], BaseException):
-        raise found[0]
-    return found[0]
+        thread.start()
+        try:
+            yield studio, robot
+        finally:
+            is_over.set()
+            thread.join()
 
 
 @contextmanager

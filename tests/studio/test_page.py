@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 import pytest
 
-from tests.studio.living import live_with_studio
+from tests.studio.living import living
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or ""
 pytest.importorskip("playwright", reason="no playwright - pip install hri[dev]")
@@ -44,11 +44,8 @@ def opened(address, size=DESKTOP, **more):
 def used(script, **more):
     """What a script finds that uses the page."""
 
-    def use(studio, robot):
-        with opened(studio.address(), **more) as page:
-            return script(page, studio)
-
-    return live_with_studio(use)
+    with living() as (studio, _), opened(studio.address(), **more) as page:
+        return script(page, studio)
 
 
 def test_it_shows_the_face_what_it_sees_feels_and_says():
@@ -126,12 +123,9 @@ def test_it_fits_a_phone(scheme):
 
 
 def test_a_browser_that_is_not_known_says_what_to_do():
-    def script(studio, robot):
-        with sync_playwright() as playwright:
-            browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-            page = browser.new_page()
-            page.goto(studio.address().partition("?")[0])
-            expect(page.locator("#notice")).to_contain_text("open the address that hri studio")
-            browser.close()
-
-    live_with_studio(script)
+    with living() as (studio, _), sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        page = browser.new_page()
+        page.goto(studio.address().partition("?")[0])
+        expect(page.locator("#notice")).to_contain_text("open the address that hri studio")
+        browser.close()
