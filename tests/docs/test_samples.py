@@ -218,10 +218,10 @@ def test_the_recognized_object_is_followed_around(simulated):
 
     name = "dollar_front.jpg"
     world.place(name, 2.2, -0.3)
-    assert run("behavior/tracking/tracking.xml", simulated, 8.0)
+    assert run("behavior/tracking/tracking.xml", simulated, 6.0)
     assert apart(2.2, -0.3) == pytest.approx(1.0, abs=0.2)
     world.place(name, 3.5, -0.8)
-    run("behavior/tracking/tracking.xml", simulated, 9.0)
+    run("behavior/tracking/tracking.xml", simulated, 6.5)
     assert apart(3.5, -0.8) == pytest.approx(1.0, abs=0.2)
 
 

@@ -91,7 +91,7 @@ def test_it_follows_an_object_that_moves_and_stops_without_one(robot, capsys):
     world = context.resources.obtain("world", SimulatedWorld)
     for x in (1.3, 0.9):
         world.place("dollar_front.jpg", x, 0.0)
-        base = run(network, context, 8.0)
+        base = run(network, context, 6.0)
         assert x - base.pose.x == pytest.approx(0.8, abs=0.01)
     world.place("dollar_front.jpg", 2.0, 0.0)
     assert run(network, context, 1.0).velocity.linear > 0.3

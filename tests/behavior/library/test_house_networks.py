@@ -186,20 +186,6 @@ def test_objrec_network_shows_the_picture_and_prints_name_and_distance(robot, ca
     assert distances == pytest.approx([95.1] * len(distances), abs=1.0)
 
 
-@pytest.mark.proves("B23")
-def test_objrec_tut_final_keeps_the_distance_when_the_object_moves(robot):
-    context = robot()
-    world = context.resources.obtain("world", SimulatedWorld)
-    for x in (0.95, 0.7):
-        world.place("dollar_front.jpg", x, 0.0)
-        run("objrec_tut_final", context, 6.0)
-        assert x - world.base.pose.x == pytest.approx(0.80, abs=0.01)
-    world.place("dollar_front.jpg", -5.0, 0.0)
-    before = world.base.pose.x
-    run("objrec_tut_final", context, 2.0)
-    assert world.base.pose.x == pytest.approx(before, abs=0.001)
-
-
 def test_a_model_set_that_is_not_there_is_told_before_anything_opens(tmp_path):
     path = tmp_path / "net.xml"
     path.write_text(
