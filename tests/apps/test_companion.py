@@ -359,7 +359,7 @@ def test_it_does_not_ask_whom_nobody_hears_or_where_nothing_is_to_be_kept(tmp_pa
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.proves("R08")
+@pytest.mark.slow
 def test_it_learns_a_thing_names_it_finds_it_and_forgets_it(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
 
