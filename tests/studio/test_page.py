@@ -7,6 +7,7 @@ from contextlib import contextmanager
 
 import pytest
 
+from hri.core import paths
 from tests.studio.living import living
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or ""
@@ -17,6 +18,7 @@ pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(not CHROMIUM, reason="no Chromium - apt install chromium"),
 ]
+AXE = paths.house() / "hri" / "studio" / "page" / "node_modules" / "axe-core" / "axe.min.js"
 DESKTOP, PHONE = {"width": 1360, "height": 900}, {"width": 390, "height": 844}
 
 
@@ -120,6 +122,24 @@ def test_it_fits_a_phone(scheme):
         return width, page.locator("#stop").is_visible()
 
     assert used(script, size=PHONE, color_scheme=scheme) == (PHONE["width"], True)
+
+
+@pytest.mark.skipif(not AXE.exists(), reason="no axe-core - npm ci in hri/studio/page")
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("size", [DESKTOP, PHONE], ids=["desktop", "phone"])
+def test_nothing_stands_in_the_way_of_a_screen_reader(scheme, size):
+    def script(page, studio):
+        page.fill("#text", "hello")
+        page.keyboard.press("Enter")
+        expect(page.locator("#lines .robot").first).to_be_visible()
+        page.evaluate(AXE.read_text())
+        return page.evaluate(
+            """() => axe.run().then((found) => found.violations
+                 .filter((one) => ["serious", "critical"].includes(one.impact))
+                 .map((one) => [one.id, one.nodes.map((node) => node.html)]))"""
+        )
+
+    assert used(script, size=size, color_scheme=scheme, bypass_csp=True) == []
 
 
 def test_a_browser_that_is_not_known_says_what_to_do():
