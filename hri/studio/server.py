@@ -8,20 +8,23 @@ from __future__ import annotations
 
 import itertools
 import json
+import logging
 import os
 import socket
 import sys
 from collections import deque
-from collections.abc import Awaitable, Callable
 from contextlib import aclosing, suppress
 from dataclasses import dataclass, field
 from functools import partial
 from importlib import resources
-from typing import Any
+from typing import Any, cast
 
-import hypercorn.trio
 import trio
 from hypercorn.config import Config
+from hypercorn.trio.tcp_server import TCPServer
+from hypercorn.trio.worker_context import WorkerContext
+from hypercorn.typing import ConnectionState, LifespanState
+from hypercorn.utils import wrap_app
 from starlette.applications import Starlette
 from starlette.requests import HTTPConnection, Request
 from starlette.responses import JSONResponse, RedirectResponse, Response
@@ -39,6 +42,8 @@ from hri.studio.link import PICTURES, TEXT, LinkError, Unpacker, packed_json
 
 MOST_PAGES = 32
 """Pages that look at once."""
+MOST_CONNECTIONS = 256
+"""At once; a further one is closed."""
 MOST_EVENTS = 300
 """Events that a page gets when it comes, and that wait for one that reads slowly."""
 LONGEST_BODY = 65_536
@@ -48,6 +53,7 @@ NICE = 5
 PATIENCE = 2.0
 """Seconds that the robot has to answer."""
 TYPES = {"html": "text/html", "js": "text/javascript", "css": "text/css", "svg": "image/svg+xml"}
+log = logging.getLogger("hri.studio")
 HEADERS = {
     "content-security-policy": "default-src 'self'; img-src 'self' blob:; object-src 'none'; "
     "base-uri 'none'; form-action 'self'; frame-ancestors 'none'",
@@ -382,26 +388,43 @@ def _file(name: str) -> Response:
 
 async def serve(listening: int, link: int, settings: Settings) -> None:
     """Serve on an open socket until the link to the robot has ended."""
-    stream = trio.SocketStream(trio.socket.from_stdlib_socket(socket.socket(fileno=link)))
-    hub = Hub(stream)
-    config = Config()
-    config.bind = [f"fd://{listening}"]
-    config.errorlog = None
-    config.wsgi_max_body_size = LONGEST_BODY
-    config.websocket_max_message_size = LONGEST_BODY
-    config.graceful_timeout = 0.2
-    ended = trio.Event()
-
-    async def follow() -> None:
+    hub = Hub(trio.SocketStream(trio.socket.from_stdlib_socket(socket.socket(fileno=link))))
+    app = Studio(hub, settings).app()
+    listener = trio.SocketListener(trio.socket.from_stdlib_socket(socket.socket(fileno=listening)))
+    async with trio.open_nursery() as nursery:
+        nursery.start_soon(trio.serve_listeners, Connections(app).take, [listener])
         with suppress(OSError, trio.BrokenResourceError, LinkError):
             await hub.follow()
-        ended.set()
-
-    app: Callable[..., Awaitable[None]] = Studio(hub, settings).app()
-    async with trio.open_nursery() as nursery:
-        nursery.start_soon(follow)
-        await hypercorn.trio.serve(app, config, shutdown_trigger=ended.wait, mode="asgi")
         nursery.cancel_scope.cancel()
+
+
+class Connections:
+    """Lets Hypercorn speak HTTP on each connection. Its own loop over them would end with the first
+    that fails.
+    """
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._config = Config()
+        self._config.errorlog = None
+        self._config.websocket_max_message_size = LONGEST_BODY
+        self._config.h11_max_incomplete_size = LONGEST_BODY
+        self._app = wrap_app(cast(Any, app), LONGEST_BODY, "asgi")
+        self._context = WorkerContext(None)
+        self._count = 0
+
+    async def take(self, stream: trio.SocketStream) -> None:
+        """Serve a connection to its end, whatever that is."""
+        if self._count >= MOST_CONNECTIONS:
+            await stream.aclose()
+            return
+        self._count += 1
+        try:
+            state = ConnectionState(LifespanState({}))
+            await TCPServer(self._app, self._config, self._context, state, cast(Any, stream)).run()
+        except* Exception as failures:  # a peer that breaks off at a bad moment
+            log.debug("a connection failed: %s", failures.exceptions[0])
+        finally:
+            self._count -= 1
 
 
 def main() -> int:
