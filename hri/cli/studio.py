@@ -1,4 +1,4 @@
-"""`hri studio [APP]`: runs an app, and serves a page on which to see, talk to and stop it."""
+"""`hri studio [APP]`: runs an app or a network, and serves a page to see, talk to, and stop it."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from hri.cli import run as run_app
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    about = "name of an app in apps/, or a path (%(default)s)"
+    about = "name of an app in apps/, or a path; also of a NETWORK.xml (%(default)s)"
     parser.add_argument("app", nargs="?", default="companion", help=about)
     run_app.add_options(parser)
 

@@ -66,6 +66,8 @@ ASIDE = 0.2
 """Radians off the straight way at which it counts as going around something."""
 AHEAD = 1.2
 """Meters along the route that the robot looks ahead at most."""
+ROUTE = "route"
+"""The board slot with the way that it means to take, for people to look at."""
 REPLAN_S = 0.5
 """Seconds until it looks for a route again."""
 WEAVE, WEAVE_S = 0.3, 2.5
@@ -217,6 +219,11 @@ class Avoidance:
     def side(self) -> int:
         """On which side it goes around an obstacle: 1 left, -1 right, 0 for none."""
         return self._side
+
+    @property
+    def route(self) -> tuple[tuple[float, float], ...]:
+        """Points of the way that it means to take, meters in the odometry frame; often none."""
+        return () if self._route is None else self._route.points
 
     @property
     def needed(self) -> float:

@@ -17,7 +17,7 @@ from hri.behavior.ports import ANGULAR_VELOCITY, LINEAR_VELOCITY, Input, Output,
 from hri.core.errors import HriError
 from hri.core.geometry import seen_from
 from hri.core.signals import People, Pose2D, Twist
-from hri.drive.avoidance import Avoidance, Manner, straight_to, turn_to
+from hri.drive.avoidance import ROUTE, Avoidance, Manner, straight_to, turn_to
 from hri.drive.following import Following, FollowingManner, Pursuit, tell
 from hri.drive.mechanics import mechanics_of, range_sensors
 from hri.drive.odometry import Estimate, Wheels, arc_between, rolled_on
@@ -112,6 +112,7 @@ class ObstacleAvoidance(_Going):
         ids = self.sensor_ids.split() or range_sensors(context.resources)
         self._sensors = {id: self.obtain(id, RangeSensor) for id in ids}
         self._avoidance = Avoidance(mechanics_of(context.resources, ids), self._manner())
+        self._route = context.board.slot(ROUTE)
 
     def _look(self, now: float, pose: Pose2D) -> None:
         readings = {id: sensor.read(now) for id, sensor in self._sensors.items()}
@@ -120,6 +121,7 @@ class ObstacleAvoidance(_Going):
 
     def _steer(self, now: float, pose: Pose2D, goal: Pose2D) -> Twist:
         twist = self._avoidance.steer(now, pose, goal)
+        self._route.set(self._avoidance.route, now)
         self.side.send(float(self._avoidance.side))
         return twist
 

@@ -16,7 +16,7 @@ from hri.core.clock import Worker
 from hri.core.errors import HriError
 from hri.core.geometry import after_move, wrapped
 from hri.core.signals import Event, People, Pose2D, Twist
-from hri.drive.avoidance import Avoidance, Manner, turn_to
+from hri.drive.avoidance import ROUTE, Avoidance, Manner, turn_to
 from hri.drive.following import (
     Ending,
     Following,
@@ -286,6 +286,7 @@ class _Traveler:
     def __init__(self, context: TaskContext) -> None:
         resources = context.resources
         self._slot = context.board.slot(PEOPLE)
+        self._route = context.board.slot(ROUTE)
         self._odometry = resources.obtain("odometry", Odometry)
         self._sensors: dict[str, RangeSensor] = {}
         try:
@@ -316,6 +317,7 @@ class _Traveler:
         readings = {id: sensor.read(now) for id, sensor in self._sensors.items()}
         self._avoidance.see(now, pose, readings, self.people)
         twist = self._avoidance.steer(now, pose, goal)
+        self._route.set(self._avoidance.route, now)
         is_at = math.dist((pose.x, pose.y), (goal.x, goal.y)) <= self._manner.near
         if is_at and faces:
             twist = turn_to(pose, goal.heading, self._manner.turn_rate)

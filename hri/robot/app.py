@@ -34,6 +34,7 @@ from hri.task.task import TaskType, find_task
 from hri.task.task_run import Job
 
 GRAMMAR = "grammar.jsgf"
+NETWORK = ".xml"
 SLOT = "app"
 """Slot of the board with the app that runs."""
 
@@ -56,6 +57,16 @@ class App:
     """Names of tasks that an event starts, by its name, in which `*` stands for any characters."""
     base: Self | None = None
     """The app that it extends; what that one has is in the fields above, too."""
+
+    @property
+    def name(self) -> str:
+        """That of its folder, or of its network's file."""
+        return self.folder.stem if self.is_network else self.folder.name
+
+    @property
+    def is_network(self) -> bool:
+        """Whether it is a network alone; then `folder` is its file."""
+        return self.folder.suffix == NETWORK
 
     @classmethod
     def of(cls, context: TaskContext) -> Self:
@@ -185,7 +196,7 @@ class App:
         """`tasks.py`, in a separate package so that it can import its neighbors. None if an app
         that extends another does not have it.
         """
-        if self.base is not None and not paths.is_file(self.folder / "tasks.py"):
+        if (self.base or self.is_network) and not paths.is_file(self.folder / "tasks.py"):
             return None
         package = f"hri_app_{self.folder.resolve().name}"
         beside = self.folder / "__init__.py"
@@ -204,7 +215,13 @@ def _tasks_of(module: ModuleType) -> Iterator[str]:
 
 
 def load_app(name: str) -> App:
-    """Read an app by name or path, and those it extends. Raises HriError or AuthoringError."""
+    """Read an app by name or path, and those it extends; the file of a network is an app of it.
+
+    Raises HriError or AuthoringError.
+    """
+    if name.endswith(NETWORK):
+        path = paths.find("config", name)
+        return App(path, f"the network {path.name}", (path,), ())
     return _load(paths.find("apps", name), ())
 
 

@@ -7,18 +7,18 @@ from hri.simulation.world import SimulatedWorld
 
 
 class Visitor:
-    """The first person of a simulated world; `after` counts seconds from now.
+    """The person of this name in a simulated world, or the first; `after` counts seconds from now.
 
-    Raises HriError where the world is a bare room.
+    Raises HriError where nobody has the name, or the world is a bare room.
     """
 
-    def __init__(self, world: SimulatedWorld, clock: Clock) -> None:
+    def __init__(self, world: SimulatedWorld, clock: Clock, name: str = "") -> None:
         self._world, self._clock = world, clock
-        self._person = world.person
+        self._person = world.find_person(name)
 
     def say(self, text: str, after: float = 0.0) -> None:
         """Say something; it gets quieter with the distance to the robot."""
-        self._world.say(text, self._clock.now() + after)
+        self._world.say(text, self._clock.now() + after, self._person)
 
     def nod(self, after: float = 0.0) -> None:
         """Nod the head."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import os
 import zlib
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -32,6 +33,10 @@ BUMP_TIME = 0.3
 """Seconds that someone who pushes against the base presses the bumper."""
 _NEAREST = 1.0
 """Meters; someone who is nearer speaks more softly, so the voice gets no louder."""
+MOST_ITEMS = 100
+"""Objects, and obstacles, that can be put into the room."""
+OBSTACLE = 0.15
+"""Meters; radius of an obstacle that is put into the room."""
 BATTERY_LIFE = 4 * 3600.0
 """Seconds a full battery lasts when the robot only listens."""
 BATTERY_RANGE = 3000.0
@@ -67,6 +72,9 @@ class SimulatedWorld(Resource):
     """The camera follows the first; none in a bare room."""
     sound: Sound
     beams: Beams
+    _items: dict[str, Item]
+    _obstacles: dict[str, Circle]
+    """Another thread may look at both: they are replaced, never changed."""
 
     @classmethod
     def check(cls, description: Description) -> None:
@@ -215,9 +223,35 @@ class SimulatedWorld(Resource):
         """Put an object somewhere in the room, in meters; one of that name moves there.
 
         A new one has a label with its name, or is a ball with a color of `world_file.COLORS`.
+        Raises HriError when there are too many.
         """
+        _refuse_crowd(self._items, name)
         known = self._items.get(name, Item(name, x, y, color=color))
-        self._items[name] = replace(known, x=x, y=y)
+        self._items = {**self._items, name: replace(known, x=x, y=y)}
+
+    def put_obstacle(self, name: str, x: float, y: float, now: float) -> None:
+        """Put something round of radius `OBSTACLE` somewhere in the room, in meters; one of that
+        name moves there. Raises HriError where the robot stands, or when there are too many.
+        """
+        _refuse_crowd(self._obstacles, name)
+        self.advance(now)
+        pose, least = self.base.pose, self.base.limits.radius + OBSTACLE
+        if math.dist((pose.x, pose.y), (x, y)) <= least:
+            raise HriError(f"the robot stands there - choose a place {least:.1f} m away from it")
+        self._obstacles = {**self._obstacles, name: Circle(x, y, OBSTACLE)}
+
+    @property
+    def obstacles(self) -> Mapping[str, Circle]:
+        """What was put into the room, by name."""
+        return self._obstacles
+
+    def take_away(self, name: str) -> None:
+        """Take an object, or an obstacle that was put there, out of the room. Raises HriError."""
+        names = [*self._obstacles, *self._items]
+        if name not in names:
+            raise HriError(f'nothing here is called "{name}" - {did_you_mean(name, names)}')
+        self._obstacles = {key: one for key, one in self._obstacles.items() if key != name}
+        self._items = {key: one for key, one in self._items.items() if key != name}
 
     @property
     def items(self) -> tuple[Item, ...]:
@@ -243,6 +277,7 @@ class SimulatedWorld(Resource):
         self.people = tuple(self._person(start) for start in layout.people)
         self.room = layout.room
         self._items = {item.name: item for item in layout.items}
+        self._obstacles = {}
         self._peopled: tuple[tuple[Circle, ...], Room] = ((), self.room)
         limits = HardwareLimits(radius=robot.radius)
         self.base = Base(self._clearance, robot.pose, limits, robot.slip, self.seed_for("slip"))
@@ -258,12 +293,13 @@ class SimulatedWorld(Resource):
         return self._room_at(time).clearance(x, y)
 
     def _room_at(self, time: float) -> Room:
-        there = tuple(
+        people = [
             Circle(round(x, 2), round(y, 2), RADIUS)
             for person in self.people
             if person.is_present(time)
             for x, y in [person.place(time)]
-        )
+        ]
+        there = (*people, *self._obstacles.values())
         # The same room for the same places: what was cast in it is not cast again.
         if there != self._peopled[0]:
             self._peopled = there, self.room.with_more(there)
@@ -310,6 +346,11 @@ def _layout(description: Description) -> WorldLayout:
         what, _, remedy = str(error).partition(" - ")
         raise description.error("file", what, remedy) from error
     return load_layout(path)
+
+
+def _refuse_crowd(there: Mapping[str, object], name: str) -> None:
+    if name not in there and len(there) >= MOST_ITEMS:
+        raise HriError(f"{MOST_ITEMS} such things are in the room - take one away first")
 
 
 def _start_level(description: Description) -> float:

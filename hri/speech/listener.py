@@ -93,6 +93,8 @@ class Listener(Behavior):
 
     is_muted = False
     """Set it to be deaf for a while."""
+    _held_until = 0.0
+    _was_held = False
     last_utterance: Utterance | None = None
     """The last utterance."""
 
@@ -182,6 +184,17 @@ class Listener(Behavior):
         if text.strip():
             self._waiting.append((Segment(now, now, text=text.strip()), _Piece()))
 
+    def hold(self, seconds: float) -> None:
+        """Hear for that long whoever said to be deaf, and without a wake word: someone holds a
+        button to talk. When the time is over what was said counts at once; 0 ends it.
+        """
+        self._held_until = self._clock.now() + seconds
+
+    @property
+    def is_held(self) -> bool:
+        """Whether it hears because of `hold`."""
+        return self._held_until > 0.0 and self._clock.now() < self._held_until
+
     @property
     def is_idle(self) -> bool:
         """True when nothing that was heard is still on its way to be understood."""
@@ -204,11 +217,16 @@ class Listener(Behavior):
             self._wakefulness.extend(now)
         heard = self._ear.read(now)
         samples = self._without_own_voice(heard, now)
-        is_deaf = self.is_muted or bool(self.push_to_talk.sources and not self.push_to_talk.value)
+        is_held = self.is_held
+        is_let_go, self._was_held = self._was_held and not is_held, is_held
+        if is_held:
+            self._wakefulness.extend(now)
+        is_off = self.is_muted or bool(self.push_to_talk.sources and not self.push_to_talk.value)
+        is_deaf = is_off and not is_held
         was_hearing = self._recognizer.is_hearing
         self._recognizer.mind(is_speaking, now)
         segments = self._recognizer.listen(samples[:0] if is_deaf else samples, now)
-        if (self._ear.has_ended or is_deaf) and self._recognizer.is_hearing:
+        if (self._ear.has_ended or is_deaf or is_let_go) and self._recognizer.is_hearing:
             segments += self._recognizer.flush()
         if was_hearing or self._recognizer.is_hearing or segments:
             self._note(heard, samples, is_speaking)

@@ -18,6 +18,8 @@ from hri.studio.link import STOP
 from hri.task.context import TaskContext
 
 BECAUSE = "someone pressed stop in the studio"
+HOLD = 1.5
+"""Seconds of hearing for each word that the button is still held: a page may vanish meanwhile."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +30,11 @@ class Asked:
     context: TaskContext
 
     @property
+    def now(self) -> float:
+        """Seconds."""
+        return self.context.clock.now()
+
+    @property
     def world(self) -> SimulatedWorld:
         """The simulated room. Raises HriError where the room is real."""
         found = self.context.resources.opened(SimulatedWorld)
@@ -35,10 +42,9 @@ class Asked:
             raise HriError("this room is real - only simulated people can be asked")
         return found[0]
 
-    @property
-    def visitor(self) -> Visitor:
-        """The simulated person. Raises HriError where there is none."""
-        return Visitor(self.world, self.context.clock)
+    def visitor(self, name: str) -> Visitor:
+        """A simulated person, or the first. Raises HriError where there is none."""
+        return Visitor(self.world, self.context.clock, name)
 
 
 def _stop(asked: Asked) -> None:
@@ -65,6 +71,13 @@ def _hear(asked: Asked, text: str) -> None:
     asked.context.behavior(Listener).type_line(text)
 
 
+def _talk(asked: Asked, on: bool) -> None:
+    listener = asked.context.behavior(Listener)
+    if on and not listener.is_held:
+        _hush(asked)
+    listener.hold(HOLD if on else 0.0)
+
+
 def _mute(asked: Asked, on: bool) -> None:
     asked.context.behavior(Listener).is_muted = on
     asked.context.events.raise_event("microphone.muted", muted=on)
@@ -81,16 +94,19 @@ ACTIONS: Mapping[str, Callable[..., object]] = {
     "hear": _hear,
     "say": _say,
     "hush": _hush,
+    "talk": _talk,
     "mute": _mute,
     "watch": _watch,
-    "visitor_say": lambda asked, text: asked.visitor.say(text),
-    "visitor_nod": lambda asked: asked.visitor.nod(),
-    "visitor_shake": lambda asked: asked.visitor.shake(),
-    "visitor_go": lambda asked, x, y: asked.visitor.go(x, y),
-    "visitor_enter": lambda asked: asked.visitor.enter(),
-    "visitor_leave": lambda asked: asked.visitor.leave(),
+    "visitor_say": lambda asked, text, who="": asked.visitor(who).say(text),
+    "visitor_nod": lambda asked, who="": asked.visitor(who).nod(),
+    "visitor_shake": lambda asked, who="": asked.visitor(who).shake(),
+    "visitor_go": lambda asked, x, y, who="": asked.visitor(who).go(x, y),
+    "visitor_enter": lambda asked, who="": asked.visitor(who).enter(),
+    "visitor_leave": lambda asked, who="": asked.visitor(who).leave(),
     "bump": lambda asked: asked.visitor.bump(),
     "place": lambda asked, name, x, y: asked.world.place(name, x, y),
+    "obstacle": lambda asked, name, x, y: asked.world.put_obstacle(name, x, y, asked.now),
+    "remove": lambda asked, name: asked.world.take_away(name),
 }
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from hri.studio.commands import COMMANDS, FARTHEST, LONGEST_TEXT, Command
+from hri.studio.type_export import schemas
 
 _KINDS: dict[type, dict[str, Any]] = {
     str: {"type": "string", "minLength": 1, "maxLength": LONGEST_TEXT},
@@ -22,11 +23,11 @@ _ANSWERS = {
 def openapi() -> dict[str, Any]:
     """The document, OpenAPI 3.1."""
     paths: dict[str, Any] = {f"/api/v1/{name}": _path(name, c) for name, c in COMMANDS.items()}
-    paths["/api/v1/state"] = _get("state", "the newest value of each topic")
+    paths["/api/v1/state"] = _get("state", "the newest value of each topic", "State")
     paths["/api/v1/live"] = _get(
         "live",
-        "a WebSocket. It sends JSON, {topic, value} or {event}, and pictures: a byte (2 for the "
-        "face, 3 for the camera), the time (big-endian double, seconds), and a JPEG. It takes "
+        "a WebSocket. It sends text, each a LiveMessage, and pictures: a byte (2 for the face, 3 "
+        "for the camera), the time (big-endian double, seconds), and a JPEG. It takes "
         '{"pictures": ["face", "camera"]}: those that are wanted.',
     )
     return {
@@ -37,7 +38,8 @@ def openapi() -> dict[str, Any]:
             "securitySchemes": {
                 "token": {"type": "http", "scheme": "bearer", "description": "of `hri token`"},
                 "cookie": {"type": "apiKey", "in": "cookie", "name": "hri_studio_PORT"},
-            }
+            },
+            "schemas": schemas(),
         },
         "paths": paths,
     }
@@ -49,8 +51,9 @@ def _path(name: str, command: Command) -> dict[str, Any]:
         for key, argument in command.arguments.items()
     }
     schema = {"type": "object", "properties": properties, "additionalProperties": False}
-    if properties:
-        schema["required"] = list(properties)
+    required = [key for key, one in command.arguments.items() if not one.is_optional]
+    if required:
+        schema["required"] = required
     post: dict[str, Any] = {
         "operationId": name,
         "summary": command.about,
@@ -62,5 +65,7 @@ def _path(name: str, command: Command) -> dict[str, Any]:
     return {"post": post}
 
 
-def _get(name: str, about: str) -> dict[str, Any]:
-    return {"get": {"operationId": name, "summary": about, "responses": _ANSWERS}}
+def _get(name: str, about: str, schema: str = "LiveMessage") -> dict[str, Any]:
+    content = {"application/json": {"schema": {"$ref": f"#/components/schemas/{schema}"}}}
+    answers = {**_ANSWERS, "200": {"description": "the values", "content": content}}
+    return {"get": {"operationId": name, "summary": about, "responses": answers}}

@@ -24,6 +24,7 @@ class Argument:
 
     kind: type
     about: str
+    is_optional: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +38,7 @@ class Command:
 
 
 _TEXT = {"text": Argument(str, "what is said")}
+_WHO = {"who": Argument(str, "name of the person; the first without", is_optional=True)}
 _PLACE = {
     "x": Argument(float, "meters ahead, in the room"),
     "y": Argument(float, "meters to the left, in the room"),
@@ -48,18 +50,27 @@ COMMANDS: Mapping[str, Command] = {
     "hear": Command("hear a typed sentence as if it had been said", _TEXT),
     "say": Command("say a text", _TEXT),
     "hush": Command("end what is being said, and forget what waits"),
+    "talk": Command("hear while someone holds a button, until a moment after the last such", _ON),
     "mute": Command("make it deaf, or let it hear again", _ON),
     "watch": Command("switch the camera on or off", _ON),
-    "visitor_say": Command("let the simulated person speak", _TEXT),
-    "visitor_nod": Command("let the simulated person nod"),
-    "visitor_shake": Command("let the simulated person shake the head"),
-    "visitor_go": Command("let the simulated person walk to a place", _PLACE),
-    "visitor_enter": Command("let the simulated person come in"),
-    "visitor_leave": Command("let the simulated person go out"),
+    "visitor_say": Command("let a simulated person speak", {**_TEXT, **_WHO}),
+    "visitor_nod": Command("let a simulated person nod", _WHO),
+    "visitor_shake": Command("let a simulated person shake the head", _WHO),
+    "visitor_go": Command("let a simulated person walk to a place", {**_PLACE, **_WHO}),
+    "visitor_enter": Command("let a simulated person come in", _WHO),
+    "visitor_leave": Command("let a simulated person go out", _WHO),
     "bump": Command("let someone push against the base"),
     "place": Command(
         "put a thing into the simulated room, or move it",
         {"name": Argument(str, "of the thing"), **_PLACE},
+    ),
+    "obstacle": Command(
+        "put an obstacle into the simulated room, or move it",
+        {"name": Argument(str, "of the obstacle"), **_PLACE},
+    ),
+    "remove": Command(
+        "take a thing or an obstacle out of the simulated room",
+        {"name": Argument(str, "of the thing or obstacle")},
     ),
 }
 """By name; the interface over HTTP has each as `POST /api/v1/NAME`."""
@@ -72,7 +83,11 @@ def checked(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
     wanted = COMMANDS[name].arguments
     for other in given.keys() - wanted.keys():
         raise HriError(f'{name} takes no "{other}" - {did_you_mean(other, wanted, "leave it out")}')
-    return {key: _checked(key, argument, given.get(key)) for key, argument in wanted.items()}
+    return {
+        key: _checked(key, argument, given.get(key))
+        for key, argument in wanted.items()
+        if key in given or not argument.is_optional
+    }
 
 
 def _checked(key: str, argument: Argument, value: Any) -> Any:

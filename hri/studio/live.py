@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
+import logging
 import math
 from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
@@ -10,7 +10,9 @@ from typing import Any
 
 from hri.behavior.device_behaviors import CameraFrames
 from hri.core.errors import HriError
-from hri.core.signals import Event, Frame, Image, People, Person
+from hri.core.geometry import Pose3D, seen_from
+from hri.core.signals import Event, Frame, Image, People, Person, Pose2D
+from hri.drive.avoidance import ROUTE
 from hri.emotion.behaviors import EmotionModel
 from hri.hal.battery import Battery
 from hri.hal.camera import Camera
@@ -25,19 +27,27 @@ from hri.robot.recording import REJECTED
 from hri.simulation.room import Box, Circle, Room, Wall
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Listener, Voice
+from hri.studio import topics
+from hri.studio.history import LogLines, MoodHistory, Trail, Troubles
 from hri.studio.link import RobotEnd
 from hri.task.context import TaskContext
 
 API = 1
 """Version of the interface."""
-EVERY = 0.1
-"""Seconds between two looks at the values."""
 RATES = {"face": 22.0, "camera": 10.0}
 """Pictures a second at most."""
 MOST_CAUSES = 6
 """Causes of a feeling that are shown."""
 FAINT = 0.02
 """An emotion of less than this is not shown."""
+DONE = "done"
+"""Why the base stops whenever it was asked to."""
+ROUTE_AGE = 0.5
+"""Seconds for which a planned way counts."""
+BREATH = 0.005
+"""Seconds between two looks: the loop has other things to do in between."""
+
+log = logging.getLogger("hri")
 
 
 class Live:
@@ -46,17 +56,28 @@ class Live:
     def __init__(self, robot: Robot, link: RobotEnd) -> None:
         self._robot, self._link = robot, link
         self._pictures = _Pictures(link)
-        self._topics: Mapping[str, Callable[[TaskContext, float], Any]] = {
-            "devices": self._devices,
-            "speech": self._speech,
-            "feeling": self._feeling,
-            "people": self._people,
-            "base": self._base,
-            "world": self._world,
+        self._moods, self._trail, self._troubles = MoodHistory(), Trail(), Troubles()
+        self._log = LogLines(robot.clock.now)
+        self._looks: Mapping[str, tuple[float, Callable[[TaskContext, float], Any]]] = {
+            # topic: seconds between two looks, and the look
+            "about": (1.0, self._about),
+            "speech": (0.1, self._speech),
+            "feeling": (0.1, self._feeling),
+            "moods": (1.0, self._mood_history),
+            "people": (0.1, self._people),
+            "base": (0.1, self._base),
+            "path": (0.2, self._path),
+            "world": (0.1, self._world),
+            "devices": (0.5, self._devices),
+            "log": (0.3, self._log_lines),
         }
 
-    def join_screen(self) -> None:
-        """Let the page have the face, beside the screen; before the networks start."""
+    def join(self) -> None:
+        """Let the page have the face, beside the screen, and the log; before the networks start."""
+        self._listen_to_notices()
+        self._log_level = log.level
+        log.addHandler(self._log)
+        log.setLevel(min(log.getEffectiveLevel(), logging.INFO))
         if "screen" not in self._robot.resources.descriptions:
             return
         resources = self._robot.resources
@@ -66,15 +87,37 @@ class Live:
         tee.activate()
         resources.substitute("screen", tee)
 
+    def leave(self) -> None:
+        """Follow the log no more; a second call does nothing."""
+        if self._log in log.handlers:
+            log.removeHandler(self._log)
+            log.setLevel(self._log_level)
+
+    def _listen_to_notices(self) -> None:
+        resources = self._robot.resources
+        tell = resources.notice
+
+        def noticed(line: str) -> None:
+            self._troubles.note(line)
+            self._log.add("notice", "resources", line)
+            tell(line)
+
+        resources.notice = noticed
+
     async def watch(self, context: TaskContext) -> None:
         """Look at the robot as long as it lives."""
-        self._link.put("about", self._about())
         self._robot.events.subscribe("*", self._tell)
+        self._robot.events.subscribe("drive.stopped", self._note_stop)
         self._watch_camera(context)
-        # One after the other: the loop has other things to do in between.
-        for topic, look in itertools.cycle(self._topics.items()):
-            self._link.put(topic, look(context, context.clock.now()))
-            await context.clock.sleep(EVERY / len(self._topics))
+        due = dict.fromkeys(self._looks, 0.0)
+        while True:
+            topic = min(due, key=due.__getitem__)
+            now = context.clock.now()
+            await context.clock.sleep_until(max(due[topic], now + BREATH))
+            now = context.clock.now()
+            every, look = self._looks[topic]
+            self._link.put(topic, look(context, now))
+            due[topic] = now + every
 
     def _tell(self, event: Event) -> None:
         # Words that were rejected were said to someone else: the page gets them no more than a
@@ -82,6 +125,11 @@ class Live:
         withheld = REJECTED.get(event.name, ())
         told = {key: value for key, value in event.properties.items() if key not in withheld}
         self._link.add_event({**told, "t": round(event.time, 3), "event": event.name})
+
+    def _note_stop(self, event: Event) -> None:
+        reason, words = (str(event.properties.get(key, "")) for key in ("reason", "words"))
+        if reason != DONE:
+            self._trail.add_stop(event.time, reason, words)
 
     def _watch_camera(self, context: TaskContext) -> None:
         for name, runner in context.networks.runners.items():
@@ -95,56 +143,73 @@ class Live:
 
     # --- topics ---
 
-    def _about(self) -> dict[str, Any]:
-        world = self._world_of()
+    def _about(self, context: TaskContext, now: float) -> topics.About:
         drives = self._robot.resources.ids(EmergencyStop)
         return {
             "api": API,
-            "app": self._robot.app.folder.name,
+            "app": self._robot.app.name,
             "about": self._robot.app.about,
-            "is_simulated": world is not None,
+            "is_simulated": self._world_of() is not None,
             "has_base": bool(drives),
         }
 
-    def _devices(self, context: TaskContext, now: float) -> list[dict[str, Any]]:
+    def _devices(self, context: TaskContext, now: float) -> list[topics.Device]:
         resources = context.resources
         opened = {resource.id: resource for resource in resources.opened(Resource)}
-        found = []
+        found: list[topics.Device] = []
         for id in resources.descriptions:
             stand_in = resources.stand_in_of(id) or ""
-            if (resource := opened.get(stand_in or id)) is not None:
-                found.append({"id": id, "says": resource.describe(), "stand_in": stand_in})
+            if (resource := opened.get(stand_in or id)) is None:
+                continue
+            problem = self._troubles.of(id)
+            found.append(
+                {
+                    "id": id,
+                    "says": resource.describe(),
+                    "stand_in": stand_in,
+                    "state": "missing" if stand_in else "trouble" if problem else "ok",
+                    "problem": problem,
+                }
+            )
         return found
 
-    def _speech(self, context: TaskContext, now: float) -> dict[str, Any]:
+    def _log_lines(self, context: TaskContext, now: float) -> list[topics.LogLine]:
+        return self._log.told()
+
+    def _speech(self, context: TaskContext, now: float) -> topics.Speech:
         listener, voice = context.find_behavior(Listener), context.find_behavior(Voice)
         return {
             "is_hearing": bool(context.board.slot("hearing").value),
             "is_muted": listener is not None and listener.is_muted,
+            "is_held": listener is not None and listener.is_held,
             "is_speaking": voice is not None and not voice.is_idle,
         }
 
-    def _feeling(self, context: TaskContext, now: float) -> dict[str, Any] | None:
+    def _feeling(self, context: TaskContext, now: float) -> topics.Feeling | None:
         emotion = context.find_behavior(EmotionModel)
         if emotion is None:
             return None
-        state = emotion.feeling()
+        state, why = emotion.feeling(), emotion.why_words()
+        self._moods.add(now, state, why)
         return {
             "label": state.label,
             "words": emotion.feeling_words(),
-            "why": emotion.why_words(),
-            "pleasure": _short(state.valence),
-            "arousal": _short(state.arousal),
-            "dominance": _short(state.dominance),
-            "emotions": {n: _short(v) for n, v in state.emotions.items() if v >= FAINT},
-            "drives": {name: _short(value) for name, value in state.drives.items()},
+            "why": why,
+            "pleasure": round(state.valence, 3),
+            "arousal": round(state.arousal, 3),
+            "dominance": round(state.dominance, 3),
+            "emotions": {n: round(v, 3) for n, v in state.emotions.items() if v >= FAINT},
+            "drives": {name: round(value, 3) for name, value in state.drives.items()},
             "causes": [
-                {"name": cause.name, "share": _short(cause.share), "person": cause.person or ""}
+                {"name": cause.name, "share": round(cause.share, 3), "person": cause.person or ""}
                 for cause in emotion.why()[:MOST_CAUSES]
             ],
         }
 
-    def _people(self, context: TaskContext, now: float) -> dict[str, Any]:
+    def _mood_history(self, context: TaskContext, now: float) -> topics.Moods:
+        return self._moods.told()
+
+    def _people(self, context: TaskContext, now: float) -> topics.Eyes:
         camera = next(iter(context.resources.opened(Camera)), None)
         seen = context.board.slot("people").value
         people = seen if isinstance(seen, People) else People(now)
@@ -154,38 +219,71 @@ class Live:
             "persons": [_person(one, people.attended) for one in people.persons if one.is_visible],
         }
 
-    def _base(self, context: TaskContext, now: float) -> dict[str, Any]:
+    def _base(self, context: TaskContext, now: float) -> topics.Base:
         resources = context.resources
         odometry = next(iter(resources.opened(Odometry)), None)
         battery = next(iter(resources.opened(Battery)), None)
         base = next(iter(resources.opened(EmergencyStop)), None)
-        world = self._world_of()
-        pose = world.base.pose if world else odometry.pose(now) if odometry else None
+        pose = self._pose(context, now)
         velocity = odometry.velocity(now) if odometry else None
+        if pose is not None:
+            self._trail.add(pose)
         return {
-            "pose": pose and [_short(pose.x), _short(pose.y), _short(pose.heading)],
-            "velocity": velocity and [_short(velocity.linear), _short(velocity.angular)],
-            "battery": battery and _short(battery.level(now)),
+            "pose": _placed(pose.x, pose.y, pose.heading) if pose else None,
+            "velocity": _placed(velocity.linear, velocity.angular) if velocity else None,
+            "battery": _short(battery.level(now)) if battery else None,
             "is_stopped": base is not None and base.is_latched,
             "why": base.explain() if base is not None else "",
             "ranges": [_range(one, resources.pose_of(one.id), now) for one in _sensors(context)],
         }
 
-    def _world(self, context: TaskContext, now: float) -> dict[str, Any] | None:
+    def _pose(self, context: TaskContext, now: float) -> Pose2D | None:
+        """Where the base is: in the room where that is simulated, else as its odometry has it."""
+        if (world := self._world_of()) is not None:
+            return world.base.pose
+        odometry = next(iter(context.resources.opened(Odometry)), None)
+        return odometry.pose(now) if odometry else None
+
+    def _path(self, context: TaskContext, now: float) -> topics.Path:
+        return {
+            "been": self._trail.been,
+            "planned": self._planned(context, now),
+            "stops": self._trail.stops,
+        }
+
+    def _planned(self, context: TaskContext, now: float) -> list[list[float]]:
+        """The way that it means to take, in the frame of `_pose`."""
+        route, time = context.board.slot(ROUTE).get()
+        odometry = next(iter(context.resources.opened(Odometry)), None)
+        pose = self._pose(context, now)
+        if not route or now - time > ROUTE_AGE or odometry is None or pose is None:
+            return []
+        here = odometry.pose(now)
+        cos, sin = math.cos(pose.heading), math.sin(pose.heading)
+        seen = [seen_from(here, x, y) for x, y in route]
+        return [_placed(pose.x + cos * u - sin * v, pose.y + sin * u + cos * v) for u, v in seen]
+
+    def _world(self, context: TaskContext, now: float) -> topics.World | None:
         world = self._world_of()
         if world is None:
             return None
+        walls, circles = _drawn(world.room)
         return {
-            **_drawn(world.room),
+            "walls": walls,
+            "circles": circles,
             "people": [
                 {
                     "name": person.name,
-                    "at": [_short(part) for part in person.place(now)],
+                    "at": _placed(*person.place(now)),
                     "is_present": person.is_present(now),
                 }
                 for person in world.people
             ],
-            "things": [{"name": i.name, "at": [_short(i.x), _short(i.y)]} for i in world.items],
+            "things": [{"name": item.name, "at": _placed(item.x, item.y)} for item in world.items],
+            "obstacles": [
+                {"name": name, "at": _placed(one.x, one.y), "radius": one.radius}
+                for name, one in world.obstacles.items()
+            ],
         }
 
     def _world_of(self) -> SimulatedWorld | None:
@@ -193,15 +291,13 @@ class Live:
 
 
 @lru_cache(maxsize=2)
-def _drawn(room: Room) -> dict[str, Any]:
+def _drawn(room: Room) -> tuple[list[list[float]], list[list[float]]]:
     """The lines and circles of a room."""
     walls = [one for one in room.obstacles if isinstance(one, Wall)]
     sides = [side for one in room.obstacles if isinstance(one, Box) for side in one.sides()]
     rounds = [one for one in room.obstacles if isinstance(one, Circle)]
-    return {
-        "walls": [[_short(p) for p in (w.x1, w.y1, w.x2, w.y2)] for w in (*walls, *sides)],
-        "circles": [[_short(p) for p in (c.x, c.y, c.radius)] for c in rounds],
-    }
+    lines = [_placed(wall.x1, wall.y1, wall.x2, wall.y2) for wall in (*walls, *sides)]
+    return lines, [_placed(one.x, one.y, one.radius) for one in rounds]
 
 
 class _Pictures:
@@ -234,19 +330,19 @@ def _sensors(context: TaskContext) -> Iterator[RangeSensor]:
     yield from context.resources.opened(RangeSensor)
 
 
-def _range(sensor: RangeSensor, pose: Any, now: float) -> dict[str, Any]:
+def _range(sensor: RangeSensor, pose: Pose3D, now: float) -> topics.Range:
     try:
         distance: float | None = sensor.read(now).distance
     except HriError:
         distance = None
     return {
         "id": sensor.id,
-        "at": [_short(pose.x), _short(pose.y), _short(pose.yaw)],
+        "at": _placed(pose.x, pose.y, pose.yaw),
         "distance": None if distance is None or math.isinf(distance) else _short(distance),
     }
 
 
-def _person(person: Person, attended: str) -> dict[str, Any]:
+def _person(person: Person, attended: str) -> topics.SeenPerson:
     box = person.pose.box
     return {
         "id": person.id,
@@ -256,8 +352,13 @@ def _person(person: Person, attended: str) -> dict[str, Any]:
         "engagement": person.engagement,
         "is_looking": person.is_looking,
         "is_attended": person.id == attended,
-        "box": box and [round(part) for part in (box.x, box.y, box.width, box.height)],
+        "box": [round(part) for part in (box.x, box.y, box.width, box.height)] if box else None,
     }
+
+
+def _placed(*parts: float) -> list[float]:
+    """Meters and radians, to the millimeter."""
+    return [round(float(part), 3) for part in parts]
 
 
 def _short(value: float) -> float | None:

@@ -4,23 +4,19 @@ from __future__ import annotations
 
 import json
 import logging
-import os
 import secrets
 import socket
 import subprocess
 import threading
-from contextlib import suppress
-
-import psutil
 
 from hri.core import child
 from hri.core.errors import HriError
-from hri.core.quoting import message_line
 from hri.robot import Job, Robot
 from hri.studio.access import Codes
 from hri.studio.actions import Asked, obey
 from hri.studio.link import RobotEnd
 from hri.studio.live import Live
+from hri.studio.port import SERVER, listening
 from hri.task.context import TaskContext
 
 PORT = 8311
@@ -31,8 +27,6 @@ AGAIN_AFTER = 0.2
 """Seconds until a server that has ended is started again."""
 PATIENCE = 3.0
 """Seconds that a server has to end."""
-LONGEST_NAME = 80
-"""Letters of the program that has the port."""
 CODE = "code"
 """The request for another code."""
 
@@ -45,7 +39,7 @@ class StudioSession:
     def __init__(self, robot: Robot, port: int = PORT, allows_remote: bool = False) -> None:
         """Listens at once. Raises HriError where it cannot."""
         self._robot = robot
-        self._socket = _listening(port, allows_remote)
+        self._socket = listening(port, allows_remote)
         self.port: int = self._socket.getsockname()[1]
         self._codes = Codes()
         self._link = RobotEnd()
@@ -60,8 +54,8 @@ class StudioSession:
         self._keeper = threading.Thread(target=self._keep_server, name="studio", daemon=True)
 
     def start(self) -> None:
-        """Start the server, and let the page have the face; before the robot lives."""
-        self._live.join_screen()
+        """Start the server, and let the page have face and log; before the robot lives."""
+        self._live.join()
         self._keeper.start()
 
     @property
@@ -105,7 +99,7 @@ class StudioSession:
         while not self._is_closed.is_set():
             ours, theirs = socket.socketpair()
             fds = (self._socket.fileno(), theirs.fileno())
-            words = child.command("-m", "hri.studio.server", *map(str, fds))
+            words = child.command("-m", SERVER, *map(str, fds))
             try:
                 self._child = subprocess.Popen(
                     words,
@@ -137,6 +131,7 @@ class StudioSession:
     def close(self) -> None:
         """End the server; a second call does nothing."""
         self._is_closed.set()
+        self._live.leave()
         self._link.close()
         if self._child is not None:
             try:
@@ -144,24 +139,3 @@ class StudioSession:
             except subprocess.TimeoutExpired:
                 self._child.kill()
         self._socket.close()
-
-
-def _listening(port: int, allows_remote: bool) -> socket.socket:
-    host = "0.0.0.0" if allows_remote else "127.0.0.1"
-    try:
-        return socket.create_server((host, port), backlog=64)
-    except (OSError, OverflowError) as error:
-        code = getattr(error, "errno", None)
-        reason = _holder(port) or (os.strerror(code) if code else str(error))
-        remedy = "end it, or choose another --port (0 takes any that is free)"
-        raise HriError(f"cannot listen on {host}:{port}: {reason} - {remedy}") from error
-
-
-def _holder(port: int) -> str:
-    """Which program listens on a port; empty where the system does not say."""
-    with suppress(psutil.Error, OSError):
-        for one in psutil.net_connections("tcp"):
-            if one.status == psutil.CONN_LISTEN and one.laddr.port == port and one.pid:
-                words = " ".join(psutil.Process(one.pid).cmdline())
-                return f"process {one.pid} has it: {message_line(words)[:LONGEST_NAME]}"
-    return ""

@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
 
-from hri.core.errors import AuthoringError
-from hri.core.signals import Twist
+from hri.core.errors import AuthoringError, HriError
+from hri.core.signals import Pose2D, Twist
 from hri.hal.resource import Description
 from hri.simulation.acoustics import RATE
-from hri.simulation.world import BUMP_TIME, SimulatedWorld
+from hri.simulation.world import BUMP_TIME, MOST_ITEMS, OBSTACLE, SimulatedWorld
 
 from .conftest import Build
 
@@ -79,3 +79,30 @@ def test_wrong_parameters_are_refused_before_anything_starts(
 ) -> None:
     with pytest.raises(AuthoringError, match=said):
         SimulatedWorld.check(Description("world", "Hri.SimulatedWorld", parameters))
+
+
+def test_an_obstacle_is_in_the_way_until_it_is_taken_away(world: SimulatedWorld) -> None:
+    ahead = world.beams.mount(Pose2D(0.0, 0.0, 0.0))
+    free = world.beam_length(ahead, 0.0)
+    world.put_obstacle("box", 0.8, 0.0, 0.0)
+    assert world.beam_length(ahead, 0.0) == pytest.approx(0.8 - OBSTACLE)
+    world.put_obstacle("box", 0.8, 1.5, 0.0)
+    assert world.beam_length(ahead, 0.0) == pytest.approx(free)
+    world.put_obstacle("box", 0.6, 0.0, 0.0)
+    world.take_away("box")
+    assert world.beam_length(ahead, 0.0) == pytest.approx(free)
+    with pytest.raises(HriError, match='nothing here is called "box"'):
+        world.take_away("box")
+
+
+def test_an_obstacle_is_not_put_onto_the_robot_nor_without_end(world: SimulatedWorld) -> None:
+    with pytest.raises(HriError, match="the robot stands there"):
+        world.put_obstacle("box", 0.1, 0.0, 0.0)
+    for number in range(MOST_ITEMS):
+        world.put_obstacle(f"box {number}", 50.0, 0.0, 0.0)
+    for number in range(MOST_ITEMS - len(world.items)):
+        world.place(f"cup {number}", 50.0, 0.0)
+    for put in (lambda: world.put_obstacle("box", 50.0, 0.0, 0.0), lambda: world.place("c", 0, 0)):
+        with pytest.raises(HriError, match="take one away first"):
+            put()
+    world.place("cup 3", 1.0, 0.0)

@@ -227,6 +227,19 @@ def test_a_muted_listener_hears_nothing():
     assert stage.ears.count == 0
 
 
+def test_a_muted_listener_hears_while_it_is_held_and_no_longer():
+    stage = Stage(Listener())
+    stage.behavior.is_muted = True
+    stage.behavior.hold(1.0)
+    stage.run(2.0)
+    assert stage.ears.count == pytest.approx(16000, abs=800)  # of one tick
+    stage.behavior.hold(1.0)
+    stage.run(0.5)
+    stage.behavior.hold(0.0)
+    stage.run(1.0)
+    assert stage.ears.count == pytest.approx(24000, abs=1600)
+
+
 def test_another_grammar_takes_over_while_somebody_speaks(write):
     stage = Stage(Listener())
     stage.ears.script |= {1.0: ("go forward", 0.9), 2.0: ("red wine", 0.9)}

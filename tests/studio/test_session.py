@@ -1,21 +1,27 @@
 """A robot with a studio: what is asked over HTTP happens, and what happens can be seen."""
 
+import math
 import os
 import re
 import signal
 import socket
+import subprocess
+import sys
 
 import httpx2 as httpx
+import jsonschema
 import pytest
 
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.drive.avoidance import ROUTE
+from hri.hal.drive import Odometry
 from hri.hal.emergency_stop import EmergencyStop
 from hri.robot import Robot
 from hri.studio.actions import ACTIONS, BECAUSE
 from hri.studio.commands import COMMANDS
 from hri.studio.session import StudioSession
-from tests.studio.living import known, living, told
+from tests.studio.living import LONGEST, known, living, told
 
 
 def test_there_is_an_action_for_each_command():
@@ -78,6 +84,47 @@ def test_the_simulated_person_and_things_obey(client):
     assert len(world["walls"]) >= 4
     client.post("/api/v1/place", json={"name": "cup", "x": 1.5, "y": 0.5})
     told(client, "world", lambda w: {"name": "cup", "at": [1.5, 0.5]} in w["things"])
+    client.post("/api/v1/obstacle", json={"name": "box", "x": 2.5, "y": 0.5})
+    told(client, "world", lambda w: [o["at"] for o in w["obstacles"]] == [[2.5, 0.5]])
+    for name in ("cup", "box"):
+        assert client.post("/api/v1/remove", json={"name": name}).status_code == 200
+    told(client, "world", lambda w: not w["obstacles"] and "cup" not in str(w["things"]))
+    refused = client.post("/api/v1/visitor_nod", json={"who": "Nobody"})
+    assert 'nobody in this world is named "Nobody"' in refused.json()["error"]
+
+
+def test_where_it_was_and_means_to_go_is_shown_in_the_room(client, robot):
+    odometry = robot.resources.obtain("odometry", Odometry)
+    here = odometry.pose(robot.clock.now())
+    ahead = here.x + 2 * math.cos(here.heading), here.y + 2 * math.sin(here.heading)
+    route = robot.board.slot(ROUTE)
+    route.set(((here.x, here.y), ahead), robot.clock.now() + LONGEST)
+    path = told(client, "path", lambda path: path["planned"])
+    pose = told(client, "base", lambda base: True)["pose"]
+    assert path["planned"][0] == pytest.approx(pose[:2], abs=0.02)
+    turned = math.atan2(*(b - a for a, b in reversed(list(zip(*path["planned"], strict=True)))))
+    assert math.isclose(math.cos(turned - pose[2]), 1.0, abs_tol=0.01)
+    route.clear()
+    assert len(told(client, "path", lambda path: not path["planned"])["been"]) > 1
+
+
+def test_it_hears_while_the_button_is_held_though_it_is_deaf(client):
+    client.post("/api/v1/mute", json={"on": True})
+    client.post("/api/v1/talk", json={"on": True})
+    assert told(client, "speech", lambda speech: speech["is_held"])["is_muted"]
+    told(client, "speech", lambda speech: not speech["is_held"])  # the page has vanished
+    client.post("/api/v1/mute", json={"on": False})
+
+
+def test_what_a_device_lacks_is_shown_with_what_to_do(client, robot):
+    robot.resources.notice("camera: no picture for 2 s - see that it is plugged in")
+    devices = told(client, "devices", lambda devices: any(d["problem"] for d in devices))
+    (camera,) = (one for one in devices if one["problem"])
+    assert (camera["id"], camera["state"]) == ("camera", "trouble")
+    assert camera["problem"].endswith("plugged in")
+    robot.resources.notice("camera: is back")
+    told(client, "devices", lambda devices: {one["state"] for one in devices} == {"ok"})
+    assert "camera: is back" in [line["text"] for line in told(client, "log", bool)]
 
 
 def test_eyes_and_ears_can_be_shut_and_opened(client):
@@ -109,10 +156,30 @@ def test_the_topics_are_those_of_the_page(client):
     assert state["base"]["ranges"][0]["id"] == "range_front"
 
 
+def test_what_the_robot_sends_is_as_the_document_says(client):
+    document = client.get("/api/v1/openapi.json").json()
+    told(client, "log", bool)
+    state = client.get("/api/v1/state").json()
+    schema = {**document, "$ref": "#/components/schemas/State"}
+    jsonschema.validate(state, schema)
+    for topic, value in state.items():
+        message = {"topic": topic, "value": value}
+        jsonschema.validate(message, {**document, "$ref": "#/components/schemas/LiveMessage"})
+
+
 def test_a_server_that_is_killed_comes_back_on_the_same_port_with_the_same_cookie(client, studio):
     killed = studio.server
     os.kill(killed, signal.SIGKILL)
     told(client, "base", lambda base: studio.server != killed)
+
+
+def test_a_second_start_names_the_first_and_its_page(studio):
+    holder = rf"process {os.getpid()} has it: .* - its page is (\S+);"
+    second = "from hri.studio.port import listening; import sys; listening(int(sys.argv[1]), False)"
+    words = [sys.executable, "-c", second, str(studio.port)]
+    ended = subprocess.run(words, capture_output=True, text=True, check=False)
+    with known(re.search(holder, ended.stderr)[1]) as client:
+        assert client.get("/api/v1/state").status_code == 200
 
 
 def test_a_port_that_is_taken_is_refused_with_what_to_do():

@@ -94,6 +94,7 @@ def _run(options: argparse.Namespace, ending: Ending) -> int:
     # Missed ticks are summed up at the end; only failures are logged at once.
     handler = logging.StreamHandler()
     handler.setFormatter(LineFormatter("%(levelname)s - %(message)s"))
+    handler.setLevel(logging.ERROR)  # the studio shows more
     logging.basicConfig(level=logging.ERROR, handlers=[handler])
     check_files(options)
     robot = Robot(
@@ -141,6 +142,8 @@ def _run(options: argparse.Namespace, ending: Ending) -> int:
 
 def open_senses(robot: Robot) -> set[str]:
     """Open the most important devices; the ids of those replaced by stand-ins."""
+    if robot.app.is_network:  # it opens what it needs
+        return set()
     present = [id for id in SENSES if id in robot.resources.descriptions]
     for id in present:
         robot.resources.obtain(id, Resource)

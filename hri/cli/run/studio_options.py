@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 from hri.cli.terminal.messages import Within
 from hri.robot import Robot
+from hri.studio.port import PortTaken
 from hri.studio.session import PORT, StudioSession
 
 
@@ -19,8 +20,15 @@ def add_studio_options(parser: argparse.ArgumentParser) -> None:
 
 
 def studio_of(robot: Robot, options: argparse.Namespace) -> StudioSession:
-    """The studio of a robot. Raises HriError where the port is taken."""
-    return StudioSession(robot, options.port, options.allow_remote)
+    """The studio of a robot. Raises HriError where the port is taken; when that is by another
+    studio, `--open` opens its page.
+    """
+    try:
+        return StudioSession(robot, options.port, options.allow_remote)
+    except PortTaken as taken:
+        if options.open and taken.page:
+            webbrowser.open(taken.page)
+        raise
 
 
 def show_address(

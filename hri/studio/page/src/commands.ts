@@ -7,16 +7,28 @@ export interface Action {
   /** Whether the key works in a text field, too. */
   always?: boolean;
   run(): void;
+  /** When the key is let go. */
+  end?(): void;
 }
 
 /** Let the keys of a table work on the whole page. */
 export function bindKeys(actions: readonly Action[]): void {
+  let held: Action | null = null;
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.repeat) return;
-    const isTyping = event.target instanceof HTMLInputElement;
+    const isTyping = event.target instanceof HTMLInputElement || event.target instanceof HTMLSelectElement;
     const action = actions.find((one) => one.key === event.key && (one.always || !isTyping));
     if (action === undefined) return;
     event.preventDefault();
     action.run();
+    if (action.end) held = action;
   });
+  const end = () => {
+    held?.end?.();
+    held = null;
+  };
+  document.addEventListener("keyup", (event) => {
+    if (event.key === held?.key) end();
+  });
+  window.addEventListener("blur", end);
 }

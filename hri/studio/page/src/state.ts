@@ -1,69 +1,8 @@
 // What the page knows of the robot: plain values, and how a message changes them. No browser here.
 
-export type Place = [number, number];
+import type { Base, RobotEvent, Values, World } from "./topics";
 
-export interface About {
-  api: number;
-  app: string;
-  about: string;
-  is_simulated: boolean;
-  has_base: boolean;
-}
-
-export interface Feeling {
-  label: string;
-  words: string;
-  why: string;
-  pleasure: number;
-  arousal: number;
-  dominance: number;
-  emotions: Record<string, number>;
-  drives: Record<string, number>;
-  causes: { name: string; share: number; person: string }[];
-}
-
-export interface Person {
-  id: string;
-  name: string;
-  distance: number | null;
-  bearing: number;
-  engagement: string;
-  is_looking: boolean;
-  is_attended: boolean;
-  box: [number, number, number, number] | null;
-}
-
-export interface Base {
-  pose: [number, number, number] | null;
-  velocity: Place | null;
-  battery: number | null;
-  is_stopped: boolean;
-  why: string;
-  ranges: { id: string; at: [number, number, number]; distance: number | null }[];
-}
-
-export interface World {
-  walls: [number, number, number, number][];
-  circles: [number, number, number][];
-  people: { name: string; at: Place; is_present: boolean }[];
-  things: { name: string; at: Place }[];
-}
-
-export interface Values {
-  about?: About;
-  speech?: { is_hearing: boolean; is_muted: boolean; is_speaking: boolean };
-  feeling?: Feeling | null;
-  people?: { is_watching: boolean; is_on: boolean; persons: Person[] };
-  base?: Base;
-  world?: World | null;
-  devices?: { id: string; says: string; stand_in: string }[];
-}
-
-export interface RobotEvent {
-  t: number;
-  event: string;
-  [key: string]: unknown;
-}
+export type * from "./topics";
 
 export interface Line {
   time: number;
@@ -72,50 +11,28 @@ export interface Line {
   detail: string;
 }
 
-export interface Mood {
-  time: number;
-  pleasure: number;
-  arousal: number;
-  dominance: number;
-}
-
 export interface State {
   values: Values;
   lines: Line[];
   events: RobotEvent[];
-  moods: Mood[];
 }
 
 export const MOST_LINES = 200;
 export const MOST_EVENTS = 300;
-/** Five minutes, twice a second. */
-export const MOST_MOODS = 600;
-const MOOD_EVERY = 0.5;
-
 export function empty(): State {
-  return { values: {}, lines: [], events: [], moods: [] };
+  return { values: {}, lines: [], events: [] };
 }
 
-/** Take a message of the robot; `now` is in seconds, of the page. */
-export function take(state: State, message: unknown, now: number): void {
+/** Take a message of the robot. */
+export function take(state: State, message: unknown): void {
   const told = message as { topic?: keyof Values; value?: unknown; event?: RobotEvent };
   if (told.topic !== undefined) {
     (state.values as Record<string, unknown>)[told.topic] = told.value;
-    if (told.topic === "feeling") note(state, now);
   } else if (told.event !== undefined) {
     keep(state.events, told.event, MOST_EVENTS);
     const line = lineOf(told.event);
     if (line !== null) keep(state.lines, line, MOST_LINES);
   }
-}
-
-/** The mood goes on also while nothing changes. */
-export function note(state: State, now: number): void {
-  const feeling = state.values.feeling;
-  const last = state.moods.at(-1);
-  if (!feeling || (last !== undefined && now - last.time < MOOD_EVERY)) return;
-  const { pleasure, arousal, dominance } = feeling;
-  keep(state.moods, { time: now, pleasure, arousal, dominance }, MOST_MOODS);
 }
 
 function keep<T>(list: T[], item: T, most: number): void {
@@ -151,14 +68,46 @@ export function bounds(world: World | null | undefined, base: Base | undefined):
   const xs: number[] = [];
   const ys: number[] = [];
   for (const [x1, y1, x2, y2] of world?.walls ?? []) {
-    xs.push(x1, x2);
-    ys.push(y1, y2);
+    xs.push(x1!, x2!);
+    ys.push(y1!, y2!);
   }
-  for (const [x, y] of [base?.pose ?? [0, 0], ...(world?.people.map((one) => one.at) ?? [])]) {
+  const middles = [base?.pose ?? [0, 0], ...[...(world?.people ?? []), ...(world?.things ?? []), ...(world?.obstacles ?? [])].map((one) => one.at)];
+  for (const [x, y] of middles) {
     xs.push(x! - 1, x! + 1);
     ys.push(y! - 1, y! + 1);
   }
   const left = Math.min(...xs) - 0.3;
   const low = Math.min(...ys) - 0.3;
   return [left, low, Math.max(...xs) + 0.3 - left, Math.max(...ys) + 0.3 - low];
+}
+
+/** Something in the simulated room that can be put elsewhere. */
+export interface Movable {
+  kind: "person" | "thing" | "obstacle";
+  name: string;
+  at: number[];
+}
+
+export function movables(world: World | null | undefined): Movable[] {
+  const of = (kind: Movable["kind"], all: { name: string; at: number[] }[] | undefined) =>
+    (all ?? []).map(({ name, at }) => ({ kind, name, at }));
+  return [...of("person", world?.people), ...of("thing", world?.things), ...of("obstacle", world?.obstacles)];
+}
+
+/** The command that puts something there, in meters. */
+export function putCommand(one: Pick<Movable, "kind" | "name">, x: number, y: number): [string, Record<string, unknown>] {
+  if (one.kind === "person") return ["visitor_go", { x, y, ...(one.name ? { who: one.name } : {}) }];
+  return [one.kind === "thing" ? "place" : "obstacle", { name: one.name, x, y }];
+}
+
+/** "obstacle 3", when there are two already. */
+export function freeName(kind: string, all: readonly Movable[]): string {
+  let number = 1;
+  while (all.some((one) => one.name === `${kind} ${number}`)) number++;
+  return `${kind} ${number}`;
+}
+
+/** "2 min ago" */
+export function ago(seconds: number): string {
+  return seconds < 60 ? `${Math.max(0, Math.round(seconds))} s ago` : `${Math.round(seconds / 60)} min ago`;
 }

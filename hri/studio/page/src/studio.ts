@@ -4,9 +4,11 @@
 import { bindKeys, type Action } from "./commands";
 import { Connection, type Picture } from "./connection";
 import { element, list, replace } from "./dom";
+import { Hold } from "./hold";
 import { Map } from "./map";
 import { MoodCurve } from "./mood";
-import { empty, note, summary, take, type Person, type State } from "./state";
+import { RoomForm } from "./room";
+import { empty, putCommand, summary, take, type Device, type SeenPerson, type State } from "./state";
 
 const VISITOR: [string, string, string][] = [
   ["visitor_nod", "Nod", "y"],
@@ -17,14 +19,20 @@ const VISITOR: [string, string, string][] = [
 ];
 
 const state: State = empty();
-const curve = new MoodCurve(element("mood-curve"));
-const map = new Map(element("map"), (x, y) => void ask("visitor_go", { x, y }));
+const curve = new MoodCurve(element("mood-curve"), element("reasons"));
+const map = new Map(
+  element<SVGSVGElement>("map"),
+  (what, x, y) => void ask(...putCommand(what ?? { kind: "person", name: who() }, x, y)),
+  () => drawSoon(),
+);
+const roomForm = new RoomForm((command, given) => void ask(command, given));
+const talk = new Hold(element<HTMLButtonElement>("hold"), (on) => void ask("talk", { on }));
 let isDrawn = true;
 const shown: Partial<Record<Picture, string>> = {};
 
 const connection = new Connection({
   message(message) {
-    take(state, message, now());
+    take(state, message);
     drawSoon();
   },
   picture(which, jpeg) {
@@ -41,10 +49,6 @@ const connection = new Connection({
     say(isLinked ? "" : why);
   },
 });
-
-function now(): number {
-  return performance.now() / 1000;
-}
 
 async function ask(command: string, given: Record<string, unknown> = {}): Promise<void> {
   try {
@@ -71,7 +75,7 @@ function drawSoon(): void {
 }
 
 function draw(): void {
-  const { about, base, feeling, people, speech, world, devices } = state.values;
+  const { about, base, feeling, people, speech, world, devices, path, moods, log } = state.values;
   const robot = element("robot");
   robot.textContent = about ? `${about.app}, ${about.is_simulated ? "simulated" : "real"}` : "";
   robot.className = about?.is_simulated ? "badge simulated" : "badge real";
@@ -82,23 +86,52 @@ function draw(): void {
   element("mood").textContent = feeling ? `I am ${feeling.words}` : "";
   element("why").textContent = feeling?.why ?? "";
   replace(element("emotions"), Object.entries(feeling?.emotions ?? {}).sort((a, b) => b[1] - a[1]).slice(0, 6).map(bar));
-  curve.draw(state.moods);
+  curve.draw(moods);
   const said = element("said");
   const isAtEnd = said.scrollHeight - said.scrollTop - said.clientHeight < 40;
   list(element("lines"), state.lines, (line) => ({ text: line.text, detail: line.detail, kind: line.who, time: line.time }));
   if (isAtEnd) said.scrollTop = said.scrollHeight;
   list(element("events"), state.events.filter((one) => one.event !== "odometry").reverse(), (event) => ({ text: event.event, detail: summary(event), kind: "", time: event.t }));
-  element("hearing").textContent = speech?.is_muted ? "deaf" : speech?.is_speaking ? "speaks" : speech?.is_hearing ? "hears a voice" : "listens";
+  element("hearing").textContent = speech?.is_held ? "hears you" : speech?.is_muted ? "deaf" : speech?.is_speaking ? "speaks" : speech?.is_hearing ? "hears a voice" : "listens";
   press("mute", speech?.is_muted ?? false);
   press("watch", people?.is_on ?? false);
   drawPeople(people?.persons ?? [], people?.is_on ?? false);
-  map.draw(world, base, people?.persons ?? []);
-  const [x, y, heading] = base?.pose ?? [0, 0, 0];
+  map.draw(world, base, path, people?.persons ?? []);
+  roomForm.draw(world);
+  const [x, y, heading] = (base?.pose ?? [0, 0, 0]) as [number, number, number];
   const place = base?.pose ? `x ${x.toFixed(2)} m, y ${y.toFixed(2)} m, ${Math.round((heading * 180) / Math.PI)}°` : "no base";
   element("where").textContent = isStopped ? `${base!.why}. Release it to let it move.` : place;
   element("battery").textContent = base?.battery == null ? "" : `Battery ${Math.round(base.battery * 100)} %`;
-  list(element("device-list"), devices ?? [], (one) => ({ text: one.id, detail: one.stand_in ? `missing; ${one.says} stands in` : one.says, kind: one.stand_in ? "missing" : "" }));
-  for (const id of ["visitor", "visitor-sentence"]) element(id).hidden = !world?.people.length;
+  list(element("device-list"), devices ?? [], (one) => ({ text: one.id, detail: deviceWords(one), kind: one.state }));
+  list(element("log-lines"), [...(log ?? [])].reverse(), (one) => ({ text: one.part, detail: one.text, kind: one.level, time: one.t }));
+  const isPeopled = (world?.people.length ?? 0) > 0;
+  for (const id of ["visitor", "visitor-sentence"]) element(id).hidden = !isPeopled;
+  drawWho((world?.people ?? []).map((one) => one.name));
+}
+
+function deviceWords(device: Device): string {
+  if (device.state === "missing") return `${device.problem || "missing"} - ${device.says} stands in`;
+  return device.problem || device.says;
+}
+
+/** The simulated person who is asked, by name; the first without a name. */
+function who(): string {
+  return element<HTMLSelectElement>("who").value;
+}
+
+let drawnNames = "";
+
+function drawWho(names: string[]): void {
+  if (drawnNames === names.join()) return;
+  drawnNames = names.join();
+  const select = element<HTMLSelectElement>("who");
+  select.replaceChildren(...names.map((name) => new Option(name || "visitor", name)));
+  element("who-label").hidden = names.length < 2;
+}
+
+function askPerson(command: string, given: Record<string, unknown> = {}): void {
+  const name = command === "bump" ? "" : who();
+  void ask(command, name ? { ...given, who: name } : given);
 }
 
 function bar([name, value]: [string, number]): HTMLElement {
@@ -114,14 +147,14 @@ function press(id: string, isPressed: boolean): void {
   element(id).setAttribute("aria-pressed", String(isPressed));
 }
 
-function drawPeople(persons: Person[], isOn: boolean): void {
+function drawPeople(persons: SeenPerson[], isOn: boolean): void {
   const image = element<HTMLImageElement>("camera-picture");
   const boxes = element("boxes");
   image.hidden = !isOn;
   boxes.setAttribute("viewBox", `0 0 ${image.naturalWidth || 320} ${image.naturalHeight || 240}`);
   const found = isOn ? persons.filter((one) => one.box !== null) : [];
   replace(boxes, found.map((one) => {
-    const [x, y, width, height] = one.box!;
+    const [x, y, width, height] = one.box! as [number, number, number, number];
     const box = document.createElementNS("http://www.w3.org/2000/svg", "rect");
     for (const [name, value] of Object.entries({ x, y, width, height })) box.setAttribute(name, String(value));
     box.setAttribute("class", one.is_looking ? "looking" : "");
@@ -143,17 +176,19 @@ function send(field: string, command: string): void {
   const text = input.value.trim();
   if (text === "") return;
   input.value = "";
-  void ask(command, { text });
+  if (command === "visitor_say") askPerson(command, { text });
+  else void ask(command, { text });
 }
 
 const actions: Action[] = [
   { about: "stop the base at once", key: "Escape", always: true, run: () => void ask("stop") },
   { about: "let the base move again", key: "r", run: () => void ask("release") },
   { about: "write a sentence to the robot", key: "/", run: () => element("text").focus() },
+  { about: "hold to talk to it", key: "t", run: () => talk.begin(), end: () => talk.end() },
   { about: "let it fall silent", key: "h", run: () => void ask("hush") },
   { about: "make it deaf, or let it hear", key: "m", run: () => toggle("mute", "mute") },
   { about: "switch the camera", key: "c", run: () => toggle("watch", "watch") },
-  ...VISITOR.map(([command, words, key]) => ({ about: `simulated person: ${words.toLowerCase()}`, key, run: () => void ask(command) })),
+  ...VISITOR.map(([command, words, key]) => ({ about: `simulated person: ${words.toLowerCase()}`, key, run: () => askPerson(command) })),
   { about: "show the keys", key: "?", run: () => element<HTMLDialogElement>("help").showModal() },
 ];
 
@@ -180,7 +215,7 @@ function bind(): void {
     const button = document.createElement("button");
     button.type = "button";
     button.textContent = words;
-    button.addEventListener("click", () => void ask(command));
+    button.addEventListener("click", () => askPerson(command));
     element("visitor").append(button);
   }
   const keys = element("key-list");
@@ -198,8 +233,4 @@ bind();
 connection.want(["face", "camera"]);
 connection.open();
 document.addEventListener("visibilitychange", () => connection.want(document.hidden ? [] : ["face", "camera"]));
-setInterval(() => {
-  note(state, now());
-  drawSoon();
-}, 500);
 draw();
