@@ -18,11 +18,11 @@ from hri.core.errors import HriError
 from hri.core.growing import is_growing
 from hri.core.privacy import is_named, is_same_name
 from hri.core.reading import opened, parse_json
+from hri.core.recorded import BY_DATE, RECORDINGS, parts
 from hri.core.whereabouts import noted, tidy
 from hri.core.writing import PRIVATE, delete, leftovers, write_text
 from hri.emotion import persistence
 from hri.hal import choices
-from hri.robot.recording import BY_DATE, RECORDINGS, parts
 from hri.speech.pronunciation.guesses import GUESSES
 from hri.speech.pronunciation.lexicon import user_lexicon
 from hri.vision.color.color_model import own_color_files

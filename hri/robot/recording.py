@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import contextlib
 import logging
-import os
 from collections import deque
 from collections.abc import Callable, Collection, Mapping
 from functools import partial
@@ -20,8 +19,10 @@ from hri.core.errors import HriError
 from hri.core.event_bus import EventBus
 from hri.core.event_log import NOTHING, EventLog, read_events
 from hri.core.privacy import PRIVATE_FOLDER, close_to_others, private_file
+from hri.core.recorded import EVENTS, FACE, SOUND, STARTED, STREAMS, parts
+from hri.core.signals import Event
 from hri.core.whereabouts import note
-from hri.core.writing import leftovers, make_folder
+from hri.core.writing import make_folder
 from hri.emotion.behaviors import EmotionModel
 from hri.hal.drivers.wav_file import WavSpeaker
 from hri.hal.resource import Description
@@ -41,14 +42,6 @@ PLOT_EVERY_S = 10.0
 PLOT_LATENCY = 0.05
 """Seconds that a picture takes on the fake clock."""
 
-STREAMS = ("events.jsonl", "face.mp4", "robot.wav")
-"""Files that grow while the robot lives."""
-FILES = (*STREAMS, "timeline.png", "feelings.svg")
-"""All that a recording consists of."""
-RECORDINGS = "recordings"
-"""The folder, below the current one, in which a robot records that nobody sees."""
-BY_DATE = "[0-9][0-9][0-9][0-9]-[0-9][0-9]-[0-9][0-9]-*"
-"""The names of recordings there: a date and a time."""
 REJECTED: Mapping[str, Collection[str]] = {
     "speech.rejected": ("text", "detail"),
     "speech.partial": ("text",),
@@ -58,13 +51,6 @@ ALOUD = "I am recording."
 """The announcement at the beginning when people can be heard; it does not wait for an answer."""
 
 log = logging.getLogger("hri.recording")
-
-
-def parts(folder: Path) -> list[Path]:
-    """The files of a recording that are there, with what killed writers left beside them."""
-    files = [folder / name for name in FILES]
-    beside = [left for file in files for left in leftovers(file)]
-    return [file for file in files if os.path.lexists(file)] + beside
 
 
 class Recording:
@@ -88,9 +74,13 @@ class Recording:
         self._make_private()
         note("recording", folder)
         withheld = NOTHING if with_rejected else REJECTED
-        self._log = EventLog(folder / "events.jsonl", events, withheld)
-        self._record_screen(resources)
-        self._record_speaker(resources)
+        self._log = EventLog(folder / EVENTS, events, withheld)
+        # The clock may have run for seconds before, and devices take time to open.
+        origins = {
+            "face": round(self._record_screen(resources), 4),
+            "sound": round(self._record_speaker(resources), 4),
+        }
+        self._log.write(Event(STARTED, resources.clock.now(), origins))
 
     def _make_private(self) -> None:
         """Close the folder to others, unless it holds anything but a recording, and the files."""
@@ -106,28 +96,32 @@ class Recording:
         if hears_people(context) and context.find_behavior(Voice) is not None:
             await say(context, ALOUD)
 
-    def _record_screen(self, resources: ResourceManager) -> None:
+    def _record_screen(self, resources: ResourceManager) -> float:
+        """When the film begins, in seconds of the clock."""
         from hri.face.renderers.lamp import RECORDING, add_lamp
         from hri.hal.drivers.video_file import VideoFileScreen
 
         screen = resources.obtain("screen", Screen)
         size = {"width": str(screen.width), "height": str(screen.height)}
-        path = str(self.folder / "face.mp4")
-        description = Description("face.mp4", "Hri.VideoFileScreen", {"file": path, **size})
+        path = str(self.folder / FACE)
+        description = Description(FACE, "Hri.VideoFileScreen", {"file": path, **size})
         video = VideoFileScreen(description, resources)
         video.activate()
         tee = TeeScreen(screen, video, partial(add_lamp, lamp=RECORDING))
         tee.activate()
         resources.substitute("screen", tee)
+        return video.origin
 
-    def _record_speaker(self, resources: ResourceManager) -> None:
+    def _record_speaker(self, resources: ResourceManager) -> float:
+        """When the sound begins, in seconds of the clock."""
         speaker = resources.obtain("speaker", Speaker)
-        parameters = {"file": str(self.folder / "robot.wav")}
-        sound = WavSpeaker(Description("robot.wav", "Hri.WavSpeaker", parameters), resources)
+        parameters = {"file": str(self.folder / SOUND)}
+        sound = WavSpeaker(Description(SOUND, "Hri.WavSpeaker", parameters), resources)
         sound.activate()
         tee = TeeSpeaker(speaker, sound)
         tee.activate()
         resources.substitute("speaker", tee)
+        return sound.origin
 
     async def watch(self, context: TaskContext) -> None:
         """Keep `feelings.svg` up to date; nothing to do for a robot without feelings."""
@@ -163,6 +157,6 @@ class Recording:
         from hri.robot.timeline import plot_timeline
 
         try:
-            plot_timeline(read_events(self.folder / "events.jsonl"), self.folder / "timeline.png")
+            plot_timeline(read_events(self.folder / EVENTS), self.folder / "timeline.png")
         except HriError as error:
             log.error("no timeline: %s", error)

@@ -18,6 +18,29 @@ _ANSWERS = {
     "401": {"description": "no cookie and no token"},
     "409": {"description": "the robot refuses; `error` says why"},
 }
+_FOLDER = {"folder": "its folder, as /recordings names it, or a path"}
+_RECORDINGS: dict[str, tuple[str, dict[str, str]]] = {
+    "": ("the recordings that are known, the newest first", {}),
+    "/about": (
+        "a recording: where log, film and sound begin and end, in seconds of the log's `t`; "
+        "`wrong` says what cannot be shown",
+        _FOLDER,
+    ),
+    "/events": (
+        "about a megabyte of its events; `next` is where the next part begins, `is_all` whether "
+        "there is none now, `skipped` how many lines are not events",
+        {**_FOLDER, "from": "the byte of the log to begin at, 0 unless given"},
+    ),
+    "/face": ("a JPEG of the face", {**_FOLDER, "t": "seconds of the log's `t`"}),
+    "/sound": (
+        "its sound as a WAV file, or the part that a header `Range` names",
+        {**_FOLDER, "bytes": "where a file that still grows is taken to end; its end unless given"},
+    ),
+}
+_FOUND = {
+    **{code: _ANSWERS[code] for code in ("200", "400", "401")},
+    "404": {"description": "there is no such recording, or it is damaged; `error` says which"},
+}
 
 
 def openapi() -> dict[str, Any]:
@@ -30,6 +53,7 @@ def openapi() -> dict[str, Any]:
         "for the camera), the time (big-endian double, seconds), and a JPEG. It takes "
         '{"pictures": ["face", "camera"]}: those that are wanted.',
     )
+    paths |= {f"/api/v1/recordings{name}": _reading(name) for name in _RECORDINGS}
     return {
         "openapi": "3.1.0",
         "info": {"title": "hri studio", "version": "1"},
@@ -69,3 +93,26 @@ def _get(name: str, about: str, schema: str = "LiveMessage") -> dict[str, Any]:
     content = {"application/json": {"schema": {"$ref": f"#/components/schemas/{schema}"}}}
     answers = {**_ANSWERS, "200": {"description": "the values", "content": content}}
     return {"get": {"operationId": name, "summary": about, "responses": answers}}
+
+
+def _reading(name: str) -> dict[str, Any]:
+    about, parameters = _RECORDINGS[name]
+    optional = ("from", "bytes")
+    get = {
+        "operationId": f"recordings{name.replace('/', '_')}",
+        "summary": about,
+        "parameters": [
+            {
+                "name": key,
+                "in": "query",
+                "required": key not in optional,
+                "schema": {"type": "string"}
+                if key == "folder"
+                else {"type": "number", "minimum": 0},
+                "description": text,
+            }
+            for key, text in parameters.items()
+        ],
+        "responses": _FOUND,
+    }
+    return {"get": get}

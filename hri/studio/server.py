@@ -39,6 +39,7 @@ from hri.studio.access import Cookies, is_loopback, is_own_host, is_own_origin
 from hri.studio.api import openapi
 from hri.studio.commands import COMMANDS, checked
 from hri.studio.link import PICTURES, TEXT, LinkError, Unpacker, packed_json
+from hri.studio.recording_routes import Answer, RecordingRoutes
 
 MOST_PAGES = 32
 """Pages that look at once."""
@@ -234,6 +235,7 @@ class Studio:
     def __init__(self, hub: Hub, settings: Settings) -> None:
         self._hub, self._settings = hub, settings
         self._cookies = Cookies(settings.secret)
+        self.recordings = RecordingRoutes()
 
     def app(self) -> ASGIApp:
         """All of it, behind the guard."""
@@ -249,6 +251,10 @@ class Studio:
             Route("/api/v1/codes", self._code, methods=["POST"]),
             WebSocketRoute("/api/v1/live", self._live),
             *commands,
+            *(
+                Route(path, partial(self._if_known, answer), methods=["GET"])
+                for path, answer in self.recordings.answers.items()
+            ),
         ]
         return Guard(Starlette(routes=routes), self._settings)
 
@@ -277,6 +283,9 @@ class Studio:
         if not self._is_known(request):
             return _stranger()
         return await self._answered("code", {})
+
+    async def _if_known(self, answer: Answer, request: Request) -> Response:
+        return await answer(request) if self._is_known(request) else _stranger()
 
     async def _command(self, name: str, request: Request) -> Response:
         client = request.client.host if request.client else ""
@@ -389,10 +398,11 @@ def _file(name: str) -> Response:
 async def serve(listening: int, link: int, settings: Settings) -> None:
     """Serve on an open socket until the link to the robot has ended."""
     hub = Hub(trio.SocketStream(trio.socket.from_stdlib_socket(socket.socket(fileno=link))))
-    app = Studio(hub, settings).app()
+    studio = Studio(hub, settings)
     listener = trio.SocketListener(trio.socket.from_stdlib_socket(socket.socket(fileno=listening)))
     async with trio.open_nursery() as nursery:
-        nursery.start_soon(trio.serve_listeners, Connections(app).take, [listener])
+        nursery.start_soon(trio.serve_listeners, Connections(studio.app()).take, [listener])
+        nursery.start_soon(studio.recordings.close_unused)
         with suppress(OSError, trio.BrokenResourceError, LinkError):
             await hub.follow()
         nursery.cancel_scope.cancel()

@@ -10,8 +10,9 @@ from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.core.event_log import read_events
 from hri.core.growing import GrowingFile
+from hri.core.recorded import FILES, STARTED
 from hri.hal.drivers.wav_file import read_wav
-from hri.robot.recording import ALOUD, FILES
+from hri.robot.recording import ALOUD
 from tests.devices import live_microphone
 from tests.disk import full_disk
 
@@ -165,3 +166,16 @@ def test_two_robots_do_not_record_into_one_folder(record, tmp_path):
     with pytest.raises(HriError, match=r"events.jsonl: another program is writing it - choose"):
         record()
     assert (tmp_path / "out" / "events.jsonl").read_bytes() == b"{}\n"
+
+
+def test_the_log_says_when_film_and_sound_begin(record, tmp_path):
+    robot = record(lambda robot: robot.clock.advance(2.5))
+    out = tmp_path / "out"
+    first = read_events(out / "events.jsonl")[0]
+    assert first == {"t": 2.5, "event": STARTED, "face": 2.5, "sound": 2.5}
+    sound, rate = read_wav(out / "robot.wav")
+    film = cv2.VideoCapture(str(out / "face.mp4"))
+    pictures = film.get(cv2.CAP_PROP_FRAME_COUNT)
+    film.release()
+    assert len(sound) / rate == pytest.approx(robot.lived - 2.5, abs=0.1)
+    assert pictures / 30 == pytest.approx(len(sound) / rate, abs=0.1)

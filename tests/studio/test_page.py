@@ -1,46 +1,17 @@
 """The page in a browser: it shows the robot, talks to it, stops it, and works by keyboard alone."""
 
 import os
-import shutil
 import signal
-from contextlib import contextmanager
 
 import pytest
 
-from hri.core import paths
+from tests.studio.browser import CHROMIUM, DESKTOP, NEEDS, PHONE, opened, violations
 from tests.studio.living import living
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or ""
 pytest.importorskip("playwright", reason="no playwright - pip install hri[dev]")
-from playwright.sync_api import expect, sync_playwright  # noqa: E402
+from playwright.sync_api import expect, sync_playwright
 
-pytestmark = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not CHROMIUM, reason="no Chromium - apt install chromium"),
-]
-AXE = paths.house() / "hri" / "studio" / "page" / "node_modules" / "axe-core" / "axe.min.js"
-DESKTOP, PHONE = {"width": 1360, "height": 900}, {"width": 390, "height": 844}
-
-
-@contextmanager
-def opened(address, size=DESKTOP, **more):
-    """The page of a studio, once it is linked; what goes wrong in it is an error."""
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        try:
-            page = browser.new_context(viewport=size, **more).new_page()
-            page.set_default_timeout(20_000)
-            wrong, asked = [], []
-            page.on("pageerror", lambda error: wrong.append(str(error)))
-            page.on("request", lambda request: asked.append(request.url))
-            page.goto(address)
-            expect(page.locator("#link")).to_have_text("linked", timeout=20_000)
-            yield page
-            assert wrong == []
-            own = (address.partition("?")[0], "blob:", "ws://127.0.0.1:")
-            assert [url for url in asked if not url.startswith(own)] == []
-        finally:
-            browser.close()
+pytestmark = NEEDS
 
 
 def used(script, **more):
@@ -124,7 +95,6 @@ def test_it_fits_a_phone(scheme):
     assert used(script, size=PHONE, color_scheme=scheme) == (PHONE["width"], True)
 
 
-@pytest.mark.skipif(not AXE.exists(), reason="no axe-core - npm ci in hri/studio/page")
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("size", [DESKTOP, PHONE], ids=["desktop", "phone"])
 def test_nothing_stands_in_the_way_of_a_screen_reader(scheme, size):
@@ -132,12 +102,7 @@ def test_nothing_stands_in_the_way_of_a_screen_reader(scheme, size):
         page.fill("#text", "hello")
         page.keyboard.press("Enter")
         expect(page.locator("#lines .robot").first).to_be_visible()
-        page.evaluate(AXE.read_text())
-        return page.evaluate(
-            """() => axe.run().then((found) => found.violations
-                 .filter((one) => ["serious", "critical"].includes(one.impact))
-                 .map((one) => [one.id, one.nodes.map((node) => node.html)]))"""
-        )
+        return violations(page)
 
     assert used(script, size=size, color_scheme=scheme, bypass_csp=True) == []
 

@@ -21,6 +21,7 @@ from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
 from hri.core.privacy import PRIVATE_FOLDER
 from hri.core.realtime import become_realtime
+from hri.core.recorded import RECORDINGS
 from hri.core.writing import make_folder
 from hri.drive.behaviors import CommandGate
 from hri.emotion.persistence import memory_file
@@ -33,7 +34,6 @@ from hri.hal.microphone import Microphone
 from hri.hal.resource import Description, Resource
 from hri.robot import Job, Robot
 from hri.robot.app import load_app
-from hri.robot.recording import RECORDINGS
 from hri.robot.verbs import is_quiet
 from hri.simulation.visit_script import Visit, load_visit
 from hri.simulation.world import SimulatedWorld

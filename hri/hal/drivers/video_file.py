@@ -177,15 +177,15 @@ class VideoFileScreen(Screen):
         self.rate = self.description.number_within("rate", 30.0, 1.0, 240.0)
         path = Path(self.description.text("file"))
         self._movie = GrowingMovie(path, (self.width, self.height), self.rate)
-        # Sound and events begin now, too; the first picture is held from here on.
-        self._start = self.manager.clock.now()
+        self.origin = self.manager.clock.now()
+        """Seconds of the clock at which the film begins; the first picture is held from here on."""
         self._count = 0
         self._pictures: queue.Queue[tuple[Image, int] | None] = queue.Queue(maxsize=60)
         self._thread = threading.Thread(target=self._encode, name="video encoder", daemon=True)
         self._thread.start()
 
     def show(self, image: Image, time: float) -> None:
-        repeats = round((time - self._start) * self.rate) + 1 - self._count
+        repeats = round((time - self.origin) * self.rate) + 1 - self._count
         if repeats < 1:
             return
         try:

@@ -172,13 +172,14 @@ class WavSpeaker(Speaker):
         self.rate = self.description.count("rate", 22050, LEAST_RATE, MOST_RATE)
         self._file = GrowingWav(Path(self.description.text("file")), self.rate)
         self._clock = self.manager.clock
-        self._origin = self._clock.now()
+        self.origin = self._clock.now()
+        """Seconds of the clock at which the file begins."""
         self._written = 0
         self._source, self._source_rate = np.zeros(0, np.int16), self.rate
         self._sound: Samples = self._source
         self._heard = 0
         """Samples of the sound that are written."""
-        self._begun = self._origin
+        self._begun = self.origin
         self._wait()
 
     def play(self, samples: Samples, rate: int, now: float) -> None:
@@ -220,7 +221,7 @@ class WavSpeaker(Speaker):
             self._pad_to(now)
 
     def _pad_to(self, time: float) -> None:
-        while (gap := round((time - self._origin) * self.rate) - self._written) > 0:
+        while (gap := round((time - self.origin) * self.rate) - self._written) > 0:
             self._write(np.zeros(min(gap, BLOCK), np.int16))
 
     def _write(self, samples: Samples) -> None:

@@ -1,12 +1,12 @@
 // Bundles the page into ../built, which is committed; with --test the tests into test/built.
 import { build } from "esbuild";
-import { copyFileSync } from "node:fs";
+import { copyFileSync, readdirSync } from "node:fs";
 
 const common = { bundle: true, format: "esm", target: "es2022", logLevel: "warning" };
 if (process.argv.includes("--test")) {
   await build({
     ...common,
-    entryPoints: ["test/state.test.ts"],
+    entryPoints: readdirSync("test").filter((name) => name.endsWith(".test.ts")).map((name) => `test/${name}`),
     platform: "node",
     outdir: "test/built",
     outExtension: { ".js": ".mjs" },

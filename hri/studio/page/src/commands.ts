@@ -11,12 +11,13 @@ export interface Action {
   end?(): void;
 }
 
-/** Let the keys of a table work on the whole page. */
-export function bindKeys(actions: readonly Action[]): void {
+/** Let the keys of a table work on the whole page; while they are off, only those that always do. */
+export function bindKeys(actions: readonly Action[], areOn: () => boolean): void {
   let held: Action | null = null;
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.repeat) return;
-    const isTyping = event.target instanceof HTMLInputElement || event.target instanceof HTMLSelectElement;
+    const isField = event.target instanceof HTMLInputElement || event.target instanceof HTMLSelectElement;
+    const isTyping = isField || !areOn();
     const action = actions.find((one) => one.key === event.key && (one.always || !isTyping));
     if (action === undefined) return;
     event.preventDefault();

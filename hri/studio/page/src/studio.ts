@@ -8,6 +8,8 @@ import { Hold } from "./hold";
 import { Map } from "./map";
 import { MoodCurve } from "./mood";
 import { RoomForm } from "./room";
+import { viewOf } from "./recording";
+import { KEYS, RecordingsView } from "./recordings_view";
 import { empty, putCommand, summary, take, type Device, type SeenPerson, type State } from "./state";
 
 const VISITOR: [string, string, string][] = [
@@ -27,6 +29,7 @@ const map = new Map(
 );
 const roomForm = new RoomForm((command, given) => void ask(command, given));
 const talk = new Hold(element<HTMLButtonElement>("hold"), (on) => void ask("talk", { on }));
+const recordings = new RecordingsView();
 let isDrawn = true;
 const shown: Partial<Record<Picture, string>> = {};
 
@@ -218,19 +221,41 @@ function bind(): void {
     button.addEventListener("click", () => askPerson(command));
     element("visitor").append(button);
   }
-  const keys = element("key-list");
-  for (const action of actions) {
-    const key = document.createElement("dt");
-    const about = document.createElement("dd");
-    key.textContent = action.key ?? "";
-    about.textContent = action.about;
-    keys.append(key, about);
+  const lists: Record<string, [string, string][]> = { "key-list": actions.map((one) => [one.key ?? "", one.about]), "recording-keys": KEYS };
+  for (const [id, rows] of Object.entries(lists))
+    for (const words of rows)
+      for (const [place, name] of ["dt", "dd"].entries()) {
+        const part = document.createElement(name);
+        part.textContent = words[place]!;
+        element(id).append(part);
+      }
+  bindKeys(actions, () => !element("live").hidden);
+}
+
+/** Show the view that the address names: live, or recordings. */
+function showView(): void {
+  const view = viewOf(location.hash);
+  for (const name of ["live", "recordings"]) {
+    element(name).hidden = name !== view.name;
+    if (name === view.name) element(`to-${name}`).setAttribute("aria-current", "page");
+    else element(`to-${name}`).removeAttribute("aria-current");
   }
-  bindKeys(actions);
+  wantPictures();
+  if (view.name === "recordings") void recordings.show(view.folder);
+  else {
+    recordings.close();
+    document.title = "hri studio";
+    drawSoon();
+  }
+}
+
+function wantPictures(): void {
+  connection.want(document.hidden || element("live").hidden ? [] : ["face", "camera"]);
 }
 
 bind();
-connection.want(["face", "camera"]);
 connection.open();
-document.addEventListener("visibilitychange", () => connection.want(document.hidden ? [] : ["face", "camera"]));
+showView();
+window.addEventListener("hashchange", showView);
+document.addEventListener("visibilitychange", wantPictures);
 draw();

@@ -1,0 +1,52 @@
+"""Chromium with the page of a studio, for tests."""
+
+import shutil
+from contextlib import contextmanager
+
+import pytest
+
+from hri.core import paths
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or ""
+NEEDS = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not CHROMIUM, reason="no Chromium - apt install chromium"),
+]
+"""The marks of a module that needs it."""
+AXE = paths.house() / "hri" / "studio" / "page" / "node_modules" / "axe-core" / "axe.min.js"
+DESKTOP, PHONE = {"width": 1360, "height": 900}, {"width": 390, "height": 844}
+
+
+@contextmanager
+def opened(address, size=DESKTOP, **more):
+    """The page of a studio, once it is linked; what goes wrong in it is an error."""
+    from playwright.sync_api import expect, sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        try:
+            page = browser.new_context(viewport=size, **more).new_page()
+            page.set_default_timeout(20_000)
+            wrong, asked = [], []
+            page.on("pageerror", lambda error: wrong.append(str(error)))
+            page.on("request", lambda request: asked.append(request.url))
+            page.goto(address)
+            expect(page.locator("#link")).to_have_text("linked", timeout=20_000)
+            yield page
+            assert wrong == []
+            own = (address.partition("?")[0], "blob:", "ws://127.0.0.1:")
+            assert [url for url in asked if not url.startswith(own)] == []
+        finally:
+            browser.close()
+
+
+def violations(page):
+    """What axe-core finds to stand in the way of people; its page must have `bypass_csp`."""
+    if not AXE.exists():
+        pytest.skip("no axe-core - npm ci in hri/studio/page")
+    page.evaluate(AXE.read_text())
+    return page.evaluate(
+        """() => axe.run().then((found) => found.violations
+             .filter((one) => ["serious", "critical"].includes(one.impact))
+             .map((one) => [one.id, one.nodes.map((node) => node.html)]))"""
+    )
