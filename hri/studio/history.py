@@ -31,14 +31,17 @@ class MoodHistory:
     def __init__(self) -> None:
         self._points: deque[list[float]] = deque(maxlen=MOST_MOODS)
         self._reasons: deque[Reason] = deque(maxlen=MOST_REASONS)
+        self._newest = ("", "")
 
-    def add(self, now: float, feeling: EmotionState, why: str) -> None:
-        """The feeling now, and its cause in words."""
+    def add(self, now: float, feeling: EmotionState, cause: str, why: str) -> None:
+        """The feeling now, the name of its strongest cause, and the same in words."""
         if self._points and now - self._points[-1][0] < MOOD_EVERY:
             return
         parts = feeling.valence, feeling.arousal, feeling.dominance
         self._points.append([round(now, 1), *(round(part, 3) for part in parts)])
-        if not self._reasons or self._reasons[-1]["why"] != why:
+        # The words also say how long ago it was.
+        if self._newest != (feeling.label, cause):
+            self._newest = feeling.label, cause
             self._reasons.append({"t": round(now, 1), "label": feeling.label, "why": why})
 
     def told(self) -> Moods:

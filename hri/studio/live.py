@@ -189,8 +189,8 @@ class Live:
         emotion = context.find_behavior(EmotionModel)
         if emotion is None:
             return None
-        state, why = emotion.feeling(), emotion.why_words()
-        self._moods.add(now, state, why)
+        state, why, causes = emotion.feeling(), emotion.why_words(), emotion.why()[:MOST_CAUSES]
+        self._moods.add(now, state, causes[0].name if causes else "", why)
         return {
             "label": state.label,
             "words": emotion.feeling_words(),
@@ -202,7 +202,7 @@ class Live:
             "drives": {name: round(value, 3) for name, value in state.drives.items()},
             "causes": [
                 {"name": cause.name, "share": round(cause.share, 3), "person": cause.person or ""}
-                for cause in emotion.why()[:MOST_CAUSES]
+                for cause in causes
             ],
         }
 

@@ -28,8 +28,8 @@ def feeling(label="joy", pleasure=0.5):
 def test_the_mood_is_kept_once_a_second_with_what_caused_it():
     moods = MoodHistory()
     for tick in range(40):
-        why = "I am happy because you praised me." if tick >= 20 else "I am calm."
-        moods.add(tick * 0.1, feeling(pleasure=tick / 40), why)
+        cause, why = ("praise", f"I am happy, {tick}") if tick >= 20 else ("", "I am calm.")
+        moods.add(tick * 0.1, feeling(pleasure=tick / 40), cause, why)
     told = moods.told()
     assert told["points"] == [[float(s), s / 4, 0.1, -0.1] for s in range(4)]
     assert [(one["t"], one["why"][:8]) for one in told["reasons"]] == [
@@ -41,7 +41,7 @@ def test_the_mood_is_kept_once_a_second_with_what_caused_it():
 def test_days_of_moods_are_not_kept():
     moods = MoodHistory()
     for second in range(2 * MOST_MOODS):
-        moods.add(second, feeling(), f"reason {second}")
+        moods.add(second, feeling(), f"reason {second}", "I am happy.")
     told = moods.told()
     assert (len(told["points"]), len(told["reasons"])) == (MOST_MOODS, MOST_REASONS)
     assert told["points"][-1][0] == 2 * MOST_MOODS - 1

@@ -20,12 +20,15 @@ const VISITOR: [string, string, string][] = [
   ["bump", "Bump the robot", "b"],
 ];
 
+/** Between two drawings of the values; pictures are shown as they come. */
+const DRAW_MS = 80;
+
 const state: State = empty();
 const curve = new MoodCurve(element("mood-curve"), element("reasons"));
 const map = new Map(
   element<SVGSVGElement>("map"),
   (what, x, y) => void ask(...putCommand(what ?? { kind: "person", name: who() }, x, y)),
-  () => drawSoon(),
+  () => requestAnimationFrame(draw),
 );
 const roomForm = new RoomForm((command, given) => void ask(command, given));
 const talk = new Hold(element<HTMLButtonElement>("hold"), (on) => void ask("talk", { on }));
@@ -68,13 +71,18 @@ function say(words: string): void {
   notice.hidden = words === "";
 }
 
+/** Values come one by one: they are drawn together, so that a busy machine has less to do. */
 function drawSoon(): void {
   if (!isDrawn) return;
   isDrawn = false;
-  requestAnimationFrame(() => {
-    isDrawn = true;
-    draw();
-  });
+  setTimeout(
+    () =>
+      requestAnimationFrame(() => {
+        isDrawn = true;
+        draw();
+      }),
+    DRAW_MS,
+  );
 }
 
 function draw(): void {
