@@ -1,22 +1,34 @@
-"""The studio in a real browser: what it costs the robot, how fast it shows and stops.
+"""The studio in a real browser: what it costs the robot, how fast it shows and stops, and whether
+it stands kills and long hours.
 
-Needs playwright and Chromium. The robot is simulated and runs in real time.
+Needs playwright and Chromium. The robot is simulated and runs in real time, but for the long hours.
 """
 
 from __future__ import annotations
 
 import gzip
+import os
+import random
 import shutil
+import signal
+import subprocess
+import sys
+import tempfile
 import threading
 import time
+import urllib.request
 from collections.abc import Callable, Iterator
-from contextlib import closing, contextmanager
+from contextlib import AbstractContextManager, closing, contextmanager, suppress
+from functools import partial
+from http.cookiejar import CookieJar
 from importlib import resources
 from typing import Any
 
 import numpy as np
+import psutil
 
-from hri.bench.table import Row, amount, at_least, at_most, attempted, report
+from hri.bench.companion_soak import CompanionSoak
+from hri.bench.table import Parts, Row, amount, at_least, at_most, measured, share
 from hri.core.errors import NotAvailable
 from hri.hal.resource import Description
 from hri.robot import Robot
@@ -28,9 +40,14 @@ SECONDS, QUICK_SECONDS, TURNS = 20.0, 4.0, 3
 SETTLING = 4.0
 """Seconds in which a robot loads its models and a page is opened."""
 RATE = 100.0
-STOPS = 10
+STOPS, KILLS, HOURS, SEED = 10, 50, 2.0, 24
+BACK_S = 2.0
+"""Until a page is linked again after a kill."""
 FPS, DELAY_MS, STOP_MS, INTERACTIVE_S, SCRIPTS_KB = 20.0, 150.0, 100.0, 1.5, 250.0
 MEDIAN, P99 = 1.05, 1.5
+SETTLED, GROWTH_MB = 0.25, 20.0
+"""After this share of the hours, memory may grow by so much."""
+WINDOW = {"width": 1360, "height": 900}
 FRAMES = """(seconds) => new Promise((done) => {
   const found = [], socket = new WebSocket(`ws://${location.host}/api/v1/live`);
   socket.binaryType = "arraybuffer";
@@ -44,60 +61,94 @@ FRAMES = """(seconds) => new Promise((done) => {
   setTimeout(() => { socket.close(); done(found); }, seconds * 1000);
 })"""
 """Of each frame of the face that was decoded: its time and that of the wall."""
-
-
 PRESS = """() => {
   const now = Date.now() / 1000;
   document.getElementById("stop").click();
   return now;
 }"""
 """When the stop button was pressed."""
+READER = """
+import socket, sys
+link = socket.create_connection(("127.0.0.1", int(sys.argv[1])))
+host = f"127.0.0.1:{sys.argv[1]}"
+link.sendall(f"GET /api/v1/live HTTP/1.1\\r\\nHost: {host}\\r\\nOrigin: http://{host}\\r\\n"
+    "Upgrade: websocket\\r\\nConnection: Upgrade\\r\\nSec-WebSocket-Version: 13\\r\\n"
+    "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\\r\\n"
+    f"Cookie: {sys.argv[2]}\\r\\n\\r\\n".encode())
+wanted = b'{"pictures": ["face", "camera"]}'
+link.sendall(bytes((0x81, 0x80 | len(wanted), 0, 0, 0, 0)) + wanted)
+while link.recv(1 << 20):
+    pass
+"""
+"""A program that takes all that a page takes, and draws nothing."""
 
 
 @contextmanager
-def _living(jobs: list[Any], has_studio: bool) -> Iterator[tuple[Robot, StudioSession | None]]:
-    """A companion in real time, in a thread."""
-    robot = Robot("companion", "simulated", devices=DEVICES, notice=lambda line: None)
-    studio = StudioSession(robot, port=0) if has_studio else None
-    own = studio.jobs() if studio else []
-    tasks = robot.app.load_tasks()
-    thread = threading.Thread(target=lambda: robot.live_until_over(*tasks, *own, *jobs))
-    with closing(robot):
-        if studio is not None:
-            studio.start()
+def _living(robot: Robot, run: Callable[..., object], *jobs: Any) -> Iterator[StudioSession]:
+    """A robot in a thread, with a studio."""
+    studio = StudioSession(robot, port=0)
+    thread = threading.Thread(target=lambda: run(*studio.jobs(), *jobs))
+    with closing(robot), closing(studio):
+        studio.start()
         thread.start()
         try:
-            yield robot, studio
+            yield studio
         finally:
             robot.context.clock.soon(robot.finish)
             thread.join()
-            if studio is not None:
-                studio.close()
+
+
+def _companion() -> Robot:
+    """In real time."""
+    return Robot("companion", "simulated", devices=DEVICES, notice=lambda line: None)
+
+
+@contextmanager
+def _alive() -> Iterator[tuple[Robot, StudioSession]]:
+    robot = _companion()
+    with _living(robot, robot.live_until_over, *robot.app.load_tasks()) as studio:
+        yield robot, studio
+
+
+def _chromium() -> str:
+    found = shutil.which("chromium") or shutil.which("chromium-browser")
+    if found is None:
+        raise NotAvailable("no Chromium - apt install chromium")
+    return found
+
+
+@contextmanager
+def _browser() -> Iterator[Any]:
+    """Launches Chromium, to be driven from here. Raises NotAvailable."""
+    try:
+        from playwright.sync_api import sync_playwright
+    except ImportError:
+        raise NotAvailable("no playwright - pip install hri[dev]") from None
+    path = _chromium()
+    with sync_playwright() as playwright:
+        launch = partial(playwright.chromium.launch, executable_path=path, args=["--no-sandbox"])
+        yield launch
 
 
 @contextmanager
 def _page(studio: StudioSession) -> Iterator[Any]:
     """The page in Chromium, once it is linked. Raises NotAvailable."""
-    chromium = shutil.which("chromium") or shutil.which("chromium-browser")
-    try:
-        from playwright.sync_api import sync_playwright
-    except ImportError:
-        raise NotAvailable("no playwright - pip install hri[dev]") from None
-    if chromium is None:
-        raise NotAvailable("no Chromium - apt install chromium")
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
-        try:
-            page = browser.new_page(viewport={"width": 1360, "height": 900})
-            page.goto(studio.address())
-            _linked(page)
-            yield page
-        finally:
-            browser.close()
+    with _browser() as launch, closing(launch()) as browser:
+        yield _opened(browser, studio)
+
+
+def _opened(browser: Any, studio: StudioSession) -> Any:
+    page = browser.new_page(viewport=WINDOW)
+    page.goto(studio.address())
+    _linked(page)
+    return page
 
 
 def _linked(page: Any) -> None:
     page.get_by_text("linked", exact=True).wait_for()
+
+
+# --- what a page costs ---
 
 
 def _ticks(found: list[float]) -> Callable[[TaskContext], Any]:
@@ -113,41 +164,97 @@ def _ticks(found: list[float]) -> Callable[[TaskContext], Any]:
     return tick
 
 
-def _late(seconds: float, has_studio: bool) -> list[float]:
-    """How late ticks are, with a page that looks or without a studio."""
+Watch = Callable[[StudioSession], AbstractContextManager[psutil.Process]]
+
+
+@contextmanager
+def _chromium_alone(studio: StudioSession) -> Iterator[psutil.Process]:
+    """The page in a Chromium that nothing drives: what drives it would cost this process."""
+    words = [_chromium(), "--headless=new", "--no-sandbox", "--disable-gpu", "--mute-audio"]
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        words += [
+            f"--user-data-dir={folder}",
+            f"--window-size={WINDOW['width']},{WINDOW['height']}",
+        ]
+        with _started([*words, studio.address()]) as process:
+            yield process
+
+
+@contextmanager
+def _reader(studio: StudioSession) -> Iterator[psutil.Process]:
+    """What a page elsewhere costs here: all is sent, and drawn on another machine."""
+    cookies = CookieJar()
+    urllib.request.build_opener(urllib.request.HTTPCookieProcessor(cookies)).open(studio.address())
+    cookie = "; ".join(f"{one.name}={one.value}" for one in cookies)
+    with _started([sys.executable, "-c", READER, str(studio.port), cookie]) as process:
+        yield process
+
+
+@contextmanager
+def _started(words: list[str]) -> Iterator[psutil.Process]:
+    """A program with its children, which end at the end."""
+    quiet = subprocess.DEVNULL
+    process = subprocess.Popen(words, stdout=quiet, stderr=quiet, start_new_session=True)
+    try:
+        yield psutil.Process(process.pid)
+    finally:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+
+
+def _late(seconds: float, watch: Watch | None) -> list[float]:
+    """How late ticks are, without a studio or with one that is watched."""
     found: list[float] = []
-    with _living([_ticks(found)], has_studio) as (_, studio):
-        if studio is None:
-            threading.Event().wait(SETTLING)
+    robot, wait = _companion(), threading.Event().wait
+    jobs = (*robot.app.load_tasks(), _ticks(found))
+    if watch is None:
+        thread = threading.Thread(target=lambda: robot.live_until_over(*jobs))
+        with closing(robot):
+            thread.start()
+            wait(SETTLING)
             found.clear()
-            threading.Event().wait(seconds)
-        else:
-            with _page(studio) as page:
-                page.wait_for_timeout(SETTLING * 1e3)
-                found.clear()
-                page.wait_for_timeout(seconds * 1e3)
-                return list(found)
-    return found
+            wait(seconds)
+            late = list(found)
+            robot.context.clock.soon(robot.finish)
+            thread.join()
+        return late
+    with _living(robot, robot.live_until_over, *jobs) as studio, watch(studio):
+        wait(SETTLING)
+        found.clear()
+        wait(seconds)
+        return list(found)
 
 
-def _cost(seconds: float) -> Iterator[Row]:
-    """In turns, without and with a page that shows everything."""
-    without, beside = [], []
-    for _ in range(TURNS):
-        without += _late(seconds, has_studio=False)
-        beside += _late(seconds, has_studio=True)
-    for name, part, limit in (("median", 50, MEDIAN), ("p99", 99, P99)):
-        before, now = (float(np.percentile(late, part)) for late in (without, beside))
-        what = f"ticks at {RATE:g} Hz with a page: lateness, {name}, times that without a studio"
-        ms = {"without_ms": round(before, 3), "with_ms": round(now, 3)}
-        yield amount(what, now / before, "times", at_most(limit), **ms)
+def _cost(quick: bool) -> Iterator[Row]:
+    """In turns: without a studio, with a page that is drawn elsewhere, and with one drawn here."""
+    ways: dict[str, Watch | None] = {
+        "": None,
+        "a page on another machine": _reader,
+        "a page on this machine, its browser drawing without a GPU": _chromium_alone,
+    }
+    late: dict[str, list[float]] = {name: [] for name in ways}
+    for _ in range(1 if quick else TURNS):
+        for name, watch in ways.items():
+            late[name] += _late(QUICK_SECONDS if quick else SECONDS, watch)
+    for name in list(ways)[1:]:
+        for part, percent, limit in (("median", 50, MEDIAN), ("p99", 99, P99)):
+            before, now = (float(np.percentile(late[one], percent)) for one in ("", name))
+            what = (
+                f"ticks at {RATE:g} Hz with {name}: lateness, {part}, times that without a studio"
+            )
+            ms = {"without_ms": round(before, 3), "with_ms": round(now, 3)}
+            yield amount(what, now / before, "times", at_most(limit), **ms)
 
 
-def _seen(seconds: float) -> Iterator[Row]:
+# --- what a page shows ---
+
+
+def _seen(quick: bool) -> Iterator[Row]:
     """What the page gets, and how fast its stop works."""
+    yield _size()
     stopped: list[float] = []
-    with _living([], has_studio=True) as (robot, studio):
-        assert studio is not None
+    seconds = QUICK_SECONDS if quick else SECONDS
+    with _alive() as (robot, studio):
         offset = time.time() - robot.clock.now()  # noqa: TID251 - the browser has no other clock
         robot.events.subscribe("drive.stopped", lambda event: stopped.append(event.time + offset))
         with _page(studio) as page:
@@ -191,14 +298,111 @@ def _size() -> Row:
     return amount("scripts of the page, gzip", size, "kB", at_most(SCRIPTS_KB))
 
 
-def _rows(seconds: float) -> Iterator[Row]:
-    yield _size()
-    yield from _seen(seconds)
-    yield from _cost(seconds)
+# --- kills ---
 
 
-def measure(quick: bool = False) -> dict[str, Any]:
-    """All rows."""
-    seconds = QUICK_SECONDS if quick else SECONDS
-    rows = list(attempted("the studio", lambda: _rows(seconds)))
-    return report("studio", rows, quick)
+def _killed(quick: bool) -> Iterator[Row]:
+    """The server and the browser in turns, at random moments; the robot must go on."""
+    dice = random.Random(SEED)
+    took: list[float] = []
+    goes_on: list[bool] = []
+    ticks: list[float] = []
+    robot = _companion()
+    jobs = (*robot.app.load_tasks(), _ticks(ticks))
+    with _living(robot, robot.live_until_over, *jobs) as studio, _browser() as launch:
+        browser = launch()
+        page = _opened(browser, studio)
+        for number in range(KILLS // 10 if quick else KILLS):
+            page.wait_for_timeout(dice.uniform(0, 500))
+            count, begun = len(ticks), time.perf_counter()
+            if number % 2 == 0:
+                os.kill(studio.server, signal.SIGKILL)
+                page.get_by_text("no link", exact=True).wait_for()
+                _linked(page)
+            else:
+                _kill_browser()
+                browser = launch()
+                begun = time.perf_counter()  # from when a person opens it again
+                page = _opened(browser, studio)
+            took.append(time.perf_counter() - begun)
+            goes_on.append(len(ticks) - count > took[-1] * RATE / 2)
+        page.click("#stop")  # it still works
+        page.locator("#release").wait_for()
+        browser.close()
+    yield share(
+        "killed, browser or server: the robot goes on", sum(goes_on), len(took), at_least(1)
+    )
+    what = f"killed, browser or server: the page is linked again within {BACK_S:g} s"
+    more = {"median_s": round(float(np.median(took)), 2), "worst_s": round(max(took), 2)}
+    yield share(what, sum(one <= BACK_S for one in took), len(took), at_least(1)) | more
+
+
+def _kill_browser() -> None:
+    """All of Chromium that this process has started."""
+    for process in psutil.Process().children(recursive=True):
+        with suppress(psutil.NoSuchProcess):
+            if "chrom" in process.name():
+                process.kill()
+
+
+# --- long hours ---
+
+
+def _long(quick: bool) -> Iterator[Row]:
+    """Simulated hours of visits, as fast as they go, with a page: the memory of each process."""
+    hours = HOURS / 10 if quick else HOURS
+    found: dict[str, list[float]] = {"the server": [], "the browser": [], "the robot": []}
+    processes: dict[str, psutil.Process] = {}
+    is_over = threading.Event()
+
+    def note(line: str) -> None:
+        if not processes:  # a notice of the start
+            return
+        memory = {name: _memory(process) for name, process in processes.items()}
+        memory["the robot"] = _memory(psutil.Process()) - sum(memory.values())
+        for name, megabytes in memory.items():
+            found[name].append(megabytes)
+        print(
+            f"{line}; {', '.join(f'{n} {m[-1]:.0f} MB' for n, m in found.items())}", file=sys.stderr
+        )
+
+    soak = CompanionSoak(hours, note)
+
+    def run(*jobs: Any) -> None:
+        soak.run(*jobs)
+        is_over.set()
+
+    begun = time.perf_counter()
+    with _living(soak.robot, run) as studio, _chromium_alone(studio) as browser:
+        server = psutil.Process(studio.server)
+        processes |= {"the server": server, "the browser": browser}
+        is_over.wait()
+        looks = any(one.status == "ESTABLISHED" for one in server.net_connections("tcp"))
+    more: dict[str, Any] = {
+        "visits": soak.verdict.visits,
+        "real_s": round(time.perf_counter() - begun),
+    }
+    faults = [*soak.verdict.faults, *([] if looks else ["the page had gone"])]
+    yield amount(f"{hours:g} hours with a page: faults", len(faults), "faults", at_most(0), **more)
+    for name, memory in found.items():
+        settled = memory[int(len(memory) * SETTLED)]
+        more = {"from_mb": round(settled, 1), "to_mb": round(memory[-1], 1)}
+        what = f"{hours:g} hours with a page: growth of {name} after a quarter"
+        yield amount(what, memory[-1] - settled, "MB", at_most(GROWTH_MB), **more)
+
+
+def _memory(process: psutil.Process) -> float:
+    """MB of a process with its children; what they share is counted once."""
+    total = 0
+    for one in (process, *process.children(recursive=True)):
+        with suppress(psutil.NoSuchProcess):
+            total += one.memory_full_info().pss
+    return total / 1e6
+
+
+PARTS: Parts = {"page": _seen, "cost": _cost, "kills": _killed, "hours": _long}
+
+
+def measure(quick: bool = False, only: str | None = None) -> dict[str, Any]:
+    """All parts, or one."""
+    return measured("studio", {}, quick, only)

@@ -16,7 +16,7 @@ import psutil
 
 from hri.core.clock import FakeClock
 from hri.core.signals import Event
-from hri.robot import Robot
+from hri.robot import Job, Robot
 from hri.simulation.visit_script import load_visit
 from hri.simulation.world import SimulatedWorld
 from hri.task.context import TaskContext
@@ -54,17 +54,17 @@ class CompanionSoak:
     def __init__(self, hours: float, tell: Callable[[str], object]) -> None:
         self.verdict = Verdict(hours)
         self._tell = tell
-        self._robot = Robot(config="simulated", clock=FakeClock(), notice=tell)
-        self._visit = load_visit(self._robot.app.folder / "demo.toml")
+        self.robot = Robot(config="simulated", clock=FakeClock(), notice=tell)
+        self._visit = load_visit(self.robot.app.folder / "demo.toml")
         self._count = max(1, round(hours * 3600 / (self._visit.duration + BETWEEN)))
         self._settled = 0.0
 
-    def run(self) -> Verdict:
-        """Live through it all."""
+    def run(self, *jobs: Job) -> Verdict:
+        """Live through it all, with further tasks beside it."""
         try:
-            self._robot.live_until_over(*self._robot.app.load_tasks(), self._receive)
+            self.robot.live_until_over(*self.robot.app.load_tasks(), self._receive, *jobs)
         finally:
-            self._robot.close()
+            self.robot.close()
         return self.verdict
 
     async def _receive(self, context: TaskContext) -> None:
@@ -81,7 +81,7 @@ class CompanionSoak:
             )
         if self.verdict.growth > MOST_GROWTH:
             self.verdict.faults.append(f"memory grew by {self.verdict.growth:.1f} MB")
-        self._robot.finish()
+        self.robot.finish()
 
     async def _visited(self, context: TaskContext) -> Counter[str]:
         """One visit: how often each event came."""
@@ -92,13 +92,13 @@ class CompanionSoak:
             if event.name == "visitor.acted":
                 counts[f"visitor {event.properties['deed']}"] += 1
 
-        world = self._robot.resources.obtain("world", SimulatedWorld)
+        world = self.robot.resources.obtain("world", SimulatedWorld)
         subscription = context.events.subscribe("*", count)
         visit = self._visit.start(world, context.clock, context.events)
         await context.clock.sleep(self._visit.duration + BETWEEN)
         visit.cancel()
         subscription.cancel()
-        self._robot.resources.release(world)
+        self.robot.resources.release(world)
         return counts
 
     def _judge(self, number: int, counts: Counter[str]) -> None:

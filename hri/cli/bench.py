@@ -23,7 +23,7 @@ BENCHES: dict[str, tuple[str, ...]] = {
     "net": (),
     "people": ("quick",),
     "speech": ("quick", "recordings", "draw"),
-    "studio": ("quick",),
+    "studio": ("quick", "only"),
     "vision": ("quick", "only"),
     "writes": ("quick",),
 }
@@ -39,7 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     about = "how long each case runs (behavior, companion)"
     parser.add_argument("--seconds", type=Within(float, 1, 3600), metavar="S", help=about)
     about = "take every sixth sentence (speech), a tenth (drive, face, people, vision, writes);"
-    about += " a fifth of the time (studio)"
+    about += " less of everything (studio)"
     parser.add_argument("--quick", action="store_true", default=None, help=about)
     about = "run only this part, such as rooms (drive) or nods (vision), or this reader (inputs);"
     about += " a wrong name lists them all"
