@@ -1,0 +1,147 @@
+// Reads XML without losing where anything stands, so that an edit can touch it alone.
+
+export interface Attribute {
+  name: string;
+  value: string;
+  /** Offsets in the text: all of `name="value"`, and what is between the quotes. */
+  from: number;
+  to: number;
+  valueFrom: number;
+  valueTo: number;
+}
+
+export interface Element {
+  tag: string;
+  attributes: Attribute[];
+  children: Element[];
+  parent: Element | null;
+  from: number;
+  to: number;
+  /** Behind the opening tag, and before the closing one; both are `to` where it closes itself. */
+  openTo: number;
+  closeFrom: number;
+}
+
+export class XmlError extends Error {
+  readonly line: number;
+  readonly column: number;
+
+  constructor(what: string, text: string, readonly offset: number) {
+    super(what);
+    const before = text.slice(0, offset);
+    this.line = before.split("\n").length;
+    this.column = offset - before.lastIndexOf("\n");
+  }
+}
+
+const DEEPEST = 64;
+const NAME = /[A-Za-z_:\u0080-\uffff][-\w:.\u0080-\uffff]*/y;
+const ATTRIBUTE = /\s+([A-Za-z_:\u0080-\uffff][-\w:.\u0080-\uffff]*)\s*=\s*(?:"([^"<]*)"|'([^'<]*)')/y;
+const ENTITIES: Record<string, string> = { lt: "<", gt: ">", amp: "&", quot: '"', apos: "'" };
+
+/** The root element. Raises XmlError where the text is not well-formed, or has a DOCTYPE. */
+export function parseXml(text: string): Element {
+  let at = text.startsWith("\ufeff") ? 1 : 0;
+  let root: Element | null = null;
+  let open: Element | null = null;
+  let depth = 0;
+  const fail = (what: string, where = at): never => {
+    throw new XmlError(what, text, where);
+  };
+  const skipTo = (end: string, what: string): void => {
+    const found = text.indexOf(end, at);
+    if (found < 0) fail(`${what} is not closed`);
+    at = found + end.length;
+  };
+  while (at < text.length) {
+    const next = text.indexOf("<", at);
+    const between = text.slice(at, next < 0 ? text.length : next);
+    if (open === null && between.trim() !== "") fail("there is text outside of the root", at + between.search(/\S/));
+    if (between.includes("&")) decode(between, text, at);
+    if (next < 0) break;
+    at = next;
+    if (text.startsWith("<!--", at)) skipTo("-->", "a comment");
+    else if (text.startsWith("<?", at)) skipTo("?>", "an instruction");
+    else if (text.startsWith("<![CDATA[", at) && open !== null) skipTo("]]>", "a CDATA section");
+    else if (text.startsWith("<!DOCTYPE", at)) fail("a DOCTYPE is not allowed");
+    else if (text.startsWith("</", at)) {
+      const from = at;
+      at += 2;
+      const tag = nameAt(text, at);
+      at += tag.length;
+      while (/\s/.test(text[at] ?? "")) at++;
+      if (text[at] !== ">") fail("a closing tag is not closed", from);
+      at++;
+      if (open === null || open.tag !== tag) fail(open === null ? `</${tag}> closes nothing` : `</${tag}> closes <${open.tag}>`, from);
+      const closed: Element = open!;
+      closed.closeFrom = from;
+      closed.to = at;
+      open = closed.parent;
+      depth--;
+    } else {
+      const element = openingTag(text, at, open);
+      if (open === null && root !== null) fail("there is more than one root");
+      open?.children.push(element);
+      root ??= element;
+      at = element.openTo;
+      if (element.to !== element.openTo) {
+        open = element;
+        if (++depth > DEEPEST) fail("elements are nested too deep");
+      }
+    }
+  }
+  if (open !== null) fail(`<${open.tag}> is not closed`, open.from);
+  return root ?? fail("there is no element in it", text.length);
+}
+
+function nameAt(text: string, at: number): string {
+  NAME.lastIndex = at;
+  return NAME.exec(text)?.[0] ?? "";
+}
+
+function openingTag(text: string, from: number, parent: Element | null): Element {
+  const tag = nameAt(text, from + 1);
+  if (tag === "") throw new XmlError("a tag without a name", text, from);
+  let at = from + 1 + tag.length;
+  const attributes: Attribute[] = [];
+  for (;;) {
+    ATTRIBUTE.lastIndex = at;
+    const found = ATTRIBUTE.exec(text);
+    if (found === null) break;
+    const name = found[1]!;
+    const raw = found[2] ?? found[3]!;
+    at = ATTRIBUTE.lastIndex;
+    const valueTo = at - 1;
+    if (attributes.some((one) => one.name === name)) throw new XmlError(`"${name}" is there twice`, text, at - found[0].trimStart().length);
+    attributes.push({ name, value: decode(raw, text, valueTo - raw.length), from: at - found[0].trimStart().length, to: at, valueFrom: valueTo - raw.length, valueTo });
+  }
+  while (/\s/.test(text[at] ?? "")) at++;
+  const isEmpty = text.startsWith("/>", at);
+  if (!isEmpty && text[at] !== ">") throw new XmlError(`the tag <${tag}> is not closed`, text, from);
+  at += isEmpty ? 2 : 1;
+  // Where it does not close itself, `to` is known at the closing tag.
+  return { tag, attributes, children: [], parent, from, to: isEmpty ? at : -1, openTo: at, closeFrom: at };
+}
+
+function decode(raw: string, text: string, offset: number): string {
+  if (!raw.includes("&")) return raw.replace(/[\t\n\r]/g, " ");
+  return raw.replace(/[\t\n\r]/g, " ").replace(/&([^;&\s]*;?)/g, (whole: string, name: string, at: number) => {
+    const number = /^#(?:x([0-9a-f]{1,6})|(\d{1,7}));$/i.exec(name);
+    const code = number ? (number[1] ? parseInt(number[1], 16) : Number(number[2])) : NaN;
+    if (code > 0 && code <= 0x10ffff) return String.fromCodePoint(code);
+    const known = name.endsWith(";") ? ENTITIES[name.slice(0, -1)] : undefined;
+    if (known === undefined) throw new XmlError(`"${whole}" is not a character of XML - write &amp; for &`, text, offset + at);
+    return known;
+  });
+}
+
+export function attribute(element: Element, name: string): string | undefined {
+  return element.attributes.find((one) => one.name === name)?.value;
+}
+
+const ESCAPES: Record<string, string> = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" };
+
+/** A value for between double quotes, as `hri network format` writes it. */
+export function escape(value: string): string {
+  return value.replace(/[&<>"\t\n\r]/g, (letter) => ESCAPES[letter] ?? `&#${letter.charCodeAt(0)};`);
+}
