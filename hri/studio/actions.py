@@ -103,7 +103,7 @@ ACTIONS: Mapping[str, Callable[..., object]] = {
     "visitor_go": lambda asked, x, y, who="": asked.visitor(who).go(x, y),
     "visitor_enter": lambda asked, who="": asked.visitor(who).enter(),
     "visitor_leave": lambda asked, who="": asked.visitor(who).leave(),
-    "bump": lambda asked: asked.visitor.bump(),
+    "bump": lambda asked: asked.visitor("").bump(),
     "place": lambda asked, name, x, y: asked.world.place(name, x, y),
     "obstacle": lambda asked, name, x, y: asked.world.put_obstacle(name, x, y, asked.now),
     "remove": lambda asked, name: asked.world.take_away(name),

@@ -82,6 +82,10 @@ class StudioSession:
                     self._link.answer(request.number, result=result)
                 except HriError as error:
                     self._link.answer(request.number, error=str(error))
+                except Exception as error:  # a mistake of ours must not end the robot's loop
+                    log.error("%s failed: %s", request.command, error, exc_info=error)
+                    failed = f"{request.command} failed: {error!r} - the robot goes on; see its log"
+                    self._link.answer(request.number, error=failed)
             await context.clock.sleep(LOOK_EVERY)
 
     def _done(self, asked: Asked, command: str, arguments: dict[str, object]) -> object:

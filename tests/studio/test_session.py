@@ -20,6 +20,7 @@ from hri.hal.emergency_stop import EmergencyStop
 from hri.robot import Robot
 from hri.studio.actions import ACTIONS, BECAUSE
 from hri.studio.commands import COMMANDS
+from hri.studio.link import STOP
 from hri.studio.session import StudioSession
 from tests.studio.living import LONGEST, known, living, told
 
@@ -167,6 +168,48 @@ def test_what_the_robot_sends_is_as_the_document_says(client):
     for topic, value in state.items():
         message = {"topic": topic, "value": value}
         jsonschema.validate(message, {**document, "$ref": "#/components/schemas/LiveMessage"})
+
+
+EXAMPLES = {
+    "hear": {"text": "hello"},
+    "say": {"text": "hello"},
+    "talk": {"on": False},
+    "mute": {"on": False},
+    "watch": {"on": True},
+    "visitor_say": {"text": "hello"},
+    "visitor_go": {"x": 1.5, "y": 0.0},
+    "place": {"name": "cup", "x": 1.5, "y": 0.5},
+    "obstacle": {"name": "box", "x": 2.5, "y": 0.5},
+    "remove": {"name": "box"},
+}
+"""What the commands take that take something."""
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_each_command_is_obeyed(client, command):
+    answer = client.post(f"/api/v1/{command}", json=EXAMPLES.get(command, {}))
+    assert (answer.status_code, answer.json()) == (200, {"result": None})
+    if command == "visitor_leave":
+        assert client.post("/api/v1/visitor_enter").status_code == 200
+    if command == STOP:
+        assert client.post("/api/v1/release").status_code == 200
+
+
+def test_a_push_against_the_base_is_felt(client, robot):
+    felt = []
+    robot.events.subscribe("bumper.pressed", felt.append)
+    assert client.post("/api/v1/bump").status_code == 200
+    while not felt:
+        told(client, "base", lambda base: True)
+
+
+def test_an_action_that_fails_is_answered_and_the_robot_goes_on(client, monkeypatch, caplog):
+    monkeypatch.setitem(ACTIONS, "hush", lambda asked: 1 / 0)
+    refused = client.post("/api/v1/hush")
+    assert refused.status_code == 409
+    assert refused.json()["error"].startswith("hush failed: ZeroDivisionError")
+    assert "hush failed" in caplog.text
+    assert client.post("/api/v1/hear", json={"text": "hello"}).status_code == 200
 
 
 def test_a_server_that_is_killed_comes_back_on_the_same_port_with_the_same_cookie(client, studio):
