@@ -65,6 +65,7 @@ def main() -> int:
     given = [Path(name) for name in sys.argv[1:] or FOLDERS]
     files = [file for root in given for file in ([root], sorted(root.rglob("*")))[root.is_dir()]]
     texts = [file for file in files if file.suffix in {".py", ".md"}]
+    texts = [file for file in texts if "node_modules" not in file.parts]
     found = [
         line for file in texts if not str(file).startswith(LEFT_OUT) for line in findings(file)
     ]

@@ -53,7 +53,13 @@ NICE = 5
 """Steps by which the robot goes before, when the processor is busy."""
 PATIENCE = 2.0
 """Seconds that the robot has to answer."""
-TYPES = {"html": "text/html", "js": "text/javascript", "css": "text/css", "svg": "image/svg+xml"}
+TYPES = {
+    "html": "text/html",
+    "js": "text/javascript",
+    "css": "text/css",
+    "svg": "image/svg+xml",
+    "txt": "text/plain",
+}
 log = logging.getLogger("hri.studio")
 HEADERS = {
     "content-security-policy": "default-src 'self'; img-src 'self' blob:; object-src 'none'; "

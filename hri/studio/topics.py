@@ -21,6 +21,7 @@ class About(TypedDict):
     about: str
     is_simulated: bool
     has_base: bool
+    networks: list[str]
 
 
 class Speech(TypedDict):
@@ -179,6 +180,44 @@ class LogLine(TypedDict):
     text: str
 
 
+class Breakpoint(TypedDict):
+    """Where a network pauses: an output, `behavior.output`, and what must hold for its value."""
+
+    port: str
+    condition: str
+
+
+class RunningNetwork(TypedDict):
+    """A network that runs: its file, seconds between ticks, and whether the page started it.
+
+    `hit` says at which breakpoint it paused; it is empty otherwise.
+    """
+
+    name: str
+    path: str
+    interval: float
+    is_paused: bool
+    is_own: bool
+    ticks: int
+    missed: int
+    breakpoint: Breakpoint | None
+    hit: str
+
+
+class PortValues(TypedDict):
+    """What the outputs of a network sent last, by `behavior.output` and `board.slot`.
+
+    `cost` has, by behavior, microseconds of its last tick, of a tick on average, and of the
+    longest, and how often it was the slowest of a missed tick; `resting` are those that failed.
+    """
+
+    t: float
+    tick: int
+    values: dict[str, Any]
+    cost: dict[str, list[float]]
+    resting: list[str]
+
+
 class RobotEvent(TypedDict):
     """Something that happened, at a time in seconds; its own properties come beside."""
 
@@ -197,8 +236,13 @@ TOPICS: Mapping[str, Any] = {
     "world": World | None,
     "devices": list[Device],
     "log": list[LogLine],
+    "networks": list[RunningNetwork],
+    "ports": dict[str, PortValues],
+    "thumbnails": dict[str, str],
 }
-"""Types by the name of the topic."""
+"""Types by the name of the topic. The last two come only while they are wanted: values on wires by
+the name of the network, and pictures (JPEG as base64) by `network/behavior.output`.
+"""
 
 
 def types() -> dict[str, Any]:

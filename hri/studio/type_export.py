@@ -25,6 +25,7 @@ _TYPESCRIPT: dict[Any, str] = {
     int: "number",
     bool: "boolean",
     NoneType: "null",
+    Any: "unknown",
 }
 
 
@@ -43,6 +44,8 @@ def schemas() -> dict[str, Any]:
 def schema_of(type: Any) -> dict[str, Any]:
     """The JSON Schema of a type that `topics` uses."""
     kind, parts = get_origin(type), get_args(type)
+    if type is Any:
+        return {}
     if type in _SCHEMAS:
         return {"type": _SCHEMAS[type]}
     if kind is Literal:

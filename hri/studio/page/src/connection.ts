@@ -13,7 +13,7 @@ export interface Listener {
 
 export class Connection {
   private socket: WebSocket | null = null;
-  private wanted: Picture[] = [];
+  private wanted = { pictures: [] as Picture[], networks: [] as string[], thumbnails: [] as string[] };
   private wait = 250;
 
   constructor(private readonly listener: Listener) {}
@@ -39,7 +39,13 @@ export class Connection {
   }
 
   want(pictures: Picture[]): void {
-    this.wanted = pictures;
+    this.wanted.pictures = pictures;
+    this.tellWanted();
+  }
+
+  /** The networks whose values are wanted, by name, and the outputs (`network/behavior.output`) of pictures. */
+  wantValues(networks: string[], thumbnails: string[]): void {
+    this.wanted = { ...this.wanted, networks, thumbnails };
     this.tellWanted();
   }
 
@@ -56,7 +62,7 @@ export class Connection {
   }
 
   private tellWanted(): void {
-    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify({ pictures: this.wanted }));
+    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(this.wanted));
   }
 
   private take(data: string | ArrayBuffer): void {

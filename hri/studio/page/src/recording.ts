@@ -186,23 +186,6 @@ export function size(bytes: number): string {
   return bytes < 1e6 ? `${Math.ceil(bytes / 1e3)} kB` : bytes < 1e9 ? `${(bytes / 1e6).toFixed(bytes < 1e7 ? 1 : 0)} MB` : `${(bytes / 1e9).toFixed(1)} GB`;
 }
 
-export type View = { name: "live" } | { name: "recordings"; folder: string };
-
-/** What the address shows: `#recordings/FOLDER`. */
-export function viewOf(hash: string): View {
-  const found = /^#recordings(?:\/(.*))?$/s.exec(hash);
-  if (found === null) return { name: "live" };
-  try {
-    return { name: "recordings", folder: decodeURIComponent(found[1] ?? "") };
-  } catch {
-    return { name: "recordings", folder: "" };
-  }
-}
-
-export function hashOf(folder: string): string {
-  return `#recordings/${encodeURIComponent(folder).replaceAll("%2F", "/")}`;
-}
-
 /** Where the playhead is. It goes on by the page's clock, unless the sound says where it is. */
 export class Playhead {
   isPlaying = false;

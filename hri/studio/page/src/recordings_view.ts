@@ -2,7 +2,8 @@
 
 import { element, type Row } from "./dom";
 import { Player, addressOf } from "./player";
-import { begun, clock, feelingAt, hashOf, size, spoken, takePart, type About, type Listed, type Part, type Recording } from "./recording";
+import { begun, clock, feelingAt, size, spoken, takePart, type About, type Listed, type Part, type Recording } from "./recording";
+import { hashOf } from "./views";
 import { Rows } from "./rows";
 import { summary } from "./state";
 import { Timeline } from "./timeline";
@@ -47,7 +48,7 @@ export class RecordingsView {
     element("rec-open").addEventListener("submit", (event) => {
       event.preventDefault();
       const folder = element<HTMLInputElement>("rec-folder").value.trim();
-      if (folder) location.hash = hashOf(folder);
+      if (folder) location.hash = hashOf("recordings", folder);
     });
     document.addEventListener("keydown", (event) => this.press(event));
     element("rec-one").addEventListener("click", (event) => {
@@ -248,7 +249,7 @@ function date(listed: Listed): string {
 function link(listed: Listed): HTMLElement {
   const row = document.createElement("li");
   const made = document.createElement("a");
-  made.href = hashOf(listed.folder);
+  made.href = hashOf("recordings", listed.folder);
   const parts: [string, string][] = [
     ["name", listed.name],
     ["date", date(listed)],

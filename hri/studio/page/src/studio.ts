@@ -8,9 +8,10 @@ import { Hold } from "./hold";
 import { Map } from "./map";
 import { MoodCurve } from "./mood";
 import { RoomForm } from "./room";
-import { viewOf } from "./recording";
 import { KEYS, RecordingsView } from "./recordings_view";
 import { empty, putCommand, summary, take, type Device, type SeenPerson, type State } from "./state";
+import { hashOf, viewOf, VIEWS } from "./views";
+import type { ComposerView } from "./composer/view";
 
 const VISITOR: [string, string, string][] = [
   ["visitor_nod", "Nod", "y"],
@@ -33,13 +34,15 @@ const map = new Map(
 const roomForm = new RoomForm((command, given) => void ask(command, given));
 const talk = new Hold(element<HTMLButtonElement>("hold"), (on) => void ask("talk", { on }));
 const recordings = new RecordingsView();
+let composer: ComposerView | null = null;
 let isDrawn = true;
 const shown: Partial<Record<Picture, string>> = {};
 
 const connection = new Connection({
   message(message) {
     take(state, message);
-    drawSoon();
+    if (element("live").hidden) composer?.take(state.values);
+    else drawSoon();
   },
   picture(which, jpeg) {
     const image = element<HTMLImageElement>(`${which}-picture`);
@@ -240,21 +243,37 @@ function bind(): void {
   bindKeys(actions, () => !element("live").hidden);
 }
 
-/** Show the view that the address names: live, or recordings. */
+/** Show the view that the address names. */
 function showView(): void {
   const view = viewOf(location.hash);
-  for (const name of ["live", "recordings"]) {
+  for (const name of VIEWS) {
     element(name).hidden = name !== view.name;
     if (name === view.name) element(`to-${name}`).setAttribute("aria-current", "page");
     else element(`to-${name}`).removeAttribute("aria-current");
   }
   wantPictures();
-  if (view.name === "recordings") void recordings.show(view.folder);
+  if (view.name !== "recordings") recordings.close();
+  if (view.name !== "networks") composer?.close();
+  if (view.name === "recordings") void recordings.show(view.path);
+  else if (view.name === "networks") void compose(view.path);
   else {
-    recordings.close();
     document.title = "hri studio";
     drawSoon();
   }
+}
+
+/** The composer is the largest part of the page: it comes when it is wanted. */
+async function compose(path: string): Promise<void> {
+  if (composer === null) {
+    const { ComposerView } = await import("./composer/view");
+    composer ??= new ComposerView(element("networks"), {
+      ask: (command, given) => connection.ask(command, given).then(() => {}),
+      want: (networks, thumbnails) => connection.wantValues(networks, thumbnails),
+      hashOf: (other) => hashOf("networks", other),
+    });
+  }
+  await composer.show(path || (state.values.about?.networks?.[0] ?? ""));
+  composer.take(state.values);
 }
 
 function wantPictures(): void {

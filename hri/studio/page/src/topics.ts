@@ -7,6 +7,7 @@ export interface About {
   about: string;
   is_simulated: boolean;
   has_base: boolean;
+  networks: string[];
 }
 
 /** Ears and voice. */
@@ -148,6 +149,34 @@ export interface LogLine {
   text: string;
 }
 
+/** Where a network pauses: an output, `behavior.output`, and what must hold for its value. */
+export interface Breakpoint {
+  port: string;
+  condition: string;
+}
+
+/** A network that runs: its file, seconds between ticks, and whether the page started it. `hit` says at which breakpoint it paused; it is empty otherwise. */
+export interface RunningNetwork {
+  name: string;
+  path: string;
+  interval: number;
+  is_paused: boolean;
+  is_own: boolean;
+  ticks: number;
+  missed: number;
+  breakpoint: Breakpoint | null;
+  hit: string;
+}
+
+/** What the outputs of a network sent last, by `behavior.output` and `board.slot`. `cost` has, by behavior, microseconds of its last tick, of a tick on average, and of the longest, and how often it was the slowest of a missed tick; `resting` are those that failed. */
+export interface PortValues {
+  t: number;
+  tick: number;
+  values: Record<string, unknown>;
+  cost: Record<string, number[]>;
+  resting: string[];
+}
+
 /** Something that happened, at a time in seconds; its own properties come beside. */
 export interface RobotEvent {
   t: number;
@@ -166,4 +195,7 @@ export interface Values {
   world?: World | null;
   devices?: Device[];
   log?: LogLine[];
+  networks?: RunningNetwork[];
+  ports?: Record<string, PortValues>;
+  thumbnails?: Record<string, string>;
 }

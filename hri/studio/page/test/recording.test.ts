@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { Latest, MOST_EVENTS, Playhead, begun, clock, feelingAt, hashOf, lastBy, moodAt, size, spoken, takePart, viewOf, type About } from "../src/recording";
+import { Latest, MOST_EVENTS, Playhead, begun, clock, feelingAt, lastBy, moodAt, size, spoken, takePart, type About } from "../src/recording";
 import type { RobotEvent } from "../src/state";
 
 const about: About = {
@@ -53,13 +53,6 @@ test("odometry is left out, and a log without end does not fill the page", () =>
 test("the last by a time is found", () => {
   const find = (time: number) => lastBy([1, 2, 2, 5], time, (one) => one);
   assert.deepEqual([0, 1, 2, 4.9, 9].map(find), [-1, 0, 2, 2, 3]);
-});
-
-test("an address names a folder, whatever letters it has", () => {
-  for (const folder of ["/tmp/a b/ü#?%/out", "out", ""]) assert.deepEqual(viewOf(hashOf(folder)), { name: "recordings", folder });
-  assert.deepEqual(viewOf("#recordings"), { name: "recordings", folder: "" });
-  assert.deepEqual(viewOf("#recordings/%"), { name: "recordings", folder: "" });
-  for (const hash of ["", "#live", "#nonsense"]) assert.deepEqual(viewOf(hash), { name: "live" });
 });
 
 test("the playhead goes on at its speed, and stands while it pauses", () => {

@@ -1,0 +1,120 @@
+// The XML beside the graph, either of which can be edited. The page forbids style elements, so the
+// editor lives in a shadow root, where it takes constructed style sheets.
+
+import { defaultKeymap } from "@codemirror/commands";
+import { xml } from "@codemirror/lang-xml";
+import { defaultHighlightStyle, HighlightStyle, indentUnit, syntaxHighlighting } from "@codemirror/language";
+import { lintGutter, setDiagnostics } from "@codemirror/lint";
+import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
+import { Annotation, EditorState } from "@codemirror/state";
+import { drawSelection, EditorView, highlightActiveLine, keymap, lineNumbers } from "@codemirror/view";
+import { tags } from "@lezer/highlight";
+import { useEffect, useRef } from "react";
+import type { ComposerDocument } from "./document";
+import { useStore } from "./store";
+
+/** Marks changes that came from the graph, which must not go back to it. */
+const FromGraph = Annotation.define<boolean>();
+const DARK = HighlightStyle.define([
+  { tag: tags.tagName, color: "#7ee787" },
+  { tag: tags.attributeName, color: "#79c0ff" },
+  { tag: tags.attributeValue, color: "#a5d6ff" },
+  { tag: tags.comment, color: "#a3adb8" },
+]);
+
+const THEME = EditorView.theme({
+  "&": { height: "100%", color: "var(--text)", backgroundColor: "var(--card)", fontSize: "13px" },
+  ".cm-scroller": { fontFamily: "ui-monospace, monospace", overflow: "auto" },
+  ".cm-gutters": { backgroundColor: "var(--ground)", color: "var(--quiet)", border: "none" },
+  ".cm-activeLine, .cm-activeLineGutter": { backgroundColor: "var(--mark)" },
+  ".cm-cursor": { borderLeftColor: "var(--text)" },
+  ".cm-content": { caretColor: "var(--text)" },
+});
+
+export function Source({ doc }: { doc: ComposerDocument }) {
+  const host = useRef<HTMLDivElement>(null);
+  const view = useRef<EditorView | null>(null);
+  const path = useStore(doc.path);
+  const revision = useStore(doc.revision);
+  const problems = useStore(doc.problems);
+  const { ids } = useStore(doc.selection);
+
+  useEffect(() => {
+    const root = host.current!.shadowRoot ?? host.current!.attachShadow({ mode: "open" });
+    const isDark = matchMedia("(prefers-color-scheme: dark)").matches;
+    const editor = new EditorView({
+      root,
+      parent: root,
+      state: EditorState.create({
+        doc: doc.history.text,
+        extensions: [
+          EditorState.lineSeparator.of("\n"),
+          lineNumbers(),
+          lintGutter(),
+          drawSelection(),
+          highlightActiveLine(),
+          highlightSelectionMatches(),
+          indentUnit.of("  "),
+          xml(),
+          syntaxHighlighting(isDark ? DARK : defaultHighlightStyle),
+          // Undo is the document's, so that the graph and the text have one history.
+          keymap.of([
+            { key: "Mod-z", run: () => (doc.undo(), true) },
+            { key: "Mod-y", run: () => (doc.redo(), true) },
+            { key: "Mod-Shift-z", run: () => (doc.redo(), true) },
+            ...searchKeymap,
+            ...defaultKeymap,
+          ]),
+          EditorView.contentAttributes.of({ "aria-label": "The network as XML" }),
+          THEME,
+          EditorView.updateListener.of((update) => {
+            if (!update.docChanged || update.transactions.some((one) => one.annotation(FromGraph))) return;
+            const splices: { from: number; to: number; insert: string }[] = [];
+            update.changes.iterChanges((from, to, _a, _b, inserted) => splices.push({ from, to, insert: inserted.toString() }));
+            doc.apply(splices, "edit the XML", "xml");
+          }),
+        ],
+      }),
+    });
+    view.current = editor;
+    return () => editor.destroy();
+  }, [doc, path]);
+
+  useEffect(() => {
+    const editor = view.current!;
+    const [before, after] = [editor.state.doc.toString(), doc.history.text];
+    if (before === after) return;
+    const { from, to, insert } = difference(before, after);
+    editor.dispatch({ changes: { from, to, insert }, annotations: FromGraph.of(true) });
+  }, [doc, revision]);
+
+  useEffect(() => {
+    const editor = view.current!;
+    const { doc: text } = editor.state;
+    const found = problems.filter((one) => one.line <= text.lines).map((one) => {
+      const line = text.line(Math.max(1, one.line));
+      const from = Math.min(line.to, line.from + Math.max(0, one.column - 1));
+      return { from, to: line.to, severity: one.grave, message: [one.what, one.remedy].filter(Boolean).join(" - ") };
+    });
+    editor.dispatch(setDiagnostics(editor.state, found));
+  }, [problems, revision]);
+
+  useEffect(() => {
+    const editor = view.current!;
+    const behavior = ids.size === 1 ? doc.network.behaviors.find((one) => ids.has(one.id)) : undefined;
+    if (!behavior || editor.hasFocus || doc.history.error) return;
+    editor.dispatch({ selection: { anchor: behavior.element.from }, effects: EditorView.scrollIntoView(behavior.element.from, { y: "center" }) });
+  }, [doc, ids]);
+
+  return <div className="source" ref={host} />;
+}
+
+/** The one stretch in which two texts differ. */
+export function difference(before: string, after: string): { from: number; to: number; insert: string } {
+  const most = Math.min(before.length, after.length);
+  let from = 0;
+  while (from < most && before[from] === after[from]) from++;
+  let behind = 0;
+  while (behind < most - from && before[before.length - 1 - behind] === after[after.length - 1 - behind]) behind++;
+  return { from, to: before.length - behind, insert: after.slice(from, after.length - behind) };
+}

@@ -1,0 +1,58 @@
+// The composer as a view of the studio; loaded when it is opened first.
+
+import { createRoot, type Root } from "react-dom/client";
+import type { Values } from "../topics";
+import { Composer } from "./app";
+import { ComposerDocument } from "./document";
+import { LiveValues } from "./live_values";
+import type { Ask } from "./run_bar";
+
+export interface Host {
+  ask: Ask;
+  want(networks: string[], thumbnails: string[]): void;
+  /** The address of the view of a network, for the page's history. */
+  hashOf(path: string): string;
+}
+
+export class ComposerView {
+  private readonly doc = new ComposerDocument();
+  private readonly live = new LiveValues();
+  private root: Root | null = null;
+  private readonly ask: Ask;
+
+  constructor(
+    private readonly place: HTMLElement,
+    private readonly host: Host,
+  ) {
+    this.ask = (command, given) => this.doc.attempt(() => host.ask(command, given)).then(() => {});
+    const sheet = document.createElement("link");
+    sheet.rel = "stylesheet";
+    sheet.href = "/composer.css";
+    document.head.append(sheet);
+  }
+
+  /** Show a network, or what was open last. */
+  async show(path: string): Promise<void> {
+    document.title = "hri studio: networks";
+    if (this.root === null) {
+      this.root = createRoot(this.place);
+      const open = (other: string) => {
+        location.hash = this.host.hashOf(other);
+      };
+      const want = (networks: string[], thumbnails: string[]) => this.host.want(networks, thumbnails);
+      this.root.render(<Composer doc={this.doc} live={this.live} ask={this.ask} open={open} want={want} />);
+    }
+    this.doc.begin();
+    if (path && path !== this.doc.path.value) await this.doc.open(path);
+  }
+
+  close(): void {
+    this.doc.end();
+    this.host.want([], []);
+  }
+
+  /** The newest values of the robot's topics. */
+  take({ networks, ports, thumbnails }: Values): void {
+    this.live.take(networks ?? [], ports, thumbnails);
+  }
+}
