@@ -23,6 +23,25 @@ _SLOT = re.compile(r"\w+([.-]\w+)*")
 
 
 @dataclass(frozen=True)
+class Remark:
+    """Something that may be wrong with a network: a warning, and where it is."""
+
+    place: Place
+    what: str
+
+    def __str__(self) -> str:
+        return f"{self.place}: {self.what}"
+
+
+@dataclass(frozen=True)
+class Box:
+    """Where a part stands in an editor: its upper left corner, in whole pixels."""
+
+    x: int
+    y: int
+
+
+@dataclass(frozen=True)
 class Link:
     """A wire from an output to an input."""
 
@@ -52,7 +71,9 @@ class Network:
     behaviors: list[Behavior] = field(default_factory=list)
     """Among them the ends of the board, where links name a slot of it."""
     links: list[Link] = field(default_factory=list)
-    warnings: list[str] = field(default_factory=list)
+    warnings: list[Remark] = field(default_factory=list)
+    boxes: dict[str, Box] = field(default_factory=dict)
+    """By the id of a behavior, or `board.slot`: the places that an editor gave them."""
     path: Path = Path("-")
     document: Element | None = None
     """What it was read from: comments, order, and numbers as they were written."""
@@ -106,9 +127,8 @@ class Network:
             what = f"{source} is {sends.datatype}, but {target} takes {takes.datatype}"
             raise AuthoringError(place, what, "link ports of the same datatype")
         if sends.semantic != takes.semantic and GENERIC not in (sends.semantic, takes.semantic):
-            self.warnings.append(
-                f"{place}: {source} means {sends.semantic}, {target} wants {takes.semantic}"
-            )
+            what = f"{source} means {sends.semantic}, {target} wants {takes.semantic}"
+            self.warnings.append(Remark(place, what))
         port = sender.output_port(output)
         fed = receiver.input_port(input).sources
         if port in fed:
@@ -127,11 +147,14 @@ class Network:
                 return element.place
         return Place(self.path)
 
-    def loose_ends(self) -> list[str]:
-        """A sentence for each behavior that takes something, but that no link reaches."""
+    def loose_ends(self) -> list[Remark]:
+        """A remark for each behavior that takes something, but that no link reaches."""
         fed = {link.target.id for link in self.links}
         return [
-            f"nothing reaches {behavior.id} ({', '.join(behavior.inputs)})"
+            Remark(
+                self.place_of(behavior),
+                f"nothing reaches {behavior.id} ({', '.join(behavior.inputs)})",
+            )
             for behavior in self.behaviors
             if behavior.id not in fed
             and any(not input.is_optional for input in behavior.inputs.values())

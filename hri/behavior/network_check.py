@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from hri.behavior.board import DECLARED, BoardSink, BoardSource
 from hri.behavior.library.sharing import Share, Shared
-from hri.behavior.network import Link, Network
+from hri.behavior.network import Link, Network, Remark
 from hri.behavior.ports import ANY, GENERIC
 from hri.core.errors import AuthoringError
 
@@ -108,4 +108,4 @@ def _check_slots(networks: list[Network]) -> None:
             other = meant.setdefault(use.slot, use)
             if other.semantic != use.semantic:
                 what = f"{use.port} means {use.semantic}, {other} means {other.semantic}"
-                use.network.warnings.append(f"{use.link.place}: board.{use.slot}: {what}")
+                use.network.warnings.append(Remark(use.link.place, f"board.{use.slot}: {what}"))

@@ -1,7 +1,8 @@
 """Writes networks in canonical form: a file that is read and written again stays the same, byte for
 byte.
 
-First the behaviors, then the links, each in the order of the file; attributes in the order below;
+First the behaviors, then the links, then the layout, each in the order of the file; attributes in the
+order below;
 comments and single blank lines stay where the author put them; a number keeps its spelling, `1/30`,
 until a program changes its value. One changed attribute is one changed line.
 """
@@ -12,7 +13,7 @@ from pathlib import Path
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.catalog import type_of
-from hri.behavior.network import DEFAULT_INTERVAL, Link, Network
+from hri.behavior.network import DEFAULT_INTERVAL, Box, Link, Network
 from hri.behavior.ports import Param
 from hri.core.writing import write_text
 from hri.core.xml import EDITOR_PREFIXES, Element, format_xml
@@ -22,6 +23,8 @@ ATTRIBUTES = {
     "Behavior": ("id", "type"),
     "Parameter": ("name", "value"),
     "Link": ("from", "to"),
+    "Layout": (),
+    "Box": ("id", "x", "y"),
 }
 """The order of the attributes of each element."""
 
@@ -40,6 +43,7 @@ def write_network(network: Network, path: Path | None = None) -> str:
     ids += [id for id in known if id not in behaviors]
     children = [_behavior(known[id], behaviors.get(id)) for id in ids]
     children += [_link(link, links.get(str(link))) for link in network.links]
+    children += _layout(network, root)
     return format_xml(_element(root, _heading(network, root, path or network.path), children))
 
 
@@ -97,6 +101,23 @@ def _link(link: Link, authored: Element | None) -> Element:
         source, _, target = str(link).partition(" -> ")
         authored = Element("Link", {"from": source, "to": target})
     return _element(authored, authored.attributes, [])
+
+
+def _layout(network: Network, root: Element) -> list[Element]:
+    """The places of parts, if there are any; those of the file in its order."""
+    authored = next((element for element in root if element.tag == "Layout"), None)
+    if not network.boxes and authored is None:
+        return []
+    authored = authored or Element("Layout", {})
+    boxes = {element.get("id"): element for element in authored}
+    ids = [id for id in boxes if id in network.boxes]
+    ids += [id for id in network.boxes if id not in boxes]
+    return [_element(authored, {}, [_box(id, network.boxes[id], boxes.get(id)) for id in ids])]
+
+
+def _box(id: str, box: Box, authored: Element | None) -> Element:
+    attributes = {"id": id, "x": str(box.x), "y": str(box.y)}
+    return _element(authored or Element("Box", attributes), attributes, [])
 
 
 def _ends(element: Element) -> str:

@@ -114,7 +114,7 @@ def _behave(options: argparse.Namespace, ending: Ending) -> int:
     log.info("Loading network file.")
     network = load_network(options.network)
     for warning in network.warnings:
-        log.warning(warning)
+        log.warning("%s", warning)
     network.check()
     if options.invocation_interval is not None:
         network.interval = options.invocation_interval

@@ -95,7 +95,12 @@ class Element:
 
 def load_xml(path: Path, what: str = "XML file") -> Element:
     """The root element. Raises AuthoringError with the place, HriError if unreadable."""
-    return _Reader(path, read_bytes(path, what)).read()
+    return parse_xml(read_bytes(path, what), path)
+
+
+def parse_xml(data: bytes, path: Path) -> Element:
+    """The root element of what a file has, or would have. Raises AuthoringError with the place."""
+    return _Reader(path, data).read()
 
 
 def format_xml(root: Element) -> str:

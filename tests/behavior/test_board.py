@@ -229,8 +229,8 @@ def test_two_meanings_of_a_slot_are_a_warning():
     turning = network("turning", {"it": Velocities()}, ("board.wish", "it.turn"))
     check_together([going, turning])
     (warning,) = turning.warnings
-    assert "it.turn means Evolution.AngularVelocity" in warning
-    assert "going.it.go means Evolution.LinearVelocity" in warning
+    assert "it.turn means Evolution.AngularVelocity" in str(warning)
+    assert "going.it.go means Evolution.LinearVelocity" in str(warning)
 
 
 def test_who_writes_and_reads_is_known(giving, taking):

@@ -4,10 +4,10 @@ import pytest
 from hypothesis import given, strategies as st
 
 from hri.behavior.behavior import Behavior
-from hri.behavior.network import Network
-from hri.behavior.network_file import load_network
+from hri.behavior.network import Box, Network
+from hri.behavior.network_file import load_network, read_network
 from hri.behavior.ports import Input, Output, Param
-from hri.core.errors import AuthoringError, HriError
+from hri.core.errors import AuthoringError, AuthoringErrors, HriError
 
 
 def load(tmp_path, body, attributes=""):
@@ -124,7 +124,7 @@ def test_a_meaning_that_does_not_fit_is_a_warning(tmp_path):
     network.add(Distance("d"))
     network.add(Speed("s"))
     network.connect("d.out", "s.into")
-    assert "means Test.Distance" in network.warnings[0]
+    assert "means Test.Distance" in str(network.warnings[0])
 
 
 def test_a_behavior_that_is_declared_wrong_fails_when_it_is_defined():
@@ -213,7 +213,7 @@ def test_ids_that_no_link_could_name_are_refused(tmp_path):
 def test_loose_ends_are_told():
     network = Network("net")
     network.add(Plain("lonely"))
-    assert network.loose_ends() == ["nothing reaches lonely (input)"]
+    assert [end.what for end in network.loose_ends()] == ["nothing reaches lonely (input)"]
 
 
 @given(st.text(max_size=300))
@@ -271,3 +271,40 @@ def test_no_class_hides_the_id_of_a_behavior():
             """Would lose its name."""
 
             id = Output[float]("double", "a number")
+
+
+def test_all_mistakes_are_found_at_once_each_with_its_place(tmp_path):
+    body = """\
+<Behavior id="one" type="Hri.Constent"/>
+<Behavior id="two" type="Evolution.Scale"><Parameter name="facto" value="1"/>
+<Parameter name="factor" value="x"/></Behavior>
+<Link from="one.value" to="two.input"/>
+<Link from="two.result" to="three.input"/>"""
+    with pytest.raises(AuthoringErrors) as caught:
+        load(tmp_path, body)
+    found = {error.place.line: error.what for error in caught.value.errors}
+    assert list(found) == [2, 3, 4, 6], "the link of the first is not wrong for its type"
+    assert "Constent" in found[2]
+    assert 'no parameter "facto"' in found[3]
+    assert 'no output "result"' in found[6]
+
+
+def test_a_text_is_read_as_the_file_that_it_is_for(tmp_path):
+    path = tmp_path / "my_sum.xml"
+    network = read_network(f"<BehaviorNetwork>{SUM}</BehaviorNetwork>", path)
+    assert (network.name, network.path) == ("my_sum", path)
+    with pytest.raises(AuthoringError, match=r"my_sum\.xml:1:18: "):
+        read_network("<BehaviorNetwork><Nothing/></BehaviorNetwork>", path)
+
+
+def test_an_editor_gives_parts_their_places(tmp_path):
+    layout = '<Layout><Box id="sum" x="-20" y="140"/>\n<Box id="gone" x="1" y="2"/></Layout>'
+    network = load(tmp_path, SUM + layout)
+    assert network.boxes == {"sum": Box(-20, 140), "gone": Box(1, 2)}
+    (remark,) = network.warnings
+    assert '"gone", which is not there' in str(remark)
+    assert remark.place.line == 10
+    message = failure(tmp_path, SUM + '<Layout><Box id="sum" x="1.5" y="2"/></Layout>')
+    assert 'x "1.5" - write whole pixels' in message
+    message = failure(tmp_path, SUM + layout + layout)
+    assert "a second <Layout>" in message

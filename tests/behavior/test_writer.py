@@ -35,6 +35,10 @@ CANONICAL = """\
 
   <!-- The wires. -->
   <Link from="one.value" to="scale.input"/>
+  <Layout>
+    <!-- On the left. -->
+    <Box id="one" x="40" y="-8"/>
+  </Layout>
   <!-- The end. -->
 </BehaviorNetwork>
 """

@@ -68,7 +68,7 @@ def check(networks: list[Network], options: argparse.Namespace) -> int:
 
 def _check(network: Network) -> int:
     network.check()
-    warnings = [*network.warnings, *network.loose_ends()]
+    warnings = [*map(str, network.warnings), *(end.what for end in network.loose_ends())]
     for warning in warnings:
         print(message_line(f"warning: {warning}"))
     counts = f"{len(network.authored)} behaviors, {len(network.links)} links"
