@@ -1,10 +1,9 @@
 """Writes networks in canonical form: a file that is read and written again stays the same, byte for
 byte.
 
-First the behaviors, then the links, then the layout, each in the order of the file; attributes in the
-order below;
-comments and single blank lines stay where the author put them; a number keeps its spelling, `1/30`,
-until a program changes its value. One changed attribute is one changed line.
+First the behaviors, then the links, then the layout, each in the order of the file; attributes in
+the order below; comments and single blank lines stay where the author put them; a number keeps its
+spelling, `1/30`, until a program changes its value. One changed attribute is one changed line.
 """
 
 from __future__ import annotations

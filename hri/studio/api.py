@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from hri.studio.commands import COMMANDS, FARTHEST, LONGEST_TEXT, Command
+from hri.studio.composer.routes import ROOT, ROUTES, Route
 from hri.studio.type_export import schemas
 
 _KINDS: dict[type, dict[str, Any]] = {
@@ -54,6 +55,8 @@ def openapi() -> dict[str, Any]:
         '{"pictures": ["face", "camera"]}: those that are wanted.',
     )
     paths |= {f"/api/v1/recordings{name}": _reading(name) for name in _RECORDINGS}
+    for route in ROUTES:
+        paths.setdefault(ROOT + route.path, {})[route.method.lower()] = _network(route)
     return {
         "openapi": "3.1.0",
         "info": {"title": "hri studio", "version": "1"},
@@ -87,6 +90,27 @@ def _path(name: str, command: Command) -> dict[str, Any]:
     if command.is_open:
         post["description"] = "On this machine it needs neither cookie nor token."
     return {"post": post}
+
+
+def _network(route: Route) -> dict[str, Any]:
+    found: dict[str, Any] = {
+        "operationId": f"networks{route.path.replace('/', '_')}_{route.method.lower()}",
+        "summary": route.about,
+        "responses": {**_FOUND, "409": {"description": "it cannot be done; `error` says why"}},
+    }
+    if route.method in ("PUT", "POST"):
+        properties = {
+            name: {"type": ["string", "null"] if name == "mark" else "string", "description": about}
+            for name, about in route.arguments.items()
+        }
+        schema = {"type": "object", "properties": properties, "additionalProperties": False}
+        found["requestBody"] = {"content": {"application/json": {"schema": schema}}}
+    else:
+        found["parameters"] = [
+            {"name": name, "in": "query", "schema": {"type": "string"}, "description": about}
+            for name, about in route.arguments.items()
+        ]
+    return found
 
 
 def _get(name: str, about: str, schema: str = "LiveMessage") -> dict[str, Any]:

@@ -151,7 +151,7 @@ class Live:
             "about": self._robot.app.about,
             "is_simulated": self._world_of() is not None,
             "has_base": bool(drives),
-            "networks": [str(path) for path in self._robot.app.networks],
+            "networks": [str(path.resolve()) for path in self._robot.app.networks],
         }
 
     def _devices(self, context: TaskContext, now: float) -> list[topics.Device]:

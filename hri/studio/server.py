@@ -17,6 +17,7 @@ from contextlib import aclosing, suppress
 from dataclasses import dataclass, field
 from functools import partial
 from importlib import resources
+from pathlib import Path
 from typing import Any, cast
 
 import trio
@@ -38,6 +39,12 @@ from hri.core.token import is_token
 from hri.studio.access import Cookies, is_loopback, is_own_host, is_own_origin
 from hri.studio.api import openapi
 from hri.studio.commands import COMMANDS, checked
+from hri.studio.composer.files import Library
+from hri.studio.composer.routes import (
+    LONGEST_BODY as LONGEST_NETWORK,
+    ROOT as NETWORKS,
+    NetworkRoutes,
+)
 from hri.studio.link import PICTURES, TEXT, LinkError, Unpacker, packed_json
 from hri.studio.recording_routes import Answer, RecordingRoutes
 
@@ -79,6 +86,10 @@ class Settings:
     secret: str
     """Of cookies."""
     allows_remote: bool
+    networks: list[str] = field(default_factory=list)
+    """Files of the app that runs."""
+    devices: list[dict[str, str]] = field(default_factory=list)
+    """Of the robot, as choices for parameters: see `hri.studio.body`."""
 
     @property
     def cookie(self) -> str:
@@ -214,8 +225,8 @@ class Guard:
             why = "this name is not the studio's - use the address that it printed"
         elif not is_own_origin(asked.headers.get("origin"), host):
             why = "another site's page may not use the studio"
-        elif not _is_short(asked.headers.get("content-length", "0")):
-            why = f"at most {LONGEST_BODY} bytes are taken"
+        elif not _is_short(asked.headers.get("content-length", "0"), most := _most(scope["path"])):
+            why = f"at most {most} bytes are taken"
         if not why:
             await self._app(scope, receive, partial(_send_with_headers, send))
         elif scope["type"] == "http":
@@ -224,8 +235,13 @@ class Guard:
             await WebSocket(scope, receive, send).close(1008)
 
 
-def _is_short(length: str) -> bool:
-    return length.isdecimal() and len(length) < 10 and int(length) <= LONGEST_BODY
+def _most(path: str) -> int:
+    """The bytes of a request that are taken."""
+    return LONGEST_NETWORK if path.startswith(f"{NETWORKS}/") else LONGEST_BODY
+
+
+def _is_short(length: str, most: int) -> bool:
+    return length.isdecimal() and len(length) < 10 and int(length) <= most
 
 
 async def _send_with_headers(send: Send, message: Any) -> None:
@@ -242,6 +258,8 @@ class Studio:
         self._hub, self._settings = hub, settings
         self._cookies = Cookies(settings.secret)
         self.recordings = RecordingRoutes()
+        library = Library(_now, running=tuple(map(Path, settings.networks)))
+        self.networks = NetworkRoutes(library, settings.devices, _body)
 
     def app(self) -> ASGIApp:
         """All of it, behind the guard."""
@@ -260,6 +278,10 @@ class Studio:
             *(
                 Route(path, partial(self._if_known, answer), methods=["GET"])
                 for path, answer in self.recordings.answers.items()
+            ),
+            *(
+                Route(path, partial(self._if_known, answer), methods=[method])
+                for path, method, answer in self.networks.answers
             ),
         ]
         return Guard(Starlette(routes=routes), self._settings)
@@ -376,14 +398,14 @@ async def _send_news(websocket: WebSocket, page: Page) -> None:
                 await websocket.send_text(message)
 
 
-async def _body(request: Request) -> bytes:
+async def _body(request: Request, most: int = LONGEST_BODY) -> bytes:
     """The whole body. Raises HriError for one that is too long, whatever its head said."""
     body = b""
     async with aclosing(request.stream()) as parts:
         async for part in parts:
             body += part
-            if len(body) > LONGEST_BODY:
-                raise HriError(f"at most {LONGEST_BODY} bytes are taken")
+            if len(body) > most:
+                raise HriError(f"at most {most} bytes are taken")
     return body
 
 

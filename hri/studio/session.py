@@ -14,6 +14,7 @@ from hri.core.errors import HriError
 from hri.robot import Job, Robot
 from hri.studio.access import Codes
 from hri.studio.actions import Asked, obey
+from hri.studio.body import devices_of
 from hri.studio.link import RobotEnd
 from hri.studio.live import Live
 from hri.studio.port import SERVER, listening
@@ -49,6 +50,8 @@ class StudioSession:
             "port": self.port,
             "secret": secrets.token_urlsafe(32),
             "allows_remote": allows_remote,
+            "networks": [str(path.resolve()) for path in robot.app.networks],
+            "devices": devices_of(robot.resources),
         }
         self._child: subprocess.Popen[bytes] | None = None
         self._keeper = threading.Thread(target=self._keep_server, name="studio", daemon=True)

@@ -11,7 +11,7 @@ import type { Palette } from "./wiring";
 
 const CHECK_AFTER_MS = 250;
 const WATCH_EVERY_MS = 2000;
-const NO_PALETTE: Palette = { mark: "", behaviors: [], slots: [], devices: [], broken: [] };
+const NO_PALETTE: Palette = { mark: "", behaviors: [], aliases: {}, slots: [], devices: [], broken: [] };
 
 export interface Selection {
   /** Ids of behaviors, and of slots of the board as `board.name`. */

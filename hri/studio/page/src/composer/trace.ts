@@ -20,8 +20,8 @@ interface Sent {
 
 /** Which of the inputs decided what a behavior sends, by type; where it is unknown, all of them. */
 const DECIDERS: Record<string, (sent: Sent[], value: unknown) => [Sent[], string]> = {
-  "Hri.Min": extreme("the least of its inputs"),
-  "Hri.Max": extreme("the greatest of its inputs"),
+  "Hri.Minimum": extreme("the least of its inputs"),
+  "Hri.Maximum": extreme("the greatest of its inputs"),
   "Hri.And": logic(false, "one of its inputs is false", "all of its inputs are true"),
   "Hri.Or": logic(true, "one of its inputs is true", "all of its inputs are false"),
   "Hri.PriorityArbiter": (sent) => {
@@ -91,6 +91,6 @@ function explained(n: Network, palette: Palette, values: Values, port: string, r
   }
   const isEmpty = sent.every((one) => one.value === null || one.value === undefined);
   if (isEmpty) return [`nothing reached ${id} in this tick`, sent.map((one) => one.port)];
-  const [deciding, words] = DECIDERS[behavior.type]?.(sent, values[port]) ?? [sent, `${behavior.type} makes it of its inputs`];
+  const [deciding, words] = DECIDERS[kind?.type ?? ""]?.(sent, values[port]) ?? [sent, `${behavior.type} makes it of its inputs`];
   return [words, deciding.map((one) => one.port)];
 }

@@ -38,6 +38,8 @@ export interface BehaviorType {
 export interface Palette {
   mark: string;
   behaviors: BehaviorType[];
+  /** Today's names by older ones. */
+  aliases: Record<string, string>;
   slots: { name: string; datatype: string; semantic: string; about: string }[];
   devices: { id: string; interface: string; about: string }[];
   broken: { type: string; what: string }[];
@@ -54,7 +56,13 @@ export function behaviorKind(palette: Palette, type: string): BehaviorType | und
     types = new Map(palette.behaviors.map((one) => [one.type, one]));
     byType.set(palette, types);
   }
-  return types.get(type);
+  return types.get(type) ?? types.get(today(palette, type));
+}
+
+/** Of 2003's names, those that are not in the table begin with another word alone. */
+function today(palette: Palette, type: string): string {
+  const name = palette.aliases[type] ?? type.replace(/^Evolution\./, "Hri.");
+  return palette.aliases[name] ?? name;
 }
 
 export interface Ports {
