@@ -134,7 +134,7 @@ function Desktop({ doc, live, ask, open, want }: ComposerProps) {
       <aside className="side" aria-label="Properties">
         {whyPort && isLive ? <Why doc={doc} live={live} port={whyPort} close={() => setWhyPort("")} /> : <Properties doc={doc} isLive={isLive} why={setWhyPort} breakAt={breakAt} />}
       </aside>
-      {isTextShown ? <Suspense fallback={<p className="source quiet">…</p>}><Source doc={doc} /></Suspense> : null}
+      {isTextShown ? <Suspense fallback={<p className="xml-source quiet">…</p>}><Source doc={doc} /></Suspense> : null}
       <StatusBar doc={doc} />
       {pointed && isLive ? <Probe doc={doc} live={live} pointed={pointed} /> : null}
       {menu ? <Menu {...menu} doc={doc} actions={actions} showSchema={showSchema} /> : null}

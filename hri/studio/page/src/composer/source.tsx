@@ -106,7 +106,7 @@ export function Source({ doc }: { doc: ComposerDocument }) {
     editor.dispatch({ selection: { anchor: behavior.element.from }, effects: EditorView.scrollIntoView(behavior.element.from, { y: "center" }) });
   }, [doc, ids]);
 
-  return <div className="source" ref={host} />;
+  return <div className="xml-source" ref={host} />;
 }
 
 /** The one stretch in which two texts differ. */
