@@ -10,6 +10,9 @@ the deadlines that have passed are skipped, never run in a burst.
 In real time the tick of a faster network that is due does not wait for the end of a slower one's:
 it runs between two behaviors of the slower one. So it is late by a behavior, not by a network.
 
+A paused network computes nothing. What steers a drive or writes to the board sees empty inputs in
+each tick, so that the base stands still. A single step computes all but those: nothing leaves it.
+
 A behavior that raises an exception rests for a second, sending nothing, and is tried again; the
 others go on. What depends on it sees empty inputs, which for a drive means: stand still.
 """
@@ -25,6 +28,8 @@ from time import perf_counter
 from typing import Any
 
 from hri.behavior.behavior import Behavior, Context, Running
+from hri.behavior.board import BoardSink
+from hri.behavior.library.sharing import Share
 from hri.behavior.network import Network
 from hri.behavior.ports import InputPort, OutputPort
 from hri.behavior.tick_statistics import Statistics, Timing
@@ -32,6 +37,8 @@ from hri.core.errors import AuthoringError, HriError
 
 log = logging.getLogger("hri.behavior")
 
+_WRITERS = (BoardSink, Share)
+"""What gives values to other networks."""
 BETWEEN_REPORTS = 5.0
 """Seconds between two reports of missed intervals."""
 REST = 1.0
@@ -72,6 +79,13 @@ class Runner:
         self._resting: dict[Behavior, float] = {}
         self._failed: set[Behavior] = set()
         self._last: float | None = None
+        self.after_tick: list[Callable[[float], object]] = []
+        """Called with the time after each tick that computed."""
+        self.is_paused = False
+        self.paused_by = ""
+        """At which breakpoint it paused; empty when someone asked for it."""
+        self._steps = 0
+        self._acting = [b for b in network.behaviors if b.steers or isinstance(b, _WRITERS)]
         self._started: list[Behavior] = []
         self._is_ticking = False
         self._ends_after_tick = False
@@ -117,6 +131,28 @@ class Runner:
             except Exception as error:
                 log.error("%s did not stop: %s", self._name_of(behavior), error, exc_info=error)
 
+    def pause(self, because: str = "") -> None:
+        """Compute no more until `resume`; raises the event `network.paused`."""
+        if not self.is_paused:
+            self.is_paused, self.paused_by, self._steps = True, because, 0
+            self._raise("network.paused", because=because)
+
+    def resume(self) -> None:
+        """Go on; raises the event `network.resumed`."""
+        if self.is_paused:
+            self.is_paused, self.paused_by = False, ""
+            self._raise("network.resumed")
+
+    def step(self) -> None:
+        """Compute one tick of a paused network, when it is due next. Raises HriError if it runs."""
+        if not self.is_paused:
+            raise HriError(f"{self.network.name} runs - pause it before a single tick")
+        self.paused_by = ""
+        self._steps += 1
+
+    def _raise(self, event: str, **properties: str) -> None:
+        self.context.events.raise_event(event, network=self.network.name, **properties)
+
     def inject(self, behavior: str, input: str, value: Any) -> None:
         """Send a value to an input, once, as an additional first link, at the next tick.
 
@@ -144,6 +180,11 @@ class Runner:
         return watch
 
     @property
+    def resting(self) -> list[str]:
+        """The ids of behaviors that have failed, and are not tried again yet."""
+        return [behavior.id for behavior in self._resting]
+
+    @property
     def is_watched(self) -> bool:
         return bool(self._watches)
 
@@ -157,23 +198,43 @@ class Runner:
         dt = 0.0 if self._last is None else now - self._last
         self._last = now
         try:
+            if self.is_paused and not self._steps:
+                self._stand_still(now, dt)
+                return 0.0
             took = self._cycle(now, dt)
+            self._steps = max(0, self._steps - 1)
             if self._watches:
                 self._tell_watches(now)
+            for follower in tuple(self.after_tick):
+                follower(now)
         finally:
             # Also when a behavior was interrupted, by Ctrl-C or the end of the loop.
             if self._ends_after_tick:
                 self.stop()
         return took
 
-    def _cycle(self, now: float, dt: float) -> float:
-        """Let the behaviors compute; returns how long that took."""
+    def _stand_still(self, now: float, dt: float) -> None:
+        """Let what acts on the outside see that nothing was sent."""
+        self._empty_outputs()
+        for behavior in self._acting:
+            try:
+                behavior.compute(now, dt)
+            except Exception as error:
+                self._rest(behavior, now, error)
+
+    def _empty_outputs(self) -> None:
         for output in self._outputs:
             output.value = None
+
+    def _cycle(self, now: float, dt: float) -> float:
+        """Let the behaviors compute; returns how long that took."""
+        self._empty_outputs()
         if self._resting:
             self._wake(now)
         injected = self._insert_injected() if self._injected else ()
         self._ran = self._order
+        if self.is_paused:
+            self._ran = [one for one in self._order if one[0] not in self._acting]
         self._is_ticking = True
         faster = self._faster()
         begun = before = perf_counter()
@@ -322,7 +383,8 @@ class Runner:
         if waited_since is not None and self.context.held_up_at >= waited_since:
             cause = f"{self.context.held_up_by} held the loop up"
         elif waited_since is None and self._ran:
-            behavior, *_ = max(self._ran, key=lambda ran: ran[1].last)
+            behavior, timing, _ = max(self._ran, key=lambda ran: ran[1].last)
+            timing.missed += 1
             self.statistics.slowest, cause = behavior.id, f"slowest was {behavior.id}"
         now = self.context.clock.now()
         if now >= self._tell_after:

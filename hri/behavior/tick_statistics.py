@@ -14,6 +14,8 @@ class Timing:
     total: float = 0.0
     longest: float = 0.0
     last: float = 0.0
+    missed: int = 0
+    """Ticks that were missed because this took longest."""
 
     @property
     def mean(self) -> float:

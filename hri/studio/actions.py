@@ -15,6 +15,7 @@ from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Listener, Voice
 from hri.studio.commands import checked
 from hri.studio.link import STOP
+from hri.studio.running import RunningNetworks
 from hri.task.context import TaskContext
 
 BECAUSE = "someone pressed stop in the studio"
@@ -28,6 +29,7 @@ class Asked:
 
     robot: Robot
     context: TaskContext
+    networks: RunningNetworks
 
     @property
     def now(self) -> float:
@@ -107,6 +109,13 @@ ACTIONS: Mapping[str, Callable[..., object]] = {
     "place": lambda asked, name, x, y: asked.world.place(name, x, y),
     "obstacle": lambda asked, name, x, y: asked.world.put_obstacle(name, x, y, asked.now),
     "remove": lambda asked, name: asked.world.take_away(name),
+    "network_start": lambda asked, path, text="": asked.networks.start(path, text),
+    "network_stop": lambda asked, name: asked.networks.stop(name),
+    "network_pause": lambda asked, name, on: asked.networks.pause(name, on),
+    "network_tick": lambda asked, name: asked.networks.tick(name),
+    "network_break": lambda asked, name, port, condition="": asked.networks.break_at(
+        name, port, condition
+    ),
 }
 
 

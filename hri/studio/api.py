@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from hri.studio.commands import COMMANDS, FARTHEST, LONGEST_TEXT, Command
+from hri.studio.commands import COMMANDS, FARTHEST, Argument, Command
 from hri.studio.composer.routes import ROOT, ROUTES, Route
 from hri.studio.type_export import schemas
 
 _KINDS: dict[type, dict[str, Any]] = {
-    str: {"type": "string", "minLength": 1, "maxLength": LONGEST_TEXT},
+    str: {"type": "string", "minLength": 1},
     float: {"type": "number", "minimum": -FARTHEST, "maximum": FARTHEST},
     bool: {"type": "boolean"},
 }
@@ -52,7 +52,9 @@ def openapi() -> dict[str, Any]:
         "live",
         "a WebSocket. It sends text, each a LiveMessage, and pictures: a byte (2 for the face, 3 "
         "for the camera), the time (big-endian double, seconds), and a JPEG. It takes "
-        '{"pictures": ["face", "camera"]}: those that are wanted.',
+        '{"pictures": ["face", "camera"], "networks": ["moving"], "thumbnails": '
+        '["seeing/camera.image"]}: the pictures, the networks whose values, and the outputs whose '
+        "small pictures are wanted.",
     )
     paths |= {f"/api/v1/recordings{name}": _reading(name) for name in _RECORDINGS}
     for route in ROUTES:
@@ -74,7 +76,7 @@ def openapi() -> dict[str, Any]:
 
 def _path(name: str, command: Command) -> dict[str, Any]:
     properties = {
-        key: {**_KINDS[argument.kind], "description": argument.about}
+        key: {**_schema_of(argument), "description": argument.about}
         for key, argument in command.arguments.items()
     }
     schema = {"type": "object", "properties": properties, "additionalProperties": False}
@@ -111,6 +113,11 @@ def _network(route: Route) -> dict[str, Any]:
             for name, about in route.arguments.items()
         ]
     return found
+
+
+def _schema_of(argument: Argument) -> dict[str, Any]:
+    schema = _KINDS[argument.kind]
+    return {**schema, "maxLength": argument.longest} if argument.kind is str else schema
 
 
 def _get(name: str, about: str, schema: str = "LiveMessage") -> dict[str, Any]:

@@ -14,6 +14,8 @@ from hri.studio.link import STOP
 
 LONGEST_TEXT = 500
 """Letters."""
+LONGEST_NETWORK = 1_000_000
+"""Letters of a network."""
 FARTHEST = 100.0
 """Meters of a place from the middle of the room."""
 
@@ -25,6 +27,8 @@ class Argument:
     kind: type
     about: str
     is_optional: bool = False
+    longest: int = LONGEST_TEXT
+    """Letters of a text."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +41,7 @@ class Command:
     """Whether anyone on this machine may ask, without code or token."""
 
 
+_NETWORK = {"name": Argument(str, "of a network that runs")}
 _TEXT = {"text": Argument(str, "what is said")}
 _WHO = {"who": Argument(str, "name of the person; the first without", is_optional=True)}
 _PLACE = {
@@ -72,6 +77,33 @@ COMMANDS: Mapping[str, Command] = {
         "take a thing or an obstacle out of the simulated room",
         {"name": Argument(str, "of the thing or obstacle")},
     ),
+    "network_start": Command(
+        "run a network, in the place of the one of that name that was started so",
+        {
+            "path": Argument(str, "its file", longest=4000),
+            "text": Argument(
+                str, "what it is to be, where that is not saved", True, LONGEST_NETWORK
+            ),
+        },
+    ),
+    "network_stop": Command("end a network that was started so", _NETWORK),
+    "network_pause": Command(
+        "let a network pause: its drive gets zero; or let it go on", {**_NETWORK, **_ON}
+    ),
+    "network_tick": Command(
+        "let a paused network compute once; nothing of it leaves for the drive or the board",
+        _NETWORK,
+    ),
+    "network_break": Command(
+        "pause a network after the tick in which a condition holds",
+        {
+            **_NETWORK,
+            "port": Argument(str, "an output, as behavior.output"),
+            "condition": Argument(
+                str, "such as < 30, == true, changes, or sent; without one it ends", True
+            ),
+        },
+    ),
 }
 """By name; the interface over HTTP has each as `POST /api/v1/NAME`."""
 
@@ -94,13 +126,17 @@ def _checked(key: str, argument: Argument, value: Any) -> Any:
     is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
     if argument.kind is bool and isinstance(value, bool):
         return value
-    if argument.kind is str and isinstance(value, str) and 0 < len(value.strip()) <= LONGEST_TEXT:
+    if (
+        argument.kind is str
+        and isinstance(value, str)
+        and 0 < len(value.strip()) <= argument.longest
+    ):
         return value.strip()
     if argument.kind is float and is_number and -FARTHEST <= value <= FARTHEST:
         return float(value)
     wants = {
         bool: "true or false",
-        str: f"a text of at most {LONGEST_TEXT} letters",
+        str: f"a text of at most {argument.longest} letters",
         float: f"a number from -{FARTHEST:g} to {FARTHEST:g}",
     }[argument.kind]
     raise HriError(f'"{key}" must be {wants} - {argument.about}')

@@ -28,6 +28,8 @@ STOP = "stop"
 TEXT, FACE, CAMERA = 1, 2, 3
 """Kinds of messages: JSON, and pictures as JPEG behind their time."""
 PICTURES = {"face": FACE, "camera": CAMERA}
+NETWORK, THUMBNAIL = "network:", "thumbnail:"
+"""What begins the name of a network whose values are wanted, and of an output whose picture is."""
 LARGEST = 4_000_000
 """Bytes of a message."""
 MOST_EVENTS = 500
@@ -118,7 +120,7 @@ class RobotEnd:
         self._is_closed = False
         self.requests: deque[Request] = deque(maxlen=MOST_REQUESTS)
         self.wanted: frozenset[str] = frozenset()
-        """Pictures that someone looks at."""
+        """Pictures that someone looks at, and with `NETWORK` and `THUMBNAIL` before, values."""
         self.reader: threading.Thread | None = None
         """Of what the server sends, until it has ended."""
         threading.Thread(target=self._write, name="studio link", daemon=True).start()
@@ -136,6 +138,10 @@ class RobotEnd:
         with self._changed:
             self._pictures[topic] = image, time
             self._changed.notify()
+
+    def wanted_of(self, kind: str) -> list[str]:
+        """What is wanted of a kind, without its beginning."""
+        return [one.removeprefix(kind) for one in sorted(self.wanted) if one.startswith(kind)]
 
     def add_event(self, event: dict[str, Any]) -> None:
         """An event; when too many wait the oldest is forgotten."""

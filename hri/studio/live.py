@@ -30,6 +30,7 @@ from hri.speech.behaviors import Listener, Voice
 from hri.studio import topics
 from hri.studio.history import LogLines, MoodHistory, Trail, Troubles
 from hri.studio.link import RobotEnd
+from hri.studio.running import RunningNetworks
 from hri.task.context import TaskContext
 
 API = 1
@@ -53,7 +54,7 @@ log = logging.getLogger("hri")
 class Live:
     """Puts what a robot does into the link."""
 
-    def __init__(self, robot: Robot, link: RobotEnd) -> None:
+    def __init__(self, robot: Robot, link: RobotEnd, networks: RunningNetworks) -> None:
         self._robot, self._link = robot, link
         self._pictures = _Pictures(link)
         self._moods, self._trail, self._troubles = MoodHistory(), Trail(), Troubles()
@@ -70,6 +71,7 @@ class Live:
             "world": (0.1, self._world),
             "devices": (0.5, self._devices),
             "log": (0.3, self._log_lines),
+            "networks": (0.1, lambda context, now: networks.listed()),
         }
 
     def join(self) -> None:

@@ -45,7 +45,7 @@ from hri.studio.composer.routes import (
     ROOT as NETWORKS,
     NetworkRoutes,
 )
-from hri.studio.link import PICTURES, TEXT, LinkError, Unpacker, packed_json
+from hri.studio.link import NETWORK, PICTURES, TEXT, THUMBNAIL, LinkError, Unpacker, packed_json
 from hri.studio.recording_routes import Answer, RecordingRoutes
 
 MOST_PAGES = 32
@@ -54,6 +54,12 @@ MOST_CONNECTIONS = 256
 """At once; a further one is closed."""
 MOST_EVENTS = 300
 """Events that a page gets when it comes, and that wait for one that reads slowly."""
+MOST_NETWORKS, MOST_THUMBNAILS = 4, 4
+"""Whose values, and whose pictures, a page may want."""
+LONGEST_NAME = 300
+"""Letters of such a name."""
+VALUES = frozenset({"ports", "thumbnails"})
+"""Topics that only pages get that want values."""
 LONGEST_BODY = 65_536
 """Bytes of a request."""
 NICE = 5
@@ -67,6 +73,8 @@ TYPES = {
     "svg": "image/svg+xml",
     "txt": "text/plain",
 }
+START = "network_start"
+"""The command that takes a whole network."""
 log = logging.getLogger("hri.studio")
 HEADERS = {
     "content-security-policy": "default-src 'self'; img-src 'self' blob:; object-src 'none'; "
@@ -106,6 +114,11 @@ class Page:
     events: deque[str] = field(default_factory=lambda: deque(maxlen=MOST_EVENTS))
     wanted: frozenset[str] = frozenset()
     news: trio.Event = field(default_factory=trio.Event)
+
+    @property
+    def wants_values(self) -> bool:
+        """Whether it looks at a network."""
+        return not self.wanted <= PICTURES.keys()
 
     def take(self) -> list[str | bytes]:
         """All that is new; the page has it from now on."""
@@ -150,6 +163,8 @@ class Hub:
         else:
             self._events.append(text)
         for page in self.pages:
+            if message.get("topic") in VALUES and not page.wants_values:
+                continue
             if "topic" in message:
                 page.values[message["topic"]] = text
             else:
@@ -237,7 +252,8 @@ class Guard:
 
 def _most(path: str) -> int:
     """The bytes of a request that are taken."""
-    return LONGEST_NETWORK if path.startswith(f"{NETWORKS}/") else LONGEST_BODY
+    is_network = path.startswith(f"{NETWORKS}/") or path == f"/api/v1/{START}"
+    return LONGEST_NETWORK if is_network else LONGEST_BODY
 
 
 def _is_short(length: str, most: int) -> bool:
@@ -321,7 +337,7 @@ class Studio:
         if not is_open and not self._is_known(request):
             return _stranger()
         try:
-            body = await _body(request)
+            body = await _body(request, _most(request.url.path))
             given = json.loads(body) if body else {}
             if not isinstance(given, dict):
                 raise HriError("the body must be a JSON object")
@@ -364,8 +380,7 @@ class Studio:
             if message["type"] == "websocket.disconnect":
                 return
             try:
-                wanted = json.loads(message.get("text") or "{}")["pictures"]
-                page.wanted = frozenset(wanted) & PICTURES.keys()
+                page.wanted = _wanted(json.loads(message.get("text") or "{}"))
             except (ValueError, KeyError, TypeError, RecursionError):
                 await websocket.close(1003)
                 return
@@ -381,6 +396,18 @@ class Studio:
             return kind.lower() == "bearer" and is_token(token)
         except HriError:
             return False
+
+
+def _wanted(message: dict[str, list[str]]) -> frozenset[str]:
+    """What a page wants to see. Raises KeyError, TypeError, or ValueError for nonsense."""
+    pictures = frozenset(message["pictures"]) & PICTURES.keys()
+    networks = [NETWORK + one for one in message.get("networks", [])]
+    thumbnails = [THUMBNAIL + one for one in message.get("thumbnails", [])]
+    if len(networks) > MOST_NETWORKS or len(thumbnails) > MOST_THUMBNAILS:
+        raise ValueError("too much is wanted")
+    if any(len(one) > LONGEST_NAME for one in networks + thumbnails):
+        raise ValueError("a name is too long")
+    return pictures | frozenset(networks) | frozenset(thumbnails)
 
 
 def _now() -> float:

@@ -18,6 +18,7 @@ from hri.studio.body import devices_of
 from hri.studio.link import RobotEnd
 from hri.studio.live import Live
 from hri.studio.port import SERVER, listening
+from hri.studio.running import RunningNetworks
 from hri.task.context import TaskContext
 
 PORT = 8311
@@ -44,7 +45,8 @@ class StudioSession:
         self.port: int = self._socket.getsockname()[1]
         self._codes = Codes()
         self._link = RobotEnd()
-        self._live = Live(robot, self._link)
+        self._networks = RunningNetworks(robot.networks, self._link)
+        self._live = Live(robot, self._link, self._networks)
         self._is_closed = threading.Event()
         self._config = {
             "port": self.port,
@@ -72,11 +74,11 @@ class StudioSession:
 
     def jobs(self) -> list[Job]:
         """The tasks that run beside the robot's own."""
-        return [self._live.watch, self._obey]
+        return [self._live.watch, self._networks.watch, self._obey]
 
     async def _obey(self, context: TaskContext) -> None:
         """Do what the page asks, in the robot's loop."""
-        asked = Asked(self._robot, context)
+        asked = Asked(self._robot, context, self._networks)
         while True:
             while self._link.requests:
                 request = self._link.requests.popleft()

@@ -181,6 +181,11 @@ EXAMPLES = {
     "place": {"name": "cup", "x": 1.5, "y": 0.5},
     "obstacle": {"name": "box", "x": 2.5, "y": 0.5},
     "remove": {"name": "box"},
+    "network_start": {"path": str(paths.house() / "config" / "networks" / "unit_test.xml")},
+    "network_stop": {"name": "unit_test"},
+    "network_pause": {"name": "feeling", "on": True},
+    "network_tick": {"name": "feeling"},
+    "network_break": {"name": "feeling", "port": "emotion.state"},
 }
 """What the commands take that take something."""
 
@@ -191,6 +196,9 @@ def test_each_command_is_obeyed(client, command):
     assert (answer.status_code, answer.json()) == (200, {"result": None})
     if command == "visitor_leave":
         assert client.post("/api/v1/visitor_enter").status_code == 200
+    if command == "network_tick":
+        going = {"name": "feeling", "on": False}
+        assert client.post("/api/v1/network_pause", json=going).status_code == 200
     if command == STOP:
         assert client.post("/api/v1/release").status_code == 200
 

@@ -127,7 +127,7 @@ function Desktop({ doc, live, ask, open, want }: ComposerProps) {
       <RunBar doc={doc} live={live} running={running} ask={ask} breakAt={breakAt} />
       <PaletteView palette={palette} add={add} showSchema={showSchema} />
       <section className="graph" aria-label="Network">
-        <Canvas doc={doc} composition={composition} mode={mode} isLive={isLive} add={add} openOther={openOther} menu={openMenu} hover={hover} />
+        <Canvas doc={doc} composition={composition} mode={mode} isWhole={others.size > 0} isLive={isLive} add={add} openOther={openOther} menu={openMenu} hover={hover} />
         {doc.history.error ? <p className="unreadable" role="alert">The XML cannot be read: {doc.history.error.message}. The graph shows it as it was.</p> : null}
         {path === "" ? <Welcome ask={desk.ask} /> : doc.network.behaviors.length === 0 ? <p className="hint">Drag a behavior here from the left, or search for one and press Enter.</p> : null}
       </section>

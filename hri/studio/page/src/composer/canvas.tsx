@@ -34,6 +34,8 @@ interface CanvasProps {
   doc: ComposerDocument;
   composition: Composition;
   mode: Mode;
+  /** Whether all networks of the app are shown, placed together whatever the file says. */
+  isWhole: boolean;
   isLive: boolean;
   add(type: string, at: Box): void;
   openOther(network: string): void;
@@ -41,11 +43,11 @@ interface CanvasProps {
   hover(port: string, at: { x: number; y: number } | null): void;
 }
 
-export function Canvas({ doc, composition, mode, isLive, add, openOther, menu, hover }: CanvasProps) {
+export function Canvas({ doc, composition, mode, isWhole, isLive, add, openOther, menu, hover }: CanvasProps) {
   const flow = useReactFlow<PartNode, WireEdge>();
   const selection = useStore(doc.selection);
   const path = useStore(doc.path);
-  const places = usePlaces(composition, path);
+  const places = usePlaces(composition, path, isWhole);
   const [nodes, setNodes] = useState<PartNode[]>([]);
   const [inHand, setInHand] = useState<ReadonlyMap<string, string> | null>(null);
   const gesture = useRef(0);
@@ -98,7 +100,7 @@ export function Canvas({ doc, composition, mode, isLive, add, openOther, menu, h
   useEffect(() => {
     const frame = requestAnimationFrame(() => void flow.fitView({ padding: 0.1, maxZoom: 1.2 }));
     return () => cancelAnimationFrame(frame);
-  }, [path, flow]);
+  }, [path, isWhole && composition.parts.size, flow]);
 
   const changeNodes = useCallback(
     (changes: NodeChange<PartNode>[]) => {
@@ -219,7 +221,7 @@ export function Canvas({ doc, composition, mode, isLive, add, openOther, menu, h
           onNodeDoubleClick={(_, node) => node.data.part.network && openOther(node.data.part.network)}
           onNodeContextMenu={(event, node) => node.data.part.network === "" && menu(event, node.id)}
           onPaneClick={() => doc.select([])}
-          nodesDraggable={mode === "edit"}
+          nodesDraggable={mode === "edit" && !isWhole}
           deleteKeyCode={null}
           selectionKeyCode="Shift"
           multiSelectionKeyCode={["Shift", "Control", "Meta"]}
@@ -246,16 +248,17 @@ function ariaLabel(title: string, type: string, problems: number): string {
 }
 
 /** Where the parts stand. Those without a place in the file get one when they come, and keep it. */
-function usePlaces(composition: Composition, path: string): Map<string, Box> {
+function usePlaces(composition: Composition, path: string, isWhole: boolean): Map<string, Box> {
   const kept = useRef({ path, arranged: new Map<string, Box>() });
   return useMemo(() => {
+    if (isWhole) return arrangedParts(composition);
     if (kept.current.path !== path) kept.current = { path, arranged: new Map() };
     const { arranged } = kept.current;
     const isNew = [...composition.parts].some(([key, part]) => !part.at && !arranged.has(key));
     if (isNew)
       for (const [key, box] of arrangedParts(composition)) if (!arranged.has(key)) arranged.set(key, box);
     return placed(composition, arranged);
-  }, [composition, path]);
+  }, [composition, path, isWhole]);
 }
 
 /** All parts from left to right, whichever network they belong to. */
