@@ -13,7 +13,8 @@ import os
 import socket
 import sys
 from collections import deque
-from contextlib import aclosing, suppress
+from collections.abc import AsyncIterator
+from contextlib import aclosing, asynccontextmanager, suppress
 from dataclasses import dataclass, field
 from functools import partial
 from importlib import resources
@@ -300,7 +301,15 @@ class Studio:
                 for path, method, answer in self.networks.answers
             ),
         ]
-        return Guard(Starlette(routes=routes), self._settings)
+        return Guard(Starlette(routes=routes, lifespan=self._living), self._settings)
+
+    @asynccontextmanager
+    async def _living(self, app: Starlette) -> AsyncIterator[None]:
+        """For tests; a server's own processes end with its pipes, as Hypercorn's connections do not
+        know of this.
+        """
+        yield
+        await self.networks.close()
 
     async def _page(self, request: Request) -> Response:
         code = request.query_params.get("code")

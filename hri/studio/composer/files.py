@@ -146,8 +146,8 @@ class Library:
         """A network and its draft, if there is one. Raises HriError, NoFile."""
         path = self.path_of(text)
         draft = _draft_of(path)
-        kept = _read_draft(draft) if draft.is_file() else None
-        if not path.is_file() and kept is None:
+        kept = _read_draft(draft) if paths.is_file(draft) else None
+        if not paths.is_file(path) and kept is None:
             raise NoFile(f"{path}: there is no such network - it may have been moved")
         content, mark = _content(path)
         return {
@@ -203,9 +203,9 @@ def why_not(path: Path) -> str:
     if _is_installed(path):
         return "it belongs to the installation"
     folder = path.parent
-    while not folder.exists() and folder != folder.parent:
+    while not paths.exists(folder) and folder != folder.parent:
         folder = folder.parent
-    is_open = os.access(path, os.W_OK) if path.exists() else True
+    is_open = os.access(path, os.W_OK) if paths.exists(path) else True
     return "" if is_open and os.access(folder, os.W_OK) else "its folder or file is write-protected"
 
 
@@ -249,7 +249,7 @@ def _read_draft(file: Path) -> Json:
 
 def _content(path: Path) -> tuple[str, str | None]:
     """Text and mark of a file; empty and None where there is none. Raises HriError."""
-    if not path.exists():
+    if not paths.exists(path):
         return "", None
     data = read_bytes(path, "network", LARGEST)
     try:

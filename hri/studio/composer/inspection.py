@@ -1,6 +1,6 @@
 """What there is to build with, and what is wrong with a network, as plain values for the page.
 
-Behaviors of your own are Python that is imported here: it runs in a process of its own
+Behaviors of your own are Python that is imported here: it runs in a separate process
 (`workshop`), never in the server.
 """
 
@@ -48,7 +48,8 @@ def palette() -> Json:
         {"name": one.name, "datatype": one.datatype, "semantic": GENERIC, "about": one.about}
         for one in DECLARED.values()
     ]
-    aliases = {old: registry.canonical(old) for old in registry.ALIASES}
+    today = {old: registry.canonical(old) for old in registry.ALIASES}
+    aliases = {old: name for old, name in today.items() if name in registry.known(GROUP)}
     return {"behaviors": behaviors, "aliases": aliases, "slots": slots, "broken": broken}
 
 

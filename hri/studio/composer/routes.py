@@ -115,6 +115,10 @@ class NetworkRoutes:
         ]
         """The path, the method, and what answers."""
 
+    async def close(self) -> None:
+        """End the workshop."""
+        await self._workshop.close()
+
     async def _from_disk(self, work: Callable[..., Json], *arguments: object) -> Json:
         return await trio.to_thread.run_sync(work, *arguments, limiter=self._disk)
 

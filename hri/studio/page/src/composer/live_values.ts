@@ -5,6 +5,9 @@ import { Store } from "./store";
 
 /** Of each port, for the curve that is shown beside it: ten seconds at 20 Hz. */
 const MOST_POINTS = 200;
+/** Letters. */
+const LONGEST_ON_WIRE = 13;
+const LONGEST = 60;
 
 export type RunningNetwork = NonNullable<Values["networks"]>[number];
 type Sample = NonNullable<Values["ports"]>[string];
@@ -45,7 +48,7 @@ export class LiveValues {
     for (const [port, value] of Object.entries(sample.values)) {
       const number = asNumber(value);
       if (number !== null) this.keep(port, number);
-      for (const element of this.shown.get(port) ?? []) write(element, inWords(value));
+      for (const element of this.shown.get(port) ?? []) write(element, onWire(value));
     }
     for (const [id, [last, , , missed]] of Object.entries(sample.cost)) {
       const element = this.costs.get(id);
@@ -72,7 +75,7 @@ export class LiveValues {
   show(port: string, element: Element): () => void {
     const all = this.shown.get(port) ?? new Set();
     this.shown.set(port, all.add(element));
-    if (this.sample && port in this.sample.values) write(element, inWords(this.sample.values[port]));
+    if (this.sample && port in this.sample.values) write(element, onWire(this.sample.values[port]));
     return () => all.delete(element);
   }
 
@@ -93,15 +96,21 @@ function asNumber(value: unknown): number | null {
   return typeof value === "boolean" ? Number(value) : null;
 }
 
+/** What fits on a wire; more is shown where one points. */
+function onWire(value: unknown): string {
+  const words = inWords(value);
+  return words.length > LONGEST_ON_WIRE ? `${words.slice(0, LONGEST_ON_WIRE - 1)}…` : words;
+}
+
 /** A value in a few letters. */
 export function inWords(value: unknown): string {
   if (value === null || value === undefined) return "–";
   if (typeof value === "number") return Number.isInteger(value) ? String(value) : value.toPrecision(4).replace(/\.?0+$/, "");
   if (typeof value === "boolean") return value ? "true" : "false";
-  if (typeof value === "string") return value.length > 24 ? `“${value.slice(0, 23)}…”` : `“${value}”`;
+  if (typeof value === "string") return value.length > LONGEST ? `“${value.slice(0, LONGEST - 1)}…”` : `“${value}”`;
   const told = value as { kind?: string; shape?: number[]; head?: number[]; width?: number; height?: number; text?: string };
   if (told.kind === "array") return `[${(told.head ?? []).slice(0, 3).map((one) => inWords(one)).join(" ")}${(told.shape?.[0] ?? 0) > 3 ? " …" : ""}]`;
   if (told.kind === "image") return `${told.width}×${told.height}`;
   const text = told.text ?? "";
-  return text.length > 24 ? `${text.slice(0, 23)}…` : text;
+  return text.length > LONGEST ? `${text.slice(0, LONGEST - 1)}…` : text;
 }
