@@ -1,7 +1,7 @@
 // Places parts from left to right, in the order in which values go.
 
 import { Graph, layout } from "@dagrejs/dagre";
-import type { Box, Network } from "./network";
+import { isSlot, ownerOf, type Box, type Network } from "./network";
 
 const BETWEEN_LAYERS = 90;
 const BETWEEN_PARTS = 30;
@@ -18,9 +18,9 @@ export function arrange(n: Pick<Network, "behaviors" | "links">, size: (id: stri
   };
   for (const id of ids) put(id);
   for (const { from, to } of n.links) {
-    const [source, target] = [from, to].map((end) => (end.startsWith("board.") ? end : end.slice(0, end.lastIndexOf("."))));
-    for (const id of [source!, target!]) if (id.startsWith("board.")) put(id);
-    if (graph.hasNode(source!) && graph.hasNode(target!)) graph.setEdge(source!, target!);
+    for (const end of [from, to]) if (isSlot(end)) put(end);
+    const [source, target] = [ownerOf(from), ownerOf(to)];
+    if (graph.hasNode(source) && graph.hasNode(target)) graph.setEdge(source, target);
   }
   if (graph.nodeCount() === 0) return new Map();
   layout(graph);

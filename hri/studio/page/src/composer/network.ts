@@ -31,9 +31,11 @@ export interface Network {
   boxes: Map<string, Box>;
 }
 
+/** Pixels, as the files have them. */
+const WHOLE = /^-?\d{1,6}$/;
+
 export const EMPTY = `<?xml version="1.0" encoding="UTF-8"?>
-<BehaviorNetwork>
-</BehaviorNetwork>
+<BehaviorNetwork/>
 `;
 
 /** Raises XmlError where the text is not well-formed. */
@@ -63,11 +65,21 @@ function parametersOf(element: Element): Map<string, string> {
 }
 
 function readBox(boxes: Map<string, Box>, element: Element): void {
-  const [x, y] = ["x", "y"].map((name) => Number(attribute(element, name) ?? NaN)) as [number, number];
-  const id = attribute(element, "id");
-  if (element.tag === "Box" && id !== undefined && Number.isFinite(x) && Number.isFinite(y)) boxes.set(id, { x, y });
+  const [id, x, y] = ["id", "x", "y"].map((name) => attribute(element, name));
+  if (element.tag === "Box" && id !== undefined && WHOLE.test(x ?? "") && WHOLE.test(y ?? "")) boxes.set(id, { x: Number(x), y: Number(y) });
 }
 
-export function layoutOf(network: Network): Element | undefined {
-  return network.root.children.find((one) => one.tag === "Layout");
+/** The elements of the layout; more than one is a mistake that a person may have made. */
+export function layoutsOf(network: Network): Element[] {
+  return network.root.children.filter((one) => one.tag === "Layout");
+}
+
+/** Whether an end of a link is a slot of the board. */
+export function isSlot(end: string): boolean {
+  return end.startsWith("board.");
+}
+
+/** The part that an end of a link belongs to: the id of a behavior, or the slot itself. */
+export function ownerOf(end: string): string {
+  return isSlot(end) ? end : end.split(".", 1)[0]!;
 }

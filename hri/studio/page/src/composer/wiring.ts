@@ -1,6 +1,6 @@
 // Which ports there are, and which may be linked: the rules and words of `hri network check`.
 
-import type { Network } from "./network";
+import { isSlot, ownerOf, type Link, type Network } from "./network";
 
 export interface Port {
   name: string;
@@ -72,7 +72,7 @@ export interface Ports {
 
 /** Of a behavior, or of a slot as `board.name`; those that links name, where the type is unknown. */
 export function portsOf(n: Network, palette: Palette, id: string): Ports {
-  if (id.startsWith("board.")) return slotPorts(palette, id.slice(6));
+  if (isSlot(id)) return slotPorts(n, palette, id);
   const type = typesOf(n).get(id);
   const kind = type === undefined ? undefined : behaviorKind(palette, type);
   if (kind) return { inputs: kind.inputs, outputs: kind.outputs };
@@ -91,10 +91,30 @@ function typesOf(n: Network): Map<string, string> {
   return found;
 }
 
-function slotPorts(palette: Palette, name: string): Ports {
-  const slot = palette.slots.find((one) => one.name === name);
-  const port = { ...unknown(name), datatype: slot?.datatype ?? ANY, semantic: slot?.semantic ?? GENERIC, description: slot?.about ?? "" };
+/** A slot has the datatype of what reads it, where the program itself knows none. */
+function slotPorts(n: Network, palette: Palette, end: string): Ports {
+  const slot = palette.slots.find((one) => `board.${one.name}` === end);
+  const use = slotUses(n, palette, end).find((one) => one.port.datatype !== ANY);
+  const port = { ...unknown(end.slice(6)), datatype: slot?.datatype ?? use?.port.datatype ?? ANY, semantic: slot?.semantic ?? GENERIC, description: slot?.about ?? "" };
   return { inputs: [port], outputs: [port] };
+}
+
+interface SlotUse {
+  end: string;
+  port: Port;
+}
+
+/** The ports of behaviors that links join to a slot, in the order of the file. */
+function slotUses(n: Network, palette: Palette, slot: string): SlotUse[] {
+  return n.links.flatMap(({ from, to }) => {
+    if (from === slot && !isSlot(to)) return use(n, palette, to, "inputs");
+    return to === slot && !isSlot(from) ? use(n, palette, from, "outputs") : [];
+  });
+}
+
+function use(n: Network, palette: Palette, end: string, side: keyof Ports): SlotUse[] {
+  const port = portNamed(n, palette, end, side);
+  return typeof port === "string" ? [] : [{ end, port }];
 }
 
 function unknown(name: string): Port {
@@ -103,24 +123,53 @@ function unknown(name: string): Port {
 
 export type Verdict = { ok: true; warning: string } | { ok: false; reason: string };
 
+const SAME = "link ports of the same datatype";
+
 /** Whether an output may be linked to an input, both as links write them. */
 export function canLink(n: Network, palette: Palette, from: string, to: string): Verdict {
   const sends = portNamed(n, palette, from, "outputs");
   const takes = portNamed(n, palette, to, "inputs");
-  if (typeof sends === "string") return { ok: false, reason: sends };
-  if (typeof takes === "string") return { ok: false, reason: takes };
-  if (from.startsWith("board.") && to.startsWith("board.")) return { ok: false, reason: "both are slots of the board - link a behavior to one" };
-  if (sends.datatype !== takes.datatype && sends.datatype !== ANY && takes.datatype !== ANY)
-    return { ok: false, reason: `${from} is ${sends.datatype}, but ${to} takes ${takes.datatype} - link ports of the same datatype` };
-  if (n.links.some((one) => one.from === from && one.to === to)) return { ok: false, reason: `the link ${from} -> ${to} is there already` };
-  const circle = circleWith(n, ownerOf(from), ownerOf(to));
-  if (circle) return { ok: false, reason: `the links would run in a circle: ${circle.join(" -> ")}` };
-  const isMixed = sends.semantic !== takes.semantic && sends.semantic !== GENERIC && takes.semantic !== GENERIC;
-  return { ok: true, warning: isMixed ? `${from} means ${sends.semantic}, ${to} wants ${takes.semantic}` : "" };
+  for (const port of [sends, takes]) if (typeof port === "string") return refused(port);
+  return fits(n, palette, { end: from, port: sends as Port }, { end: to, port: takes as Port });
 }
 
+function fits(n: Network, palette: Palette, sends: SlotUse, takes: SlotUse): Verdict {
+  const [from, to] = [sends.end, takes.end];
+  if (from === to) return refused("a slot cannot be linked to itself - link a behavior to it");
+  const [sent, taken] = [sends.port, takes.port];
+  if (!isSlot(from) && !isSlot(to) && areApart(sent.datatype, taken.datatype, ANY)) return refused(`${from} is ${sent.datatype}, but ${to} takes ${taken.datatype} - ${SAME}`);
+  if (n.links.some((one) => one.from === from && one.to === to)) return refused(`the link ${from} -> ${to} is there twice - take one of them out`);
+  const circle = circleWith(n, from, to);
+  if (circle) return refused(`these links run in a circle: ${circle.join(", ")} - take one of them out`);
+  if (isSlot(from) !== isSlot(to)) return isSlot(from) ? fitsSlot(n, palette, from, takes) : fitsSlot(n, palette, to, sends);
+  return { ok: true, warning: areApart(sent.semantic, taken.semantic, GENERIC) ? `${from} means ${sent.semantic}, ${to} wants ${taken.semantic}` : "" };
+}
+
+/** All that use a slot must agree: with the program, else with the first of them. */
+function fitsSlot(n: Network, palette: Palette, slot: string, { end, port }: SlotUse): Verdict {
+  const uses = slotUses(n, palette, slot);
+  const declared = palette.slots.find((one) => `board.${one.name}` === slot);
+  const first = uses.find((one) => one.port.datatype !== ANY);
+  const datatype = declared?.datatype ?? first?.port.datatype ?? ANY;
+  const where = declared ? `here it is ${declared.about}` : first?.end;
+  if (areApart(datatype, port.datatype, ANY)) return refused(`${slot} is ${datatype} (${where}), but ${end} is ${port.datatype} - ${SAME}`);
+  const other = uses.find((one) => one.port.semantic !== GENERIC);
+  const isMixed = other && areApart(other.port.semantic, port.semantic, GENERIC);
+  return { ok: true, warning: isMixed ? `${slot}: ${end} means ${port.semantic}, ${other.end} means ${other.port.semantic}` : "" };
+}
+
+function areApart(one: string, other: string, whatever: string): boolean {
+  return one !== other && one !== whatever && other !== whatever;
+}
+
+function refused(reason: string): Verdict {
+  return { ok: false, reason };
+}
+
+const SLOT = /^[\p{L}\p{N}_]+([.-][\p{L}\p{N}_]+)*$/u;
+
 function portNamed(n: Network, palette: Palette, text: string, side: keyof Ports): Port | string {
-  if (text.startsWith("board.")) return slotPorts(palette, text.slice(6))[side][0]!;
+  if (isSlot(text)) return SLOT.test(text.slice(6)) ? unknown(text.slice(6)) : `"${text}" is not a slot of the board - write board.name, such as board.speech`;
   const id = ownerOf(text);
   const type = typesOf(n).get(id);
   if (type === undefined) return `no behavior "${id}" for the link "${text}"`;
@@ -129,44 +178,58 @@ function portNamed(n: Network, palette: Palette, text: string, side: keyof Ports
   return behaviorKind(palette, type) ? `${type} "${id}" has no ${side.slice(0, -1)} "${text.slice(id.length + 1)}"` : unknown(text.slice(id.length + 1));
 }
 
-function ownerOf(end: string): string {
-  return end.startsWith("board.") ? end : end.split(".", 1)[0]!;
-}
-
-/** The behaviors of a circle that a link between two of them would close; a slot of the board closes none. */
-function circleWith(n: Network, source: string, target: string): string[] | null {
-  if (source.startsWith("board.") || target.startsWith("board.")) return null;
-  const after = followers(n);
-  const cameFrom = new Map<string, string>([[target, ""]]);
-  const waiting = [target];
-  for (let id = waiting.pop(); id !== undefined; id = waiting.pop()) {
-    if (id === source) {
-      const way: string[] = [];
-      for (let one = source; one !== ""; one = cameFrom.get(one)!) way.unshift(one);
-      return [source, ...way];
-    }
-    for (const next of after.get(id) ?? [])
-      if (!cameFrom.has(next)) {
-        cameFrom.set(next, id);
-        waiting.push(next);
-      }
+/** The links of a circle that one more would close; a slot of the board closes none. */
+function circleWith(n: Network, from: string, to: string): string[] | null {
+  if (isSlot(from) || isSlot(to)) return null;
+  const [source, target] = [ownerOf(from), ownerOf(to)];
+  const way = [`${from} -> ${to}`];
+  const ways = waysTo(n, source);
+  for (let id = target; id !== source; ) {
+    const link = ways.get(id);
+    if (link === undefined) return null;
+    way.push(`${link.from} -> ${link.to}`);
+    id = ownerOf(link.to);
   }
-  return null;
+  return way;
 }
 
-const following = new WeakMap<Network, Map<string, string[]>>();
+const ways = new WeakMap<Network, Map<string, Map<string, Link>>>();
 
-function followers(n: Network): Map<string, string[]> {
-  let found = following.get(n);
-  if (found === undefined) {
-    found = new Map();
-    for (const { from, to } of n.links) {
-      if (from.startsWith("board.") || to.startsWith("board.")) continue;
-      const known = found.get(ownerOf(from));
-      if (known) known.push(ownerOf(to));
-      else found.set(ownerOf(from), [ownerOf(to)]);
+/** By behavior, the link by which what it sends comes nearer to another behavior. */
+function waysTo(n: Network, goal: string): Map<string, Link> {
+  let all = ways.get(n);
+  if (all === undefined) ways.set(n, (all = new Map()));
+  let found = all.get(goal);
+  if (found === undefined) all.set(goal, (found = walkBack(linksTo(n), goal)));
+  return found;
+}
+
+function walkBack(reaching: ReadonlyMap<string, Link[]>, goal: string): Map<string, Link> {
+  const found = new Map<string, Link>();
+  const waiting = [goal];
+  for (let id = waiting.pop(); id !== undefined; id = waiting.pop())
+    for (const link of reaching.get(id) ?? []) {
+      const before = ownerOf(link.from);
+      if (before === goal || found.has(before)) continue;
+      found.set(before, link);
+      waiting.push(before);
     }
-    following.set(n, found);
+  return found;
+}
+
+const reaching = new WeakMap<Network, Map<string, Link[]>>();
+
+/** The links between behaviors, by the one that they lead to. */
+function linksTo(n: Network): Map<string, Link[]> {
+  let found = reaching.get(n);
+  if (found === undefined) {
+    reaching.set(n, (found = new Map()));
+    for (const link of n.links) {
+      if (isSlot(link.from) || isSlot(link.to)) continue;
+      const known = found.get(ownerOf(link.to));
+      if (known) known.push(link);
+      else found.set(ownerOf(link.to), [link]);
+    }
   }
   return found;
 }

@@ -35,6 +35,9 @@ export class XmlError extends Error {
 }
 
 const DEEPEST = 64;
+const MOST_ELEMENTS = 50_000;
+/** What no XML may have, written out or as a number. */
+const FORBIDDEN = /[\0-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]/;
 const NAME = /[A-Za-z_:\u0080-\uffff][-\w:.\u0080-\uffff]*/y;
 const ATTRIBUTE = /\s+([A-Za-z_:\u0080-\uffff][-\w:.\u0080-\uffff]*)\s*=\s*(?:"([^"<]*)"|'([^'<]*)')/y;
 const ENTITIES: Record<string, string> = { lt: "<", gt: ">", amp: "&", quot: '"', apos: "'" };
@@ -45,6 +48,7 @@ export function parseXml(text: string): Element {
   let root: Element | null = null;
   let open: Element | null = null;
   let depth = 0;
+  let count = 0;
   const fail = (what: string, where = at): never => {
     throw new XmlError(what, text, where);
   };
@@ -53,6 +57,8 @@ export function parseXml(text: string): Element {
     if (found < 0) fail(`${what} is not closed`);
     at = found + end.length;
   };
+  const wrong = text.search(FORBIDDEN);
+  if (wrong >= 0) fail("a character that XML does not have", wrong);
   while (at < text.length) {
     const next = text.indexOf("<", at);
     const between = text.slice(at, next < 0 ? text.length : next);
@@ -60,7 +66,12 @@ export function parseXml(text: string): Element {
     if (between.includes("&")) decode(between, text, at);
     if (next < 0) break;
     at = next;
-    if (text.startsWith("<!--", at)) skipTo("-->", "a comment");
+    if (text.startsWith("<!--", at)) {
+      at += 4;
+      const inside = at;
+      skipTo("-->", "a comment");
+      if (text.slice(inside, at - 2).includes("--")) fail("a comment may not have -- in it", inside - 4);
+    }
     else if (text.startsWith("<?", at)) skipTo("?>", "an instruction");
     else if (text.startsWith("<![CDATA[", at) && open !== null) skipTo("]]>", "a CDATA section");
     else if (text.startsWith("<!DOCTYPE", at)) fail("a DOCTYPE is not allowed");
@@ -81,6 +92,7 @@ export function parseXml(text: string): Element {
     } else {
       const element = openingTag(text, at, open);
       if (open === null && root !== null) fail("there is more than one root");
+      if (++count > MOST_ELEMENTS) fail("there are too many elements");
       open?.children.push(element);
       root ??= element;
       at = element.openTo;
@@ -104,6 +116,7 @@ function openingTag(text: string, from: number, parent: Element | null): Element
   if (tag === "") throw new XmlError("a tag without a name", text, from);
   let at = from + 1 + tag.length;
   const attributes: Attribute[] = [];
+  const names = new Set<string>();
   for (;;) {
     ATTRIBUTE.lastIndex = at;
     const found = ATTRIBUTE.exec(text);
@@ -111,9 +124,12 @@ function openingTag(text: string, from: number, parent: Element | null): Element
     const name = found[1]!;
     const raw = found[2] ?? found[3]!;
     at = ATTRIBUTE.lastIndex;
+    const start = at - found[0].trimStart().length;
     const valueTo = at - 1;
-    if (attributes.some((one) => one.name === name)) throw new XmlError(`"${name}" is there twice`, text, at - found[0].trimStart().length);
-    attributes.push({ name, value: decode(raw, text, valueTo - raw.length), from: at - found[0].trimStart().length, to: at, valueFrom: valueTo - raw.length, valueTo });
+    const valueFrom = valueTo - raw.length;
+    if (names.has(name)) throw new XmlError(`"${name}" is there twice`, text, start);
+    names.add(name);
+    attributes.push({ name, value: decode(raw, text, valueFrom), from: start, to: at, valueFrom, valueTo });
   }
   while (/\s/.test(text[at] ?? "")) at++;
   const isEmpty = text.startsWith("/>", at);
@@ -124,11 +140,13 @@ function openingTag(text: string, from: number, parent: Element | null): Element
 }
 
 function decode(raw: string, text: string, offset: number): string {
-  if (!raw.includes("&")) return raw.replace(/[\t\n\r]/g, " ");
-  return raw.replace(/[\t\n\r]/g, " ").replace(/&([^;&\s]*;?)/g, (whole: string, name: string, at: number) => {
-    const number = /^#(?:x([0-9a-f]{1,6})|(\d{1,7}));$/i.exec(name);
+  const spaced = raw.replace(/\r\n?|[\t\n]/g, " ");
+  if (!raw.includes("&")) return spaced;
+  return spaced.replace(/&([^;&\s]*;?)/g, (whole: string, name: string, at: number) => {
+    const number = /^#(?:x([0-9a-fA-F]{1,6})|(\d{1,7}));$/.exec(name);
     const code = number ? (number[1] ? parseInt(number[1], 16) : Number(number[2])) : NaN;
-    if (code > 0 && code <= 0x10ffff) return String.fromCodePoint(code);
+    const letter = code <= 0x10ffff && (code < 0xd800 || code > 0xdfff) ? String.fromCodePoint(code) : "\0";
+    if (!Number.isNaN(code) && !FORBIDDEN.test(letter)) return letter;
     const known = name.endsWith(";") ? ENTITIES[name.slice(0, -1)] : undefined;
     if (known === undefined) throw new XmlError(`"${whole}" is not a character of XML - write &amp; for &`, text, offset + at);
     return known;
@@ -141,7 +159,7 @@ export function attribute(element: Element, name: string): string | undefined {
 
 const ESCAPES: Record<string, string> = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" };
 
-/** A value for between double quotes, as `hri network format` writes it. */
+/** A value for between double quotes, as `hri network format` writes it, without what XML cannot say. */
 export function escape(value: string): string {
-  return value.replace(/[&<>"\t\n\r]/g, (letter) => ESCAPES[letter] ?? `&#${letter.charCodeAt(0)};`);
+  return value.replace(new RegExp(FORBIDDEN, "g"), "").replace(/[&<>"\t\n\r]/g, (letter) => ESCAPES[letter] ?? `&#${letter.charCodeAt(0)};`);
 }
