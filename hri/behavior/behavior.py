@@ -67,6 +67,8 @@ class Context:
     """All that run, in the order they were started."""
     has_tasks: bool = False
     """Whether tasks run beside the networks."""
+    paused: set[str] = field(default_factory=set)
+    """Names of the networks that are paused; no network moves a drive meanwhile."""
     held_up_by: str = ""
     """The task that kept all others waiting last, for longer than it should."""
     held_up_at: float = -math.inf

@@ -8,8 +8,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from hri.behavior.behavior import Behavior
+from hri.behavior.board import BOARD, BoardSink, BoardSource
+from hri.behavior.network import Network
+from hri.behavior.ports import ANY, OutputPort
 from hri.behavior.runner import Runner
-from hri.core.errors import HriError
+from hri.core.errors import HriError, did_you_mean
 from hri.core.expression import evaluate
 
 Comparison = Callable[[Any, Any], bool]
@@ -27,6 +31,8 @@ LONGEST = 100
 """Letters of a condition."""
 _WRITTEN = re.compile(r"\s*(<=|>=|==|!=|<|>)\s*(\S.*?)\s*")
 _WORDS = {"true": True, "false": False}
+_DATATYPES: Mapping[type, str] = {float: "double", bool: "boolean", str: "string"}
+"""What an output must be for its values to be compared with a number, true or false, or a text."""
 _REMEDY = "write < 30, >= 0.5, == true, != hello, sent, or changes"
 
 
@@ -38,6 +44,14 @@ class Condition:
     """As it was written."""
     comparison: Comparison | None = None
     operand: Any = None
+
+    def check(self, port: str, datatype: str) -> None:
+        """Raise HriError where no value of this datatype could ever fit."""
+        wanted = _DATATYPES[type(self.operand)] if self.comparison else ANY
+        if ANY not in (wanted, datatype) and wanted != datatype:
+            fitting = {"double": "< 30", "boolean": "== true", "string": "== hello"}
+            remedy = f"write {fitting.get(datatype, CHANGES)}, or sent"
+            raise HriError(f'"{self.text}" fits no {datatype}, which {port} is - {remedy}')
 
     def holds(self, value: Any, before: Any) -> bool:
         """Whether it holds; `before` is what was sent last. What cannot be compared never does."""
@@ -86,12 +100,14 @@ class Breakpoint:
     """Pauses a runner when a condition holds for what an output sent."""
 
     def __init__(self, runner: Runner, port: str, condition: str) -> None:
-        """`port` is `behavior.output`. Raises HriError for one that is not there."""
+        """`port` is `behavior.output`, or `board.slot` for what the network writes or reads there.
+
+        Raises HriError for one that is not there, or for which the condition makes no sense.
+        """
         self.port, self.condition = port, parse_condition(condition)
-        id, _, output = port.partition(".")
-        behavior = runner.network[id]
-        behavior.output_named(output)
-        self._output = behavior.output_port(output)
+        behavior, output = _sender(runner.network, port)
+        self.condition.check(port, behavior.output_named(output).datatype)
+        self._output: OutputPort[Any] = behavior.output_port(output)
         self._runner, self._before = runner, None
         self._runner.after_tick.append(self._look)
 
@@ -106,7 +122,25 @@ class Breakpoint:
             return
         before, self._before = self._before, value
         if self.condition.holds(value, before):
-            self._runner.pause(f"{self.port} {self.condition.text}: {_in_words(value)}")
+            words = _in_words(value)
+            self._runner.pause(f"{self.port} {self.condition.text}: {words}", self.port, words)
+
+
+def _sender(network: Network, port: str) -> tuple[Behavior, str]:
+    """The behavior that sends it, and the name of its output. Raises HriError."""
+    id, _, name = port.partition(".")
+    if id != BOARD or any(one.id == BOARD for one in network.authored):
+        return network[id], name
+    slots: dict[str, tuple[Behavior, str]] = {}
+    for link in network.links:
+        if isinstance(link.source, BoardSource):
+            slots.setdefault(link.output, (link.source, link.output))
+        if isinstance(link.target, BoardSink):
+            slots[link.input] = link.source, link.output
+    if name not in slots:
+        what = f"network {network.name} neither reads nor writes {port}"
+        raise HriError(f"{what} - {did_you_mean(name, slots, 'name an output')}")
+    return slots[name]
 
 
 def _in_words(value: Any) -> str:

@@ -29,7 +29,8 @@ class DriveCommand(DeviceBehavior):
     for `PATIENCE` seconds after that word. While nothing comes in it leaves the drive alone, so
     that someone else may use it. Several that write one drive need different ranks; while one of
     a higher rank steers, the others wait, and raise `drive.refused` (`words`) once. With the rank
-    "teleop", a velocity of 0 counts as nothing: it is that of a stick at rest.
+    "teleop", a velocity of 0 counts as nothing: it is that of a stick at rest. While any network is
+    paused, whatever that one would have said, it keeps the drive at rest.
     """
 
     may_do = frozenset({Effect.MOVES})
@@ -52,7 +53,7 @@ class DriveCommand(DeviceBehavior):
         except HriError:
             self._give_back()
             raise
-        self._clock, self._events = context.clock, context.events
+        self._clock, self._events, self._paused = context.clock, context.events, context.paused
         self._is_driving = self._is_waiting = self._must_let_go = False
         self._subscription = context.events.subscribe("drive.halt", self._halt)
 
@@ -61,7 +62,7 @@ class DriveCommand(DeviceBehavior):
         return self.drive_id, self.rank
 
     def compute(self, now: float, dt: float) -> None:
-        velocity, until = self._asked()
+        velocity, until = (None, math.inf) if self._paused else self._asked()
         if self._must_let_go:
             self._must_let_go = velocity not in (None, Twist()) and now <= until
             velocity = None

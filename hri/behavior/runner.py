@@ -11,7 +11,8 @@ In real time the tick of a faster network that is due does not wait for the end 
 it runs between two behaviors of the slower one. So it is late by a behavior, not by a network.
 
 A paused network computes nothing. What steers a drive or writes to the board sees empty inputs in
-each tick, so that the base stands still. A single step computes all but those: nothing leaves it.
+each tick. A single step computes all but those: nothing leaves it. While any network is paused, no
+other moves a drive either: it might lack the word that would have slowed it down.
 
 A behavior that raises an exception rests for a second, sending nothing, and is tried again; the
 others go on. What depends on it sees empty inputs, which for a drive means: stand still.
@@ -124,6 +125,7 @@ class Runner:
         self._due = math.inf
         if self in self.context.runners:
             self.context.runners.remove(self)
+        self.context.paused.discard(self.network.name)
         while self._started:
             behavior = self._started.pop()
             try:
@@ -131,16 +133,23 @@ class Runner:
             except Exception as error:
                 log.error("%s did not stop: %s", self._name_of(behavior), error, exc_info=error)
 
-    def pause(self, because: str = "") -> None:
-        """Compute no more until `resume`; raises the event `network.paused`."""
-        if not self.is_paused:
-            self.is_paused, self.paused_by, self._steps = True, because, 0
-            self._raise("network.paused", because=because)
+    def pause(self, because: str = "", port: str = "", value: str = "") -> None:
+        """Compute no more until `resume`; raises the event `network.paused`.
+
+        `because` and the others say at which breakpoint, at what value of which port.
+        """
+        if self.is_paused:
+            self.paused_by = because or self.paused_by  # at the end of a single step
+            return
+        self.is_paused, self.paused_by, self._steps = True, because, 0
+        self.context.paused.add(self.network.name)
+        self._raise("network.paused", because=because, port=port, value=value)
 
     def resume(self) -> None:
         """Go on; raises the event `network.resumed`."""
         if self.is_paused:
             self.is_paused, self.paused_by = False, ""
+            self.context.paused.discard(self.network.name)
             self._raise("network.resumed")
 
     def step(self) -> None:

@@ -16,9 +16,9 @@ Listener = Callable[[Event], object]
 # fmt: off
 OWN_SUBJECTS = frozenset((
     "battery", "behavior", "bumper", "camera", "cliff", "drive", "emotion", "emotions", "face",
-    "gesture", "grammar", "head", "memory", "microphone", "motion", "object", "odometry", "person",
-    "question", "recording", "replies", "speech", "stimulus", "target", "task", "vision", "visitor",
-    "window",
+    "gesture", "grammar", "head", "memory", "microphone", "motion", "network", "object", "odometry",
+    "person", "question", "recording", "replies", "speech", "stimulus", "target", "task", "vision",
+    "visitor", "window",
 ))
 # fmt: on
 """What the robot's own events are about: the first word of their names."""

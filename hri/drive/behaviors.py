@@ -34,7 +34,8 @@ class CommandGate(Behavior):
 
     What rests on the word of someone outside, such as a peer over the network, counts for
     `PATIENCE` seconds after that word. A linked sensor that says nothing for `timeout_s` counts as
-    an obstacle that touches, a linked switch as pressed.
+    an obstacle that touches, a linked switch as pressed. While any network is paused, the base
+    rests: one that is silent might have said "slower".
 
     All range sensors of the configuration, linked or not, are watched for someone who comes. Then
     it goes only so fast that it stands before they are here, and where that is too late for
@@ -69,7 +70,7 @@ class CommandGate(Behavior):
     )
 
     def start(self, context: Context) -> None:
-        self._slot = context.board.slot(self.slot)
+        self._slot, self._paused = context.board.slot(self.slot), context.paused
         self._motion = context.board.slot(MOTION)
         self._gate = VelocityGate(self._limits())
         self._reporter = MotionReporter(context.events)
@@ -86,7 +87,9 @@ class CommandGate(Behavior):
 
     def compute(self, now: float, dt: float) -> None:
         """Take the command, look ahead, limit, send, report: in this order."""
-        if now > min(counts_until(self.twist), counts_until(self.speed)):
+        if self._paused:
+            self._gate.halt("paused")
+        elif now > min(counts_until(self.twist), counts_until(self.speed)):
             self._gate.halt("timeout")
         else:
             self._take_command(now)

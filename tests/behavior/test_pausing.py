@@ -12,6 +12,8 @@ from hri.behavior.running import Networks
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.core.event_bus import EventBus
+from hri.core.signals import Twist
+from hri.drive.behaviors import COMMAND
 from hri.hal.drive import Odometry
 from hri.hal.resource_manager import ResourceManager
 from hri.robot import Robot
@@ -172,6 +174,39 @@ def test_any_text_is_a_condition_that_can_be_asked_or_an_error(text, value):
     assert condition.holds(value, value) in (True, False)
 
 
+@pytest.mark.parametrize(
+    ("port", "condition", "remedy"),
+    [
+        ("it.name", "< 30", "write == hello"),
+        ("it.number", "== true", "write < 30"),
+        ("board.count", "== hello", "write < 30"),
+        ("board.cuont", "sent", 'did you mean "count"'),
+    ],
+)
+def test_a_condition_that_never_fits_its_port_is_refused(port, condition, remedy):
+    async def script(clock, context, runner):
+        with pytest.raises(HriError, match=remedy):
+            Breakpoint(runner, port, condition)
+
+    lived(script, rising())
+
+
+def test_the_event_of_a_breakpoint_says_where_and_at_what_value():
+    told = []
+
+    async def script(clock, context, runner):
+        context.events.subscribe("network.paused", lambda event: told.append(event.properties))
+        Breakpoint(runner, "board.count", "> 4")
+        await clock.sleep(1.0)
+        runner.step()
+        await clock.sleep(0.1)
+        assert runner.paused_by == "board.count > 4: 6", "the step has ended there, too"
+
+    lived(script, rising())
+    because = "board.count > 4: 5"
+    assert told == [{"network": "rising", "because": because, "port": "board.count", "value": "5"}]
+
+
 def test_a_port_that_is_not_there_is_refused():
     async def script(clock, context, runner):
         for port in ("it.nothing", "nobody.number", "it"):
@@ -191,14 +226,63 @@ MOVING = """<BehaviorNetwork name="moving" invocation_interval="0.02">
 </BehaviorNetwork>"""
 
 
+CAREFUL = """<BehaviorNetwork name="careful" invocation_interval="0.02">
+  <Behavior id="speed" type="Hri.Constant"><Parameter name="parsed_value" value="0.2"/></Behavior>
+  <Link from="speed.value" to="board.factor"/>
+</BehaviorNetwork>"""
+GATED = """<BehaviorNetwork name="gated" invocation_interval="0.02">
+  <Behavior id="gate" type="Hri.CommandGate"/>
+  <Behavior id="drive" type="Hri.DriveSystem"/>
+  <Link from="board.factor" to="gate.speed"/>
+  <Link from="gate.velocity" to="drive.velocity"/>
+</BehaviorNetwork>"""
+
+
+@pytest.fixture
+def app(tmp_path):
+    """A function that makes an app of networks."""
+
+    def make(**networks):
+        names = ", ".join(f'"{name}.xml"' for name in networks)
+        (tmp_path / "app.toml").write_text(f'about = "drives"\nnetworks = [{names}]\n')
+        for name, text in networks.items():
+            (tmp_path / f"{name}.xml").write_text(text)
+        return str(tmp_path)
+
+    return make
+
+
+@pytest.mark.parametrize("paused", ["careful", "gated"])
+def test_the_base_stands_though_the_network_that_is_paused_would_slow_it_down(app, paused):
+    with Robot(app(careful=CAREFUL, gated=GATED), "simulated", clock=FakeClock()) as robot:
+        odometry = robot.resources.obtain("odometry", Odometry)
+        stopped = []
+        robot.events.subscribe("drive.stopped", lambda event: stopped.append(event.properties))
+
+        def speeds(seconds):
+            found = []
+            for _ in range(round(seconds / 0.05)):
+                now = robot.clock.now()
+                robot.board.slot(COMMAND).set(Twist(0.3, 0.0), now)
+                robot.wait(0.05)
+                found.append(odometry.velocity(robot.clock.now()).linear)
+            return found
+
+        assert speeds(2.0)[-1] == pytest.approx(0.06, abs=0.01)
+        robot.networks.runners[paused].pause()
+        while_paused = speeds(2.0)
+        assert max(while_paused) <= 0.07, "without its word it would be five times as fast"
+        assert set(while_paused[10:]) == {0}
+        robot.networks.runners[paused].resume()
+        again = speeds(2.0)
+        assert again[-1] == pytest.approx(0.06, abs=0.01)
+        assert again[0] < 0.03, "it sets off gently"
+        assert paused == "gated" or {"reason": "paused"} in stopped
+
+
 @pytest.mark.parametrize("paused", ["wishing", "moving"])
-def test_the_base_stands_while_a_network_is_paused_that_drives_or_feeds_what_does(paused, tmp_path):
-    (tmp_path / "app.toml").write_text(
-        'about = "drives"\nnetworks = ["wishing.xml", "moving.xml"]\n'
-    )
-    (tmp_path / "wishing.xml").write_text(WISHING)
-    (tmp_path / "moving.xml").write_text(MOVING)
-    with Robot(str(tmp_path), "simulated", clock=FakeClock()) as robot:
+def test_the_base_stands_while_a_network_is_paused_that_drives_or_feeds_what_does(paused, app):
+    with Robot(app(wishing=WISHING, moving=MOVING), "simulated", clock=FakeClock()) as robot:
         odometry = robot.resources.obtain("odometry", Odometry)
 
         def speed_after(seconds):
