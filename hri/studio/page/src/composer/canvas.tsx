@@ -29,6 +29,8 @@ export const BEHAVIOR_TYPE = "application/x-hri-behavior";
 
 const NODES = { part: PartView };
 const EDGES = { wire: WireView };
+/** Pixels. */
+const MAP_SIZE = { width: 130, height: 90 };
 
 interface CanvasProps {
   doc: ComposerDocument;
@@ -218,6 +220,7 @@ export function Canvas({ doc, composition, mode, isWhole, isLive, add, openOther
           onClickConnectEnd={letGo}
           isValidConnection={(one) => verdict(one as Connection).ok}
           onNodeDragStart={() => gesture.current++}
+          onNodeClick={(_, { data: { part } }) => part.network && doc.notice.set(`${part.id} is in ${part.network} - a double-click opens it`)}
           onNodeDoubleClick={(_, node) => node.data.part.network && openOther(node.data.part.network)}
           onNodeContextMenu={(event, node) => node.data.part.network === "" && menu(event, node.id)}
           onPaneClick={() => doc.select([])}
@@ -236,7 +239,7 @@ export function Canvas({ doc, composition, mode, isWhole, isLive, add, openOther
         >
           <Background gap={20} />
           <Controls showInteractive={false} />
-          <MiniMap pannable zoomable nodeColor="var(--quiet)" maskColor="var(--mask)" ariaLabel="Map of the network" />
+          <MiniMap style={MAP_SIZE} pannable zoomable nodeColor="var(--quiet)" maskColor="var(--mask)" ariaLabel="Map of the network" />
         </ReactFlow>
       </InHand>
     </div>

@@ -3,7 +3,7 @@
 
 import { defaultKeymap } from "@codemirror/commands";
 import { xml } from "@codemirror/lang-xml";
-import { defaultHighlightStyle, HighlightStyle, indentUnit, syntaxHighlighting } from "@codemirror/language";
+import { HighlightStyle, indentUnit, syntaxHighlighting } from "@codemirror/language";
 import { lintGutter, setDiagnostics } from "@codemirror/lint";
 import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
 import { Annotation, EditorState } from "@codemirror/state";
@@ -15,11 +15,11 @@ import { useStore } from "./store";
 
 /** Marks changes that came from the graph, which must not go back to it. */
 const FromGraph = Annotation.define<boolean>();
-const DARK = HighlightStyle.define([
-  { tag: tags.tagName, color: "#7ee787" },
-  { tag: tags.attributeName, color: "#79c0ff" },
-  { tag: tags.attributeValue, color: "#a5d6ff" },
-  { tag: tags.comment, color: "#a3adb8" },
+const COLORS = HighlightStyle.define([
+  { tag: tags.tagName, color: "var(--wire-2)" },
+  { tag: tags.attributeName, color: "var(--wire-0)" },
+  { tag: tags.attributeValue, color: "var(--wire-4)" },
+  { tag: tags.comment, color: "var(--quiet)" },
 ]);
 
 const THEME = EditorView.theme({
@@ -41,7 +41,6 @@ export function Source({ doc }: { doc: ComposerDocument }) {
 
   useEffect(() => {
     const root = host.current!.shadowRoot ?? host.current!.attachShadow({ mode: "open" });
-    const isDark = matchMedia("(prefers-color-scheme: dark)").matches;
     const editor = new EditorView({
       root,
       parent: root,
@@ -56,7 +55,7 @@ export function Source({ doc }: { doc: ComposerDocument }) {
           highlightSelectionMatches(),
           indentUnit.of("  "),
           xml(),
-          syntaxHighlighting(isDark ? DARK : defaultHighlightStyle),
+          syntaxHighlighting(COLORS),
           // Undo is the document's, so that the graph and the text have one history.
           keymap.of([
             { key: "Mod-z", run: () => (doc.undo(), true) },
@@ -76,6 +75,7 @@ export function Source({ doc }: { doc: ComposerDocument }) {
         ],
       }),
     });
+    editor.scrollDOM.tabIndex = 0; // so that the keyboard can scroll it
     view.current = editor;
     return () => editor.destroy();
   }, [doc, path]);
