@@ -175,3 +175,31 @@ function pasting(n: Network, ids: string[], shift: Box): Command {
     },
   };
 }
+
+/** A network of so many behaviors in layers, each linked to some of the layer before, and placed. */
+export function large(count: number): string {
+  const chance = random(count);
+  const ids = Array.from({ length: count }, (_, number) => `part${number}`);
+  const before = (number: number) => `part${Math.floor(chance() * Math.min(number, 30)) + Math.max(0, number - 30)}`;
+  return [
+    '<?xml version="1.0" encoding="UTF-8"?>',
+    '<BehaviorNetwork name="large">',
+    ...ids.map((id) => `  <Behavior id="${id}" type="Hri.Scale">\n    <Parameter name="factor" value="1/2"/>\n  </Behavior>`),
+    ...ids.slice(1).flatMap((id, at) => [0, 1].map(() => `  <Link from="${before(at + 1)}.output" to="${id}.input"/>`)),
+    "  <Layout>",
+    ...ids.map((id, number) => `    <Box id="${id}" x="${(number % 20) * 200}" y="${Math.floor(number / 20) * 120}"/>`),
+    "  </Layout>",
+    "</BehaviorNetwork>",
+    "",
+  ].join("\n");
+}
+
+/** Milliseconds that it takes: the least of some turns, since others use the machine as well. */
+export function milliseconds(work: () => unknown, turns = 15): number {
+  const times = Array.from({ length: turns }, () => {
+    const start = performance.now();
+    work();
+    return performance.now() - start;
+  });
+  return Math.min(...times);
+}

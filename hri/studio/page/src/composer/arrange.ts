@@ -10,7 +10,7 @@ const MARGIN = 40;
 /** By id; the slots of the board are parts as well. `size` is in pixels. */
 export function arrange(n: Pick<Network, "behaviors" | "links">, size: (id: string) => { width: number; height: number }): Map<string, Box> {
   const graph = new Graph();
-  graph.setGraph({ rankdir: "LR", ranksep: BETWEEN_LAYERS, nodesep: BETWEEN_PARTS, marginx: MARGIN, marginy: MARGIN });
+  graph.setGraph({ rankdir: "LR", ranker: "tight-tree", ranksep: BETWEEN_LAYERS, nodesep: BETWEEN_PARTS, marginx: MARGIN, marginy: MARGIN });
   graph.setDefaultEdgeLabel(() => ({}));
   const ids = new Set(n.behaviors.map((one) => one.id));
   const put = (id: string) => {

@@ -67,10 +67,9 @@ export function parseXml(text: string): Element {
     if (next < 0) break;
     at = next;
     if (text.startsWith("<!--", at)) {
-      at += 4;
-      const inside = at;
+      const from = at;
       skipTo("-->", "a comment");
-      if (text.slice(inside, at - 2).includes("--")) fail("a comment may not have -- in it", inside - 4);
+      if (at < from + 7 || text.slice(from + 4, at - 2).includes("--")) fail("a comment may not have -- in it", from);
     }
     else if (text.startsWith("<?", at)) skipTo("?>", "an instruction");
     else if (text.startsWith("<![CDATA[", at) && open !== null) skipTo("]]>", "a CDATA section");
