@@ -48,6 +48,8 @@ class Node:
     y: float = 0.0
     before: list[Node] = field(default_factory=list)
     after: list[Node] = field(default_factory=list)
+    shade: str = ""
+    """What it is in a comparison: a key of `network_svg.SHADES`; empty elsewhere."""
 
     @property
     def middle(self) -> float:
@@ -65,6 +67,7 @@ class Wire:
     link: Link
     bends: list[Node]
     points: list[tuple[float, float]] = field(default_factory=list)
+    shade: str = ""
 
 
 @dataclass
@@ -103,6 +106,11 @@ def stacked(layouts: list[Layout]) -> Layout:
     """Drawings below each other, each below the name of its network; one alone has no heading."""
     if len(layouts) == 1:
         return replace(layouts[0], headings=[])
+    return titled(layouts)
+
+
+def titled(layouts: list[Layout]) -> Layout:
+    """Drawings below each other, each below its heading."""
     down = 0.0
     whole = Layout([], [], max((one.width for one in layouts), default=0.0), 0.0)
     for one in layouts:
@@ -134,7 +142,8 @@ def _box(behavior: Behavior, network: Network, kind: str) -> Node:
 
 
 def _shown(ports: Iterable[str], linked: set[str]) -> list[str]:
-    names = list(ports)
+    # In a comparison a link may name a port that its behavior has no more.
+    names = list(dict.fromkeys((*ports, *sorted(linked))))
     return names if len(names) <= MOST_PORTS else [name for name in names if name in linked]
 
 

@@ -24,6 +24,29 @@ WIRES = ("#2f6fb3", "#b5562b", "#3c8a4e", "#8a4fa3", "#a3343f", "#4a7d86", "#8a7
 """A wire's color is that of its datatype."""
 
 
+SHADES = {
+    "added": ("#d9f2dd", "#1a7f37", ""),
+    "removed": ("#fbe3e1", "#b3261e", "6 4"),
+    "changed": ("#fff1cc", "#9a6700", ""),
+    "same": ("#f4f6f8", "#a8b1b8", ""),
+}
+"""In a comparison, by what became of a part: its fill, its line, and the dashes of that."""
+
+
+def stroke_of(wire: Wire) -> tuple[str, str]:
+    """The color of a wire, and its dashes."""
+    if wire.shade:
+        _, line, dashes = SHADES[wire.shade]
+        return line, dashes
+    return wire_color(wire.link.datatype), ""
+
+
+def look_of(box: Node) -> tuple[str, str, str]:
+    """The fill of a box, its line, and the dashes of that."""
+    assert box.behavior is not None, "bends are not drawn"
+    return SHADES[box.shade] if box.shade else (fill_of(box.behavior), COLORS["edge"], "")
+
+
 def wire_color(datatype: str) -> str:
     """Always the same color for a datatype."""
     return WIRES[zlib.crc32(datatype.encode()) % len(WIRES)]
@@ -67,18 +90,23 @@ def _wire(wire: Wire) -> str:
     path = f"M{x:.1f},{y:.1f}" + "".join(
         "C" + " ".join(f"{px:.1f},{py:.1f}" for px, py in piece[1:]) for piece in curve(wire.points)
     )
-    color = wire_color(wire.link.datatype)
+    color, dashes = stroke_of(wire)
     title = f"<title>{escape(str(wire.link))}</title>"
-    return f'<path d="{path}" fill="none" stroke="{color}" stroke-width="1.8">{title}</path>'
+    stroke = f'stroke="{color}" stroke-width="1.8"{_dashed(dashes)}'
+    return f'<path d="{path}" fill="none" {stroke}>{title}</path>'
+
+
+def _dashed(dashes: str) -> str:
+    return f' stroke-dasharray="{dashes}"' if dashes else ""
 
 
 def _box(box: Node, linked: set[tuple[Behavior, str]]) -> list[str]:
     assert box.behavior is not None, "bends are not drawn"
-    fill = fill_of(box.behavior)
+    fill, line, dashes = look_of(box)
     left, top = box.x, box.y
     lines = [
         f'<rect x="{left:.1f}" y="{top:.1f}" width="{box.width:.1f}" height="{box.height:.1f}"'
-        f' rx="6" fill="{fill}" stroke="{COLORS["edge"]}"/>',
+        f' rx="6" fill="{fill}" stroke="{line}"{_dashed(dashes)}/>',
         _text(left + box.width / 2, top + 18, box.behavior.id, "middle", INK, "bold"),
         _text(left + box.width / 2, top + 33, box.kind, "middle", FAINT),
     ]

@@ -1,18 +1,26 @@
-"""`hri network check|show|draw|format FILE|APP`: checks, shows and draws networks."""
+"""`hri network check|show|draw|format|diff FILE|APP`: looks at networks, and compares them."""
 
 from __future__ import annotations
 
 import argparse
+import json
 from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
 
-from hri.behavior.behavior import Behavior
-from hri.behavior.board import DECLARED, BoardSink, BoardSource
+from hri.behavior.board import DECLARED
 from hri.behavior.catalog import type_of
 from hri.behavior.network import Network
 from hri.behavior.network_check import check_together, slot_table
+from hri.behavior.network_difference import (
+    HEADING,
+    NetworkDifference,
+    compare,
+    drawn_together,
+    kind_of,
+)
 from hri.behavior.network_file import load_network
-from hri.behavior.network_layout import lay_out, stacked
+from hri.behavior.network_layout import Layout, lay_out, stacked, titled
 from hri.behavior.network_svg import to_svg
 from hri.behavior.writer import save_network, write_network
 from hri.cli.terminal.progress_line import waiting
@@ -29,7 +37,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         command = commands.add_parser(name, help=about, description=about)
         what = "a network, or an app with its networks: a path, or a name in the search folders"
         command.add_argument("network", metavar="FILE|APP", help=what)
-        if name == "draw":
+        if name == "diff":
+            command.add_argument("other", metavar="FILE|APP", help="what it became")
+            command.add_argument("--json", action="store_true", help="print them as JSON")
+        if name in ("draw", "diff"):
             command.add_argument("--out", type=Path, metavar="FILE", help="*.svg or *.png")
 
 
@@ -120,7 +131,12 @@ def _show_board(networks: list[Network]) -> None:
 def draw(networks: list[Network], options: argparse.Namespace) -> int:
     """Write a picture; the file name decides the format."""
     out = options.out or Path(f"{Path(options.network).stem}.svg")
-    layout = stacked([lay_out(network, _second_line) for network in networks])
+    _write_picture(stacked([lay_out(network, kind_of) for network in networks]), out)
+    return 0
+
+
+def _write_picture(layout: Layout, out: Path) -> None:
+    """The file name decides the format. Raises HriError."""
     if out.suffix == ".svg":
         write_text(out, to_svg(layout))
     elif out.suffix == ".png":
@@ -130,12 +146,44 @@ def draw(networks: list[Network], options: argparse.Namespace) -> int:
     else:
         raise HriError(f'a picture "{out}" - name it *.svg or *.png')
     print(out)
-    return 0
 
 
-def _second_line(behavior: Behavior) -> str:
-    """The line below the id in a picture."""
-    return "slots" if isinstance(behavior, BoardSource | BoardSink) else type_of(behavior)
+def diff(networks: list[Network], options: argparse.Namespace) -> int:
+    """What differs from another network or app, also as a picture; exit status 1 when any does."""
+    others = _loaded(options.other)
+    pairs = _paired(networks, others)
+    differences = [compare(old, new) for old, new in pairs]
+    if options.json:
+        print(json.dumps([asdict(one) for one in differences], indent=2))
+    else:
+        for (old, new), difference in zip(pairs, differences, strict=True):
+            _print_difference(old, new, difference)
+    if options.out is not None:
+        drawn = [drawn_together(*pair, one) for pair, one in zip(pairs, differences, strict=True)]
+        for layout in drawn:
+            name, x, y = layout.headings[0]
+            layout.headings = [(f"{name} ({HEADING})", x, y)]
+        _write_picture(titled(drawn), options.out)
+    return int(any(not one.is_empty for one in differences))
+
+
+def _paired(old: list[Network], new: list[Network]) -> list[tuple[Network, Network]]:
+    """The networks of two apps by their names; two networks whatever they are called."""
+    if len(old) == len(new) == 1:
+        return [(old[0], new[0])]
+    before, after = ({one.name: one for one in side} for side in (old, new))
+    names = dict.fromkeys((*before, *after))
+    return [(before.get(name) or Network(name), after.get(name) or Network(name)) for name in names]
+
+
+def _print_difference(old: Network, new: Network, difference: NetworkDifference) -> None:
+    lines = difference.lines()
+    if lines:
+        print("\n".join([f"--- {old.path}", f"+++ {new.path}", *map(escaped, lines)]))
+        return
+    is_equal = write_network(old) == write_network(new)
+    same = "the same" if is_equal else "the same but for order, layout, and comments"
+    print(f"{new.path}: {same}")
 
 
 def format(networks: list[Network], options: argparse.Namespace) -> int:
@@ -158,5 +206,6 @@ ACTIONS: dict[str, tuple[Callable[[list[Network], argparse.Namespace], int], str
     "check": (check, "report errors and warnings; exit 1 on warnings"),
     "show": (show, "print order, rate, parameters, links, and users of the board"),
     "draw": (draw, "draw the network, as SVG or PNG"),
+    "diff": (diff, "compare two networks, also as a picture; exit 1 when they differ"),
     "format": (format, "rewrite the file in canonical form"),
 }

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import io
+import math
+from itertools import pairwise
 from pathlib import Path
 
 from PIL import Image, ImageDraw, ImageFont
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.network_layout import LINE, PADDING, TITLE, Layout, Node
-from hri.behavior.network_svg import COLORS, FAINT, FONT, INK, curve, fill_of, wire_color
+from hri.behavior.network_svg import COLORS, FAINT, FONT, INK, curve, look_of, stroke_of
 from hri.core.writing import write_bytes
 
 SCALE = 2
@@ -17,6 +19,8 @@ SCALE = 2
 FINER = 2
 """Supersampling factor, so that nearly level lines have no steps."""
 MOST_PIXELS = 60_000_000
+DASH = 5
+"""Length of a dash, and of the gap behind it."""
 STEPS = 24
 """Straight segments of a curve."""
 
@@ -31,8 +35,9 @@ def write_png(layout: Layout, out: Path) -> None:
     for name, x, y in layout.headings:
         pen.text(x, y, name, "ls", INK)
     for wire in layout.wires:
+        color, dashes = stroke_of(wire)
         for piece in curve(wire.points):
-            pen.line(strokes(piece), wire_color(wire.link.datatype))
+            pen.line(strokes(piece), color, is_dashed=bool(dashes))
     linked = {(wire.link.source, wire.link.output) for wire in layout.wires}
     linked |= {(wire.link.target, wire.link.input) for wire in layout.wires}
     for box in layout.boxes:
@@ -40,6 +45,18 @@ def write_png(layout: Layout, out: Path) -> None:
     picture = io.BytesIO()
     image.reduce(FINER).save(picture, "PNG")
     write_bytes(out, picture.getvalue())
+
+
+def _evenly(points: list[tuple[float, float]], step: float) -> list[tuple[float, float]]:
+    """Points along a line, a step apart."""
+    found = points[:1]
+    for (x0, y0), (x1, y1) in pairwise(points):
+        count = max(1, round(math.dist((x0, y0), (x1, y1)) / step))
+        found += [
+            (x0 + (x1 - x0) * part / count, y0 + (y1 - y0) * part / count)
+            for part in range(1, count + 1)
+        ]
+    return found
 
 
 class _Pen:
@@ -50,14 +67,18 @@ class _Pen:
         self.scale = scale
         self.font = ImageFont.load_default(FONT * scale)
 
-    def line(self, points: list[tuple[float, float]], color: str) -> None:
+    def line(self, points: list[tuple[float, float]], color: str, is_dashed: bool = False) -> None:
         scaled = [(x * self.scale, y * self.scale) for x, y in points]
-        self.draw.line(scaled, color, round(1.8 * self.scale), joint="curve")
+        thickness = round(1.8 * self.scale)
+        if not is_dashed:
+            self.draw.line(scaled, color, thickness, joint="curve")
+        for pair in list(pairwise(_evenly(scaled, DASH * self.scale)))[::2] if is_dashed else ():
+            self.draw.line(pair, color, thickness)
 
-    def box(self, x: float, y: float, width: float, height: float, fill: str) -> None:
+    def box(self, x: float, y: float, width: float, height: float, fill: str, line: str) -> None:
         corners = [v * self.scale for v in (x, y, x + width, y + height)]
         radius = 6 * self.scale
-        self.draw.rounded_rectangle(corners, radius, fill, COLORS["edge"], round(self.scale))
+        self.draw.rounded_rectangle(corners, radius, fill, line, round(self.scale))
 
     def dot(self, x: float, y: float, color: str) -> None:
         self.draw.ellipse([v * self.scale for v in (x - 3, y - 3, x + 3, y + 3)], color)
@@ -82,7 +103,12 @@ def strokes(piece: tuple[tuple[float, float], ...]) -> list[tuple[float, float]]
 
 def _draw_box(pen: _Pen, box: Node, linked: set[tuple[Behavior, str]]) -> None:
     assert box.behavior is not None, "bends are not drawn"
-    pen.box(box.x, box.y, box.width, box.height, fill_of(box.behavior))
+    fill, line, dashes = look_of(box)
+    pen.box(box.x, box.y, box.width, box.height, fill, fill if dashes else line)
+    if dashes:
+        right, low = box.x + box.width, box.y + box.height
+        corners = [(box.x, box.y), (right, box.y), (right, low), (box.x, low), (box.x, box.y)]
+        pen.line(corners, line, is_dashed=True)
     middle = box.x + box.width / 2
     pen.text(middle, box.y + 14, box.behavior.id, "mm", INK)
     pen.text(middle, box.y + 30, box.kind, "mm", FAINT)
