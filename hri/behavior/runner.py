@@ -23,7 +23,8 @@ from __future__ import annotations
 import logging
 import math
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
@@ -35,6 +36,7 @@ from hri.behavior.network import Network
 from hri.behavior.ports import InputPort, OutputPort
 from hri.behavior.tick_statistics import Statistics, Timing
 from hri.core.errors import AuthoringError, HriError
+from hri.hal.resource import Resource
 
 log = logging.getLogger("hri.behavior")
 
@@ -161,6 +163,30 @@ class Runner:
 
     def _raise(self, event: str, **properties: str) -> None:
         self.context.events.raise_event(event, network=self.network.name, **properties)
+
+    @contextmanager
+    def lending_drives(self) -> Iterator[None]:
+        """Let another network claim the drives that this one steers; if the body fails, it has them
+        again, else it may only be stopped.
+        """
+        resources = self.context.resources
+        steering = [(one, one.steers[0]) for one in self._started if one.steers is not None]
+        # Held meanwhile, so that no drive is closed and opened again.
+        held = [resources.obtain(drive, Resource) for _, drive in steering]
+        try:
+            for behavior, _ in steering:
+                behavior.stop()
+                self._started.remove(behavior)
+            try:
+                yield
+            except BaseException:
+                for behavior, _ in steering:
+                    self._start(behavior)
+                    self._started.append(behavior)
+                raise
+        finally:
+            for drive in held:
+                resources.release(drive)
 
     def inject(self, behavior: str, input: str, value: Any) -> None:
         """Send a value to an input, once, as an additional first link, at the next tick.

@@ -50,13 +50,15 @@ class Networks:
         self._end(runner)
 
     def swap(self, name: str, network: Network) -> Runner:
-        """Replace a running network by another; it keeps running if the new one fails. The watches
-        of the old one end with it, which is logged. Raises HriError.
+        """Replace a running network by another, which takes over its drives; it keeps running if
+        the new one fails. The watches of the old one end with it, which is logged. Raises HriError.
         """
         old = self._runner(name)
         if network.name != name and network.name in self.runners:
             raise HriError(f'a network "{network.name}" runs already - stop it first')
-        runner = self._started(network)
+        network.check()
+        with old.lending_drives():
+            runner = self._started(network)
         if old.is_watched:
             log.warning("%s was swapped, and those who watched it see no more", name)
         self._end(old)

@@ -300,3 +300,31 @@ def test_each_command_arrives_at_the_supervisor_with_the_rank_it_has(tmp_path: P
     assert "behaviors" in levels["network"]
     assert "tasks" not in levels["network"]
     assert "tasks" in levels["script"]
+
+
+def test_a_network_that_takes_the_place_of_another_takes_over_its_drive(
+    stage: Stage, tmp_path: Path
+) -> None:
+    stage.start("first", driver("ahead", 20))
+    assert stage.run(1.0) == pytest.approx(0.2)
+    ends = []
+    stage.drive.deactivate = lambda: ends.append("closed")  # type: ignore[method-assign]
+    next_one = load_network(written(tmp_path, "next", driver("ahead", 10)))
+    next_one.name = "first"
+    stage.networks.swap("first", next_one)
+    assert stage.run(1.0) == pytest.approx(0.1)
+    assert ends == []
+
+
+def test_one_that_cannot_take_the_place_leaves_the_drive_where_it_was(
+    stage: Stage, tmp_path: Path
+) -> None:
+    stage.start("first", driver("ahead", 20))
+    missing = '  <Behavior id="eye" type="Hri.Camera"/>\n'
+    next_one = load_network(written(tmp_path, "next", driver("ahead", 10), missing))
+    next_one.name = "first"
+    with pytest.raises(HriError, match="camera"):
+        stage.networks.swap("first", next_one)
+    assert stage.run(1.0) == pytest.approx(0.2)
+    with pytest.raises(HriError, match="steers it already"):
+        stage.start("second", driver("back", -20))
