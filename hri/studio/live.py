@@ -151,8 +151,9 @@ class Live:
             "api": API,
             "app": self._robot.app.name,
             "about": self._robot.app.about,
-            "is_simulated": self._world_of() is not None,
+            "is_simulated": self._world_of() is not None or self._is_world_configured(),
             "has_base": bool(drives),
+            "is_network": self._robot.app.is_network,
             "networks": [str(path.resolve()) for path in self._robot.app.networks],
         }
 
@@ -288,6 +289,12 @@ class Live:
                 for name, one in world.obstacles.items()
             ],
         }
+
+    def _is_world_configured(self) -> bool:
+        """Also before anything is open: a world that is there, not one that may stand in."""
+        resources = self._robot.resources
+        stand_ins = {one.text("stand_in") for one in resources.descriptions.values()}
+        return not stand_ins.issuperset(resources.ids(SimulatedWorld))
 
     def _world_of(self) -> SimulatedWorld | None:
         return next(iter(self._robot.resources.opened(SimulatedWorld)), None)

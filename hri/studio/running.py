@@ -23,8 +23,9 @@ PICTURES_EVERY = 6
 class RunningNetworks:
     """Used in the robot's loop."""
 
-    def __init__(self, networks: Networks, link: RobotEnd) -> None:
-        self._networks, self._link = networks, link
+    def __init__(self, networks: Networks, link: RobotEnd, is_alone: bool = False) -> None:
+        """`is_alone`: a network is the whole app, which no task relies on."""
+        self._networks, self._link, self._is_alone = networks, link, is_alone
         self._own: set[Runner] = set()
         """What the page has started."""
         self._breakpoints: dict[Runner, Breakpoint] = {}
@@ -33,32 +34,41 @@ class RunningNetworks:
     def start(self, path: str, text: str = "") -> None:
         """Run a file, or a text as if that file had it; replaces what the page ran of that name.
 
-        Raises HriError.
+        A network that is the whole app is replaced, too. Raises HriError; what ran then goes on.
         """
         file = Path(path)
         if file.suffix != ".xml":
             raise HriError(f'"{path[:200]}" is not a network - name an .xml file')
         network = read_network(text, file) if text else load_network(file)
         old = self._networks.runners.get(network.name)
-        if old is not None and old not in self._own:
+        if old is not None and not self._is_replaceable(old):
             what = f'the app runs a network "{network.name}" already'
             raise HriError(f"{what} - give yours another name")
         others = [one.network for one in self._networks.runners.values() if one is not old]
         check_together([*others, network])
-        runner = (
-            self._networks.start(network)
-            if old is None
-            else self._networks.swap(network.name, network)
-        )
-        self._own = (self._own - {old}) | {runner}
+        # The old one ends first: both may want the same device.
+        if old is not None:
+            self._end(old)
+        try:
+            self._own.add(self._networks.start(network))
+        except BaseException:
+            if old is not None:
+                self._own.add(self._networks.start(old.network))
+            raise
+
+    def _is_replaceable(self, runner: Runner) -> bool:
+        return self._is_alone or runner in self._own
+
+    def _end(self, runner: Runner) -> None:
+        self._networks.stop(runner.network.name)
+        self._own.discard(runner)
 
     def stop(self, name: str) -> None:
         """End a network that the page has started. Raises HriError."""
         runner = self._runner(name)
-        if runner not in self._own:
+        if not self._is_replaceable(runner):
             raise HriError(f'"{name}" belongs to the app - pause it, or end the app')
-        self._networks.stop(name)
-        self._own.discard(runner)
+        self._end(runner)
 
     def pause(self, name: str, on: bool) -> None:
         """Let a network pause, or go on. Raises HriError."""
@@ -98,7 +108,7 @@ class RunningNetworks:
             "path": str(runner.network.path.resolve()),
             "interval": runner.network.interval,
             "is_paused": runner.is_paused,
-            "is_own": runner in self._own,
+            "is_own": self._is_replaceable(runner),
             "ticks": runner.statistics.ticks,
             "missed": runner.statistics.missed,
             "breakpoint": {"port": point.port, "condition": point.condition.text}

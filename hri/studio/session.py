@@ -45,7 +45,7 @@ class StudioSession:
         self.port: int = self._socket.getsockname()[1]
         self._codes = Codes()
         self._link = RobotEnd()
-        self._networks = RunningNetworks(robot.networks, self._link)
+        self._networks = RunningNetworks(robot.networks, self._link, robot.app.is_network)
         self._live = Live(robot, self._link, self._networks)
         self._is_closed = threading.Event()
         self._config = {

@@ -14,13 +14,14 @@ Number = float | None
 
 
 class About(TypedDict):
-    """The robot and its app."""
+    """The robot and its app, which may be a network alone; `networks` are the files of the app."""
 
     api: int
     app: str
     about: str
     is_simulated: bool
     has_base: bool
+    is_network: bool
     networks: list[str]
 
 

@@ -41,8 +41,9 @@ const shown: Partial<Record<Picture, string>> = {};
 const connection = new Connection({
   message(message) {
     take(state, message);
-    if (element("live").hidden) composer?.take(state.values);
-    else drawSoon();
+    showNetworkAlone();
+    if (!element("networks").hidden) composer?.take(state.values);
+    drawSoon();
   },
   picture(which, jpeg) {
     const image = element<HTMLImageElement>(`${which}-picture`);
@@ -89,7 +90,12 @@ function drawSoon(): void {
 }
 
 function draw(): void {
-  const { about, base, feeling, people, speech, world, devices, path, moods, log } = state.values;
+  drawHeader();
+  if (!element("live").hidden) drawLive();
+}
+
+function drawHeader(): void {
+  const { about, base } = state.values;
   const robot = element("robot");
   robot.textContent = about ? `${about.app}, ${about.is_simulated ? "simulated" : "real"}` : "";
   robot.className = about?.is_simulated ? "badge simulated" : "badge real";
@@ -97,6 +103,11 @@ function draw(): void {
   document.body.classList.toggle("stopped", isStopped);
   element("release").hidden = !isStopped;
   element("stop").hidden = about !== undefined && !about.has_base;
+}
+
+function drawLive(): void {
+  const { base, feeling, people, speech, world, devices, path, moods, log } = state.values;
+  const isStopped = base?.is_stopped ?? false;
   element("mood").textContent = feeling ? `I am ${feeling.words}` : "";
   element("why").textContent = feeling?.why ?? "";
   replace(element("emotions"), Object.entries(feeling?.emotions ?? {}).sort((a, b) => b[1] - a[1]).slice(0, 6).map(bar));
@@ -260,6 +271,16 @@ function showView(): void {
     document.title = "hri studio";
     drawSoon();
   }
+}
+
+let isChosen = false;
+
+/** A robot that runs a network alone begins with that network. */
+function showNetworkAlone(): void {
+  const { about } = state.values;
+  if (isChosen || about === undefined) return;
+  isChosen = true;
+  if (about.is_network && location.hash === "") location.replace(hashOf("networks", about.networks[0] ?? ""));
 }
 
 /** The composer is the largest part of the page: it comes when it is wanted. */

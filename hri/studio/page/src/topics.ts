@@ -1,12 +1,13 @@
 // Written by `python -m hri.studio.type_export` from hri/studio/topics.py.
 
-/** The robot and its app. */
+/** The robot and its app, which may be a network alone; `networks` are the files of the app. */
 export interface About {
   api: number;
   app: string;
   about: string;
   is_simulated: boolean;
   has_base: boolean;
+  is_network: boolean;
   networks: string[];
 }
 

@@ -12,7 +12,8 @@ export interface Action {
   about: string;
   /** As KeyboardEvent.key has it, with "Ctrl+" and "Shift+" before; Cmd counts as Ctrl. */
   keys: string[];
-  group: "file" | "edit" | "look" | "run";
+  /** Of the toolbar; without one it has a key alone. */
+  group?: "file" | "edit" | "look";
   isPossible?(): boolean;
   isOn?(): boolean;
   run(): void;
@@ -69,7 +70,7 @@ export function actionsOf(desk: Desk): Action[] {
     { id: "undo", label: "Undo", about: "undo the last change", keys: ["Ctrl+z"], group: "edit", isPossible: () => history.undoLabel !== null, run: () => doc.undo() },
     { id: "redo", label: "Redo", about: "do again what was undone", keys: ["Ctrl+Shift+Z", "Ctrl+y"], group: "edit", isPossible: () => history.redoLabel !== null, run: () => doc.redo() },
     { id: "copy", label: "Copy", about: "copy what is selected", keys: ["Ctrl+c"], group: "edit", isPossible: () => isReadable() && chosen().length > 0, run: take },
-    { id: "cut", label: "Cut", about: "cut what is selected out", keys: ["Ctrl+x"], group: "edit", isPossible: () => isReadable() && chosen().length > 0, run: () => { take(); drop(); } },
+    { id: "cut", label: "Cut", about: "cut what is selected out", keys: ["Ctrl+x"], isPossible: () => isReadable() && chosen().length > 0, run: () => { take(); drop(); } },
     {
       id: "paste", label: "Paste", about: "paste what was copied", keys: ["Ctrl+v"], group: "edit", isPossible: () => isReadable() && clipboard !== "",
       run: () => {
@@ -79,7 +80,7 @@ export function actionsOf(desk: Desk): Action[] {
       },
     },
     { id: "delete", label: "Delete", about: "delete what is selected", keys: ["Delete", "Backspace"], group: "edit", isPossible: () => isReadable() && isAny(), run: drop },
-    { id: "select-all", label: "Select all", about: "select all behaviors", keys: ["Ctrl+a"], group: "edit", run: () => doc.select(doc.network.behaviors.map((one) => one.id)) },
+    { id: "select-all", label: "Select all", about: "select all behaviors", keys: ["Ctrl+a"], run: () => doc.select(doc.network.behaviors.map((one) => one.id)) },
     {
       id: "arrange", label: "Arrange", about: "place all parts from left to right", keys: ["a"], group: "look", isPossible: isReadable,
       run: () => {
@@ -92,8 +93,8 @@ export function actionsOf(desk: Desk): Action[] {
     { id: "align-left", label: "Align left", about: "put what is selected below each other", keys: [], group: "look", isPossible: () => chosen().length > 1, run: () => align("x") },
     { id: "align-top", label: "Align top", about: "put what is selected beside each other", keys: [], group: "look", isPossible: () => chosen().length > 1, run: () => align("y") },
     { id: "fit", label: "Fit", about: "show the whole network", keys: ["f"], group: "look", run: () => desk.fit() },
-    { id: "edit-mode", label: "Edit mode", about: "move parts and wire them", keys: ["e"], group: "look", isOn: () => desk.mode === "edit", run: () => desk.setMode("edit") },
-    { id: "wiring-mode", label: "Wiring mode", about: "wire ports alone: click an output, then an input", keys: ["w"], group: "look", isOn: () => desk.mode === "wiring", run: () => desk.setMode("wiring") },
+    { id: "edit-mode", label: "Edit", about: "move parts and wire them", keys: ["e"], group: "look", isOn: () => desk.mode === "edit", run: () => desk.setMode("edit") },
+    { id: "wiring-mode", label: "Wiring", about: "wire ports alone: click an output, then an input", keys: ["w"], group: "look", isOn: () => desk.mode === "wiring", run: () => desk.setMode("wiring") },
     { id: "whole", label: "Whole app", about: "show all networks of the app together", keys: ["g"], group: "look", isPossible: () => desk.hasApp, isOn: () => desk.isWhole, run: () => desk.setWhole(!desk.isWhole) },
     { id: "text", label: "XML", about: "show the XML beside the graph", keys: ["x"], group: "look", isOn: () => desk.isTextShown, run: () => desk.showText(!desk.isTextShown) },
   ];

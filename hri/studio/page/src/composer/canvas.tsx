@@ -99,10 +99,14 @@ export function Canvas({ doc, composition, mode, isWhole, isLive, add, openOther
     [composition, selection, isLive],
   );
 
+  const isEmpty = composition.parts.size === 0;
+  const wasEmpty = useRef(isEmpty);
+  wasEmpty.current = isEmpty;
   useEffect(() => {
+    if (wasEmpty.current) return; // what is dropped first stays where it was dropped
     const frame = requestAnimationFrame(() => void flow.fitView({ padding: 0.1, maxZoom: 1.2 }));
     return () => cancelAnimationFrame(frame);
-  }, [path, isWhole && composition.parts.size, flow]);
+  }, [path, isWhole, flow]);
 
   const changeNodes = useCallback(
     (changes: NodeChange<PartNode>[]) => {
@@ -233,8 +237,6 @@ export function Canvas({ doc, composition, mode, isWhole, isLive, add, openOther
           minZoom={0.05}
           maxZoom={2}
           colorMode="system"
-          fitView
-          fitViewOptions={{ padding: 0.1, maxZoom: 1.2 }}
           onlyRenderVisibleElements={nodes.length > 150}
         >
           <Background gap={20} />
