@@ -46,29 +46,20 @@ class RunningNetworks:
             raise HriError(f"{what} - give yours another name")
         others = [one.network for one in self._networks.runners.values() if one is not old]
         check_together([*others, network])
-        # The old one ends first: both may want the same device.
-        if old is not None:
-            self._end(old)
-        try:
-            self._own.add(self._networks.start(network))
-        except BaseException:
-            if old is not None:
-                self._own.add(self._networks.start(old.network))
-            raise
+        running = self._networks
+        runner = running.swap(network.name, network) if old else running.start(network)
+        self._own = (self._own - {old}) | {runner}
 
     def _is_replaceable(self, runner: Runner) -> bool:
         return self._is_alone or runner in self._own
-
-    def _end(self, runner: Runner) -> None:
-        self._networks.stop(runner.network.name)
-        self._own.discard(runner)
 
     def stop(self, name: str) -> None:
         """End a network that the page has started. Raises HriError."""
         runner = self._runner(name)
         if not self._is_replaceable(runner):
             raise HriError(f'"{name}" belongs to the app - pause it, or end the app')
-        self._end(runner)
+        self._networks.stop(name)
+        self._own.discard(runner)
 
     def pause(self, name: str, on: bool) -> None:
         """Let a network pause, or go on. Raises HriError."""

@@ -85,6 +85,23 @@ def test_a_text_runs_without_being_saved_in_the_place_of_what_ran(robot, running
     assert row(running, "counting")["interval"] == 0.5, "what ran goes on"
 
 
+def test_a_network_that_is_the_whole_app_takes_its_own_drive_over(tmp_path, link):
+    path = tmp_path / "alone.xml"
+    path.write_text(DRIVING)
+    with Robot(str(path), "simulated", clock=FakeClock(), devices=[SMALL_SCREEN]) as robot:
+        robot.wait(0.2)
+        running = RunningNetworks(robot.networks, link, robot.app.is_network)
+        for text in ("", DRIVING.replace("<B", "<!-- again -->\n<B")):
+            in_loop(robot, running.start, str(path), text)
+            robot.wait(0.2)
+        assert row(running, "alone")["is_own"]
+        with pytest.raises(HriError, match="Scael"):
+            in_loop(robot, running.start, str(path), COUNTING.replace("Hri.Scale", "Hri.Scael"))
+        assert row(running, "alone")["ticks"] > 0, "what ran goes on"
+        in_loop(robot, running.stop, "alone")
+        assert running.listed() == []
+
+
 @pytest.mark.parametrize(
     ("name", "text", "why"),
     [
