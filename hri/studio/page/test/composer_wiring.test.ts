@@ -38,8 +38,16 @@ test("a behavior of an unknown type has the ports that links name; a slot has th
   assert.deepEqual(named("board.other"), [["other:any"], ["other:any"]]);
 });
 
+test("a constant has the datatype of its value, where that is plain", () => {
+  for (const [value, datatype] of Object.entries({ "3": "double", "-5*pi/6": "double", "1e-3": "double", ".5": "any", hello: "string", '"5"': "string", " True": "boolean", "1, 2": "doublearray", "(1, pi/2,)": "doublearray", "1, two": "any", "(3)": "any", PI: "string", "007": "any", "1e999": "any", [`${"1111 +  ".repeat(20)}x`]: "any", "hello 2": "any", "1/0": "any", "": "any" })) {
+    const network = readNetwork(`<N><Behavior id="a" type="Evolution.Constant"><Parameter name="parsed_value" value='${value}'/></Behavior></N>`);
+    assert.equal(portsOf(network, PALETTE, "a").outputs[0]!.datatype, datatype, value);
+  }
+  assert.equal(portsOf(readNetwork('<N><Behavior id="a" type="Hri.Constant"/></N>'), PALETTE, "a").outputs[0]!.datatype, "double", "the value that it has by itself");
+});
+
 test("what fits may be linked", () => {
-  for (const [from, to] of [["scale.output", "wheel.speed"], ["not.result", "pick.choice"], ["range.distance", "pick.when_true"], ["mine.new", "sum.input"], ["sum.sum", "board.near"], ["board.a", "board.b"], ["pick.selected", "not.input"], ["scale.output", "board.my-slot.2"]])
+  for (const [from, to] of [["scale.output", "wheel.speed"], ["not.result", "pick.choice"], ["range.distance", "pick.when_true"], ["mine.new", "sum.input"], ["sum.sum", "board.near"], ["pick.selected", "not.input"], ["scale.output", "board.my-slot.2"]])
     assert.equal(reason(from!, to!), "", `${from} -> ${to}`);
 });
 
@@ -59,8 +67,9 @@ test("what is forbidden is refused in the words of the check", () => {
     ["not.result", "not.input", "these links run in a circle: not.result -> not.input - take one of them out"],
     ["board.drive.command", "sum.input", "board.drive.command is twist (here it is what tasks ask the base for), but sum.input is double - link ports of the same datatype"],
     ["sum.sum", "board.level", "board.level is boolean (not.input), but sum.sum is double - link ports of the same datatype"],
+    ["board.level", "sum.input", "board.level is boolean, but sum.input takes double - link ports of the same datatype"],
     ["sum.sum", "board.a b", '"board.a b" is not a slot of the board - write board.name, such as board.speech'],
-    ["board.a", "board.a", "a slot cannot be linked to itself - link a behavior to it"],
+    ["board.a", "board.b", "both are slots of the board - link a behavior to one"],
   ] as const)
     assert.equal(reason(from, to), words);
 });

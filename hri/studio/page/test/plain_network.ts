@@ -69,10 +69,16 @@ export function command(n: Network, palette: Palette, types: readonly string[], 
   return removing(n, chance() < 0.05 ? [...n.behaviors.map((one) => one.id), ...SLOTS] : [behavior.id, ...some(SLOTS, 0.2)]);
 }
 
+/** The parameters that take any number. */
+function numbersOf(palette: Palette, type: string): string[] {
+  const { parameters = [] } = palette.behaviors.find((one) => one.type === type) ?? {};
+  return parameters.filter((one) => one.type === "number" && one.minimum === null && one.maximum === null).map((one) => one.name);
+}
+
 function adding(n: Network, type: string, palette: Palette, at: Box | undefined, value: string): Command {
   const id = freeId(n, idFor(type));
-  const own = palette.behaviors.find((one) => one.type === type)!.parameters.filter((one) => one.type === "number").slice(0, 1);
-  const parameters = own.map((one): [string, string] => [one.name, value]);
+  const own = numbersOf(palette, type).slice(0, 1);
+  const parameters = own.map((name): [string, string] => [name, value]);
   return {
     label: `add ${id}`,
     splices: addBehavior(n, { id, type, parameters }, at),
@@ -96,7 +102,7 @@ function moving(n: Network, boxes: Map<string, Box>): Command {
 
 function setting(n: Network, id: string, palette: Palette, value: string, pick: <T>(all: readonly T[]) => T): Command {
   const behavior = n.behaviors.find((one) => one.id === id)!;
-  const names = (palette.behaviors.find((one) => one.type === behavior.type)?.parameters ?? []).filter((one) => one.type === "number").map((one) => one.name);
+  const names = numbersOf(palette, behavior.type);
   if (names.length === 0) return moving(n, new Map([[id, { x: 1, y: 2 }]]));
   const name = pick(names);
   const text = pick([value, value, null]);

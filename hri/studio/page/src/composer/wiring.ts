@@ -1,6 +1,6 @@
 // Which ports there are, and which may be linked: the rules and words of `hri network check`.
 
-import { isSlot, ownerOf, type Link, type Network } from "./network";
+import { isSlot, ownerOf, type Behavior, type Link, type Network } from "./network";
 
 export interface Port {
   name: string;
@@ -73,20 +73,45 @@ export interface Ports {
 /** Of a behavior, or of a slot as `board.name`; those that links name, where the type is unknown. */
 export function portsOf(n: Network, palette: Palette, id: string): Ports {
   if (isSlot(id)) return slotPorts(n, palette, id);
-  const type = typesOf(n).get(id);
-  const kind = type === undefined ? undefined : behaviorKind(palette, type);
-  if (kind) return { inputs: kind.inputs, outputs: kind.outputs };
+  const behavior = behaviorsOf(n).get(id);
+  const kind = behavior && behaviorKind(palette, behavior.type);
+  if (kind) return { inputs: kind.inputs, outputs: kind.type === CONSTANT ? constantOutputs(kind, behavior) : kind.outputs };
   const named = (ends: string[]) => [...new Set(ends.filter((one) => one.startsWith(`${id}.`)))].map((one) => unknown(one.slice(id.length + 1)));
   return { inputs: named(n.links.map((one) => one.to)), outputs: named(n.links.map((one) => one.from)) };
 }
 
-const types = new WeakMap<Network, Map<string, string>>();
+const CONSTANT = "Hri.Constant";
 
-function typesOf(n: Network): Map<string, string> {
-  let found = types.get(n);
+/** A constant has the datatype of its value. */
+function constantOutputs({ parameters, outputs }: BehaviorType, behavior: Behavior): Port[] {
+  const [declared] = parameters;
+  const datatype = datatypeOf(behavior.parameters.get(declared?.name ?? "") ?? declared?.default ?? "");
+  return outputs.map((one) => ({ ...one, datatype }));
+}
+
+const NUMBER = String.raw`\s*([-+]\s*)?(\d+(\.\d*)?([eE][-+]?\d+)?|pi|e)\s*`;
+const SUM = new RegExp(`^${NUMBER}([-+*/]${NUMBER})*$`);
+/** What is no number in spite of that, or too large a one. */
+const ODD = /\/\s*0|[eE]\+?\d{3}|(?<![\d.])0\d/;
+
+/** Of a value as it is written; "any" where only the robot can say. */
+function datatypeOf(written: string): string {
+  const text = written.trim();
+  if (text.length > 1 && text.startsWith('"') && text.endsWith('"')) return "string";
+  if (/^(true|false)$/i.test(text)) return "boolean";
+  if (text.length > 200) return ANY;
+  const numbers = text.replace(/^\((.*,.*)\)$/, "$1").replace(/,$/, "").split(",");
+  if (numbers.every((one) => SUM.test(one) && !ODD.test(one))) return text.includes(",") ? "doublearray" : "double";
+  return /^[^\d#]*$/.test(text) && /[^pie\s\W]/.test(text) ? "string" : ANY;
+}
+
+const known = new WeakMap<Network, Map<string, Behavior>>();
+
+function behaviorsOf(n: Network): Map<string, Behavior> {
+  let found = known.get(n);
   if (found === undefined) {
-    found = new Map(n.behaviors.map((one) => [one.id, one.type]));
-    types.set(n, found);
+    found = new Map(n.behaviors.map((one) => [one.id, one]));
+    known.set(n, found);
   }
   return found;
 }
@@ -102,6 +127,8 @@ function slotPorts(n: Network, palette: Palette, end: string): Ports {
 interface SlotUse {
   end: string;
   port: Port;
+  /** Whether it takes what the slot has. */
+  reads: boolean;
 }
 
 /** The ports of behaviors that links join to a slot, in the order of the file. */
@@ -114,7 +141,7 @@ function slotUses(n: Network, palette: Palette, slot: string): SlotUse[] {
 
 function use(n: Network, palette: Palette, end: string, side: keyof Ports): SlotUse[] {
   const port = portNamed(n, palette, end, side);
-  return typeof port === "string" ? [] : [{ end, port }];
+  return typeof port === "string" ? [] : [{ end, port, reads: side === "inputs" }];
 }
 
 function unknown(name: string): Port {
@@ -130,24 +157,27 @@ export function canLink(n: Network, palette: Palette, from: string, to: string):
   const sends = portNamed(n, palette, from, "outputs");
   const takes = portNamed(n, palette, to, "inputs");
   for (const port of [sends, takes]) if (typeof port === "string") return refused(port);
-  return fits(n, palette, { end: from, port: sends as Port }, { end: to, port: takes as Port });
+  return fits(n, palette, { end: from, port: sends as Port, reads: false }, { end: to, port: takes as Port, reads: true });
 }
 
 function fits(n: Network, palette: Palette, sends: SlotUse, takes: SlotUse): Verdict {
   const [from, to] = [sends.end, takes.end];
-  if (from === to) return refused("a slot cannot be linked to itself - link a behavior to it");
+  if (isSlot(from) && isSlot(to)) return refused("both are slots of the board - link a behavior to one");
   const [sent, taken] = [sends.port, takes.port];
   if (!isSlot(from) && !isSlot(to) && areApart(sent.datatype, taken.datatype, ANY)) return refused(`${from} is ${sent.datatype}, but ${to} takes ${taken.datatype} - ${SAME}`);
   if (n.links.some((one) => one.from === from && one.to === to)) return refused(`the link ${from} -> ${to} is there twice - take one of them out`);
   const circle = circleWith(n, from, to);
   if (circle) return refused(`these links run in a circle: ${circle.join(", ")} - take one of them out`);
-  if (isSlot(from) !== isSlot(to)) return isSlot(from) ? fitsSlot(n, palette, from, takes) : fitsSlot(n, palette, to, sends);
+  if (isSlot(from)) return fitsSlot(n, palette, from, takes);
+  if (isSlot(to)) return fitsSlot(n, palette, to, sends);
   return { ok: true, warning: areApart(sent.semantic, taken.semantic, GENERIC) ? `${from} means ${sent.semantic}, ${to} wants ${taken.semantic}` : "" };
 }
 
 /** All that use a slot must agree: with the program, else with the first of them. */
-function fitsSlot(n: Network, palette: Palette, slot: string, { end, port }: SlotUse): Verdict {
+function fitsSlot(n: Network, palette: Palette, slot: string, { end, port, reads }: SlotUse): Verdict {
   const uses = slotUses(n, palette, slot);
+  const reader = uses.find((one) => one.reads && one.port.datatype !== ANY)?.port.datatype ?? ANY;
+  if (reads && areApart(reader, port.datatype, ANY)) return refused(`${slot} is ${reader}, but ${end} takes ${port.datatype} - ${SAME}`);
   const declared = palette.slots.find((one) => `board.${one.name}` === slot);
   const first = uses.find((one) => one.port.datatype !== ANY);
   const datatype = declared?.datatype ?? first?.port.datatype ?? ANY;
@@ -171,7 +201,7 @@ const SLOT = /^[\p{L}\p{N}_]+([.-][\p{L}\p{N}_]+)*$/u;
 function portNamed(n: Network, palette: Palette, text: string, side: keyof Ports): Port | string {
   if (isSlot(text)) return SLOT.test(text.slice(6)) ? unknown(text.slice(6)) : `"${text}" is not a slot of the board - write board.name, such as board.speech`;
   const id = ownerOf(text);
-  const type = typesOf(n).get(id);
+  const type = behaviorsOf(n).get(id)?.type;
   if (type === undefined) return `no behavior "${id}" for the link "${text}"`;
   const found = portsOf(n, palette, id)[side].find((one) => `${id}.${one.name}` === text);
   if (found) return found;

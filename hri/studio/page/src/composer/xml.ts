@@ -38,8 +38,13 @@ const DEEPEST = 64;
 const MOST_ELEMENTS = 50_000;
 /** What no XML may have, written out or as a number. */
 const FORBIDDEN = /[\0-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]/;
-const NAME = /[A-Za-z_:\u0080-\uffff][-\w:.\u0080-\uffff]*/y;
-const ATTRIBUTE = /\s+([A-Za-z_:\u0080-\uffff][-\w:.\u0080-\uffff]*)\s*=\s*(?:"([^"<]*)"|'([^'<]*)')/y;
+const LETTER = String.raw`A-Za-z_:\u00c0-\u00d6\u00d8-\u00f6\u00f8-\u02ff\u0370-\u037d\u037f-\u1fff\u200c\u200d\u2070-\u218f\u2c00-\u2fef\u3001-\ud7ff\uf900-\ufdcf\ufdf0-\ufefe`;
+const WORD = String.raw`[${LETTER}][-.0-9\u00b7\u0300-\u036f\u203f\u2040${LETTER}]*`;
+const SPACE = "[ \\t\\r\\n]";
+const NAME = new RegExp(WORD, "y");
+const SPACES = new RegExp(`${SPACE}*`, "y");
+const ATTRIBUTE = new RegExp(`${SPACE}+(${WORD})${SPACE}*=${SPACE}*(?:"([^"<]*)"|'([^'<]*)')`, "y");
+const DECLARATION = /^<\?xml[ \t\r\n]+version[ \t\r\n]*=[ \t\r\n]*["'][\w.]+["']([ \t\r\n]+(encoding|standalone)[ \t\r\n]*=[ \t\r\n]*["'][-\w.]+["']){0,2}[ \t\r\n]*\?>/;
 const ENTITIES: Record<string, string> = { lt: "<", gt: ">", amp: "&", quot: '"', apos: "'" };
 
 /** The root element. Raises XmlError where the text is not well-formed, or has a DOCTYPE. */
@@ -52,8 +57,8 @@ export function parseXml(text: string): Element {
   const fail = (what: string, where = at): never => {
     throw new XmlError(what, text, where);
   };
-  const skipTo = (end: string, what: string): void => {
-    const found = text.indexOf(end, at);
+  const skipTo = (end: string, what: string, start = at): void => {
+    const found = text.indexOf(end, start);
     if (found < 0) fail(`${what} is not closed`);
     at = found + end.length;
   };
@@ -62,16 +67,25 @@ export function parseXml(text: string): Element {
   while (at < text.length) {
     const next = text.indexOf("<", at);
     const between = text.slice(at, next < 0 ? text.length : next);
-    if (open === null && between.trim() !== "") fail("there is text outside of the root", at + between.search(/\S/));
+    const outside = open === null ? between.search(/[^ \t\r\n]/) : -1;
+    if (outside >= 0) fail("there is text outside of the root", at + outside);
     if (between.includes("&")) decode(between, text, at);
+    if (between.includes("]]>")) fail("]]> has no place in a text", at + between.indexOf("]]>"));
     if (next < 0) break;
     at = next;
     if (text.startsWith("<!--", at)) {
       const from = at;
-      skipTo("-->", "a comment");
-      if (at < from + 7 || text.slice(from + 4, at - 2).includes("--")) fail("a comment may not have -- in it", from);
+      skipTo("-->", "a comment", from + 4);
+      if (text.slice(from + 4, at - 2).includes("--")) fail("a comment may not have -- in it", from);
     }
-    else if (text.startsWith("<?", at)) skipTo("?>", "an instruction");
+    else if (text.startsWith("<?", at)) {
+      const from = at;
+      const name = nameAt(text, at + 2);
+      skipTo("?>", "an instruction");
+      const isDeclaration = name.toLowerCase() === "xml";
+      if (name === "" || !/[ \t\r\n?]/.test(text[from + 2 + name.length]!)) fail("an instruction without a name", from);
+      if (isDeclaration && (!isStart(text, from) || !DECLARATION.test(text.slice(from, at)))) fail("the XML declaration is not as it must be", from);
+    }
     else if (text.startsWith("<![CDATA[", at) && open !== null) skipTo("]]>", "a CDATA section");
     else if (text.startsWith("<!DOCTYPE", at)) fail("a DOCTYPE is not allowed");
     else if (text.startsWith("</", at)) {
@@ -79,7 +93,7 @@ export function parseXml(text: string): Element {
       at += 2;
       const tag = nameAt(text, at);
       at += tag.length;
-      while (/\s/.test(text[at] ?? "")) at++;
+      at = behindSpaces(text, at);
       if (text[at] !== ">") fail("a closing tag is not closed", from);
       at++;
       if (open === null || open.tag !== tag) fail(open === null ? `</${tag}> closes nothing` : `</${tag}> closes <${open.tag}>`, from);
@@ -103,6 +117,16 @@ export function parseXml(text: string): Element {
   }
   if (open !== null) fail(`<${open.tag}> is not closed`, open.from);
   return root ?? fail("there is no element in it", text.length);
+}
+
+function isStart(text: string, at: number): boolean {
+  return at === (text.startsWith("\ufeff") ? 1 : 0);
+}
+
+function behindSpaces(text: string, at: number): number {
+  SPACES.lastIndex = at;
+  SPACES.exec(text);
+  return SPACES.lastIndex;
 }
 
 function nameAt(text: string, at: number): string {
@@ -130,7 +154,7 @@ function openingTag(text: string, from: number, parent: Element | null): Element
     names.add(name);
     attributes.push({ name, value: decode(raw, text, valueFrom), from: start, to: at, valueFrom, valueTo });
   }
-  while (/\s/.test(text[at] ?? "")) at++;
+  at = behindSpaces(text, at);
   const isEmpty = text.startsWith("/>", at);
   if (!isEmpty && text[at] !== ">") throw new XmlError(`the tag <${tag}> is not closed`, text, from);
   at += isEmpty ? 2 : 1;
