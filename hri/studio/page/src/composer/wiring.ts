@@ -165,9 +165,9 @@ function fits(n: Network, palette: Palette, sends: SlotUse, takes: SlotUse): Ver
   if (isSlot(from) && isSlot(to)) return refused("both are slots of the board - link a behavior to one");
   const [sent, taken] = [sends.port, takes.port];
   if (!isSlot(from) && !isSlot(to) && areApart(sent.datatype, taken.datatype, ANY)) return refused(`${from} is ${sent.datatype}, but ${to} takes ${taken.datatype} - ${SAME}`);
-  if (n.links.some((one) => one.from === from && one.to === to)) return refused(`the link ${from} -> ${to} is there twice - take one of them out`);
+  if (n.links.some((one) => one.from === from && one.to === to)) return refused(`the link ${from} -> ${to} is there already`);
   const circle = circleWith(n, from, to);
-  if (circle) return refused(`these links run in a circle: ${circle.join(", ")} - take one of them out`);
+  if (circle) return refused(`these links would run in a circle: ${circle.join(", ")}`);
   if (isSlot(from)) return fitsSlot(n, palette, from, takes);
   if (isSlot(to)) return fitsSlot(n, palette, to, sends);
   return { ok: true, warning: areApart(sent.semantic, taken.semantic, GENERIC) ? `${from} means ${sent.semantic}, ${to} wants ${taken.semantic}` : "" };
