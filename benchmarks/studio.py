@@ -22,11 +22,13 @@ from contextlib import AbstractContextManager, closing, contextmanager, suppress
 from functools import partial
 from http.cookiejar import CookieJar
 from importlib import resources
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import psutil
 
+from hri.behavior.runner import Runner
 from hri.bench.companion_soak import CompanionSoak
 from hri.bench.table import Parts, Row, amount, at_least, at_most, measured, share
 from hri.core.errors import NotAvailable
@@ -45,6 +47,7 @@ BACK_S = 2.0
 """Until a page is linked again after a kill."""
 FPS, DELAY_MS, STOP_MS, INTERACTIVE_S, SCRIPTS_KB = 20.0, 150.0, 100.0, 1.5, 250.0
 MEDIAN, P99 = 1.05, 1.5
+BEHAVIORS, WATCHED_TURNS, WATCHED_P99 = 100, 6, 2.0
 SETTLED, GROWTH_MB = 0.25, 20.0
 """After this share of the hours, memory may grow by so much."""
 WINDOW = {"width": 1360, "height": 900}
@@ -67,6 +70,9 @@ PRESS = """() => {
   return now;
 }"""
 """When the stop button was pressed."""
+PICTURES = '{"pictures": ["face", "camera"]}'
+VALUES = '{"pictures": [], "networks": ["hundred"]}'
+"""What a page asks for."""
 READER = """
 import socket, sys
 link = socket.create_connection(("127.0.0.1", int(sys.argv[1])))
@@ -75,7 +81,7 @@ link.sendall(f"GET /api/v1/live HTTP/1.1\\r\\nHost: {host}\\r\\nOrigin: http://{
     "Upgrade: websocket\\r\\nConnection: Upgrade\\r\\nSec-WebSocket-Version: 13\\r\\n"
     "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\\r\\n"
     f"Cookie: {sys.argv[2]}\\r\\n\\r\\n".encode())
-wanted = b'{"pictures": ["face", "camera"]}'
+wanted = sys.argv[3].encode()
 link.sendall(bytes((0x81, 0x80 | len(wanted), 0, 0, 0, 0)) + wanted)
 while link.recv(1 << 20):
     pass
@@ -181,12 +187,12 @@ def _chromium_alone(studio: StudioSession) -> Iterator[psutil.Process]:
 
 
 @contextmanager
-def _reader(studio: StudioSession) -> Iterator[psutil.Process]:
+def _reader(studio: StudioSession, wanted: str = PICTURES) -> Iterator[psutil.Process]:
     """What a page elsewhere costs here: all is sent, and drawn on another machine."""
     cookies = CookieJar()
     urllib.request.build_opener(urllib.request.HTTPCookieProcessor(cookies)).open(studio.address())
     cookie = "; ".join(f"{one.name}={one.value}" for one in cookies)
-    with _started([sys.executable, "-c", READER, str(studio.port), cookie]) as process:
+    with _started([sys.executable, "-c", READER, str(studio.port), cookie, wanted]) as process:
         yield process
 
 
@@ -244,6 +250,70 @@ def _cost(quick: bool) -> Iterator[Row]:
             )
             ms = {"without_ms": round(before, 3), "with_ms": round(now, 3)}
             yield amount(what, now / before, "times", at_most(limit), **ms)
+
+
+# --- what it costs to watch values ---
+
+
+def _hundred(folder: Path) -> Path:
+    """A network of behaviors in a row, each with an output, at `RATE`."""
+    path = folder / "hundred.xml"
+    scale = '<Parameter name="factor" value="1.001"/>'
+    rows = ['<Behavior id="b0" type="Hri.Constant"><Parameter name="parsed_value" value="1"/>']
+    rows += [f'<Behavior id="b{n}" type="Hri.Scale">{scale}' for n in range(1, BEHAVIORS)]
+    outputs = ["b0.value", *(f"b{number}.scaled" for number in range(1, BEHAVIORS))]
+    links = [f'<Link from="{outputs[n - 1]}" to="b{n}.input"/>' for n in range(1, BEHAVIORS)]
+    inside = "\n".join([f"{row}</Behavior>" for row in rows] + links)
+    head = f'<BehaviorNetwork name="hundred" invocation_interval="{1 / RATE:g}">'
+    path.write_text(f"{head}\n{inside}\n</BehaviorNetwork>\n")
+    return path
+
+
+def _timed(runner: Runner, found: list[tuple[float, float]]) -> None:
+    """Note of each tick how late it begins and how long it takes, all that follows it included;
+    milliseconds.
+    """
+    tick, now = runner.tick, time.perf_counter
+
+    def timed(at: float) -> float:
+        begun = now()
+        took = tick(at)
+        found.append((runner.statistics.lateness.last * 1e3, (now() - begun) * 1e3))
+        return took
+
+    runner.tick = timed  # type: ignore[assignment, method-assign]
+
+
+def _watched(quick: bool) -> Iterator[Row]:
+    """In turns: a page that looks at no network, and one that gets all its values."""
+    seconds, turns = (QUICK_SECONDS, 1) if quick else (SECONDS / 2, WATCHED_TURNS)
+    ways = {"without": PICTURES, "with": VALUES}
+    ticks: dict[str, list[tuple[float, float]]] = {name: [] for name in ways}
+    found: list[tuple[float, float]] = []
+    wait = threading.Event().wait
+    with tempfile.TemporaryDirectory() as folder:
+        path = _hundred(Path(folder))
+        robot = Robot(str(path), "simulated", devices=DEVICES, notice=lambda line: None)
+        with _living(robot, robot.live_until_over) as studio:
+            wait(SETTLING)
+            _timed(robot.networks.runners["hundred"], found)
+            for _ in range(turns):
+                for name, wanted in ways.items():
+                    with _reader(studio, wanted):
+                        wait(1.0)
+                        found.clear()
+                        wait(seconds)
+                        ticks[name] += found
+    late, took = ({name: np.array(ticks[name])[:, part] for name in ways} for part in (0, 1))
+    what = f"a network of {BEHAVIORS} behaviors at {RATE:g} Hz, all its outputs watched"
+    for part, times, percent, limit in (
+        ("a tick with all that follows it, median", took, 50, MEDIAN),
+        ("lateness, p99", late, 99, WATCHED_P99),
+    ):
+        before, now = (float(np.percentile(times[name], percent)) for name in ways)
+        ms = {"without_ms": round(before, 4), "with_ms": round(now, 4)}
+        what_part = f"{what}: {part}, times that without"
+        yield amount(what_part, now / before, "times", at_most(limit), **ms)
 
 
 # --- what a page shows ---
@@ -400,7 +470,7 @@ def _memory(process: psutil.Process) -> float:
     return total / 1e6
 
 
-PARTS: Parts = {"page": _seen, "cost": _cost, "kills": _killed, "hours": _long}
+PARTS: Parts = {"page": _seen, "cost": _cost, "ports": _watched, "kills": _killed, "hours": _long}
 
 
 def measure(quick: bool = False, only: str | None = None) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -109,7 +109,7 @@ ACTIONS: Mapping[str, Callable[..., object]] = {
     "place": lambda asked, name, x, y: asked.world.place(name, x, y),
     "obstacle": lambda asked, name, x, y: asked.world.put_obstacle(name, x, y, asked.now),
     "remove": lambda asked, name: asked.world.take_away(name),
-    "network_start": lambda asked, path, text="": asked.networks.start(path, text),
+    "network_start": lambda asked, path, text="": asked.networks.start(asked.context, path, text),
     "network_stop": lambda asked, name: asked.networks.stop(name),
     "network_pause": lambda asked, name, on: asked.networks.pause(name, on),
     "network_tick": lambda asked, name: asked.networks.tick(name),
@@ -119,7 +119,10 @@ ACTIONS: Mapping[str, Callable[..., object]] = {
 }
 
 
-def obey(asked: Asked, name: str, given: Mapping[str, Any]) -> None:
-    """Do what a command says. Raises HriError when it cannot be done."""
+def obey(asked: Asked, name: str, given: Mapping[str, Any]) -> Awaitable[None] | None:
+    """Do what a command says; what to await, where that takes a while. Raises HriError when it
+    cannot be done.
+    """
     arguments = checked(name, given)
-    ACTIONS[name](asked, **arguments)
+    done = ACTIONS[name](asked, **arguments)
+    return done if isinstance(done, Awaitable) else None

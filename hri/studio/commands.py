@@ -29,6 +29,8 @@ class Argument:
     is_optional: bool = False
     longest: int = LONGEST_TEXT
     """Letters of a text."""
+    is_exact: bool = False
+    """Whether the blanks around a text belong to it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,17 +80,21 @@ COMMANDS: Mapping[str, Command] = {
         {"name": Argument(str, "of the thing or obstacle")},
     ),
     "network_start": Command(
-        "run a network, in the place of the one of that name that was started so",
+        "run a network, in the place of the one of that name, should it run",
         {
             "path": Argument(str, "its file", longest=4000),
             "text": Argument(
-                str, "what it is to be, where that is not saved", True, LONGEST_NETWORK
+                str,
+                "what it is to be, if not as saved",
+                True,
+                LONGEST_NETWORK,
+                is_exact=True,
             ),
         },
     ),
     "network_stop": Command("end a network that was started so", _NETWORK),
     "network_pause": Command(
-        "let a network pause: its drive gets zero; or let it go on", {**_NETWORK, **_ON}
+        "let a network pause: every drive gets zero; or let it go on", {**_NETWORK, **_ON}
     ),
     "network_tick": Command(
         "let a paused network compute once; nothing of it leaves for the drive or the board",
@@ -118,7 +124,7 @@ def checked(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
     return {
         key: _checked(key, argument, given.get(key))
         for key, argument in wanted.items()
-        if key in given or not argument.is_optional
+        if not argument.is_optional or given.get(key, "") != ""
     }
 
 
@@ -131,7 +137,7 @@ def _checked(key: str, argument: Argument, value: Any) -> Any:
         and isinstance(value, str)
         and 0 < len(value.strip()) <= argument.longest
     ):
-        return value.strip()
+        return value if argument.is_exact else value.strip()
     if argument.kind is float and is_number and -FARTHEST <= value <= FARTHEST:
         return float(value)
     wants = {

@@ -13,9 +13,10 @@ import socket
 import struct
 import threading
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import cv2
@@ -133,6 +134,12 @@ class RobotEnd:
                 self._fresh[topic] = None
                 self._changed.notify()
 
+    def put_later(self, topic: str, written: Callable[[], str]) -> None:
+        """The newest value of a topic, which costs something to write: `written` gives it as JSON,
+        in the thread that writes, and the same when it is called again.
+        """
+        self.put(topic, written)
+
     def put_picture(self, topic: str, image: Image, time: float) -> None:
         """The newest picture (uint8, [height, width, 3], RGB) of a key of `PICTURES`."""
         with self._changed:
@@ -208,7 +215,7 @@ class RobotEnd:
                 continue
             try:
                 for part in parts:
-                    server.sendall(part if isinstance(part, bytes) else _compressed(*part))
+                    server.sendall(part if isinstance(part, bytes) else part())
             except OSError:
                 self.detach()
 
@@ -216,17 +223,23 @@ class RobotEnd:
         waiting = (self._fresh, self._events, self._answers, self._pictures)
         return self._socket is not None and any(waiting)
 
-    def _taken(self) -> list[bytes | tuple[str, Image, float]]:
+    def _taken(self) -> list[bytes | Callable[[], bytes]]:
         """What is to be sent now, answers first."""
         if self._socket is None:
             return []
         answers = [packed_json(answer) for answer in self._answers]
-        values = [packed_json({"topic": name, "value": self._values[name]}) for name in self._fresh]
+        values = [_packed_value(name, self._values[name]) for name in self._fresh]
         events = [packed_json({"event": event}) for event in self._events]
-        pictures = [(name, *picture) for name, picture in self._pictures.items()]
+        pictures = [partial(_compressed, name, *one) for name, one in self._pictures.items()]
         for waiting in (self._answers, self._fresh, self._events, self._pictures):
             waiting.clear()
         return [*answers, *values, *events, *pictures]
+
+
+def _packed_value(topic: str, value: Any) -> bytes | Callable[[], bytes]:
+    if not callable(value):
+        return packed_json({"topic": topic, "value": value})
+    return lambda: packed(TEXT, f'{{"topic":"{topic}","value":{value()}}}'.encode())
 
 
 def _compressed(topic: str, image: Image, time: float) -> bytes:

@@ -9,6 +9,7 @@ from functools import lru_cache
 from typing import Any
 
 from hri.behavior.device_behaviors import CameraFrames
+from hri.behavior.runner import Runner
 from hri.core.errors import HriError
 from hri.core.geometry import Pose3D, seen_from
 from hri.core.signals import Event, Frame, Image, People, Person, Pose2D
@@ -55,7 +56,9 @@ class Live:
     """Puts what a robot does into the link."""
 
     def __init__(self, robot: Robot, link: RobotEnd, networks: RunningNetworks) -> None:
-        self._robot, self._link = robot, link
+        self._robot, self._link, self._networks = robot, link, networks
+        self._seeing: Runner | None = None
+        """The network whose camera is shown."""
         self._pictures = _Pictures(link)
         self._moods, self._trail, self._troubles = MoodHistory(), Trail(), Troubles()
         self._log = LogLines(robot.clock.now)
@@ -71,7 +74,7 @@ class Live:
             "world": (0.1, self._world),
             "devices": (0.5, self._devices),
             "log": (0.3, self._log_lines),
-            "networks": (0.1, lambda context, now: networks.listed()),
+            "networks": (0.1, self._running),
         }
 
     def join(self) -> None:
@@ -110,7 +113,6 @@ class Live:
         """Look at the robot as long as it lives."""
         self._robot.events.subscribe("*", self._tell)
         self._robot.events.subscribe("drive.stopped", self._note_stop)
-        self._watch_camera(context)
         due = dict.fromkeys(self._looks, 0.0)
         while True:
             topic = min(due, key=due.__getitem__)
@@ -134,16 +136,25 @@ class Live:
             self._trail.add_stop(event.time, reason, words)
 
     def _watch_camera(self, context: TaskContext) -> None:
-        for name, runner in context.networks.runners.items():
+        """Again when another network has taken the place of the one that was watched."""
+        runners = context.networks.runners
+        if self._seeing in runners.values():
+            return
+        for name, runner in runners.items():
             for behavior in runner.network.behaviors:
                 if isinstance(behavior, CameraFrames):
                     context.networks.watch(name, behavior.id, "raw_image", self._see)
+                    self._seeing = runner
                     return
 
     def _see(self, frame: Frame, now: float) -> None:
         self._pictures.put("camera", frame.image, frame.time)
 
     # --- topics ---
+
+    def _running(self, context: TaskContext, now: float) -> list[topics.RunningNetwork]:
+        self._watch_camera(context)
+        return self._networks.listed()
 
     def _about(self, context: TaskContext, now: float) -> topics.About:
         drives = self._robot.resources.ids(EmergencyStop)

@@ -76,6 +76,8 @@ TYPES = {
 }
 START = "network_start"
 """The command that takes a whole network."""
+START_PATIENCE = 20.0
+"""Seconds that the robot has to read one and to open its devices."""
 log = logging.getLogger("hri.studio")
 HEADERS = {
     "content-security-policy": "default-src 'self'; img-src 'self' blob:; object-src 'none'; "
@@ -199,14 +201,14 @@ class Hub:
         wanted = frozenset[str]().union(*(page.wanted for page in self.pages))
         await self._send({"wanted": sorted(wanted)})
 
-    async def ask(self, command: str, arguments: dict[str, Any]) -> Any:
+    async def ask(self, command: str, arguments: dict[str, Any], patience: float = PATIENCE) -> Any:
         """The robot's answer. Raises HriError for a refusal, or where none comes."""
         number = next(self._numbers)
         sender, receiver = trio.open_memory_channel[dict[str, Any]](1)
         self._answers[number] = sender
         try:
             await self._send({"number": number, "command": command, "with": arguments})
-            with trio.fail_after(PATIENCE):
+            with trio.fail_after(patience):
                 answer = await receiver.receive()
         except trio.TooSlowError:
             raise HriError("the robot does not answer - it may be busy, or has ended") from None
@@ -357,7 +359,8 @@ class Studio:
 
     async def _answered(self, command: str, arguments: dict[str, Any]) -> Response:
         try:
-            return JSONResponse({"result": await self._hub.ask(command, arguments)})
+            patience = START_PATIENCE if command == START else PATIENCE
+            return JSONResponse({"result": await self._hub.ask(command, arguments, patience)})
         except HriError as error:
             return JSONResponse({"error": str(error)}, 409)
 

@@ -8,6 +8,10 @@ import secrets
 import socket
 import subprocess
 import threading
+from collections.abc import Awaitable, Iterator
+from contextlib import contextmanager
+
+import trio
 
 from hri.core import child
 from hri.core.errors import HriError
@@ -15,8 +19,9 @@ from hri.robot import Job, Robot
 from hri.studio.access import Codes
 from hri.studio.actions import Asked, obey
 from hri.studio.body import devices_of
-from hri.studio.link import RobotEnd
+from hri.studio.link import Request, RobotEnd
 from hri.studio.live import Live
+from hri.studio.network_watch import NetworkWatch
 from hri.studio.port import SERVER, listening
 from hri.studio.running import RunningNetworks
 from hri.task.context import TaskContext
@@ -45,7 +50,8 @@ class StudioSession:
         self.port: int = self._socket.getsockname()[1]
         self._codes = Codes()
         self._link = RobotEnd()
-        self._networks = RunningNetworks(robot.networks, self._link, robot.app.is_network)
+        self._networks = RunningNetworks(robot.networks, robot.app.is_network)
+        self._watch = NetworkWatch(robot.networks, self._link, self._networks.has_breakpoint)
         self._live = Live(robot, self._link, self._networks)
         self._is_closed = threading.Event()
         self._config = {
@@ -74,32 +80,48 @@ class StudioSession:
 
     def jobs(self) -> list[Job]:
         """The tasks that run beside the robot's own."""
-        return [self._live.watch, self._networks.watch, self._obey]
+        return [self._live.watch, self._watch.watch, self._obey]
 
     async def _obey(self, context: TaskContext) -> None:
         """Do what the page asks, in the robot's loop."""
         asked = Asked(self._robot, context, self._networks)
-        while True:
-            while self._link.requests:
-                request = self._link.requests.popleft()
-                try:
-                    result = self._done(asked, request.command, request.arguments)
-                    self._link.answer(request.number, result=result)
-                except HriError as error:
-                    self._link.answer(request.number, error=str(error))
-                except Exception as error:  # a mistake of ours must not end the robot's loop
-                    log.error("%s failed: %s", request.command, error, exc_info=error)
-                    failed = f"{request.command} failed: {error!r} - the robot goes on; see its log"
-                    self._link.answer(request.number, error=failed)
-            await context.clock.sleep(LOOK_EVERY)
+        async with trio.open_nursery() as nursery:
+            while True:
+                while self._link.requests:
+                    request = self._link.requests.popleft()
+                    with self._refusing(request):
+                        if (takes_a_while := self._begun(asked, request)) is not None:
+                            nursery.start_soon(self._finish, request, takes_a_while)
+                await context.clock.sleep(LOOK_EVERY)
 
-    def _done(self, asked: Asked, command: str, arguments: dict[str, object]) -> object:
-        if command == CODE:
-            return self.address()
-        if command == "redeem":
-            return self._codes.redeem(str(arguments.get("code", "")))
-        obey(asked, command, arguments)
+    def _begun(self, asked: Asked, request: Request) -> Awaitable[None] | None:
+        """What to await before the answer; None where it is done and answered."""
+        result: object = None
+        if request.command == CODE:
+            result = self.address()
+        elif request.command == "redeem":
+            result = self._codes.redeem(str(request.arguments.get("code", "")))
+        elif (doing := obey(asked, request.command, request.arguments)) is not None:
+            return doing
+        self._link.answer(request.number, result=result)
         return None
+
+    async def _finish(self, request: Request, doing: Awaitable[None]) -> None:
+        with self._refusing(request):
+            await doing
+            self._link.answer(request.number)
+
+    @contextmanager
+    def _refusing(self, request: Request) -> Iterator[None]:
+        """Whatever goes wrong is an answer; a mistake of ours must not end the robot's loop."""
+        try:
+            yield
+        except HriError as error:
+            self._link.answer(request.number, error=str(error))
+        except Exception as error:
+            log.error("%s failed: %s", request.command, error, exc_info=error)
+            failed = f"{request.command} failed: {error!r} - the robot goes on; see its log"
+            self._link.answer(request.number, error=failed)
 
     def _keep_server(self) -> None:
         """Start the server, and again when it has ended. The port stays ours meanwhile: a page that

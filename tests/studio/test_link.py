@@ -4,6 +4,7 @@ import json
 import math
 import socket
 import struct
+import threading
 
 import cv2
 import numpy as np
@@ -101,6 +102,18 @@ def test_what_does_not_change_is_sent_once(link, server):
         link.put("base", 1)
     link.put("end", 1)
     assert [one["topic"] for one in received(server, 2)] == ["base", "end"]
+
+
+def test_what_is_costly_to_write_is_written_by_the_thread_that_sends_it(link, server):
+    writers = []
+
+    def written():
+        writers.append(threading.current_thread().name)
+        return '{"counting": 1}'
+
+    link.put_later("ports", written)
+    assert received(server, 1) == [{"topic": "ports", "value": {"counting": 1}}]
+    assert writers == ["studio link"]
 
 
 def test_without_a_server_old_events_are_forgotten(link):

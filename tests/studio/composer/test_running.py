@@ -1,15 +1,21 @@
 """Networks are started, paused, stepped, and watched from outside while the robot lives."""
 
+import base64
 import json
+from itertools import groupby
 
+import cv2
+import numpy as np
 import pytest
 import trio
+from hypothesis import given, strategies as st
 
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.robot import Robot
-from hri.studio.link import RobotEnd
-from hri.studio.port_values import MOST_NUMBERS, shown
+from hri.studio.link import NETWORK, THUMBNAIL
+from hri.studio.network_watch import NetworkWatch
+from hri.studio.port_values import MOST_NUMBERS, shown, thumbnail, written
 from hri.studio.running import RunningNetworks
 from tests.devices import BLIND, SMALL_SCREEN
 
@@ -35,15 +41,8 @@ def robot():
 
 
 @pytest.fixture
-def link():
-    made = RobotEnd()
-    yield made
-    made.close()
-
-
-@pytest.fixture
-def running(robot, link):
-    return RunningNetworks(robot.networks, link)
+def running(robot):
+    return RunningNetworks(robot.networks)
 
 
 @pytest.fixture
@@ -65,8 +64,15 @@ def in_loop(robot, work, *arguments):
     return robot.run(job)
 
 
+def started(robot, running, *arguments):
+    async def job(context):
+        await running.start(context, *arguments)
+
+    robot.run(job)
+
+
 def test_a_file_runs_beside_the_app_and_ends(robot, running, file):
-    in_loop(robot, running.start, file)
+    started(robot, running, file)
     robot.wait(1.0)
     found = row(running, "counting")
     assert (found["path"], found["is_own"], found["is_paused"]) == (file, True, False)
@@ -77,26 +83,26 @@ def test_a_file_runs_beside_the_app_and_ends(robot, running, file):
 
 
 def test_a_text_runs_without_being_saved_in_the_place_of_what_ran(robot, running, file):
-    in_loop(robot, running.start, file)
-    in_loop(robot, running.start, file, COUNTING.replace("0.01", "0.5"))
+    started(robot, running, file)
+    started(robot, running, file, COUNTING.replace("0.01", "0.5"))
     assert row(running, "counting")["interval"] == 0.5
     with pytest.raises(HriError, match="Scael"):
-        in_loop(robot, running.start, file, COUNTING.replace("Hri.Scale", "Hri.Scael"))
+        started(robot, running, file, COUNTING.replace("Hri.Scale", "Hri.Scael"))
     assert row(running, "counting")["interval"] == 0.5, "what ran goes on"
 
 
-def test_a_network_that_is_the_whole_app_takes_its_own_drive_over(tmp_path, link):
+def test_a_network_that_is_the_whole_app_takes_its_own_drive_over(tmp_path):
     path = tmp_path / "alone.xml"
     path.write_text(DRIVING)
     with Robot(str(path), "simulated", clock=FakeClock(), devices=[SMALL_SCREEN]) as robot:
         robot.wait(0.2)
-        running = RunningNetworks(robot.networks, link, robot.app.is_network)
+        running = RunningNetworks(robot.networks, robot.app.is_network)
         for text in ("", DRIVING.replace("<B", "<!-- again -->\n<B")):
-            in_loop(robot, running.start, str(path), text)
+            started(robot, running, str(path), text)
             robot.wait(0.2)
         assert row(running, "alone")["is_own"]
         with pytest.raises(HriError, match="Scael"):
-            in_loop(robot, running.start, str(path), COUNTING.replace("Hri.Scale", "Hri.Scael"))
+            started(robot, running, str(path), COUNTING.replace("Hri.Scale", "Hri.Scael"))
         assert row(running, "alone")["ticks"] > 0, "what ran goes on"
         in_loop(robot, running.stop, "alone")
         assert running.listed() == []
@@ -117,7 +123,7 @@ def test_what_cannot_run_is_refused_and_the_robot_goes_on(
 ):
     before = [one["name"] for one in running.listed()]
     with pytest.raises(HriError, match=why):
-        in_loop(robot, running.start, str(tmp_path / name), text)
+        started(robot, running, str(tmp_path / name), text)
     assert [one["name"] for one in running.listed()] == before
     robot.wait(0.5)
 
@@ -136,7 +142,7 @@ def test_networks_of_the_app_pause_but_do_not_end(robot, running):
 
 
 def test_a_breakpoint_is_shown_and_says_why_it_paused(robot, running, file):
-    in_loop(robot, running.start, file)
+    started(robot, running, file)
     running.break_at("counting", "half.scaled", "> 1")
     robot.wait(0.5)
     found = row(running, "counting")
@@ -150,51 +156,154 @@ def test_a_breakpoint_is_shown_and_says_why_it_paused(robot, running, file):
     assert row(running, "counting")["breakpoint"] is None
 
 
-def test_values_come_while_they_are_wanted(robot, link, running, file):
-    told = {}
-    link.put = told.__setitem__
-    in_loop(robot, running.start, file)
+def test_a_network_that_is_the_whole_app_is_tried_in_its_place_with_its_breakpoint(tmp_path):
+    path = tmp_path / "alone.xml"
+    path.write_text(COUNTING)
+    with Robot(str(path), "simulated", clock=FakeClock(), devices=[SMALL_SCREEN]) as robot:
+        running = RunningNetworks(robot.networks, is_alone=True)
+        running.break_at("alone", "half.scaled", "> 2")
+        started(robot, running, str(path), COUNTING.replace('value="0.5"', 'value="0.8"'))
+        robot.wait(0.5)
+        found = row(running, "alone")
+        assert (found["is_own"], found["hit"]) == (True, "half.scaled > 2: 2.4")
+        started(robot, running, str(path), COUNTING.replace("half", "part"))
+        robot.wait(0.5)
+        found = row(running, "alone")
+        assert (found["is_paused"], found["breakpoint"]) == (False, None)
+
+
+class Told:
+    """Stands for the link: what it was told last, and what is wanted."""
+
+    def __init__(self):
+        self.wanted, self.values, self.is_reading = {NETWORK: [], THUMBNAIL: []}, {}, True
+
+    def wanted_of(self, kind):
+        return self.wanted[kind]
+
+    def put(self, topic, value):
+        self.values[topic] = value
+
+    def put_later(self, topic, written):
+        self.values[topic] = json.loads(written()) if self.is_reading else written
+
+
+def watched(robot, running, script):
+    """Let a script (coroutine function) look at what a page would get, told in its argument."""
+    told = Told()
+    watch = NetworkWatch(robot.networks, told, running.has_breakpoint)
 
     async def look(context):
         async with trio.open_nursery() as nursery:
-            nursery.start_soon(running.watch, context)
-            await context.clock.sleep(0.5)
-            assert told["ports"] == {}
-            link.wanted = frozenset({"network:counting", "network:nobody"})
-            await context.clock.sleep(0.5)
-            values = told["ports"]["counting"]
-            assert values["values"] == {"three.value": 3, "half.scaled": 1.5, "board.half": 1.5}
-            assert set(values["cost"]) >= {"three", "half", "end"}
-            assert values["resting"] == []
-            running.pause("counting", True)
-            await context.clock.sleep(0.3)
-            assert told["ports"]["counting"]["values"]["half.scaled"] == 1.5, "it stays in sight"
-            link.wanted = frozenset()
-            await context.clock.sleep(0.2)
-            assert told["ports"] == {}
+            nursery.start_soon(watch.watch, context)
+            await script(told, context.clock.sleep)
             nursery.cancel_scope.cancel()
 
     robot.run(look)
-    assert robot.networks.runners["counting"].after_tick == []
 
 
-def test_pictures_come_small(link):
+def test_values_come_while_they_are_wanted(robot, running, file):
+    started(robot, running, file)
+
+    async def script(told, sleep):
+        await sleep(0.5)
+        assert told.values["ports"] == {}
+        told.wanted[NETWORK] = ["counting", "nobody"]
+        await sleep(0.5)
+        values = told.values["ports"]["counting"]
+        assert values["values"] == {"three.value": 3, "half.scaled": 1.5, "board.half": 1.5}
+        assert set(values["cost"]) >= {"three", "half", "end"}
+        assert {len(one) for one in values["cost"].values()} == {4}
+        assert values["resting"] == []
+        assert list(told.values["ports"]) == ["counting"]
+        running.pause("counting", True)
+        await sleep(0.3)
+        told.wanted[NETWORK] = []
+        await sleep(0.3)
+        assert told.values["ports"] == {}
+        told.wanted[NETWORK] = ["counting"]
+        await sleep(0.3)
+        paused = told.values["ports"]["counting"]
+        assert paused["values"]["half.scaled"] == 1.5, "a page that comes later sees it, too"
+        running.pause("counting", False)
+        told.wanted[NETWORK] = []
+        await sleep(0.3)
+        assert robot.networks.runners["counting"].after_tick == []
+
+    watched(robot, running, script)
+
+
+def test_the_values_at_which_it_paused_are_there_for_a_page_that_comes_afterward(
+    robot, running, file
+):
+    started(robot, running, file)
+
+    async def script(told, sleep):
+        running.break_at("counting", "board.half", "> 1")
+        await sleep(1.0)
+        running.break_at("counting", "board.half", "> 2")
+        running.pause("counting", False)
+        await sleep(0.3)
+        running.break_at("counting", "board.half", "sent")
+        await sleep(0.3)
+        told.wanted[NETWORK] = ["counting"]
+        await sleep(0.3)
+        assert told.values["ports"]["counting"]["values"]["half.scaled"] == 1.5
+
+    watched(robot, running, script)
+
+
+def test_what_was_sent_once_is_shown_though_the_server_is_slow(robot, running, file):
+    pulse = """<BehaviorNetwork name="counting" invocation_interval="0.01">
+      <Behavior id="step" type="Hri.InputCollector"/>
+      <Behavior id="half" type="Hri.Scale"><Parameter name="factor" value="0.5"/></Behavior>
+      <Link from="half.scaled" to="step.input"/>
+    </BehaviorNetwork>"""
+    started(robot, running, file, pulse)
+
+    async def script(told, sleep):
+        told.wanted[NETWORK] = ["counting"]
+        await sleep(0.5)
+        assert told.values["ports"]["counting"]["values"]["half.scaled"] is None
+        told.is_reading = False
+        await sleep(0.1)
+        robot.networks.inject("counting", "half", "input", 8.0)
+        await sleep(0.2)
+        waiting, told.is_reading = told.values["ports"], True
+        assert json.loads(waiting())["counting"]["values"]["half.scaled"] is None
+        halves = []
+        for _ in range(30):
+            await sleep(0.01)
+            if not callable(told.values["ports"]):
+                halves.append(told.values["ports"]["counting"]["values"]["half.scaled"])
+        assert [one for one, _ in groupby(halves)] == [4.0, None]
+
+    watched(robot, running, script)
+
+
+def test_pictures_come_small():
     with Robot(config="simulated", clock=FakeClock(), seed=1, devices=[SMALL_SCREEN]) as robot:
-        running = RunningNetworks(robot.networks, link)
-        told = {}
-        link.put = told.__setitem__
-        link.wanted = frozenset({"network:seeing", "thumbnail:seeing/camera.raw_image"})
+        wanted = "seeing/camera.raw_image"
 
-        async def look(context):
-            async with trio.open_nursery() as nursery:
-                nursery.start_soon(running.watch, context)
-                await context.clock.sleep(2.0)
-                nursery.cancel_scope.cancel()
+        async def script(told, sleep):
+            told.wanted[THUMBNAIL] = [wanted, "seeing/camera.is_watching", "nobody/x.y"]
+            await sleep(2.0)
+            assert list(told.values["thumbnails"]) == [wanted]
+            assert 500 < len(told.values["thumbnails"][wanted]) < 8000
+            assert told.values["ports"] == {}
+            told.wanted = {NETWORK: ["seeing"], THUMBNAIL: []}
+            await sleep(0.5)
+            seen = told.values["ports"]["seeing"]["values"]["camera.raw_image"]
+            assert seen is None or seen["kind"] == "image"
+            assert told.values["thumbnails"] == {}
 
-        robot.run(look)
-        (picture,) = told["thumbnails"].values()
-        assert 500 < len(picture) < 8000
-        assert told["ports"]["seeing"]["values"]["camera.raw_image"]["kind"] == "image"
+        watched(robot, RunningNetworks(robot.networks), script)
+
+
+@pytest.mark.parametrize(("width", "shown_width"), [(640, 96), (50, 50)])
+def test_a_picture_is_at_most_as_wide_as_a_thumbnail(width, shown_width):
+    data = base64.b64decode(thumbnail(np.zeros((400, width, 3), np.uint8)))
+    assert cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR).shape[1] == shown_width
 
 
 @pytest.mark.parametrize(
@@ -207,11 +316,34 @@ def test_pictures_come_small(link):
         ("x" * 1000, "x" * 80),
         ((1.0, 2.0), {"kind": "array", "shape": [2], "head": [1.0, 2.0]}),
         ((), {"kind": "array", "shape": [0], "head": []}),
+        (np.zeros((2, 3)), {"kind": "array", "shape": [2, 3], "head": [0.0] * 6}),
+        (1e300, 1e300),
+        (-0.0, 0.0),
+        (float("nan"), "nan"),
     ],
 )
 def test_values_are_short(value, as_shown):
     assert shown(value) == as_shown
-    json.dumps(shown(value), allow_nan=False)
+    assert json.loads(written(value)) == as_shown
+
+
+class Nasty:
+    """A value that cannot be looked at."""
+
+    _fields = ("x",)
+
+    @property
+    def x(self):
+        raise RuntimeError("no")
+
+
+def test_a_value_that_cannot_be_looked_at_is_named():
+    assert json.loads(written(Nasty())) == {"kind": "value", "text": "Nasty"}
+
+
+@given(st.floats() | st.text() | st.booleans() | st.none() | st.tuples(st.floats(), st.floats()))
+def test_every_value_can_be_written(value):
+    assert json.loads(written(value)) == shown(value)
 
 
 def test_a_long_array_is_cut():
