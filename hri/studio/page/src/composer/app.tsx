@@ -4,7 +4,7 @@ import { ReactFlowProvider, useReactFlow } from "@xyflow/react";
 import { lazy, Suspense, useCallback, useEffect, useMemo, useRef, useState, type MouseEvent } from "react";
 import { actionsOf, addOne, keysOf, type Action, type Desk } from "./actions";
 import { Canvas, type Mode } from "./canvas";
-import { compose, together, type Composition } from "./composition";
+import { compose, settled, together, type Composition } from "./composition";
 import { BreakDialog, NameDialog, OpenDialog, QuestionDialog, TextDialog } from "./dialogs";
 import type { ComposerDocument } from "./document";
 import type { LiveValues } from "./live_values";
@@ -63,12 +63,13 @@ function Desktop({ doc, live, ask, open, want }: ComposerProps) {
 
   const app = files.find((one) => one.path === path)?.app ?? null;
   const others = useOthers(isWhole ? app : null, path, files, doc);
+  const current = useRef<Composition>({ parts: new Map(), wires: [] });
   const composition = useMemo(() => {
     const own = compose(doc.network, palette, problems);
-    return others.size === 0 ? own : together(own, [...others].map(([name, network]) => compose(network, palette, [], name)));
+    const all = others.size === 0 ? own : together(own, [...others].map(([name, network]) => compose(network, palette, [], name)));
+    current.current = settled(current.current, all);
+    return current.current;
   }, [doc, revision, palette, problems, others]);
-  const current = useRef<Composition>(composition);
-  current.current = composition;
 
   const running = networks.find((one) => one.path === path);
   const isLive = running !== undefined;

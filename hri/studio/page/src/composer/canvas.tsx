@@ -82,22 +82,28 @@ export function Canvas({ doc, composition, mode, isWhole, isLive, add, openOther
     });
   }, [composition, places, selection, isLive]);
 
-  const edges = useMemo(
-    () =>
-      composition.wires.map((wire): WireEdge => ({
+  const drawn = useRef(new Map<string, WireEdge>());
+  const edges = useMemo(() => {
+    const next = composition.wires.map((wire): WireEdge => {
+      const had = drawn.current.get(wire.id);
+      const selected = wire.network === "" && selection.links.has(linkKey(wire.link));
+      if (had && had.data!.wire === wire && had.data!.live === isLive && had.selected === selected) return had;
+      return {
         id: wire.id,
         type: "wire",
         source: wire.source,
         target: wire.target,
         sourceHandle: wire.output,
         targetHandle: wire.input,
-        selected: wire.network === "" && selection.links.has(linkKey(wire.link)),
+        selected,
         selectable: wire.network === "",
         data: { wire, live: isLive },
         ariaLabel: `Link from ${wire.link.from} to ${wire.link.to}${wire.problem ? `, ${wire.problem}` : ""}`,
-      })),
-    [composition, selection, isLive],
-  );
+      };
+    });
+    drawn.current = new Map(next.map((one) => [one.id, one]));
+    return next;
+  }, [composition, selection, isLive]);
 
   const isEmpty = composition.parts.size === 0;
   const wasEmpty = useRef(isEmpty);

@@ -87,16 +87,19 @@ export function compose(network: Network, palette: Palette, problems: readonly P
     parts.set(key(behavior.id), { ...part, ...size(part) });
   }
   const wires: Wire[] = [];
-  network.links.forEach((link, number) => {
+  const known = new Map<string, number>();
+  for (const link of network.links) {
     const source = ends(link.from);
     const target = ends(link.to);
     for (const end of [source, target])
       if (end.id.startsWith("board.") && !parts.has(end.id)) parts.set(end.id, slot(network, palette, end.id));
-    if (!parts.has(key(source.id)) || !parts.has(key(target.id))) return;
+    if (!parts.has(key(source.id)) || !parts.has(key(target.id))) continue;
     const output = parts.get(key(source.id))!.outputs.find((one) => one.name === source.port);
     const problem = problems.find((one) => one.link?.from === link.from && one.link.to === link.to);
+    const ending = `${name}#${link.from} -> ${link.to}`;
+    known.set(ending, (known.get(ending) ?? 0) + 1);
     wires.push({
-      id: `${name}#${number}`,
+      id: known.get(ending) === 1 ? ending : `${ending} ${known.get(ending)}`,
       network: name,
       link,
       source: key(source.id),
@@ -106,8 +109,33 @@ export function compose(network: Network, palette: Palette, problems: readonly P
       datatype: output?.datatype ?? "",
       problem: problem ? `${problem.what} - ${problem.remedy}` : "",
     });
-  });
+  }
   return { parts, wires };
+}
+
+/** The next composition with the very parts and wires of the last one where they are the same: what
+ * is not touched is not drawn again. */
+export function settled(last: Composition, next: Composition): Composition {
+  const parts = new Map([...next.parts].map(([key, part]) => {
+    const had = last.parts.get(key);
+    return [key, had && isSamePart(had, part) ? had : part];
+  }));
+  const wires = new Map(last.wires.map((one) => [one.id, one]));
+  return {
+    parts,
+    wires: next.wires.map((wire) => {
+      const had = wires.get(wire.id);
+      return had && had.problem === wire.problem && had.datatype === wire.datatype ? had : wire;
+    }),
+  };
+}
+
+function isSamePart(a: Part, b: Part): boolean {
+  const isSameList = <T>(one: readonly T[], other: readonly T[]) => one.length === other.length && one.every((item, place) => item === other[place]);
+  return (
+    a.type === b.type && a.isKnown === b.isKnown && a.width === b.width && a.height === b.height && a.at?.x === b.at?.x && a.at?.y === b.at?.y &&
+    isSameList(a.inputs, b.inputs) && isSameList(a.outputs, b.outputs) && isSameList(a.problems, b.problems)
+  );
 }
 
 /** The network that is edited among the others of its app, which share the slots of the board. */
