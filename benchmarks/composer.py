@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 
 from benchmarks.studio_robot import alive, chromium_killed, launcher, linked, opened, shown_page
-from hri.bench.table import Row, amount, at_least, at_most, share
 from hri.behavior.network_file import read_network
+from hri.bench.table import Row, amount, at_least, at_most, share
 from hri.core.errors import HriError
 
 NODES, QUICK_NODES = 300, 100
@@ -35,8 +35,8 @@ SHOW = """(path) => new Promise((done) => {
   const look = () => {
     const count = document.querySelectorAll(".react-flow__node").length;
     const wires = document.querySelectorAll(".react-flow__edge").length;
-    if (count >= %d && wires > count / 2) requestAnimationFrame(() => done(performance.now() - begun));
-    else requestAnimationFrame(look);
+    const isThere = count >= %d && wires > count / 2;
+    requestAnimationFrame(isThere ? () => done(performance.now() - begun) : look);
   };
   location.hash = "#networks/" + path;
   look();
@@ -149,7 +149,7 @@ def drafts(quick: bool) -> Iterator[Row]:
     more = {"worst_s": round(max(lost), 2), "median_s": round(float(np.median(lost)), 2)}
     yield share(what, sum(one <= LOST_S for one in lost), total, at_least(1)) | more
     what = "killed while editing: files half written, or edits that did not come back"
-    yield amount(what, len(wrong), "times", at_most(0), what=wrong[:3])
+    yield amount(what, len(wrong), "times", at_most(0), examples=wrong[:3])
 
 
 class _Hand:
@@ -210,7 +210,8 @@ def _kept(path: Path) -> int:
     texts = [path.read_text()]
     with suppress(FileNotFoundError):
         texts.append(json.loads((path.parent / f".{path.name}.draft").read_text())["text"])
-    return max(round(read_network(text, path)["b0"].factor) for text in texts)  # type: ignore[attr-defined]
+    factors: list[float] = [vars(read_network(text, path)["b0"])["factor"] for text in texts]
+    return max(map(round, factors))
 
 
 @contextmanager

@@ -9,7 +9,6 @@ from __future__ import annotations
 import gzip
 import os
 import random
-import shutil
 import signal
 import subprocess
 import sys
@@ -19,7 +18,6 @@ import time
 import urllib.request
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, closing, contextmanager, suppress
-from functools import partial
 from http.cookiejar import CookieJar
 from importlib import resources
 from pathlib import Path
@@ -28,16 +26,27 @@ from typing import Any
 import numpy as np
 import psutil
 
+from benchmarks import composer
+from benchmarks.studio_robot import (
+    DEVICES,
+    WINDOW,
+    alive,
+    chromium,
+    chromium_killed,
+    companion,
+    launcher,
+    linked,
+    living,
+    opened,
+    shown_page,
+)
 from hri.behavior.runner import Runner
 from hri.bench.companion_soak import CompanionSoak
 from hri.bench.table import Parts, Row, amount, at_least, at_most, measured, share
-from hri.core.errors import NotAvailable
-from hri.hal.resource import Description
 from hri.robot import Robot
 from hri.studio.session import StudioSession
 from hri.task.context import TaskContext
 
-DEVICES = (Description("screen", "Hri.OffscreenScreen"), Description("voice", "Hri.SilentVoice"))
 SECONDS, QUICK_SECONDS, TURNS = 20.0, 4.0, 3
 SETTLING = 4.0
 """Seconds in which a robot loads its models and a page is opened."""
@@ -45,12 +54,12 @@ RATE = 100.0
 STOPS, KILLS, HOURS, SEED = 10, 50, 2.0, 24
 BACK_S = 2.0
 """Until a page is linked again after a kill."""
-FPS, DELAY_MS, STOP_MS, INTERACTIVE_S, SCRIPTS_KB = 20.0, 150.0, 100.0, 1.5, 250.0
+FPS, DELAY_MS, STOP_MS, INTERACTIVE_S = 20.0, 150.0, 100.0, 1.5
+FIRST_KB, SCRIPTS_KB = 250.0, 400.0
 MEDIAN, P99 = 1.05, 1.5
 BEHAVIORS, WATCHED_TURNS, WATCHED_P99 = 100, 6, 2.0
 SETTLED, GROWTH_MB = 0.25, 20.0
 """After this share of the hours, memory may grow by so much."""
-WINDOW = {"width": 1360, "height": 900}
 FRAMES = """(seconds) => new Promise((done) => {
   const found = [], socket = new WebSocket(`ws://${location.host}/api/v1/live`);
   socket.binaryType = "arraybuffer";
@@ -89,71 +98,6 @@ while link.recv(1 << 20):
 """A program that takes all that a page takes, and draws nothing."""
 
 
-@contextmanager
-def _living(robot: Robot, run: Callable[..., object], *jobs: Any) -> Iterator[StudioSession]:
-    """A robot in a thread, with a studio."""
-    studio = StudioSession(robot, port=0)
-    thread = threading.Thread(target=lambda: run(*studio.jobs(), *jobs))
-    with closing(robot), closing(studio):
-        studio.start()
-        thread.start()
-        try:
-            yield studio
-        finally:
-            robot.context.clock.soon(robot.finish)
-            thread.join()
-
-
-def _companion() -> Robot:
-    """In real time."""
-    return Robot("companion", "simulated", devices=DEVICES, notice=lambda line: None)
-
-
-@contextmanager
-def _alive() -> Iterator[tuple[Robot, StudioSession]]:
-    robot = _companion()
-    with _living(robot, robot.live_until_over, *robot.app.load_tasks()) as studio:
-        yield robot, studio
-
-
-def _chromium() -> str:
-    found = shutil.which("chromium") or shutil.which("chromium-browser")
-    if found is None:
-        raise NotAvailable("no Chromium - apt install chromium")
-    return found
-
-
-@contextmanager
-def _browser() -> Iterator[Any]:
-    """Launches Chromium, to be driven from here. Raises NotAvailable."""
-    try:
-        from playwright.sync_api import sync_playwright
-    except ImportError:
-        raise NotAvailable("no playwright - pip install hri[dev]") from None
-    path = _chromium()
-    with sync_playwright() as playwright:
-        launch = partial(playwright.chromium.launch, executable_path=path, args=["--no-sandbox"])
-        yield launch
-
-
-@contextmanager
-def _page(studio: StudioSession) -> Iterator[Any]:
-    """The page in Chromium, once it is linked. Raises NotAvailable."""
-    with _browser() as launch, closing(launch()) as browser:
-        yield _opened(browser, studio)
-
-
-def _opened(browser: Any, studio: StudioSession) -> Any:
-    page = browser.new_page(viewport=WINDOW)
-    page.goto(studio.address())
-    _linked(page)
-    return page
-
-
-def _linked(page: Any) -> None:
-    page.get_by_text("linked", exact=True).wait_for()
-
-
 # --- what a page costs ---
 
 
@@ -176,7 +120,7 @@ Watch = Callable[[StudioSession], AbstractContextManager[psutil.Process]]
 @contextmanager
 def _chromium_alone(studio: StudioSession) -> Iterator[psutil.Process]:
     """The page in a Chromium that nothing drives: what drives it would cost this process."""
-    words = [_chromium(), "--headless=new", "--no-sandbox", "--disable-gpu", "--mute-audio"]
+    words = [chromium(), "--headless=new", "--no-sandbox", "--disable-gpu", "--mute-audio"]
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         words += [
             f"--user-data-dir={folder}",
@@ -211,7 +155,7 @@ def _started(words: list[str]) -> Iterator[psutil.Process]:
 def _late(seconds: float, watch: Watch | None) -> list[float]:
     """How late ticks are, without a studio or with one that is watched."""
     found: list[float] = []
-    robot, wait = _companion(), threading.Event().wait
+    robot, wait = companion(), threading.Event().wait
     jobs = (*robot.app.load_tasks(), _ticks(found))
     if watch is None:
         thread = threading.Thread(target=lambda: robot.live_until_over(*jobs))
@@ -224,7 +168,7 @@ def _late(seconds: float, watch: Watch | None) -> list[float]:
             robot.context.clock.soon(robot.finish)
             thread.join()
         return late
-    with _living(robot, robot.live_until_over, *jobs) as studio, watch(studio):
+    with living(robot, robot.live_until_over, *jobs) as studio, watch(studio):
         wait(SETTLING)
         found.clear()
         wait(seconds)
@@ -294,7 +238,7 @@ def _watched(quick: bool) -> Iterator[Row]:
     with tempfile.TemporaryDirectory() as folder:
         path = _hundred(Path(folder))
         robot = Robot(str(path), "simulated", devices=DEVICES, notice=lambda line: None)
-        with _living(robot, robot.live_until_over) as studio:
+        with living(robot, robot.live_until_over) as studio:
             wait(SETTLING)
             _timed(robot.networks.runners["hundred"], found)
             for _ in range(turns):
@@ -321,13 +265,13 @@ def _watched(quick: bool) -> Iterator[Row]:
 
 def _seen(quick: bool) -> Iterator[Row]:
     """What the page gets, and how fast its stop works."""
-    yield _size()
+    yield from _sizes()
     stopped: list[float] = []
     seconds = QUICK_SECONDS if quick else SECONDS
-    with _alive() as (robot, studio):
+    with alive() as (robot, studio):
         offset = time.time() - robot.clock.now()  # noqa: TID251 - the browser has no other clock
         robot.events.subscribe("drive.stopped", lambda event: stopped.append(event.time + offset))
-        with _page(studio) as page:
+        with shown_page(studio) as page:
             page.wait_for_timeout(SETTLING * 1e3)
             frames = np.array(page.evaluate(FRAMES, seconds))
             yield amount("face on the page", len(frames) / seconds, "1/s", at_least(FPS))
@@ -345,7 +289,7 @@ def _seen(quick: bool) -> Iterator[Row]:
             yield amount("requests to other hosts", len(others), "requests", at_most(0))
             begun = time.perf_counter()
             page.reload()
-            _linked(page)
+            linked(page)
             took_s = time.perf_counter() - begun
             yield amount("the page: until it is linked", took_s, "s", at_most(INTERACTIVE_S))
 
@@ -361,11 +305,18 @@ def _stop(page: Any, stopped: list[float]) -> float:
     return (stopped[count] - pressed) * 1e3
 
 
-def _size() -> Row:
+def _sizes() -> Iterator[Row]:
+    """Of the scripts that come first, and of those of all views."""
     built = resources.files("hri.studio") / "built"
-    scripts = [file for file in built.iterdir() if file.name.endswith(".js")]
-    size = sum(len(gzip.compress(file.read_bytes())) for file in scripts) / 1e3
-    return amount("scripts of the page, gzip", size, "kB", at_most(SCRIPTS_KB))
+    sizes = {
+        file.name: len(gzip.compress(file.read_bytes())) / 1e3
+        for file in built.iterdir()
+        if file.name.endswith(".js")
+    }
+    first = sizes["studio.js"]
+    yield amount("scripts of the page at first, gzip", first, "kB", at_most(FIRST_KB))
+    whole = sum(sizes.values())
+    yield amount("scripts of the page, all views, gzip", whole, "kB", at_most(SCRIPTS_KB))
 
 
 # --- kills ---
@@ -377,23 +328,23 @@ def _killed(quick: bool) -> Iterator[Row]:
     took: list[float] = []
     goes_on: list[bool] = []
     ticks: list[float] = []
-    robot = _companion()
+    robot = companion()
     jobs = (*robot.app.load_tasks(), _ticks(ticks))
-    with _living(robot, robot.live_until_over, *jobs) as studio, _browser() as launch:
+    with living(robot, robot.live_until_over, *jobs) as studio, launcher() as launch:
         browser = launch()
-        page = _opened(browser, studio)
+        page = opened(browser, studio)
         for number in range(KILLS // 10 if quick else KILLS):
             page.wait_for_timeout(dice.uniform(0, 500))
             count, begun = len(ticks), time.perf_counter()
             if number % 2 == 0:
                 os.kill(studio.server, signal.SIGKILL)
                 page.get_by_text("no link", exact=True).wait_for()
-                _linked(page)
+                linked(page)
             else:
-                _kill_browser()
+                chromium_killed()
                 browser = launch()
                 begun = time.perf_counter()  # from when a person opens it again
-                page = _opened(browser, studio)
+                page = opened(browser, studio)
             took.append(time.perf_counter() - begun)
             goes_on.append(len(ticks) - count > took[-1] * RATE / 2)
         page.click("#stop")  # it still works
@@ -405,14 +356,6 @@ def _killed(quick: bool) -> Iterator[Row]:
     what = f"killed, browser or server: the page is linked again within {BACK_S:g} s"
     more = {"median_s": round(float(np.median(took)), 2), "worst_s": round(max(took), 2)}
     yield share(what, sum(one <= BACK_S for one in took), len(took), at_least(1)) | more
-
-
-def _kill_browser() -> None:
-    """All of Chromium that this process has started."""
-    for process in psutil.Process().children(recursive=True):
-        with suppress(psutil.NoSuchProcess):
-            if "chrom" in process.name():
-                process.kill()
 
 
 # --- long hours ---
@@ -443,7 +386,7 @@ def _long(quick: bool) -> Iterator[Row]:
         is_over.set()
 
     begun = time.perf_counter()
-    with _living(soak.robot, run) as studio, _chromium_alone(studio) as browser:
+    with living(soak.robot, run) as studio, _chromium_alone(studio) as browser:
         server = psutil.Process(studio.server)
         processes |= {"the server": server, "the browser": browser}
         is_over.wait()
@@ -470,7 +413,15 @@ def _memory(process: psutil.Process) -> float:
     return total / 1e6
 
 
-PARTS: Parts = {"page": _seen, "cost": _cost, "ports": _watched, "kills": _killed, "hours": _long}
+PARTS: Parts = {
+    "page": _seen,
+    "cost": _cost,
+    "ports": _watched,
+    "large": composer.large,
+    "drafts": composer.drafts,
+    "kills": _killed,
+    "hours": _long,
+}
 
 
 def measure(quick: bool = False, only: str | None = None) -> dict[str, Any]:

@@ -11,6 +11,7 @@ import { drawSelection, EditorView, highlightActiveLine, keymap, lineNumbers } f
 import { tags } from "@lezer/highlight";
 import { useEffect, useRef } from "react";
 import type { ComposerDocument } from "./document";
+import { stretch } from "./edits";
 import { useStore } from "./store";
 
 /** Marks changes that came from the graph, which must not go back to it. */
@@ -84,7 +85,7 @@ export function Source({ doc }: { doc: ComposerDocument }) {
     const editor = view.current!;
     const [before, after] = [editor.state.doc.toString(), doc.history.text];
     if (before === after) return;
-    const { from, to, insert } = difference(before, after);
+    const { from, to, insert } = stretch(before, after);
     editor.dispatch({ changes: { from, to, insert }, annotations: FromGraph.of(true) });
   }, [doc, revision]);
 
@@ -107,14 +108,4 @@ export function Source({ doc }: { doc: ComposerDocument }) {
   }, [doc, ids]);
 
   return <div className="xml-source" ref={host} />;
-}
-
-/** The one stretch in which two texts differ. */
-export function difference(before: string, after: string): { from: number; to: number; insert: string } {
-  const most = Math.min(before.length, after.length);
-  let from = 0;
-  while (from < most && before[from] === after[from]) from++;
-  let behind = 0;
-  while (behind < most - from && before[before.length - 1 - behind] === after[after.length - 1 - behind]) behind++;
-  return { from, to: before.length - behind, insert: after.slice(from, after.length - behind) };
 }
