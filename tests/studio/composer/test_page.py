@@ -282,6 +282,34 @@ def test_a_draft_is_offered_after_the_browser_and_the_server_were_killed(studio)
     assert file.read_text() == TUTORIAL.replace('"80"', '"9"')
 
 
+def test_a_save_whose_answer_was_lost_is_known_again_and_drafts_go_on(studio, page):
+    file = studio.home / "unanswered.xml"
+    file.write_text(TUTORIAL)
+    hands = Composer(page)
+    hands.open(file)
+    hands.part("constant").click()
+
+    def lose_the_answer(route):
+        route.fetch()
+        route.abort()
+
+    saving = re.compile("/api/v1/networks/file$")
+    for value, is_looked_at in (("7", True), ("8", False)):
+        hands.set("parsed_value", value)
+        page.route(saving, lose_the_answer)
+        hands.do("save")
+        hands.set("parsed_value", f"{value}1")
+        expect(page.locator(".status")).to_contain_text("draft kept", timeout=3000)
+        assert f'"{value}"' in file.read_text()
+        page.unroute(saving)
+        if is_looked_at:
+            with page.expect_response(re.compile("/api/v1/networks/watch")):
+                pass
+        hands.save()
+        assert f'"{value}1"' in file.read_text()
+    expect(page.locator(".composer-dialog")).to_have_count(0)
+
+
 def test_a_file_that_changed_outside_is_a_choice(studio, page):
     file = studio.home / "both.xml"
     file.write_text(TUTORIAL)

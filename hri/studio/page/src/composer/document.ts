@@ -48,13 +48,15 @@ export class ComposerDocument {
   /** Why it cannot be saved here; empty when it can. */
   why = "";
   private mark: string | null = null;
+  /** What was sent to be saved while no answer has come: the file may have it, or not. */
+  private unanswered: string | null = null;
   private checking: ReturnType<typeof setTimeout> | undefined;
   private watching: ReturnType<typeof setInterval> | undefined;
   private unfollow: () => void = () => {};
 
   constructor() {
     this.autosave = new Autosave(() =>
-      this.path.value && this.history.isDirty && !this.question.value
+      this.path.value && this.history.isDirty && this.question.value?.kind !== "draft"
         ? { path: this.path.value, text: this.history.text, mark: this.mark }
         : null,
     );
@@ -103,6 +105,7 @@ export class ComposerDocument {
     this.unfollow();
     this.history = new History(text);
     this.mark = mark;
+    this.unanswered = null;
     this.why = why;
     this.question.set(null);
     this.autosave.forget();
@@ -172,10 +175,19 @@ export class ComposerDocument {
     }
     const { text } = this.history;
     return this.attempt(async () => {
+      const before = this.unanswered;
+      this.unanswered = text;
       try {
         this.mark = (await server.save(this.path.value, text, this.mark)).mark;
+        this.unanswered = null;
       } catch (error) {
-        if (!(error instanceof Refusal) || typeof error.answer.text !== "string") throw error;
+        if (!(error instanceof Refusal)) throw error;
+        this.unanswered = before;
+        if (typeof error.answer.text !== "string") throw error;
+        if (this.isOurs(error.answer.text, error.answer.mark as string | null)) {
+          await this.save();
+          return;
+        }
         this.question.set({ kind: "changed", text: error.answer.text, mark: error.answer.mark as string | null });
         return;
       }
@@ -185,6 +197,19 @@ export class ComposerDocument {
       this.notice.set(`saved ${this.path.value}`);
       void this.refreshFiles();
     });
+  }
+
+  /** Whether a file that changed has what was saved here when the server ended: then it is known. */
+  private isOurs(text: string, mark: string | null): boolean {
+    if (text !== this.unanswered) return false;
+    this.mark = mark;
+    this.unanswered = null;
+    if (this.history.text === text) {
+      this.history.markSaved();
+      this.autosave.forget();
+      this.revision.set(this.revision.value + 1);
+    }
+    return true;
   }
 
   async saveAs(path: string): Promise<boolean> {
@@ -226,6 +251,7 @@ export class ComposerDocument {
     const path = this.path.value;
     const found = await server.watch(path, this.mark).catch(() => null);
     if (found === null || found.text === undefined || path !== this.path.value || found.mark === this.mark) return;
+    if (this.isOurs(found.text, found.mark)) return;
     if (this.history.isDirty) {
       this.question.set({ kind: "changed", text: found.text, mark: found.mark });
       return;
