@@ -41,7 +41,7 @@ SHOW = """(path) => new Promise((done) => {
   location.hash = "#networks/" + path;
   look();
 })"""
-"""Milliseconds until a network of so many nodes is painted."""
+"""Milliseconds until a network with this many nodes is painted."""
 FRAMES = "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
 UNDO = """() => new Promise((done) => {
   const begun = performance.now();
@@ -52,7 +52,7 @@ UNDO = """() => new Promise((done) => {
 
 
 def network_text(count: int) -> str:
-    """A network of so many behaviors in rows of ten, each with its place."""
+    """A network with this many behaviors in rows of ten, each with its place."""
     behaviors = [f'  <Behavior id="b{n}" type="Hri.Scale"/>' for n in range(count)]
     links = [
         f'  <Link from="b{n - 1}.scaled" to="b{n}.input"/>' for n in range(count) if n % 10 > 0
