@@ -25,8 +25,7 @@ def test_it_shows_the_face_what_it_sees_feels_and_says():
     def script(page, studio):
         expect(page.locator("#robot")).to_have_text("companion, simulated")
         for picture in ("face", "camera"):
-            image = page.locator(f"#{picture}-picture")
-            expect(image).not_to_have_js_property("naturalWidth", 0)
+            expect(page.locator(f"#{picture}-picture")).to_have_attribute("data-shown", "yes")
         page.fill("#text", "hello")
         page.keyboard.press("Enter")
         expect(page.locator("#lines .person")).to_contain_text("hello")

@@ -30,6 +30,18 @@ export function list<T>(parent: Element, items: readonly T[], row: (item: T) => 
   replace(parent, rows.map(item));
 }
 
+/** Parts of the page, each drawn only when one of the values that it shows is another than before. */
+export class Parts {
+  private readonly shown = new Map<string, readonly unknown[]>();
+
+  draw(name: string, values: readonly unknown[], draw: () => void): void {
+    const before = this.shown.get(name);
+    if (before !== undefined && values.every((value, place) => value === before[place])) return;
+    this.shown.set(name, values);
+    draw();
+  }
+}
+
 function item(row: Row): HTMLElement {
   const line = document.createElement("li");
   if (row.kind) line.className = row.kind;

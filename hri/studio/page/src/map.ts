@@ -44,6 +44,11 @@ export class Map {
     svg.addEventListener("pointercancel", () => (this.drag = null));
   }
 
+  /** Where what is dragged is held; another one at each move. */
+  get carried(): readonly [number, number] | undefined {
+    return this.drag?.to;
+  }
+
   private place(event: PointerEvent): [number, number] {
     const edge = this.svg.getBoundingClientRect();
     const [left, low, width, height] = this.box;

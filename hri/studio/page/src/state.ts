@@ -29,15 +29,15 @@ export function take(state: State, message: unknown): void {
   if (told.topic !== undefined) {
     (state.values as Record<string, unknown>)[told.topic] = told.value;
   } else if (told.event !== undefined) {
-    keep(state.events, told.event, MOST_EVENTS);
+    state.events = withLast(state.events, told.event, MOST_EVENTS);
     const line = lineOf(told.event);
-    if (line !== null) keep(state.lines, line, MOST_LINES);
+    if (line !== null) state.lines = withLast(state.lines, line, MOST_LINES);
   }
 }
 
-function keep<T>(list: T[], item: T, most: number): void {
-  list.push(item);
-  if (list.length > most) list.splice(0, list.length - most);
+/** A new list, since the page draws what is not the same as before. */
+function withLast<T>(list: readonly T[], item: T, most: number): T[] {
+  return [...list.slice(Math.max(0, list.length + 1 - most)), item];
 }
 
 export function lineOf(event: RobotEvent): Line | null {

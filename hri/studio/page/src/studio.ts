@@ -3,13 +3,14 @@
 
 import { bindKeys, type Action } from "./commands";
 import { Connection, type Picture } from "./connection";
-import { element, list, replace } from "./dom";
+import { element, list, Parts, replace } from "./dom";
 import { Hold } from "./hold";
 import { Map } from "./map";
 import { MoodCurve } from "./mood";
+import { LivePicture } from "./picture";
 import { RoomForm } from "./room";
 import { KEYS, RecordingsView } from "./recordings_view";
-import { empty, putCommand, summary, take, type Device, type SeenPerson, type State } from "./state";
+import { empty, putCommand, summary, take, type Device, type SeenPerson, type State, type Values } from "./state";
 import { hashOf, viewOf, VIEWS } from "./views";
 import type { ComposerView } from "./composer/view";
 
@@ -36,7 +37,11 @@ const talk = new Hold(element<HTMLButtonElement>("hold"), (on) => void ask("talk
 const recordings = new RecordingsView();
 let composer: ComposerView | null = null;
 let isDrawn = true;
-const shown: Partial<Record<Picture, string>> = {};
+const parts = new Parts();
+const pictures: Record<Picture, LivePicture> = {
+  face: new LivePicture(element("face-picture")),
+  camera: new LivePicture(element("camera-picture")),
+};
 
 const connection = new Connection({
   message(message) {
@@ -46,11 +51,7 @@ const connection = new Connection({
     drawSoon();
   },
   picture(which, jpeg) {
-    const image = element<HTMLImageElement>(`${which}-picture`);
-    const address = URL.createObjectURL(jpeg);
-    image.src = address;
-    if (shown[which]) URL.revokeObjectURL(shown[which]!);
-    shown[which] = address;
+    void pictures[which].show(jpeg);
   },
   linked(isLinked, isKnown) {
     const why = isKnown ? "no link to the robot - it comes back by itself" : "open the address that hri studio printed: this browser is not known yet";
@@ -107,28 +108,50 @@ function drawHeader(): void {
 
 function drawLive(): void {
   const { base, feeling, people, speech, world, devices, path, moods, log } = state.values;
-  const isStopped = base?.is_stopped ?? false;
+  parts.draw("feeling", [feeling], () => drawFeeling(feeling));
+  parts.draw("moods", [moods], () => curve.draw(moods));
+  parts.draw("lines", [state.lines], drawLines);
+  parts.draw("events", [state.events], drawEvents);
+  parts.draw("speech", [speech], () => drawSpeech(speech));
+  parts.draw("people", [people, pictures.camera.canvas.width], () => drawPeople(people?.persons ?? [], people?.is_on ?? false));
+  parts.draw("map", [world, base, path, people, map.carried], () => map.draw(world, base, path, people?.persons ?? []));
+  parts.draw("base", [base], () => drawBase(base));
+  parts.draw("devices", [devices], () => list(element("device-list"), devices ?? [], (one) => ({ text: one.id, detail: deviceWords(one), kind: one.state })));
+  parts.draw("log", [log], () => list(element("log-lines"), [...(log ?? [])].reverse(), (one) => ({ text: one.part, detail: one.text, kind: one.level, time: one.t })));
+  parts.draw("visitors", [world], () => drawVisitors(world));
+}
+
+function drawFeeling(feeling: Values["feeling"]): void {
   element("mood").textContent = feeling ? `I am ${feeling.words}` : "";
   element("why").textContent = feeling?.why ?? "";
   replace(element("emotions"), Object.entries(feeling?.emotions ?? {}).sort((a, b) => b[1] - a[1]).slice(0, 6).map(bar));
-  curve.draw(moods);
+}
+
+function drawLines(): void {
   const said = element("said");
   const isAtEnd = said.scrollHeight - said.scrollTop - said.clientHeight < 40;
   list(element("lines"), state.lines, (line) => ({ text: line.text, detail: line.detail, kind: line.who, time: line.time }));
   if (isAtEnd) said.scrollTop = said.scrollHeight;
+}
+
+function drawEvents(): void {
   list(element("events"), state.events.filter((one) => one.event !== "odometry").reverse(), (event) => ({ text: event.event, detail: summary(event), kind: "", time: event.t }));
+}
+
+function drawSpeech(speech: Values["speech"]): void {
   element("hearing").textContent = speech?.is_held ? "hears you" : speech?.is_muted ? "deaf" : speech?.is_speaking ? "speaks" : speech?.is_hearing ? "hears a voice" : "listens";
   press("mute", speech?.is_muted ?? false);
-  press("watch", people?.is_on ?? false);
-  drawPeople(people?.persons ?? [], people?.is_on ?? false);
-  map.draw(world, base, path, people?.persons ?? []);
-  roomForm.draw(world);
+}
+
+function drawBase(base: Values["base"]): void {
   const [x, y, heading] = (base?.pose ?? [0, 0, 0]) as [number, number, number];
   const place = base?.pose ? `x ${x.toFixed(2)} m, y ${y.toFixed(2)} m, ${Math.round((heading * 180) / Math.PI)}°` : "no base";
-  element("where").textContent = isStopped ? `${base!.why}. Release it to let it move.` : place;
+  element("where").textContent = base?.is_stopped ? `${base.why}. Release it to let it move.` : place;
   element("battery").textContent = base?.battery == null ? "" : `Battery ${Math.round(base.battery * 100)} %`;
-  list(element("device-list"), devices ?? [], (one) => ({ text: one.id, detail: deviceWords(one), kind: one.state }));
-  list(element("log-lines"), [...(log ?? [])].reverse(), (one) => ({ text: one.part, detail: one.text, kind: one.level, time: one.t }));
+}
+
+function drawVisitors(world: Values["world"]): void {
+  roomForm.draw(world);
   const isPeopled = (world?.people.length ?? 0) > 0;
   for (const id of ["visitor", "visitor-sentence"]) element(id).hidden = !isPeopled;
   drawWho((world?.people ?? []).map((one) => one.name));
@@ -173,10 +196,11 @@ function press(id: string, isPressed: boolean): void {
 }
 
 function drawPeople(persons: SeenPerson[], isOn: boolean): void {
-  const image = element<HTMLImageElement>("camera-picture");
+  const { canvas } = pictures.camera;
   const boxes = element("boxes");
-  image.hidden = !isOn;
-  boxes.setAttribute("viewBox", `0 0 ${image.naturalWidth || 320} ${image.naturalHeight || 240}`);
+  canvas.hidden = !isOn;
+  boxes.setAttribute("viewBox", `0 0 ${canvas.width} ${canvas.height}`);
+  press("watch", isOn);
   const found = isOn ? persons.filter((one) => one.box !== null) : [];
   replace(boxes, found.map((one) => {
     const [x, y, width, height] = one.box! as [number, number, number, number];
