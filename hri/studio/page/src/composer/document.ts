@@ -49,7 +49,7 @@ export class ComposerDocument {
   why = "";
   private mark: string | null = null;
   /** What was sent to be saved while no answer has come: the file may have it, or not. */
-  private unanswered: string | null = null;
+  private readonly unanswered = new Set<string>();
   private checking: ReturnType<typeof setTimeout> | undefined;
   private watching: ReturnType<typeof setInterval> | undefined;
   private unfollow: () => void = () => {};
@@ -105,7 +105,7 @@ export class ComposerDocument {
     this.unfollow();
     this.history = new History(text);
     this.mark = mark;
-    this.unanswered = null;
+    this.unanswered.clear();
     this.why = why;
     this.question.set(null);
     this.autosave.forget();
@@ -175,14 +175,12 @@ export class ComposerDocument {
     }
     const { text } = this.history;
     return this.attempt(async () => {
-      const before = this.unanswered;
-      this.unanswered = text;
+      this.unanswered.add(text);
       try {
-        this.mark = (await server.save(this.path.value, text, this.mark)).mark;
-        this.unanswered = null;
+        this.known(text, (await server.save(this.path.value, text, this.mark)).mark);
       } catch (error) {
         if (!(error instanceof Refusal)) throw error;
-        this.unanswered = before;
+        this.unanswered.delete(text);
         if (typeof error.answer.text !== "string") throw error;
         if (this.isOurs(error.answer.text, error.answer.mark as string | null)) {
           await this.save();
@@ -191,24 +189,24 @@ export class ComposerDocument {
         this.question.set({ kind: "changed", text: error.answer.text, mark: error.answer.mark as string | null });
         return;
       }
-      this.history.markSaved();
-      this.autosave.forget();
-      this.revision.set(this.revision.value + 1);
       this.notice.set(`saved ${this.path.value}`);
       void this.refreshFiles();
     });
   }
 
+  /** The file has this text; what was typed since is still to be kept. */
+  private known(text: string, mark: string | null): void {
+    this.mark = mark;
+    this.unanswered.clear();
+    this.history.markSaved(text);
+    if (!this.history.isDirty) this.autosave.forget();
+    this.revision.set(this.revision.value + 1);
+  }
+
   /** Whether a file that changed has what was saved here when the server ended: then it is known. */
   private isOurs(text: string, mark: string | null): boolean {
-    if (text !== this.unanswered) return false;
-    this.mark = mark;
-    this.unanswered = null;
-    if (this.history.text === text) {
-      this.history.markSaved();
-      this.autosave.forget();
-      this.revision.set(this.revision.value + 1);
-    }
+    if (!this.unanswered.has(text)) return false;
+    this.known(text, mark);
     return true;
   }
 

@@ -75,8 +75,9 @@ export class History {
     return this.undone.at(-1)?.label ?? null;
   }
 
-  markSaved(): void {
-    this.saved = this.text;
+  /** The file has this text: the one there is now, or one from before. */
+  markSaved(text = this.text): void {
+    this.saved = text;
     // What comes now is not joined with what is saved.
     const last = this.done.at(-1);
     if (last) last.merge = "";
