@@ -63,7 +63,7 @@ docs: $(VENV)/.dev
 	@echo "open build/reference/index.html"
 
 checklist: $(VENV)/.dev
-	$(BIN)/python -m pytest -n logical --dist loadfile --checklist $(OPTIONS)
+	$(BIN)/python -m pytest -n logical --dist loadfile -m "not slow" --checklist $(OPTIONS)
 
 format: $(VENV)/.dev
 	$(BIN)/ruff format .

@@ -8,11 +8,9 @@ import pytest
 from hri.core import paths
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or ""
-NEEDS = [
-    pytest.mark.slow,
-    pytest.mark.skipif(not CHROMIUM, reason="no Chromium - apt install chromium"),
-]
-"""The marks of a module that needs it."""
+NEEDS_BROWSER = pytest.mark.skipif(not CHROMIUM, reason="no Chromium - apt install chromium")
+NEEDS = [pytest.mark.slow, NEEDS_BROWSER]
+"""The marks of a module whose tests all work in a browser, which takes long."""
 AXE = paths.house() / "hri" / "studio" / "page" / "node_modules" / "axe-core" / "axe.min.js"
 DESKTOP, PHONE = {"width": 1360, "height": 900}, {"width": 390, "height": 844}
 

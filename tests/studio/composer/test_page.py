@@ -7,11 +7,9 @@ import signal
 import pytest
 
 from hri.behavior.network_file import load_network
-from hri.behavior.writer import write_network
-from hri.cli.behave import main as behave
 from hri.core import paths
 from tests.studio.browser import DESKTOP, NEEDS, PHONE, opened, violations
-from tests.studio.living import living
+from tests.studio.composer.hands import TUTORIAL, Composer
 
 pytest.importorskip("playwright", reason="no playwright - pip install hri[dev]")
 from playwright.sync_api import expect
@@ -19,161 +17,6 @@ from playwright.sync_api import expect
 pytestmark = NEEDS
 
 MOVING = str(paths.house() / "apps" / "companion" / "moving.xml")
-TUTORIAL = """<?xml version="1.0" encoding="UTF-8"?>
-<BehaviorNetwork>
-  <Behavior id="camera" type="Hri.Camera">
-    <Parameter name="camera_id" value="camera"/>
-  </Behavior>
-  <Behavior id="image_display" type="Hri.ImageDisplay"/>
-  <Behavior id="obj_rec_recognizer" type="Hri.ObjRecRecognizer">
-    <Parameter name="modelset" value="default.mdl"/>
-  </Behavior>
-  <Behavior id="input_collector" type="Hri.InputCollector">
-    <Parameter name="print_input" value="true"/>
-  </Behavior>
-  <Behavior id="constant" type="Hri.Constant">
-    <Parameter name="parsed_value" value="80"/>
-  </Behavior>
-  <Behavior id="subtraction" type="Hri.Subtraction"/>
-  <Behavior id="drive_system" type="Hri.DriveSystem">
-    <Parameter name="drive_id" value="drive"/>
-  </Behavior>
-  <Link from="camera.raw_image" to="image_display.image"/>
-  <Link from="camera.raw_image" to="obj_rec_recognizer.image"/>
-  <Link from="obj_rec_recognizer.model_name" to="input_collector.input"/>
-  <Link from="obj_rec_recognizer.distance" to="input_collector.input"/>
-  <Link from="obj_rec_recognizer.distance" to="subtraction.input_positive"/>
-  <Link from="constant.value" to="subtraction.input_negative"/>
-  <Link from="subtraction.difference" to="drive_system.linear_velocity"/>
-</BehaviorNetwork>
-"""
-PLACES = {
-    "Camera": (60, 60),
-    "ImageDisplay": (320, 30),
-    "ObjRecRecognizer": (260, 160),
-    "InputCollector": (560, 60),
-    "Constant": (60, 420),
-    "Subtraction": (330, 440),
-    "DriveSystem": (560, 250),
-}
-
-
-@pytest.fixture(scope="module")
-def studio(tmp_path_factory):
-    """One robot lives for all tests; new networks go to a folder of the test."""
-    start, home = os.getcwd(), tmp_path_factory.mktemp("home")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("XDG_DATA_HOME", str(tmp_path_factory.mktemp("data")))
-        os.chdir(home)
-        try:
-            with living() as (made, _):
-                made.home = home
-                yield made
-        finally:
-            os.chdir(start)
-
-
-@pytest.fixture
-def page(studio):
-    with opened(studio.address()) as made:
-        yield made
-
-
-class Composer:
-    """The hands of a person, which count what they do."""
-
-    def __init__(self, page):
-        self.page, self.actions = page, 0
-
-    def new(self, name):
-        self.page.evaluate("location.hash = '#networks'")
-        expect(self.page.locator(".composer .palette .behavior").first).to_be_visible()
-        self.do("new")
-        self.page.fill("#network-name", name)
-        self.key("Enter")
-
-    def open(self, path):
-        self.page.evaluate("(path) => location.hash = '#networks/' + path", str(path))
-        expect(self.page.locator(".status .path")).to_contain_text(os.path.basename(path))
-
-    def do(self, action):
-        self.actions += 1
-        self.page.click(f"[data-action={action}]")
-
-    def key(self, key):
-        self.actions += 1
-        self.page.keyboard.press(key)
-
-    def drag_behavior(self, name):
-        self.actions += 1
-        x, y = PLACES[name]
-        behavior = self.page.locator(".palette .behavior", has_text=f"Hri.{name}").first
-        canvas = self.page.locator(".react-flow__pane")
-        behavior.drag_to(canvas, target_position={"x": x, "y": y})
-
-    def set(self, parameter, value):
-        self.actions += 1
-        self.page.get_by_label(parameter, exact=True).fill(value)
-        self.page.keyboard.press("Enter")
-
-    def link(self, source, target):
-        self.actions += 1
-        self.drag(self.handle(source, "source"), self.handle(target, "target"))
-
-    def drag(self, source, target):
-        for place, act in ((source, "down"), (target, "up")):
-            box = place.bounding_box()
-            middle = (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-            self.page.mouse.move(*middle, steps=6)
-            getattr(self.page.mouse, act)()
-
-    def handle(self, port, side):
-        return self.page.locator(f".react-flow__handle.{side}[data-port='{port}']")
-
-    def part(self, id):
-        return self.page.locator(f".react-flow__node[data-id='{id}']")
-
-    def save(self):
-        self.do("save")
-        expect(self.page.locator(".status .notice")).to_contain_text("saved")
-
-
-@pytest.mark.proves("V01", "V03")
-def test_the_tutorial_of_the_guide_is_built_and_runs(studio, page, capsys):
-    hands = Composer(page)
-    hands.new("objrec")
-    hands.drag_behavior("Camera")
-    hands.set("camera_id", "camera")
-    hands.drag_behavior("ImageDisplay")
-    hands.link("camera.raw_image", "image_display.image")
-    hands.save()
-    hands.drag_behavior("ObjRecRecognizer")
-    hands.set("modelset", "default.mdl")
-    hands.link("camera.raw_image", "obj_rec_recognizer.image")
-    hands.drag_behavior("InputCollector")
-    hands.set("print_input", "true")
-    hands.link("obj_rec_recognizer.model_name", "input_collector.input")
-    hands.link("obj_rec_recognizer.distance", "input_collector.input")
-    hands.save()
-    hands.drag_behavior("Constant")
-    hands.set("parsed_value", "80")
-    hands.drag_behavior("Subtraction")
-    hands.link("obj_rec_recognizer.distance", "subtraction.input_positive")
-    hands.link("constant.value", "subtraction.input_negative")
-    hands.drag_behavior("DriveSystem")
-    hands.set("drive_id", "drive")
-    hands.link("subtraction.difference", "drive_system.linear_velocity")
-    hands.save()
-    assert hands.actions <= 60
-    expect(page.locator(".part.broken")).to_have_count(0)
-    file = studio.home / "objrec.xml"
-    network = load_network(file)
-    assert write_network(network) == file.read_text(), "as hri network format writes it"
-    assert re.sub(r"  <Layout>.*</Layout>\n", "", file.read_text(), flags=re.DOTALL) == TUTORIAL
-    assert network.boxes.keys() == {one.id for one in network.authored}
-    capsys.readouterr()
-    assert behave([str(file), "--config", "simulated", "--duration=3", "--fast"]) == 0
-    assert "dollar_front.jpg" in capsys.readouterr().out
 
 
 def test_the_keyboard_alone_builds_a_network(studio, page):
@@ -326,40 +169,6 @@ def test_a_file_that_changed_outside_is_a_choice(studio, page):
     dialog.get_by_role("button", name="Keep what I have").click()
     hands.save()
     assert '"60"' in file.read_text()
-
-
-@pytest.mark.proves("V01")
-def test_it_runs_pauses_ticks_and_says_why(studio, page):
-    file = studio.home / "run.xml"
-    file.write_text(
-        """<BehaviorNetwork>
-  <Behavior id="three" type="Hri.Constant"><Parameter name="parsed_value" value="3"/></Behavior>
-  <Behavior id="zero" type="Hri.Scale"><Parameter name="factor" value="0"/></Behavior>
-  <Behavior id="end" type="Hri.InputCollector"/>
-  <Link from="three.value" to="zero.input"/>
-  <Link from="zero.scaled" to="end.input"/>
-</BehaviorNetwork>
-"""
-    )
-    hands = Composer(page)
-    hands.open(file)
-    page.get_by_role("button", name="Start", exact=True).click()
-    expect(page.locator("[data-value='three.value']")).to_have_text("3")
-    expect(hands.part("zero").locator(".cost")).to_contain_text("µs")
-    hands.part("zero").click()
-    page.get_by_role("button", name="Why this value?").last.click()
-    expect(page.locator(".why")).to_contain_text("three.value")
-    page.locator(".why").get_by_role("button", name="Close").click()
-    page.get_by_role("button", name="Break when…").click()
-    page.fill("#condition", "<= 0")
-    page.keyboard.press("Enter")
-    expect(page.locator(".run-bar .hit")).to_contain_text("zero.scaled <= 0: 0")
-    expect(page.locator(".run-bar")).to_contain_text("paused")
-    ticks = re.search(r"(\d+) ticks", page.locator(".run-bar").inner_text())[1]
-    page.get_by_role("button", name="One tick").click()
-    expect(page.locator(".run-bar")).to_contain_text(f"{int(ticks) + 1} ticks")
-    page.get_by_role("button", name="End", exact=True).click()
-    expect(page.locator(".run-bar")).to_contain_text("it does not run")
 
 
 def test_the_whole_app_is_shown_together(page):
