@@ -52,6 +52,7 @@ whether it is "stressed"; names that begin with "_" are pauses), "words" and "se
 "emphasis", 0 to 1, that lifts the brows).
 
   hri say "Hello there."
+  hri say "I sound like a person." --voice heart
   hri say "I have found it!" --emotion joy --wav found.wav --phonemes found.json
   hri say "I am so happy." --emotion joy --face-video happy.mp4 --visemes happy.json
   echo "One text from a pipe." | hri say -"""
@@ -62,7 +63,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = HELP
     add = parser.add_argument
     add("text", help='what to say, in quotes; "-" reads it from standard input')
-    add("--voice", default=PLAIN_VOICE, help="a voice such as en-gb or en-us+f3 (%(default)s)")
+    add(
+        "--voice",
+        default=PLAIN_VOICE,
+        help="a voice: heart, en-gb, en-us+f3, ... (%(default)s)",
+    )
     add("--rate", type=int, metavar="WPM", help=f"words a minute, {RATES} ({Setting().rate})")
     add(
         "--emotion",

@@ -1,24 +1,29 @@
-"""The built-in voice, as set on the command line."""
+"""The voice, as set on the command line."""
 
 from __future__ import annotations
 
 from hri.core.errors import AuthoringError, HriError
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
+from hri.hal.synthesizer import Synthesizer
 from hri.speech.synthesizers.espeak import EspeakVoice
 from hri.speech.synthesizers.espeak_library import Setting
+from hri.speech.synthesizers.natural import HEART, NaturalVoice
 
 PLAIN_VOICE = Setting().voice
 NO_FILE = Description("", "").place.path
 """Place of mistakes on the command line."""
 
 
-def open_voice(resources: ResourceManager, name: str, rate: int | None = None) -> EspeakVoice:
+def open_voice(resources: ResourceManager, name: str, rate: int | None = None) -> Synthesizer:
     """The voice of a name at a rate in words a minute. Raises HriError when there is none."""
-    parameters = {"voice": name}
-    if rate is not None:
-        parameters["rate_wpm"] = str(rate)
-    voice = EspeakVoice(Description("voice", "Hri.EspeakVoice", parameters), resources)
+    parameters = {} if rate is None else {"rate_wpm": str(rate)}
+    voice: Synthesizer
+    if name == HEART:
+        voice = NaturalVoice(Description("voice", "Hri.NaturalVoice", parameters), resources)
+    else:
+        parameters["voice"] = name
+        voice = EspeakVoice(Description("voice", "Hri.EspeakVoice", parameters), resources)
     resources.substitute("voice", voice)
     try:
         voice.activate()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import importlib.util
 import json
 import sys
 import textwrap
@@ -11,6 +12,7 @@ from dataclasses import asdict, dataclass
 
 from hri.core.errors import HriError, did_you_mean
 from hri.speech.synthesizers.espeak_library import load_espeak
+from hri.speech.synthesizers.natural import HEART
 from hri.speech.synthesizers.pyttsx3 import platform_voices
 
 VARIANT = "+"
@@ -56,9 +58,12 @@ def run(options: argparse.Namespace) -> int:
 
 
 def all_voices() -> list[Listed]:
-    """The voices of espeak-ng, those of the platform, then the variants."""
+    """The natural voice, those of espeak-ng and of the platform, then the variants."""
     library = load_espeak()
-    found = [Listed(v.id, v.name, v.id, v.gender, "Hri.EspeakVoice") for v in library.voices()]
+    found = [Listed(HEART, "English (America), natural", "en-us", "female", "Hri.NaturalVoice")]
+    if importlib.util.find_spec("hibari") is None:
+        found.clear()
+    found += [Listed(v.id, v.name, v.id, v.gender, "Hri.EspeakVoice") for v in library.voices()]
     try:
         platform = platform_voices()
     except HriError as error:

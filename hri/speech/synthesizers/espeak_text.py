@@ -67,14 +67,14 @@ def _names(text: str, lexicon: Lexicon) -> list[tuple[int, int, str]]:
     """Where words of the user's lexicon stand, and how they are spelt in mnemonics."""
     found = []
     for match in _WORD.finditer(text):
-        phones = _phones(match[0], lexicon)
+        phones = user_phones(match[0], lexicon)
         if phones:
             # Behind a bracket or a quote, without spaces, the library would leave it out.
             found.append((match.start(), match.end(), f" [[{mnemonics(phones)}]] "))
     return found
 
 
-def _phones(word: str, lexicon: Lexicon) -> Phones:
+def user_phones(word: str, lexicon: Lexicon) -> Phones:
     """The likeliest phones of a word of the user's, or of one with 's; empty for other words."""
     own = lexicon.with_stress(word)
     if own:
@@ -86,17 +86,18 @@ def _phones(word: str, lexicon: Lexicon) -> Phones:
 
 
 def mnemonics(phones: Phones) -> str:
-    """The phones of a word for the library: ("R", "OW1", "B") is "r|'oU|b".
+    """The phones of a word for the library: ("R", "OW1", "B") is "r|'oU|b"."""
+    return "|".join(_mnemonic(phone) for phone in stressed(phones))
 
-    Where no stress is written, it falls on the first vowel that is seldom weak, as in most
-    English names.
+
+def stressed(phones: Phones) -> Phones:
+    """The phones of a word with its stress as it is written.
+
+    Where none is written, it falls on the first vowel that is seldom weak, as in most English
+    names.
     """
-    if not any(phone[-1] in STRESSES for phone in phones):
-        phones = _stressed(phones)
-    return "|".join(_mnemonic(phone) for phone in phones)
-
-
-def _stressed(phones: Phones) -> Phones:
+    if any(phone[-1] in STRESSES for phone in phones):
+        return phones
     vowels = [number for number, phone in enumerate(phones) if phone in VOWELS]
     strong = [number for number in vowels if phones[number] not in _EASILY_WEAK]
     chosen = (strong or vowels or [-1])[0]

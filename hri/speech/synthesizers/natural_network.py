@@ -1,0 +1,160 @@
+"""The network of the natural voice: symbols in, sound out, with the time of each symbol.
+
+The network is hibari's (https://github.com/MMWilliams/hibari), distilled from Kokoro-82M. From the
+ids of symbols it computes how long each lasts, a pitch for every 12.5 ms, and the spectra of a
+harmonic and of a noise source, which an inverse Fourier transform makes into sound.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.core.errors import NotAvailable
+from hri.core.signals import Prosody
+from hri.speech.synthesizers.natural_symbols import Sounded, longest_parts
+
+Sound = NDArray[np.float32]
+
+RATE = 24000
+"""Samples a second."""
+MOST_SYMBOLS = 400
+"""What the network is given at once: its sentences were seldom longer when it learned."""
+SLOWEST, FASTEST = 0.5, 2.0
+"""Factors of the rate at which it still speaks well."""
+VOICED_HZ = 40.0
+"""Frames with a lower pitch have no voice."""
+_FRAME = 600
+"""Samples of one unit of the durations: 25 ms."""
+_DURATIONS = "/Clip_output_0"
+"""The tensor of the durations, which the model computes but does not give out."""
+LEAD = 0.056
+"""Seconds by which a sound comes before its durations say so: at this shift the spectra within each
+symbol differ least, over 66 sentences (a sum of squares of 5.8, of 10.0 without the shift).
+"""
+SILENCE_DBFS = -60.0
+"""Below this level there is nothing to be heard."""
+BREATH = 0.05
+"""Seconds of silence that are left before a sentence."""
+PAUSE = 0.25
+"""Seconds of silence that are left after a sentence."""
+_BLOCK = 120
+"""Samples of which the level is measured."""
+
+
+@dataclass(frozen=True, slots=True)
+class Utterance:
+    """A part of a sentence in sound."""
+
+    sound: Sound
+    """At RATE, -1 to 1."""
+    symbols: tuple[Sounded, ...]
+    """One for each symbol that it was given."""
+
+
+class Network:
+    """Speaks symbols; the same symbols give the same sound. Safe from several threads."""
+
+    def __init__(
+        self, model: Path, vocabulary: dict[str, int], synthesize: Callable[..., Sound]
+    ) -> None:
+        """`synthesize` makes sound of spectra. Raises NotAvailable for another kind of file."""
+        self._vocabulary = vocabulary
+        self._synthesize = synthesize
+        self._session = _session(model)
+
+    def speak(self, symbols: str, prosody: Prosody) -> list[Utterance]:
+        """The symbols in sound, in parts that the network can take at once."""
+        parts = longest_parts(symbols, MOST_SYMBOLS)
+        return [self._part(symbols[begin:end], prosody) for begin, end in parts]
+
+    def _part(self, symbols: str, prosody: Prosody) -> Utterance:
+        ids = [self._vocabulary.get(symbol) for symbol in symbols]
+        speed = min(max(prosody.rate, SLOWEST), FASTEST)
+        given = {
+            "ids": np.array([[0, *(one for one in ids if one is not None), 0]], np.int64),
+            "speed": np.array([speed], np.float32),
+        }
+        *framed, durations = self._session.run(None, given)
+        *spectra, pitch = (one[0] for one in framed)
+        # Each part draws the same noise: what was said before changes nothing.
+        sound = self._synthesize(*spectra, pitched(pitch, prosody), np.random.default_rng(0))
+        ends = np.cumsum(durations) * _FRAME / RATE - LEAD
+        return _trimmed(sound, _sounded(symbols, ids, ends))
+
+
+def _sounded(symbols: str, ids: list[int | None], ends: NDArray[np.float64]) -> list[Sounded]:
+    """The time of each symbol; those that the network does not know take none."""
+    spoken, place = [], 0
+    for symbol, id in zip(symbols, ids, strict=True):
+        start = float(ends[place])
+        place += id is not None
+        spoken.append(Sounded(symbol, start, float(ends[place]) - start))
+    return spoken
+
+
+def _trimmed(sound: Sound, symbols: list[Sounded]) -> Utterance:
+    """Without the silence that the network puts around a sentence, a third of a second each."""
+    blocks = sound[: len(sound) // _BLOCK * _BLOCK].reshape(-1, _BLOCK)
+    loud = np.flatnonzero((blocks**2).mean(axis=1) > 10 ** (SILENCE_DBFS / 10))
+    if not len(loud):
+        return Utterance(sound[:0], tuple(Sounded(one.symbol, 0.0, 0.0) for one in symbols))
+    begin = max(int(loud[0]) * _BLOCK - round(BREATH * RATE), 0)
+    heard_until = (int(loud[-1]) + 1) * _BLOCK
+    end = min(heard_until + round(PAUSE * RATE), len(sound))
+    first, last = 0.0, (heard_until - begin) / RATE
+    times = [(one.start - begin / RATE, one.end - begin / RATE) for one in symbols]
+    limited = [(min(max(a, first), last), min(max(b, first), last)) for a, b in times]
+    kept = zip(symbols, limited, strict=True)
+    return Utterance(sound[begin:end], tuple(Sounded(s.symbol, a, b - a) for s, (a, b) in kept))
+
+
+def pitched(pitch: NDArray[np.float32], prosody: Prosody) -> NDArray[np.float32]:
+    """The curve of the pitch, hertz, raised, and its way around its middle widened in semitones."""
+    voiced = pitch > VOICED_HZ
+    if not voiced.any() or (prosody.pitch == 1.0 and prosody.range == 1.0):
+        return pitch
+    logs = np.log(pitch[voiced])
+    middle = float(np.median(logs))
+    changed = pitch.copy()
+    changed[voiced] = np.exp(middle + prosody.range * (logs - middle)) * prosody.pitch
+    return np.where(voiced, np.maximum(changed, VOICED_HZ + 1), pitch)
+
+
+def _session(path: Path) -> Any:
+    """The model with its durations among its outputs, on one thread."""
+    import onnxruntime
+
+    options = onnxruntime.SessionOptions()
+    options.intra_op_num_threads = options.inter_op_num_threads = 1
+    options.log_severity_level = 4
+    try:
+        model = path.read_bytes() + _output(_DURATIONS)
+        session = onnxruntime.InferenceSession(model, options, providers=["CPUExecutionProvider"])
+    except OSError as error:
+        raise NotAvailable(f"{path}: {error.strerror} - see `hri voices`") from error
+    except Exception as error:  # onnxruntime's own, one class for each status
+        raise NotAvailable(
+            f"{path}: not a model of the natural voice - take another file"
+        ) from error
+    return session
+
+
+def _output(name: str) -> bytes:
+    """What makes a tensor an output of a model, appended to its file.
+
+    Protocol buffers that follow each other are merged, their lists appended: this is a ModelProto
+    (onnx.proto) whose graph (field 7) has one output (field 12), a ValueInfoProto of that name
+    (field 1).
+    """
+    return _field(7, _field(12, _field(1, name.encode())))
+
+
+def _field(number: int, content: bytes) -> bytes:
+    """A field of bytes, shorter than 128."""
+    return bytes((number << 3 | 2, len(content))) + content

@@ -1,0 +1,204 @@
+"""The natural voice: the same sound each time, with times that hold, whatever it is given."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings, strategies as st
+
+from hri.core.clock import FakeClock
+from hri.core.errors import NotAvailable
+from hri.core.signals import EmotionState, Prosody
+from hri.emotion.display import felt_now, load_display
+from hri.face.lips.phonemes import BREATH, sound_of
+from hri.hal.drivers.resampling import resample
+from hri.hal.recognizer import Segment
+from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
+from hri.hal.synthesizer import PLAIN
+from hri.speech.grammar import load_grammar
+from hri.speech.recognizers.ctc.decoder import CtcRecognizer
+from hri.speech.synthesizers.natural import NaturalVoice
+from hri.speech.synthesizers.natural_symbols import MNEMONICS, MODIFIERS, STRESSES, longest_parts
+from hri.speech.synthesizers.natural_text import aligned
+from tests.speech.conftest import HOUSE
+
+hibari = pytest.importorskip("hibari", reason="no natural voice - pip install hibari-tts")
+
+TEXT = "I have found it! It is $5.20 at 7:30 pm, Dr. Smith."
+COMMANDS = ("go forward ten meters", "turn right", "show me a happy face", "what is your name")
+
+
+def opened(**parameters):
+    voice = NaturalVoice(
+        Description("voice", "Hri.NaturalVoice", parameters), ResourceManager((), FakeClock())
+    )
+    voice.activate()
+    return voice
+
+
+@pytest.fixture(scope="module")
+def voice():
+    return opened()
+
+
+def pitch_of(speech):
+    """Hertz of the voiced parts, by autocorrelation: nothing of the voice's own is asked."""
+    size, found = 1024, []
+    for start in range(0, len(speech.samples) - size, size // 2):
+        part = speech.samples[start : start + size].astype(float)
+        if np.sqrt((part**2).mean()) < 1500:
+            continue
+        alike = np.correlate(part, part, "full")[size - 1 :]
+        lags = slice(speech.rate // 450, speech.rate // 80)
+        best = int(np.argmax(alike[lags])) + lags.start
+        if alike[best] > 0.5 * alike[0]:
+            found.append(speech.rate / best)
+    return np.array(found)
+
+
+def test_the_same_text_gives_the_same_samples(voice):
+    first = voice.synthesize(TEXT)
+    voice.synthesize("Something else.")
+    again = opened().synthesize(TEXT)
+    assert np.array_equal(first.samples, again.samples)
+    assert first.phonemes == again.phonemes
+
+
+def test_words_as_people_write_them_have_their_times(voice):
+    speech = voice.synthesize(TEXT)
+    assert [word.text for word in speech.words] == TEXT.split()
+    assert all(TEXT[w.position :].startswith(w.text) for w in speech.words)
+    times = [time for word in speech.words for time in (word.start, word.end)]
+    assert times == sorted(times)
+    assert 0 <= times[0] < times[-1] <= speech.duration
+    price = next(word for word in speech.words if word.text == "$5.20")
+    assert price.end - price.start > 1, "five dollars and twenty cents"
+    assert [one.text for one in speech.sentences] == [
+        "I have found it!",
+        "It is $5.20 at 7:30 pm, Dr. Smith.",
+    ]
+
+
+def test_phonemes_follow_each_other_within_a_sentence(voice):
+    speech = voice.synthesize("Please bring the blue cup to my kitchen.")
+    ends = [phoneme.start + phoneme.duration for phoneme in speech.phonemes]
+    assert ends[:-1] == pytest.approx([phoneme.start for phoneme in speech.phonemes[1:]])
+    assert any(phoneme.stressed for phoneme in speech.phonemes)
+
+
+def test_the_lips_are_shut_when_the_sound_is_least(voice):
+    """The burst of a stop is preceded by its closure, which the times must hold."""
+    speech = voice.synthesize("Papa, papa, papa, papa.")
+    samples = speech.samples.astype(float)
+
+    def loudness(start, end):
+        part = samples[int(start * speech.rate) : int(end * speech.rate)]
+        return float(np.sqrt((part**2).mean()))
+
+    inner = [p for p in speech.phonemes[2:-2] if p.name in ("p", "A:")]
+    levels = {
+        name: np.median([loudness(p.start, p.start + p.duration) for p in inner if p.name == name])
+        for name in ("p", "A:")
+    }
+    assert levels["p"] < 0.5 * levels["A:"]
+
+
+def test_every_symbol_of_the_voice_has_a_shape_of_the_mouth():
+    vocabulary = json.loads(
+        (Path(hibari.__file__).parent / "assets" / "vocab.json").read_text(encoding="utf-8")
+    )
+    silent = set(STRESSES + MODIFIERS + ' ;:,.!?—…"()“”↓→↗↘')
+    assert set(vocabulary) - silent == set(MNEMONICS)
+    unknown = sound_of("ß")
+    assert {n for n in MNEMONICS.values() if sound_of(n) == unknown} <= set(BREATH)
+
+
+@pytest.mark.parametrize(
+    ("prosody", "measure", "factor"),
+    [
+        (Prosody(pitch=1.25), lambda speech: np.median(pitch_of(speech)), 1.25),
+        (Prosody(range=2.0), lambda speech: np.std(np.log(pitch_of(speech))), 2.0),
+        (Prosody(rate=1.5), lambda speech: 1 / speech.duration, 1.5),
+        (Prosody(volume=0.5), lambda speech: np.abs(speech.samples.astype(float)).mean(), 0.5),
+    ],
+    ids=["pitch", "range", "rate", "volume"],
+)
+def test_prosody_is_heard(voice, prosody, measure, factor):
+    text = "My mother may know where all the yellow lemons are in the morning."
+    plain, changed = (measure(voice.synthesize(text, how)) for how in (PLAIN, prosody))
+    assert changed / plain == pytest.approx(factor, rel=0.25)
+
+
+@pytest.mark.parametrize("name", ["joy", "sadness", "anger", "fear", "surprise"])
+def test_what_it_says_with_an_emotion_is_recognized(voice, name):
+    ears = CtcRecognizer(Description("ears", "Hri.CtcRecognizer"), ResourceManager((), FakeClock()))
+    ears.activate()
+    ears.start(load_grammar(HOUSE / "grammars" / "companion.jsgf"))
+    prosody = load_display().prosody(felt_now(EmotionState(name, 1.0, 0.0, 0.0, 0.0, {name: 1.0})))
+    heard = []
+    for command in COMMANDS:
+        speech = voice.synthesize(command, prosody)
+        samples = np.pad(resample(speech.samples, speech.rate, ears.rate), 4800)
+        heard.append(ears.decode(Segment(0.0, len(samples) / ears.rate, samples)).text)
+    ears.deactivate()
+    assert heard == list(COMMANDS)
+
+
+def test_a_text_comes_sentence_by_sentence_and_ends_when_it_is_not_wanted(voice):
+    taken = []
+    whole = voice.stream(TEXT, PLAIN, taken.append, lambda: not taken)
+    assert len(taken[0].sentences) == 1
+    assert whole.sentences == taken[0].sentences, "the second was not made"
+    taken.clear()
+    voice.stream(TEXT, PLAIN, taken.append, lambda: True)
+    assert np.array_equal(taken[0].samples, taken[1].samples[: len(taken[0].samples)])
+
+
+def test_words_of_the_users_lexicon_sound_as_they_are_written(tmp_path):
+    (tmp_path / "names.txt").write_text("zyq  K AE T\n")
+    speech = opened(lexicon=str(tmp_path / "names.txt")).synthesize("Zyq sleeps.")
+    assert [phoneme.name for phoneme in speech.phonemes[:3]] == ["k", "a", "t"]
+
+
+def test_another_script_and_another_voice_are_left_to_espeak(voice):
+    mixed = voice.synthesize("안녕하세요. Hello.")
+    assert [one.text for one in mixed.sentences] == ["안녕하세요.", "Hello."]
+    assert mixed.duration > 1
+    british = voice.synthesize("Hello.", Prosody(voice="en-gb"))
+    assert not np.array_equal(british.samples, voice.synthesize("Hello.").samples)
+
+
+def test_a_broken_model_is_one_line(tmp_path):
+    model = Path(hibari.__file__).parent / "assets" / "hibari.onnx"
+    (tmp_path / "half.onnx").write_bytes(model.read_bytes()[:3_000_000])
+    for path in (tmp_path / "half.onnx", tmp_path / "none.onnx"):
+        with pytest.raises(NotAvailable) as raised:
+            opened(model=str(path))
+        assert "\n" not in str(raised.value)
+        assert path.name in str(raised.value)
+
+
+@settings(max_examples=40)
+@given(st.text(max_size=60))
+def test_it_speaks_whatever_it_is_given(text):
+    speech = opened().synthesize(text)
+    ends = [0.0, *(word.end for word in speech.words)]
+    assert ends[-1] <= speech.duration + 1e-6
+    assert all(phoneme.duration >= -1e-9 for phoneme in speech.phonemes)
+
+
+@given(st.lists(st.sampled_from("abc")), st.lists(st.sampled_from("abcd")))
+def test_each_word_that_is_read_stands_for_a_written_one(written, read):
+    origins = aligned(written or ["a"], read)
+    assert len(origins) == len(read)
+    assert origins == sorted(origins)
+    assert all(0 <= one < len(written or ["a"]) for one in origins)
+
+
+@given(st.text(alphabet="ab, ", max_size=300), st.integers(5, 40))
+def test_long_sentences_are_parted_without_loss(symbols, most):
+    parts = longest_parts(symbols, most)
+    assert "".join(symbols[begin:end] for begin, end in parts) == symbols
+    assert all(end - begin <= most for begin, end in parts)
