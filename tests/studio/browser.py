@@ -48,3 +48,18 @@ def violations(page):
              .filter((one) => ["serious", "critical"].includes(one.impact))
              .map((one) => [one.id, one.nodes.map((node) => node.html)]))"""
     )
+
+
+def until(page, condition, arg=None):
+    """Wait until a function of JavaScript returns true for an argument.
+
+    The page's policy forbids `eval`, by which Playwright's `wait_for_function` looks a second time.
+    """
+    page.evaluate(
+        f"""async (arg) => {{
+          const holds = {condition}, end = performance.now() + 20_000;
+          while (!holds(arg)) {{
+            if (performance.now() > end) throw new Error(`never so: ${{holds}}`);
+            await new Promise((go_on) => setTimeout(go_on, 20)); }} }}""",
+        arg,
+    )

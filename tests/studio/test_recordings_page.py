@@ -7,7 +7,7 @@ import pytest
 from hri.core.growing import GrowingFile
 from hri.core.recorded import EVENTS
 from hri.core.whereabouts import note
-from tests.studio.browser import DESKTOP, NEEDS, PHONE, opened, violations
+from tests.studio.browser import DESKTOP, NEEDS, PHONE, opened, until, violations
 from tests.studio.living import living
 from tests.studio.recorded import visit
 
@@ -50,17 +50,15 @@ def seconds(page):
 
 def at(page, time):
     """Wait until the playhead is there."""
-    page.wait_for_function(
-        "(time) => Math.abs(document.getElementById('rec-slider').value - time) < 0.01", arg=time
+    until(
+        page, "(time) => Math.abs(document.getElementById('rec-slider').value - time) < 0.01", time
     )
 
 
 def goes_on(page):
     """Whether time passes; by how many seconds, after it has for a while."""
     before = seconds(page)
-    page.wait_for_function(
-        "(time) => document.getElementById('rec-slider').value > time + 0.7", arg=before
-    )
+    until(page, "(time) => document.getElementById('rec-slider').value > time + 0.7", before)
 
 
 def test_one_is_opened_from_the_list_and_shown_as_it_was(studio, folder):
@@ -110,7 +108,7 @@ def test_it_plays_with_its_sound_and_one_picture_is_asked_for_at_a_time(studio, 
         page.mouse.up()
         assert seconds(page) == pytest.approx(30, abs=0.2)
         assert page.evaluate("window.most") == 1
-        page.wait_for_function("window.open_now === 0 && window.made <= 3")  # with live pictures
+        until(page, "() => window.open_now === 0 && window.made <= 3")  # with live pictures
 
 
 def test_without_sound_the_clock_of_the_page_plays_it(studio, tmp_path):
