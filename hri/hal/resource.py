@@ -102,6 +102,7 @@ class Resources(Protocol):
     clock: Clock
     descriptions: dict[str, Description]
     dimensions: Shape
+    is_to_repeat: bool
     notice: Callable[[str], object]
 
     def declare(self, description: Description) -> None: ...

@@ -45,6 +45,8 @@ class ResourceManager:
         self.trusted = trusted
         """What the configuration says of ports of the bridge that anyone may write to."""
         self.clock = clock
+        self.is_to_repeat = clock.is_fake
+        """Whether nothing that is measured on this machine may decide."""
         self.descriptions = {description.id: description for description in descriptions}
         self.notice = notice
         self.dimensions = next(iter(shapes), NO_SHAPE)

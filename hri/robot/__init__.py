@@ -94,6 +94,7 @@ class Robot(BlockingVerbs):
             self.configuration.shapes,
             self.configuration.trusted,
         )
+        self.resources.is_to_repeat |= seed != 0
         self.resources.check()
         self._authored = self.app.load_networks()
         _override(self._authored, parameters or {})

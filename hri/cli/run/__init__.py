@@ -117,6 +117,7 @@ def _run(options: argparse.Namespace, ending: Ending) -> int:
         record_rejected=options.record_rejected,
         doors=doors_of(options),
     )
+    robot.resources.is_to_repeat |= is_to_repeat(options)
     tasks = robot.app.load_tasks()
     studio = studio_of(robot, options) if options.studio else None
     narrator = Narrator(robot)

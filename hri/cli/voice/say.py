@@ -28,7 +28,6 @@ from hri.hal.drivers.wav_file import write_wav
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.speech.synthesizers.espeak import FASTEST, LONGEST_TEXT, SLOWEST
-from hri.speech.synthesizers.espeak_library import Setting
 
 STANDARD_OUTPUT = Path("-")
 PATIENCE = 2.0
@@ -41,7 +40,7 @@ RATES = f"{SLOWEST} to {FASTEST}"
 
 HELP = """\
 --phonemes writes one JSON object: "text", "rate" (samples a second), "duration" (seconds),
-"phonemes" (each with the "name" that espeak-ng gives it, "start" and "duration" in seconds, and
+"phonemes" (each with the "name" that espeak-ng has for it, "start" and "duration" in seconds, and
 whether it is "stressed"; names that begin with "_" are pauses), "words" and "sentences" (each with
 "text", "position" in characters, "start" and "end" in seconds).
 
@@ -52,7 +51,7 @@ whether it is "stressed"; names that begin with "_" are pauses), "words" and "se
 "emphasis", 0 to 1, that lifts the brows).
 
   hri say "Hello there."
-  hri say "I sound like a person." --voice heart
+  hri say "Good evening." --voice en-gb
   hri say "I have found it!" --emotion joy --wav found.wav --phonemes found.json
   hri say "I am so happy." --emotion joy --face-video happy.mp4 --visemes happy.json
   echo "One text from a pipe." | hri say -"""
@@ -68,7 +67,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=PLAIN_VOICE,
         help="a voice: heart, en-gb, en-us+f3, ... (%(default)s)",
     )
-    add("--rate", type=int, metavar="WPM", help=f"words a minute, {RATES} ({Setting().rate})")
+    add("--rate", type=int, metavar="WPM", help=f"words a minute, {RATES}")
     add(
         "--emotion",
         metavar="E",
@@ -93,7 +92,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Exit status 2 when a part of it fails."""
     check(options)
-    resources = ResourceManager((), RealClock())
+    resources = ResourceManager((), RealClock(), notice=_complain)
     try:
         speech = _synthesize(resources, options)
         if not _written(speech, options):
@@ -106,6 +105,10 @@ def run(options: argparse.Namespace) -> int:
     finally:
         resources.close()
     return 0
+
+
+def _complain(line: str) -> None:
+    print(f"hri say: {line}", file=sys.stderr)
 
 
 def _written(speech: Speech, options: argparse.Namespace) -> bool:

@@ -7,10 +7,9 @@ from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.hal.synthesizer import Synthesizer
 from hri.speech.synthesizers.espeak import EspeakVoice
-from hri.speech.synthesizers.espeak_library import Setting
 from hri.speech.synthesizers.natural import HEART, NaturalVoice
 
-PLAIN_VOICE = Setting().voice
+PLAIN_VOICE = HEART
 NO_FILE = Description("", "").place.path
 """Place of mistakes on the command line."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
@@ -11,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from hri.core.errors import NotAvailable
+from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Phoneme, Prosody, Samples, Span, Speech
 from hri.hal.drivers.resampling import resample
 from hri.hal.resource import Description
@@ -19,8 +20,9 @@ from hri.hal.synthesizer import PLAIN, Synthesizer
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.synthesizers.espeak import FASTEST, LONGEST_TEXT, SLOWEST, EspeakVoice
 from hri.speech.synthesizers.natural_network import RATE, Network, Sound, Utterance
-from hri.speech.synthesizers.natural_symbols import MNEMONICS, STRESSES, Sounded, phonemes
+from hri.speech.synthesizers.natural_symbols import MNEMONICS, PAUSE, STRESSES, Sounded, phonemes
 from hri.speech.synthesizers.natural_text import Reader, Sentence
+from hri.speech.synthesizers.pace import Pace, remember_slow, slow_file, slow_voices
 
 HEART = "heart"
 """The voice inside the package: an American woman."""
@@ -38,24 +40,55 @@ class NaturalVoice(Synthesizer):
 
     Says the words of the user's lexicon, and of the file that `lexicon` names, as they are written
     there. `model` is the file of another voice of the same kind. Sentences of other scripts, and
-    what is said in a voice of another name, are said by espeak-ng.
+    what is said in a voice of another name, are said by espeak-ng. So is everything, after one
+    notice, where the model is missing or fails, or was found too slow for this machine.
     """
 
     parameters = ("model", "rate_wpm", "lexicon")
 
     def _open(self) -> None:
         own = self.description.text("lexicon")
-        rate = self.description.count("rate_wpm", PLAIN_WPM, SLOWEST, FASTEST)
-        self._rate = rate / PLAIN_WPM
-        self._network, self._gain, g2p, split = _engine(self.description.text("model"))
-        self._reader = Reader(g2p, split, load_lexicon(*[Path(own)] * bool(own)))
-        self._other = EspeakVoice(
-            Description(self.id, "Hri.EspeakVoice", {"rate_wpm": str(rate)}), self.manager
-        )
-        self._other.activate()
+        lexicon = load_lexicon(*[Path(own)] * bool(own))
+        self._wpm = self.description.count("rate_wpm", PLAIN_WPM, SLOWEST, FASTEST)
+        model = self.description.text("model")
+        self._name = model or HEART
+        self._pace = Pace()
+        self._other = self._opened_other()
+        self._network: Network | None = None
+        try:
+            self._refuse_slow()
+            self._network, self._gain, g2p, split = _engine(model)
+            self._reader = Reader(g2p, split, lexicon)
+        except NotAvailable as error:
+            self._fall_back(str(error))
+
+    def _opened_other(self) -> Synthesizer | None:
+        """What says that which this voice cannot; None without its library."""
+        names = [name for name in ("rate_wpm", "lexicon") if self.description.text(name)]
+        parameters = {name: self.description.text(name) for name in names}
+        voice = EspeakVoice(Description(self.id, "Hri.EspeakVoice", parameters), self.manager)
+        try:
+            voice.activate()
+        except NotAvailable:
+            return None
+        return voice
+
+    def _refuse_slow(self) -> None:
+        factor = 0.0 if self.manager.is_to_repeat else slow_voices().get(self._name, 0.0)
+        if factor:
+            what = f"{self._name} took {factor:g} s for a second of speech on this machine"
+            raise NotAvailable(f"{what} - delete {slow_file()} to try it again")
+
+    def _fall_back(self, why: str) -> None:
+        """Leave everything to the other voice. Raises NotAvailable where there is none."""
+        self._network, self._why_not = None, why
+        if self._other is None:
+            raise NotAvailable(why)
+        self.manager.notice(f"{self.id}: {why}; espeak-ng speaks")
 
     def _close(self) -> None:
-        self._other.deactivate()
+        if self._other is not None:
+            self._other.deactivate()
 
     def synthesize(self, text: str, prosody: Prosody = PLAIN) -> Speech:
         return self.stream(text, prosody, lambda speech: None, lambda: True)
@@ -67,7 +100,9 @@ class NaturalVoice(Synthesizer):
         take: Callable[[Speech], object],
         is_wanted: Callable[[], bool],
     ) -> Speech:
-        if prosody.voice not in ("", HEART):
+        if prosody.voice == HEART:
+            prosody = replace(prosody, voice="")
+        if self._other is not None and (self._network is None or prosody.voice):
             return self._other.stream(text, prosody, take, is_wanted)
         whole = Speech(text, np.zeros(0, np.int16), RATE)
         for sentence in self._reader.sentences(text[:LONGEST_TEXT]):
@@ -79,16 +114,40 @@ class NaturalVoice(Synthesizer):
         return whole
 
     def _said(self, sentence: Sentence, prosody: Prosody) -> Speech:
-        if not sentence.symbols.strip():
-            said = self._other.synthesize(sentence.text, replace(prosody, voice=""))
-            return replace(said, samples=resample(said.samples, said.rate, RATE), rate=RATE)
-        prosody = replace(prosody, rate=prosody.rate * self._rate)
-        sound, symbols = _joined(self._network.speak(sentence.symbols, prosody))
+        network = self._network
+        if network is None or not sentence.symbols.strip():
+            return self._said_by_other(sentence.text, prosody)
+        begun = self.manager.clock.now()
+        faster = replace(prosody, rate=prosody.rate * self._wpm / PLAIN_WPM)
+        try:
+            sound, symbols = _joined(network.speak(sentence.symbols, faster))
+        except Exception as error:  # onnxruntime's own, one class for each status
+            self._fall_back(f"{self._name} failed ({str(error).partition(chr(10))[0]})")
+            return self._said_by_other(sentence.text, prosody)
+        self._judge(self.manager.clock.now() - begun, len(sound) / RATE)
         return _timed(sentence, _samples(sound, self._gain * prosody.volume), symbols)
 
+    def _said_by_other(self, text: str, prosody: Prosody) -> Speech:
+        """Nothing is heard of a text that only the other voice could say, where it is missing."""
+        if self._other is None:
+            return Speech(text, np.zeros(0, np.int16), RATE)
+        said = self._other.synthesize(text, prosody)
+        return replace(said, samples=resample(said.samples, said.rate, RATE), rate=RATE)
+
+    def _judge(self, took: float, sound: float) -> None:
+        """Give up a voice for good that this machine is too slow for."""
+        if self.manager.is_to_repeat or self._other is None:
+            return
+        self._pace.add(took, sound)
+        if self._pace.is_slow:
+            with suppress(HriError):  # where nothing can be kept, the next run measures again
+                remember_slow(self._name, self._pace)
+            self._fall_back(f"this machine is too slow for {self._name}")
+
     def describe(self) -> str:
-        name = self.description.text("model") or HEART
-        return f"natural voice, {name}, {round(self._rate * PLAIN_WPM)} words a minute"
+        if self._network is None and self._other is not None:
+            return f"{self._other.describe()} ({self._why_not})"
+        return f"natural voice, {self._name}, {self._wpm} words a minute"
 
 
 @lru_cache(maxsize=4)
@@ -132,13 +191,16 @@ def _samples(sound: Sound, gain: float) -> Samples:
 
 def _timed(sentence: Sentence, samples: Samples, symbols: list[Sounded]) -> Speech:
     """A sentence with the times of its phonemes and words, counted from its own begin."""
+    spoken = list(phonemes(symbols))
+    end = spoken[-1].start + spoken[-1].duration if spoken else 0.0
+    pause = Phoneme(PAUSE, end, len(samples) / RATE - end)
     words = tuple(_words(sentence, symbols))
     whole = Span(sentence.text, 0, words[0].start, words[-1].end) if words else None
     return Speech(
         sentence.text,
         samples,
         RATE,
-        tuple(phonemes(symbols)),
+        (*spoken, pause),
         words,
         (whole,) if whole is not None else (),
     )

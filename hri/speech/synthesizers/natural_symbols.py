@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from hri.core.signals import Phoneme
 from hri.speech.pronunciation.phones import Phones
 
-PAUSE = "_"
-"""How the names of pauses begin."""
+PAUSE = "_:"
+"""espeak-ng's mnemonic of a pause."""
 SPACE = " "
 STRESSES = "ˈˌ"
 """These come before what they stress."""
@@ -94,7 +94,7 @@ def phonemes(spoken: Iterable[Sounded]) -> Iterator[Phoneme]:
         else:
             if name:
                 yield Phoneme(name, start, (mark or one).start - start, stressed)
-            name = MNEMONICS.get(one.symbol, "_:")
+            name = MNEMONICS.get(one.symbol, PAUSE)
             start, stressed = (mark or one).start, mark is not None
             end, mark = one.end, None
     if name:

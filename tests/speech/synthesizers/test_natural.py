@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from hri.core.clock import FakeClock
-from hri.core.errors import NotAvailable
+from hri.core.clock import FakeClock, RealClock
 from hri.core.signals import EmotionState, Prosody
 from hri.emotion.display import felt_now, load_display
 from hri.face.lips.phonemes import BREATH, sound_of
@@ -22,6 +21,7 @@ from hri.speech.recognizers.ctc.decoder import CtcRecognizer
 from hri.speech.synthesizers.natural import NaturalVoice
 from hri.speech.synthesizers.natural_symbols import MNEMONICS, MODIFIERS, STRESSES, longest_parts
 from hri.speech.synthesizers.natural_text import aligned
+from hri.speech.synthesizers.pace import slow_file
 from tests.speech.conftest import HOUSE
 
 hibari = pytest.importorskip("hibari", reason="no natural voice - pip install hibari-tts")
@@ -170,14 +170,75 @@ def test_another_script_and_another_voice_are_left_to_espeak(voice):
     assert not np.array_equal(british.samples, voice.synthesize("Hello.").samples)
 
 
-def test_a_broken_model_is_one_line(tmp_path):
+def fallen_back(clock=None, **parameters):
+    """A voice, and the notices that opening it gave."""
+    notices = []
+    manager = ResourceManager((), clock or FakeClock(), notice=notices.append)
+    voice = NaturalVoice(Description("voice", "Hri.NaturalVoice", parameters), manager)
+    voice.activate()
+    return voice, notices
+
+
+def test_with_a_broken_model_espeak_speaks_after_one_line(tmp_path):
     model = Path(hibari.__file__).parent / "assets" / "hibari.onnx"
     (tmp_path / "half.onnx").write_bytes(model.read_bytes()[:3_000_000])
     for path in (tmp_path / "half.onnx", tmp_path / "none.onnx"):
-        with pytest.raises(NotAvailable) as raised:
-            opened(model=str(path))
-        assert "\n" not in str(raised.value)
-        assert path.name in str(raised.value)
+        voice, notices = fallen_back(model=str(path))
+        assert voice.synthesize("Hello there.", Prosody(voice="heart")).duration > 0.5
+        (line,) = notices
+        assert path.name in line
+        assert line.endswith("; espeak-ng speaks")
+        assert "\n" not in line
+        assert path.name in voice.describe()
+
+
+def test_a_model_that_fails_while_it_speaks_loses_no_sentence():
+    voice, notices = fallen_back()
+
+    class Lost:
+        def speak(self, symbols, prosody):
+            raise RuntimeError("lost\nat line 3")
+
+    def after_the_first(speech):
+        if len(speech.sentences) == 1:
+            voice._network = Lost()
+
+    whole = voice.stream(TEXT, PLAIN, after_the_first, lambda: True)
+    assert [word.text for word in whole.words] == TEXT.split()
+    assert notices == ["voice: heart failed (lost); espeak-ng speaks"]
+
+
+class SlowClock(RealClock):
+    """A machine on which each look at the time comes a second after the last."""
+
+    time = 0.0
+
+    def now(self):
+        self.time += 1.0
+        return self.time
+
+
+def test_a_machine_that_does_not_keep_up_falls_back_for_good(monkeypatch, tmp_path):
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    voice, notices = fallen_back(SlowClock())
+    spoken = 0.0
+    while not notices:
+        spoken += voice.synthesize("Yes.").duration
+    assert notices == ["voice: this machine is too slow for heart; espeak-ng speaks"]
+    assert 60 <= spoken < 61
+    later, said = fallen_back(RealClock())
+    assert str(slow_file()) in said[0]
+    assert "espeak-ng" in later.describe()
+    again, said = fallen_back(FakeClock())
+    assert said == []
+    assert again.describe().startswith("natural")
+
+
+def test_what_was_kept_of_slow_voices_may_be_damaged(monkeypatch, tmp_path):
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    slow_file().parent.mkdir(parents=True)
+    slow_file().write_text("heart = [")
+    assert fallen_back(RealClock())[1] == []
 
 
 @settings(max_examples=40)
