@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from benchmarks.speech import accuracy, peers
+from benchmarks.speech import accuracy, feelings, peers
 from hri.bench.speech.latency import Progress
 from hri.bench.speech.listening import Listen
 from hri.bench.speech.samples import Recordings
-from hri.bench.table import Row
+from hri.bench.table import Row, attempted
 
 
 def rows(
@@ -22,3 +22,5 @@ def rows(
     """What `hri bench speech` measures in a checkout beside its own."""
     yield from accuracy.rows(people, hear, step, progress, draw)
     yield from peers.rows(people, hear, step, progress)
+    progress("feelings in the voice")
+    yield from attempted(feelings.WHAT, feelings.rows)

@@ -21,15 +21,26 @@ from hri.core.signals import Prosody
 from hri.speech.synthesizers.natural_symbols import Sounded, longest_parts
 
 Sound = NDArray[np.float32]
+Spectrum = NDArray[np.float32]
+"""Bins of BIN_HZ by frames of 12.5 ms."""
+Curve = NDArray[np.float32]
+"""Hertz, by frames."""
 
 RATE = 24000
 """Samples a second."""
+BIN_HZ = 20.0
 MOST_SYMBOLS = 400
 """What the network is given at once: its sentences were seldom longer when it learned."""
 SLOWEST, FASTEST = 0.5, 2.0
 """Factors of the rate at which it still speaks well."""
 VOICED_HZ = 40.0
 """Frames with a lower pitch have no voice."""
+SEMITONES = 12
+"""Of an octave."""
+REST_DAMPING = 0.35
+"""By how much the part of the sound that has the network's own pitch in its phases is damped for
+each semitone of another pitch: 3 dB, as a natural logarithm.
+"""
 _FRAME = 600
 """Samples of one unit of the durations: 25 ms."""
 _DURATIONS = "/Clip_output_0"
@@ -83,10 +94,25 @@ class Network:
         }
         *framed, durations = self._session.run(None, given)
         *spectra, pitch = (one[0] for one in framed)
-        # Each part draws the same noise: what was said before changes nothing.
-        sound = self._synthesize(*spectra, pitched(pitch, prosody), np.random.default_rng(0))
+        sound = self._sound(spectra, pitch, prosody)
         ends = np.cumsum(durations) * _FRAME / RATE - LEAD
         return _trimmed(sound, _sounded(symbols, ids, ends))
+
+    def _sound(self, spectra: list[Spectrum], pitch: Curve, prosody: Prosody) -> Sound:
+        """The sound of spectra, as loud at another pitch as at their own."""
+        plain = self._of_spectra(spectra, pitch)
+        changed = pitched(pitch, prosody)
+        if changed is pitch:
+            return plain
+        harmonic, phase, noise, rest, rest_phase = spectra
+        moved = np.abs(SEMITONES * np.log2(np.maximum(changed, 1.0) / np.maximum(pitch, 1.0)))
+        shifted = [envelope(harmonic, pitch), phase, noise, rest - REST_DAMPING * moved, rest_phase]
+        sound = self._of_spectra(shifted, changed)
+        return sound * (_level(plain) / max(_level(sound), 1e-9))
+
+    def _of_spectra(self, spectra: list[Spectrum], pitch: Curve) -> Sound:
+        # Each part draws the same noise: what was said before changes nothing.
+        return self._synthesize(*spectra, pitch, np.random.default_rng(0))
 
 
 def _sounded(symbols: str, ids: list[int | None], ends: NDArray[np.float64]) -> list[Sounded]:
@@ -115,7 +141,37 @@ def _trimmed(sound: Sound, symbols: list[Sounded]) -> Utterance:
     return Utterance(sound[begin:end], tuple(Sounded(s.symbol, a, b - a) for s, (a, b) in kept))
 
 
-def pitched(pitch: NDArray[np.float32], prosody: Prosody) -> NDArray[np.float32]:
+def envelope(harmonic: Spectrum, pitch: Curve) -> Spectrum:
+    """The log magnitudes of the harmonics, drawn through all frequencies.
+
+    Between the harmonics the source has no sound, so what the network computes there means nothing:
+    at another pitch it would make the voice rough, and 4 dB louder.
+    """
+    bins = np.arange(len(harmonic))[:, None]
+    voiced = pitch > VOICED_HZ
+    step = np.where(voiced, pitch, RATE) / BIN_HZ
+    number = np.maximum(bins / step, 1.0)
+    below = np.floor(number)
+    share = number - below
+    drawn = (1 - share) * _at(harmonic, below * step) + share * _at(harmonic, (below + 1) * step)
+    return np.where(voiced, drawn, harmonic).astype(np.float32)
+
+
+def _at(spectrum: Spectrum, places: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A spectrum at fractions of its bins, linearly interpolated; the last bin beyond them."""
+    places = np.minimum(places, len(spectrum) - 1.001)
+    bins = places.astype(np.int64)
+    frames = np.arange(spectrum.shape[1])
+    share = places - bins
+    found: NDArray[np.float64] = (1 - share) * spectrum[bins, frames]
+    return found + share * spectrum[bins + 1, frames]
+
+
+def _level(sound: Sound) -> float:
+    return float(np.sqrt((sound**2).mean())) if len(sound) else 0.0
+
+
+def pitched(pitch: Curve, prosody: Prosody) -> Curve:
     """The curve of the pitch, hertz, raised, and its way around its middle widened in semitones."""
     voiced = pitch > VOICED_HZ
     if not voiced.any() or (prosody.pitch == 1.0 and prosody.range == 1.0):

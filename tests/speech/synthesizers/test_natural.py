@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from benchmarks.speech.feelings import PUBLISHED, SHOWN, published
 from hri.core.clock import FakeClock, RealClock
 from hri.core.signals import EmotionState, Prosody
 from hri.emotion.display import felt_now, load_display
@@ -129,6 +130,35 @@ def test_prosody_is_heard(voice, prosody, measure, factor):
     text = "My mother may know where all the yellow lemons are in the morning."
     plain, changed = (measure(voice.synthesize(text, how)) for how in (PLAIN, prosody))
     assert changed / plain == pytest.approx(factor, rel=0.25)
+
+
+def test_feelings_are_heard_as_published(voice):
+    """Pitch, range, rate and loudness of eight emotions, each against the plain sentence."""
+    text = "My mother may know where all the yellow lemons are in the morning."
+    display = load_display()
+
+    def measured(prosody):
+        speech = voice.synthesize(text, prosody)
+        pitch = np.log(pitch_of(speech))
+        loudness = np.log(np.abs(speech.samples.astype(float)).mean())
+        low, middle, high = np.percentile(pitch, (10, 50, 90))
+        return dict(zip(PUBLISHED, (middle, high - low, -speech.duration, loudness), strict=True))
+
+    plain, right = measured(PLAIN), []
+    for name in SHOWN:
+        state = EmotionState(name, 1.0, 0.0, 0.0, 0.0, {name: 1.0})
+        heard = measured(display.prosody(felt_now(state)))
+        right += [(heard[m] - plain[m]) * published(name, m) > 0 for m in PUBLISHED]
+    assert sum(right) >= 30
+    assert len(right) == 32
+
+
+def test_another_pitch_is_as_loud(voice):
+    levels = [
+        np.abs(voice.synthesize(TEXT, Prosody(pitch=pitch)).samples.astype(float)).mean()
+        for pitch in (0.8, 1.0, 1.2)
+    ]
+    assert max(levels) < 1.15 * min(levels)
 
 
 @pytest.mark.parametrize("name", ["joy", "sadness", "anger", "fear", "surprise"])
