@@ -19,9 +19,12 @@ from hri.face.model import FaceModel
 from hri.face.regions import region_of
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
+from hri.hal.synthesizer import Synthesizer
 from hri.speech.synthesizers.espeak import EspeakVoice
+from hri.speech.synthesizers.natural import NaturalVoice
 
 Values = NDArray[np.float64]
+WHAT = "viseme track against phoneme times, p95"
 LATE_MS = 20.0
 
 
@@ -42,10 +45,15 @@ def rows(model: FaceModel) -> Iterator[Row]:
 
     Raises NotAvailable without the voice.
     """
+    yield from _rows_of(model, EspeakVoice, WHAT)
+    yield from _rows_of(model, NaturalVoice, f"{WHAT}, natural voice")
+
+
+def _rows_of(model: FaceModel, kind: type[Synthesizer], what: str) -> Iterator[Row]:
     shapes: list[float] = []
     changes: list[float] = []
     with ResourceManager((), RealClock()) as resources:
-        voice = EspeakVoice(Description("voice", "Hri.EspeakVoice"), resources)
+        voice = kind(Description("voice", kind.__name__), resources)
         resources.substitute("voice", voice)
         voice.activate()
         for sentence in SENTENCES:
@@ -58,7 +66,7 @@ def rows(model: FaceModel) -> Iterator[Row]:
         "change_median_ms": round(1e3 * float(np.median(changes)), 1),
         "change_p95_ms": round(1e3 * float(np.percentile(np.abs(changes), 95)), 1),
     }
-    yield amount("viseme track against phoneme times, p95", late, "ms", at_most(LATE_MS), **told)
+    yield amount(what, late, "ms", at_most(LATE_MS), **told)
 
 
 def lip_timing(

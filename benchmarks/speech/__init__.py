@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from benchmarks.speech import accuracy, feelings, peers
+from benchmarks.speech import accuracy, alignment, feelings, peers
 from hri.bench.speech.latency import Progress
 from hri.bench.speech.listening import Listen
 from hri.bench.speech.samples import Recordings
@@ -24,3 +24,5 @@ def rows(
     yield from peers.rows(people, hear, step, progress)
     progress("feelings in the voice")
     yield from attempted(feelings.WHAT, feelings.rows)
+    progress(alignment.WHAT)
+    yield from attempted(alignment.WHAT, alignment.rows)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from hri.core.errors import HriError, did_you_mean
@@ -28,6 +29,13 @@ class BlockingVerbs(ABC):
     def say(self, text: str) -> None:
         """Say something and wait until it is said."""
         self.run(verbs.say, text)
+
+    def play(self, path: Path | str, text: str = "") -> None:
+        """Play a sound file with moving lips and wait until it is heard; `text` is what it says.
+
+        Raises HriError for a file that cannot be read.
+        """
+        self.run(verbs.play, path, text)
 
     def ask(
         self, question: str, timeout: float = 6.0, grammar: str = "", retries: int = 0

@@ -14,7 +14,7 @@ from hri.emotion.behaviors import EmotionModel
 from hri.face.behaviors import Face
 from hri.face.model import load_face
 from hri.speech.behaviors import Listener
-from hri.speech.tasks import answers_of, listener_of, next_heard, say, wait_for_speech
+from hri.speech.tasks import answers_of, listener_of, next_heard, play, say, wait_for_speech
 from hri.speech.turn import QUESTION
 from hri.task.context import TaskContext
 from hri.vision.behaviors import PersonTracker
@@ -26,6 +26,7 @@ __all__ = [
     "gesture",
     "listen",
     "move",
+    "play",
     "say",
     "show",
     "stop",

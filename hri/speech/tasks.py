@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from pathlib import Path
 from typing import Any
 
 from hri.behavior.behavior import Behavior
@@ -18,6 +19,7 @@ from hri.hal.speaker import Speaker
 from hri.hal.synthesizer import Synthesizer
 from hri.speech.behaviors import Listener, Voice
 from hri.speech.turn import QUESTION
+from hri.speech.voice import Saying
 from hri.task.context import TaskContext
 from hri.task.queue import EventQueue
 from hri.task.task import task
@@ -41,12 +43,29 @@ async def say(context: TaskContext, text: str) -> None:
     """
     voice = voice_of(context)
     async with context.claim("voice"):
-        saying = voice.say(text)
-        try:
-            while not saying.is_done:
-                await context.clock.sleep(LOOK_EVERY)
-        finally:
-            voice.cancel(saying)
+        await _until_done(context, voice, voice.say(text))
+
+
+async def play(context: TaskContext, path: Path | str, text: str = "") -> None:
+    """Play a sound file through the voice, with moving lips, and wait until it has been heard.
+
+    `text` is what it says, where that is known. When cancelled, it is cut. Raises HriError for a
+    file that cannot be read.
+    """
+    voice = voice_of(context)
+    async with context.claim("voice"):
+        saying = voice.play(path, text)
+        await _until_done(context, voice, saying)
+        if saying.error is not None:
+            raise saying.error
+
+
+async def _until_done(context: TaskContext, voice: Voice, saying: Saying) -> None:
+    try:
+        while not saying.is_done:
+            await context.clock.sleep(LOOK_EVERY)
+    finally:
+        voice.cancel(saying)
 
 
 def hears_people(context: TaskContext) -> bool:

@@ -4,19 +4,26 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
+from pathlib import Path
+
+import numpy as np
 
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.effects import Effect
 from hri.behavior.ports import Input, Output, Param
 from hri.core.clock import Worker
+from hri.core.errors import HriError
 from hri.core.signals import Prosody, Speech
+from hri.hal.drivers.wav_file import load_sound
 from hri.hal.speaker import Speaker
 from hri.hal.synthesizer import Synthesizer
 
 INTERRUPTED = "speech.interrupted"
 """The event at which it falls silent: someone spoke up while it spoke."""
+PLAIN_RATE = 16000
+"""Samples a second of a sound that is not there."""
 MOST_QUEUED = 100
 """Things to say; when there are more, the last of those that matter least is dropped."""
 
@@ -39,6 +46,10 @@ class Saying:
     priority: Priority = Priority.NORMAL
     prosody: Prosody | None = None
     """How it is said; None: as the input of the voice says."""
+    sound: Path | None = None
+    """A sound file that is played, in which the text is said."""
+    error: HriError | None = None
+    """Why the sound file could not be played."""
     is_done: bool = False
     """True when it was said to its end, or cut."""
     was_cut: bool = False
@@ -107,6 +118,20 @@ class Voice(Behavior):
         if not text.strip():
             saying.is_done = True
             return saying
+        return self._queued(saying)
+
+    def play(
+        self, path: Path | str, text: str = "", priority: Priority = Priority.NORMAL
+    ) -> Saying:
+        """Queue a WAV, MP3, FLAC or Ogg file like a text; the lips move to it.
+
+        They follow the words of `text` where it is what the sound says, else the sounds or the
+        loudness that are heard. A file that cannot be read sets the `error` of the saying.
+        """
+        return self._queued(Saying(text, priority, sound=Path(path)))
+
+    def _queued(self, saying: Saying) -> Saying:
+        priority = saying.priority
         waiting = [other.priority >= priority for other in self._queue]
         self._queue.insert(sum(waiting), saying)
         if len(self._queue) > MOST_QUEUED:
@@ -172,6 +197,8 @@ class Voice(Behavior):
         take = self._taker(saying)
 
         def make() -> tuple[Saying, Speech]:
+            if saying.sound is not None:
+                return saying, _loaded(saying, saying.sound)
             stream = self._synthesizer.stream
             return saying, stream(saying.text, prosody, take, lambda: not saying.is_done)
 
@@ -219,6 +246,8 @@ class Voice(Behavior):
 
     def _hear(self, saying: Saying, speech: Speech) -> None:
         """Play what there is of a speech now; a part of it may already be playing."""
+        if saying.error is not None:
+            saying.drop()
         if saying.is_done:
             return
         now = self._clock.now()
@@ -260,3 +289,20 @@ class Voice(Behavior):
         self._interruption.cancel()
         self.hush()
         self._worker.close()
+
+
+def _loaded(saying: Saying, path: Path) -> Speech:
+    """A sound file with the times that its lips need."""
+    from hri.speech.aligner import with_times
+
+    try:
+        samples, rate = load_sound(path)
+    except HriError as error:
+        saying.error = error
+        return Speech(saying.text, np.zeros(0, np.int16), PLAIN_RATE)
+    for text in dict.fromkeys((saying.text, "")):
+        try:
+            return replace(with_times(Speech(text, samples, rate)), text=saying.text)
+        except HriError:  # it says something else, or is too long: its loudness is left
+            continue
+    return Speech(saying.text, samples, rate)

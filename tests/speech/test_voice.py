@@ -10,13 +10,15 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
 from hri.behavior.behavior import Context
 from hri.behavior.ports import OutputPort
-from hri.core.clock import RealClock
+from hri.core.clock import FakeClock, RealClock
 from hri.core.event_bus import EventBus
 from hri.core.signals import Prosody, Speech
 from hri.hal.drivers.memory import SilentSpeaker
+from hri.hal.drivers.wav_file import write_wav
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.speech.behaviors import Voice
+from hri.speech.synthesizers.espeak import EspeakVoice
 from hri.speech.synthesizers.silent import SilentVoice
 from hri.speech.tasks import say
 from hri.speech.voice import MOST_QUEUED, Priority, Saying
@@ -201,6 +203,37 @@ def test_each_word_is_told_when_it_begins():
         words.append(stage.behavior.word.value)
 
     assert [word for word in words if word] == ["go", "to", "it"]
+
+
+def test_a_sound_file_moves_the_lips_and_is_cut_like_a_text(tmp_path):
+    sung = EspeakVoice(Description("v", "Hri.EspeakVoice"), ResourceManager((), FakeClock()))
+    sung.activate()
+    speech = sung.synthesize("Hello there, my friend.")
+    write_wav(tmp_path / "song.wav", speech.samples, speech.rate)
+    stage = Stage(Voice())
+    whole = stage.behavior.play(tmp_path / "song.wav", "Hello there, my friend.")
+    stage.run(0.5)
+    names = [phoneme.name for phoneme in stage.behavior.speech.value.phonemes]
+    assert {"h", "l", "D", "m", "f"} <= set(names)
+    stage.run(speech.duration)
+    assert (whole.is_done, whole.was_cut) == (True, False)
+    second = stage.behavior.play(tmp_path / "song.wav")
+    stage.run(0.5)
+    stage.behavior.hush()
+    assert (second.is_done, second.was_cut) == (True, True)
+    assert stage.speaker.position(stage.clock.now()) is None
+
+
+def test_a_sound_file_that_cannot_be_read_fails_alone(tmp_path):
+    (tmp_path / "half.wav").write_bytes(b"RIFF")
+    stage = Stage(Voice())
+    lost = [stage.behavior.play(tmp_path / name) for name in ("none.wav", "half.wav")]
+    after = stage.behavior.say("hello")
+    stage.run(2.0)
+    assert [saying.was_cut for saying in (*lost, after)] == [True, True, False]
+    assert "none.wav" in str(lost[0].error)
+    assert "half.wav" in str(lost[1].error)
+    assert stage.names() == ["speech.said", "speech.finished"]
 
 
 def test_the_queue_is_bounded():

@@ -5,13 +5,14 @@ from __future__ import annotations
 import argparse
 from contextlib import nullcontext
 
-from hri.cli.face import animate, check, export, list, new, render, sheet, show
+from hri.cli.face import animate, check, export, lips, list, new, render, sheet, show
 from hri.cli.terminal.progress_line import waiting
 
 COMMANDS = {
     "render": (render, "draw one picture"),
     "sheet": (sheet, "draw all expressions and visemes, with labels"),
     "animate": (animate, "film a script for a face"),
+    "lips": (lips, "film a face that moves its lips to a sound file"),
     "show": (show, "open a window with a moving face that updates when its drawings are saved"),
     "new": (new, "copy a face to start a new one from"),
     "check": (check, "load a face and report all mistakes"),

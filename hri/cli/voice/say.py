@@ -114,9 +114,9 @@ def _complain(line: str) -> None:
 def _written(speech: Speech, options: argparse.Namespace) -> bool:
     """Write the requested files; whether there were any."""
     if options.phonemes is not None:
-        _write_json(options.phonemes, times_of(speech))
+        write_json(options.phonemes, times_of(speech))
     if options.visemes is not None:
-        _write_json(options.visemes, visemes_of(speech))
+        write_json(options.visemes, visemes_of(speech))
     if options.wav is not None:
         write_wav(options.wav, speech.samples, speech.rate)
     if options.face_video is not None:
@@ -127,7 +127,7 @@ def _written(speech: Speech, options: argparse.Namespace) -> bool:
     return any(file is not None for file in files)
 
 
-def _write_json(path: Path, what: Mapping[str, Any]) -> None:
+def write_json(path: Path, what: Mapping[str, Any]) -> None:
     """Write an object to a file, or to standard output for "-"."""
     text = json.dumps(what, indent=1) + "\n"
     if path == STANDARD_OUTPUT:

@@ -11,10 +11,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from hri.core import child
-from hri.core.errors import NotAvailable
+from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Prosody, Speech
 from hri.hal.drivers.wav_file import read_wav
 from hri.hal.synthesizer import PLAIN, Synthesizer
+from hri.speech.aligner import with_times
 
 _PROGRAM = Path(__file__).with_name("pyttsx3_process.py")
 LONGEST_WAIT = 60.0
@@ -49,7 +50,7 @@ def platform_voices() -> tuple[PlatformVoice, ...]:
 
 
 class Pyttsx3Voice(Synthesizer):
-    """Synthesizes in a separate process; gives no phonemes, and does not support pitch."""
+    """Synthesizes in a separate process, times the sounds afterward, and does not support pitch."""
 
     parameters = ("voice", "rate_wpm")
 
@@ -74,7 +75,15 @@ class Pyttsx3Voice(Synthesizer):
             if not path.is_file():
                 raise self.not_available("pyttsx3: no sound was made", REMEDY)
             samples, rate = read_wav(path)
-        return Speech(text, samples, rate)
+        return _timed(Speech(text, samples, rate))
+
+
+def _timed(speech: Speech) -> Speech:
+    """With the times of English words; what is in another language is left to its loudness."""
+    try:
+        return with_times(speech)
+    except HriError:
+        return speech
 
 
 def _run(arguments: list[str], order: str, patience: float) -> str:
