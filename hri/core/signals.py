@@ -125,6 +125,27 @@ class Speech:
     be one."""
     sentences: tuple[Span, ...] = ()
     """In order; empty when the voice gives no times."""
+    marks: tuple[tuple[str, float], ...] = ()
+    """Names of places in the text, and the seconds at which they are reached; in order."""
+
+    def then(self, part: Speech, position: int) -> Speech:
+        """This speech and another at the same rate, whose text stands at a place of this text."""
+        begun = self.duration
+
+        def moved(span: Span) -> Span:
+            place, start, end = span.position + position, span.start + begun, span.end + begun
+            return Span(span.text, place, start, end)
+
+        later = (Phoneme(p.name, p.start + begun, p.duration, p.stressed) for p in part.phonemes)
+        return Speech(
+            self.text,
+            np.concatenate((self.samples, part.samples)),
+            self.rate,
+            (*self.phonemes, *later),
+            (*self.words, *map(moved, part.words)),
+            (*self.sentences, *map(moved, part.sentences)),
+            (*self.marks, *((name, time + begun) for name, time in part.marks)),
+        )
 
     @property
     def duration(self) -> float:
@@ -158,6 +179,8 @@ class Prosody:
     """Of how far the pitch moves up and down, in semitones; 0 is monotonous."""
     voice: str = ""
     """Another voice than the synthesizer's own, such as "en-gb+f3"; empty for its own."""
+    sounds: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    """Words, in small letters, whose phones of the CMU dictionary are given."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -47,6 +47,9 @@ class Element:
     """Where each attribute stands."""
     children: list[Element] = field(default_factory=list)
     text: str = ""
+    """All of its text, without that of its children."""
+    tail: str = ""
+    """The text of its parent that stands after it."""
     leading: list[str] = field(default_factory=list)
     """Comments and processing instructions before it, and "" for a blank line."""
     trailing: list[str] = field(default_factory=list)
@@ -87,10 +90,21 @@ class Element:
                 raise child.error(
                     f"<{child.tag}> has no place in <{self.tag}>", did_you_mean(child.tag, tags)
                 )
+        self.check_attributes(*attributes)
+
+    def check_attributes(self, *known: str) -> None:
+        """Refuse attributes that have no meaning here."""
         for name in self.attributes:
-            if name not in attributes and not name.startswith(EDITOR_PREFIXES):
+            if name not in known and not name.startswith(EDITOR_PREFIXES):
                 what = f'<{self.tag}> has no attribute "{name}"'
-                raise self.error(what, did_you_mean(name, attributes), name)
+                raise self.error(what, did_you_mean(name, known), name)
+
+    def content(self) -> Iterator[str | Element]:
+        """Its text and its children in the order in which they stand."""
+        yield self.text[: len(self.text) - sum(len(child.tail) for child in self.children)]
+        for child in self.children:
+            yield child
+            yield child.tail
 
 
 def load_xml(path: Path, what: str = "XML file") -> Element:
@@ -208,6 +222,8 @@ class _Reader:
     def _text(self, text: str) -> None:
         if self.stack:
             self.stack[-1].text += text
+            for child in self.stack[-1].children[-1:]:
+                child.tail += text
         if not text.strip() and text.count("\n") > 1 and self.between[-1:] != [""]:
             self.between.append("")
 

@@ -12,6 +12,7 @@ from hri.core.signals import Event, Utterance
 from hri.emotion.appraisal import OccEvent
 from hri.robot import calls, verbs
 from hri.speech.listener import Listener
+from hri.speech.ssml import Ssml
 from hri.task.context import TaskContext
 from hri.task.task_manager import TaskManager
 from hri.task.task_run import Job, Task
@@ -26,7 +27,7 @@ class BlockingVerbs(ABC):
     def run(self, job: Job, *arguments: Any) -> Any:
         """Run a coroutine function with the robot's TaskContext and wait for what it returns."""
 
-    def say(self, text: str) -> None:
+    def say(self, text: str | Ssml) -> None:
         """Say something and wait until it is said."""
         self.run(verbs.say, text)
 

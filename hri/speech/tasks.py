@@ -18,6 +18,7 @@ from hri.hal.resource import Resource
 from hri.hal.speaker import Speaker
 from hri.hal.synthesizer import Synthesizer
 from hri.speech.behaviors import Listener, Voice
+from hri.speech.ssml import Ssml
 from hri.speech.turn import QUESTION
 from hri.speech.voice import Saying
 from hri.task.context import TaskContext
@@ -36,7 +37,7 @@ async def speak(context: TaskContext, text: str) -> None:
     await say(context, text)
 
 
-async def say(context: TaskContext, text: str) -> None:
+async def say(context: TaskContext, text: str | Ssml) -> None:
     """Say a text and wait until it has been said or cut; when cancelled, it is cut.
 
     Sentences of several tasks come one after the other.

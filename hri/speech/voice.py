@@ -19,6 +19,7 @@ from hri.core.signals import Prosody, Speech
 from hri.hal.drivers.wav_file import load_sound
 from hri.hal.speaker import Speaker
 from hri.hal.synthesizer import Synthesizer
+from hri.speech.ssml import Ssml, spoken
 
 INTERRUPTED = "speech.interrupted"
 """The event at which it falls silent: someone spoke up while it spoke."""
@@ -46,6 +47,8 @@ class Saying:
     priority: Priority = Priority.NORMAL
     prosody: Prosody | None = None
     """How it is said; None: as the input of the voice says."""
+    markup: Ssml | None = None
+    """The text with markup, where it has some."""
     sound: Path | None = None
     """A sound file that is played, in which the text is said."""
     error: HriError | None = None
@@ -71,13 +74,16 @@ class _Playing:
     position: float = 0.0
     word: int = -1
     """Number of the word that was begun last."""
+    marks: int = 0
+    """Marks that have been reached."""
 
 
 class Voice(Behavior):
     """Says one thing after the other, and falls silent at once when it is told to.
 
     Raises `speech.said` (text) when a sound starts and `speech.finished` (text, cut, heard) when it
-    ends, `heard` being the words that were said to their end. The sound starts as soon as the
+    ends, `heard` being the words that were said to their end; `speech.marked` (name, text) when it
+    reaches a mark of its markup. The sound starts as soon as the
     first of it is made, and before the next tick.
     """
 
@@ -108,13 +114,18 @@ class Voice(Behavior):
         self._playing: _Playing | None = None
 
     def say(
-        self, text: str, priority: Priority = Priority.NORMAL, prosody: Prosody | None = None
+        self,
+        text: str | Ssml,
+        priority: Priority = Priority.NORMAL,
+        prosody: Prosody | None = None,
     ) -> Saying:
         """Queue a text, behind all that matters as much; blank text is done at once.
 
         `prosody` is how this one is said, and by which voice; None: as the input says.
         """
-        saying = Saying(text, priority, prosody)
+        markup = text if isinstance(text, Ssml) else None
+        text = text.text if isinstance(text, Ssml) else text
+        saying = Saying(text, priority, prosody, markup)
         if not text.strip():
             saying.is_done = True
             return saying
@@ -182,6 +193,7 @@ class Voice(Behavior):
             self.speech.send(playing.speech)
             self.position.send(playing.position)
             self._tell_word(playing)
+            self._tell_marks(playing)
         self.is_speaking.send(playing is not None)
 
     def _current(self) -> Saying | None:
@@ -196,11 +208,16 @@ class Voice(Behavior):
         prosody = saying.prosody or self.prosody.value or self._prosody
         take = self._taker(saying)
 
+        def is_wanted() -> bool:
+            return not saying.is_done
+
         def make() -> tuple[Saying, Speech]:
             if saying.sound is not None:
                 return saying, _loaded(saying, saying.sound)
-            stream = self._synthesizer.stream
-            return saying, stream(saying.text, prosody, take, lambda: not saying.is_done)
+            voice = self._synthesizer
+            if saying.markup is not None:
+                return saying, spoken(saying.markup, voice, prosody, take, is_wanted)
+            return saying, voice.stream(saying.text, prosody, take, is_wanted)
 
         self._worker.submit(make)
 
@@ -275,9 +292,19 @@ class Voice(Behavior):
             playing.word = begun
             self.word.send(words[begun].text)
 
+    def _tell_marks(self, playing: _Playing) -> None:
+        for name, time in playing.speech.marks[playing.marks :]:
+            if time > playing.position:
+                return
+            playing.marks += 1
+            self._events.raise_event("speech.marked", name=name, text=playing.saying.text)
+
     def _finish(self, was_cut: bool) -> None:
         assert self._playing is not None
         playing, self._playing = self._playing, None
+        if not was_cut:
+            playing.position = playing.speech.duration
+            self._tell_marks(playing)
         saying = playing.saying
         saying.is_done, saying.was_cut = True, was_cut
         saying.heard = playing.speech.heard(playing.position) if was_cut else saying.text

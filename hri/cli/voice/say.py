@@ -27,6 +27,7 @@ from hri.face.scene import scene_of
 from hri.hal.drivers.wav_file import write_wav
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
+from hri.speech.ssml import Ssml, is_ssml, spoken
 from hri.speech.synthesizers.espeak import FASTEST, LONGEST_TEXT, SLOWEST
 
 STANDARD_OUTPUT = Path("-")
@@ -42,7 +43,8 @@ HELP = """\
 --phonemes writes one JSON object: "text", "rate" (samples a second), "duration" (seconds),
 "phonemes" (each with the "name" that espeak-ng has for it, "start" and "duration" in seconds, and
 whether it is "stressed"; names that begin with "_" are pauses), "words" and "sentences" (each with
-"text", "position" in characters, "start" and "end" in seconds).
+"text", "position" in characters, "start" and "end" in seconds), "marks" (of SSML, each with "name"
+and "time").
 
 --visemes also writes one JSON object: "text", "duration", "visemes" (the mouth shapes, each with
 "viseme" by its Oculus name, "start" and "end" in seconds and "strength", 0 to 1; sounds too short "
@@ -54,6 +56,7 @@ whether it is "stressed"; names that begin with "_" are pauses), "words" and "se
   hri say "Good evening." --voice en-gb
   hri say "I have found it!" --emotion joy --wav found.wav --phonemes found.json
   hri say "I am so happy." --emotion joy --face-video happy.mp4 --visemes happy.json
+  hri say '<speak>It is <emphasis>very</emphasis> late.<break time="1s"/> Good night.</speak>'
   echo "One text from a pipe." | hri say -"""
 
 
@@ -73,6 +76,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="E",
         help=f"emotion: neutral, {', '.join(NAMES)}, or happy, ...",
     )
+    markup = "the text is SSML; a text that begins with <speak> is, too"
+    add("--ssml", action="store_true", help=markup)
     add("--intensity", type=float, default=1.0, metavar="X", help="of the emotion, 0 to 1")
     add("--wav", type=Path, metavar="FILE", help="write the sound there instead of playing it")
     times = 'write the times as JSON instead of playing; "-" is standard output'
@@ -152,10 +157,14 @@ def _synthesize(resources: ResourceManager, options: argparse.Namespace) -> Spee
     text = sys.stdin.read(LARGEST_FILE) if options.text == "-" else options.text
     if not text.strip():
         raise HriError("empty text - give some words")
-    if len(text) > LONGEST_TEXT:
+    is_markup = options.ssml or is_ssml(text)
+    if len(text) > LONGEST_TEXT and not is_markup:
         told = f"only the first {LONGEST_TEXT} characters of {len(text)} are spoken"
         print(f"{told} - say it in parts", file=sys.stderr)
-    return open_voice(resources, options.voice, options.rate).synthesize(text, prosody)
+    voice = open_voice(resources, options.voice, options.rate)
+    if is_markup:
+        return spoken(Ssml.parse(text), voice, prosody, lambda speech: None, lambda: True)
+    return voice.synthesize(text, prosody)
 
 
 def prosody_of(feeling: str, intensity: float) -> Prosody:
@@ -193,6 +202,7 @@ def times_of(speech: Speech) -> dict[str, Any]:
         "phonemes": [_rounded(asdict(phoneme)) for phoneme in speech.phonemes],
         "words": [_rounded(asdict(word)) for word in speech.words],
         "sentences": [_rounded(asdict(sentence)) for sentence in speech.sentences],
+        "marks": [{"name": name, "time": round(time, DECIMALS)} for name, time in speech.marks],
     }
 
 

@@ -17,7 +17,7 @@ written and is used by the voice; a line that begins with `#` or `;` is a commen
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Literal
 
@@ -63,6 +63,13 @@ class Lexicon:
         self._dictionary = dictionary
         self._variants = variants or {}
         self._guesses = guesses or Guesses()
+
+    def extended(self, sounds: Sequence[tuple[str, Phones]]) -> Lexicon:
+        """This lexicon with phones for some words, instead of what it says of them."""
+        if not sounds:
+            return self
+        own = {_folded(word): (phones,) for word, phones in sounds}
+        return Lexicon({**self._own, **own}, self._dictionary, self._variants, self._guesses)
 
     def pronunciations(self, word: str) -> tuple[Phones, ...]:
         """All ways to say a word, without stress, the likeliest first.

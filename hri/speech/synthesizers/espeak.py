@@ -74,7 +74,8 @@ class EspeakVoice(Synthesizer):
         if prosody.voice and not self._library.has_voice(prosody.voice):
             raise HriError(f"{self.id}: {' - '.join(self._unknown(prosody.voice))}")
         is_english = setting.voice.lower().startswith("en")
-        read = reading(text[:LONGEST_TEXT], self._lexicon if is_english else None)
+        lexicon = self._lexicon.extended(prosody.sounds) if is_english else None
+        read = reading(text[:LONGEST_TEXT], lexicon)
         sound = bytearray()
         marks: list[Mark] = []
         handed_over = 0

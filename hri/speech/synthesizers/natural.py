@@ -105,10 +105,10 @@ class NaturalVoice(Synthesizer):
         if self._other is not None and (self._network is None or prosody.voice):
             return self._other.stream(text, prosody, take, is_wanted)
         whole = Speech(text, np.zeros(0, np.int16), RATE)
-        for sentence in self._reader.sentences(text[:LONGEST_TEXT]):
+        for sentence in self._reader.sentences(text[:LONGEST_TEXT], prosody.sounds):
             if not is_wanted():
                 break
-            whole = _continued(whole, self._said(sentence, prosody), sentence.position)
+            whole = whole.then(self._said(sentence, prosody), sentence.position)
             take(whole)
         take(whole)
         return whole
@@ -214,22 +214,3 @@ def _words(sentence: Sentence, symbols: list[Sounded]) -> Iterator[Span]:
     for number, (text, position) in enumerate(sentence.written()):
         if number in spoken:
             yield Span(text, position, spoken[number][0].start, spoken[number][-1].end)
-
-
-def _continued(whole: Speech, part: Speech, position: int) -> Speech:
-    """A speech with another sentence after it, which stands at a place of the whole text."""
-    begun = whole.duration
-
-    def moved(span: Span) -> Span:
-        place, start, end = span.position + position, span.start + begun, span.end + begun
-        return Span(span.text, place, start, end)
-
-    later = (Phoneme(p.name, p.start + begun, p.duration, p.stressed) for p in part.phonemes)
-    return Speech(
-        whole.text,
-        np.concatenate((whole.samples, part.samples)),
-        RATE,
-        (*whole.phonemes, *later),
-        (*whole.words, *map(moved, part.words)),
-        (*whole.sentences, *map(moved, part.sentences)),
-    )

@@ -11,6 +11,7 @@ from itertools import accumulate
 from typing import Any
 
 from hri.speech.pronunciation.lexicon import Lexicon
+from hri.speech.pronunciation.phones import Phones
 from hri.speech.synthesizers.espeak_text import plain, stressed, user_phones
 from hri.speech.synthesizers.natural_symbols import SPACE, symbols_of
 
@@ -41,29 +42,32 @@ class Sentence:
 class Reader:
     """Reads English text; words of the user's lexicon as they are written there."""
 
-    def __init__(self, g2p: Any, split: Any, lexicon: Lexicon | None = None) -> None:
+    def __init__(self, g2p: Any, split: Any, lexicon: Lexicon) -> None:
         """`g2p` makes symbols of words, `split` sentences of a text."""
         self._g2p = g2p
         self._split = split
         self._lexicon = lexicon
 
-    def sentences(self, text: str) -> Iterator[Sentence]:
-        """The sentences of a text; one of another script, or of signs alone, has no symbols."""
-        text = plain(text)
+    def sentences(self, text: str, sounds: Sequence[tuple[str, Phones]] = ()) -> Iterator[Sentence]:
+        """The sentences of a text; one of another script, or of signs alone, has no symbols.
+
+        `sounds` are phones of words, before those of the lexicon.
+        """
+        text, lexicon = plain(text), self._lexicon.extended(sounds)
         done = 0
         for sentence in self._split(text):
             position = text.index(sentence, done)
             done = position + len(sentence)
-            symbols, words = ("", ()) if is_foreign(sentence) else self._read(sentence)
+            symbols, words = ("", ()) if is_foreign(sentence) else self._read(sentence, lexicon)
             yield Sentence(sentence, position, symbols, words)
 
-    def _read(self, sentence: str) -> tuple[str, tuple[int, ...]]:
+    def _read(self, sentence: str, lexicon: Lexicon) -> tuple[str, tuple[int, ...]]:
         from hibari.g2p.normalize import normalize
 
         normal = normalize(sentence.translate(_MARKUP))
         tokens = self._g2p.tokenize(normal)
         for token in tokens:
-            if phones := () if self._lexicon is None else user_phones(token.text, self._lexicon):
+            if phones := user_phones(token.text, lexicon):
                 token.phonemes = symbols_of(stressed(phones))
         origins = aligned(_WORD.findall(sentence), normal.split())
         symbols: list[str] = []

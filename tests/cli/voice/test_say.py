@@ -22,7 +22,15 @@ def test_the_times_are_written_as_json(tmp_path):
     assert main(["say", "Hello you. Come in!", "--wav", str(wav), "--phonemes", str(path)]) == 0
 
     times = json.loads(path.read_text())
-    assert list(times) == ["text", "rate", "duration", "phonemes", "words", "sentences"]
+    assert list(times) == [
+        "text",
+        "rate",
+        "duration",
+        "phonemes",
+        "words",
+        "sentences",
+        "marks",
+    ]
     assert times["duration"] == pytest.approx(seconds(wav), abs=1e-3)
     assert set(times["phonemes"][0]) == {"name", "start", "duration", "stressed"}
     assert [word["text"] for word in times["words"]] == ["Hello", "you.", "Come", "in!"]

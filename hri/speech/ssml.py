@@ -1,0 +1,418 @@
+"""Speech as markup: the useful part of SSML 1.1 (W3C Recommendation, September 2010).
+
+<speak>Call <phoneme alphabet="ipa" ph="ʃəˈvɔn">Siobhan</phoneme> <emphasis>now</emphasis>.
+  <break time="500ms"/> <mark name="asked"/> <prosody rate="slow" pitch="-2st">Please.</prosody>
+</speak>
+"""
+
+# ruff: noqa: RUF002 - letters of the International Phonetic Alphabet are meant.
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import reduce
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+
+from hri.core.errors import AuthoringError, Place, did_you_mean
+from hri.core.signals import Prosody, Speech
+from hri.core.xml import Element, parse_xml
+from hri.hal.drivers.resampling import resample
+from hri.hal.synthesizer import Synthesizer
+from hri.speech.grammar.numerals import in_words
+from hri.speech.pronunciation.alphabets import from_arpabet, from_ipa, from_x_sampa
+from hri.speech.pronunciation.phones import Phones
+
+SOURCE = Path("ssml")
+"""Where mistakes are, for people."""
+LONGEST = 100_000
+"""Characters of markup."""
+LONGEST_BREAK = 10.0
+"""Seconds."""
+
+PLAIN_RATE = 24000
+"""Samples a second of a break at the begin."""
+ENDS = tuple(".!?\N{HORIZONTAL ELLIPSIS}:;,")
+JOINT = 0.02
+"""Seconds of a pause that are left within a sentence."""
+BREAKS = {
+    "none": 0.0, "x-weak": 0.1, "weak": 0.2, "medium": 0.4, "strong": 0.8, "x-strong": 1.2,
+}  # fmt: skip
+"""Seconds."""
+RATES = {"x-slow": 0.6, "slow": 0.8, "medium": 1.0, "fast": 1.25, "x-fast": 1.6}
+PITCHES = {"x-low": 0.75, "low": 0.87, "medium": 1.0, "high": 1.15, "x-high": 1.33}
+RANGES = {"x-low": 0.4, "low": 0.7, "medium": 1.0, "high": 1.4, "x-high": 1.8}
+VOLUMES = {
+    "silent": 0.0, "x-soft": 0.4, "soft": 0.7, "medium": 1.0, "loud": 1.3, "x-loud": 1.6,
+}  # fmt: skip
+EMPHASES = {
+    "strong": Prosody(rate=0.85, pitch=1.12, volume=1.3, range=1.4),
+    "moderate": Prosody(rate=0.92, pitch=1.06, volume=1.15, range=1.2),
+    "none": Prosody(),
+    "reduced": Prosody(rate=1.08, volume=0.8, range=0.7),
+}
+LIMITS = {"rate": (0.5, 2.0), "pitch": (0.5, 2.0), "range": (0.0, 3.0), "volume": (0.0, 2.0)}
+"""Of the factors of all elements around a text together."""
+ALPHABETS: dict[str, Callable[[str], Phones]] = {
+    "ipa": from_ipa,
+    "x-sampa": from_x_sampa,
+    "x-arpabet": from_arpabet,
+}
+DATES = ("mdy", "dmy", "ymd")
+UNITS = {"rate": "%", "pitch": "% st", "range": "% st", "volume": "% dB"}
+MONTHS = (
+    "January", "February", "March", "April", "May", "June", "July", "August", "September",
+    "October", "November", "December",
+)  # fmt: skip
+
+_NO_SPACE_BEFORE = re.compile(r"[.,;:!?)]")
+_TIME = re.compile(r"\+?(\d{0,6}\.?\d{1,6})(ms|s)")
+_CHANGE = re.compile(r"([+-]?)(\d{0,4}\.?\d{1,4})(%|st|dB)")
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class Passage:
+    """Words that are said in one way."""
+
+    text: str
+    prosody: Prosody
+
+
+@dataclass(frozen=True, slots=True)
+class Break:
+    """A pause."""
+
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """A place that is reported when it is reached."""
+
+    name: str
+
+
+Piece = Passage | Break | Mark
+
+
+@dataclass(frozen=True, slots=True)
+class Ssml:
+    """A text with markup, checked: `Ssml.parse("<speak>Hello.</speak>")`."""
+
+    text: str
+    """The words that are said."""
+    pieces: tuple[Piece, ...]
+
+    @classmethod
+    def parse(cls, source: str) -> Ssml:
+        """Raises AuthoringError with line and column of the first mistake."""
+        if len(source) > LONGEST:
+            what = f"{len(source)} characters of markup"
+            raise AuthoringError(Place(SOURCE), what, f"keep to {LONGEST}")
+        root = parse_xml(source.encode("utf-8", "replace"), SOURCE)
+        if root.tag != "speak":
+            raise root.error(f"<{root.tag}> is not a text to speak", "write <speak>...</speak>")
+        pieces = tuple(_joined(_pieces(root, Prosody())))
+        texts = [piece.text for piece in pieces if isinstance(piece, Passage)]
+        if not texts:
+            raise root.error("it says nothing", "put words between <speak> and </speak>")
+        return cls(reduce(_written_after, texts), pieces)
+
+
+def is_ssml(text: str) -> bool:
+    """Whether a text is meant as markup; a plain text may have any `<` elsewhere."""
+    return text.lstrip().startswith(("<speak>", "<speak "))
+
+
+def combined(one: Prosody, other: Prosody) -> Prosody:
+    """One prosody within another: factors multiply within LIMITS, the inner voice counts."""
+    factors = {
+        name: min(max(getattr(one, name) * getattr(other, name), low), high)
+        for name, (low, high) in LIMITS.items()
+    }
+    return Prosody(**factors, voice=other.voice or one.voice, sounds=(*one.sounds, *other.sounds))
+
+
+def spoken(
+    document: Ssml,
+    voice: Synthesizer,
+    prosody: Prosody,
+    take: Callable[[Speech], object],
+    is_wanted: Callable[[], bool],
+) -> Speech:
+    """A document in the sound of a voice, handed over as `Synthesizer.stream` does.
+
+    Positions of words count in `document.text`. Where a passage ends within a sentence, the pause
+    of its end is cut.
+    """
+    whole: Speech | None = None
+    position, marks = 0, []
+    for piece in document.pieces:
+        at = 0.0 if whole is None else whole.duration
+        if isinstance(piece, Mark):
+            marks.append((piece.name, at))
+        elif isinstance(piece, Break):
+            whole = _after(whole, _silence(piece.seconds, whole), document.text, position)
+        elif is_wanted():
+            position = document.text.index(piece.text, position)
+            said = voice.stream(piece.text, combined(prosody, piece.prosody), _ignore, is_wanted)
+            whole = _after(whole, _flowing(said), document.text, position)
+            position += len(piece.text)
+        if whole is not None:
+            whole = replace(whole, marks=tuple(marks))
+            take(whole)
+    assert whole is not None, "a document says something"
+    return whole
+
+
+def _ignore(speech: Speech) -> None:
+    """The parts of a passage are handed over when it is whole."""
+
+
+def _after(whole: Speech | None, part: Speech, text: str, position: int) -> Speech:
+    before = whole or Speech(text, np.zeros(0, np.int16), part.rate)
+    if part.rate != before.rate:
+        samples = resample(part.samples, part.rate, before.rate)
+        part = replace(part, samples=samples, rate=before.rate)
+    return before.then(part, position)
+
+
+def _silence(seconds: float, before: Speech | None) -> Speech:
+    rate = PLAIN_RATE if before is None else before.rate
+    return Speech("", np.zeros(round(seconds * rate), np.int16), rate)
+
+
+def _flowing(speech: Speech) -> Speech:
+    """Without the pause after it, unless it ends a sentence."""
+    last = speech.phonemes[-1:]
+    if speech.text.rstrip()[-1:] in ENDS or not last or not last[0].name.startswith("_"):
+        return speech
+    end = round((last[0].start + JOINT) * speech.rate)
+    return replace(speech, samples=speech.samples[:end], phonemes=speech.phonemes[:-1])
+
+
+def _pieces(element: Element, prosody: Prosody) -> Iterator[Piece]:
+    """What an element says, in order."""
+    for part in element.content():
+        if isinstance(part, str):
+            if words := " ".join(part.split()):
+                yield Passage(words, prosody)
+        elif part.tag not in _ELEMENTS:
+            what = f"<{part.tag}> is not a part of SSML that is understood"
+            raise part.error(what, did_you_mean(part.tag, _ELEMENTS))
+        else:
+            yield from _ELEMENTS[part.tag](part, prosody)
+
+
+def _joined(pieces: Iterator[Piece]) -> Iterator[Piece]:
+    """Passages that follow each other and are said in one way become one."""
+    last: Passage | None = None
+    for piece in pieces:
+        if isinstance(piece, Passage) and last is not None and _is_alike(last, piece):
+            sounds = (*last.prosody.sounds, *piece.prosody.sounds)
+            text = _written_after(last.text, piece.text)
+            last = Passage(text, replace(piece.prosody, sounds=sounds))
+            continue
+        if last is not None:
+            yield last
+        last = piece if isinstance(piece, Passage) else None
+        if last is None:
+            yield piece
+    if last is not None:
+        yield last
+
+
+def _written_after(text: str, more: str) -> str:
+    return text + ("" if _NO_SPACE_BEFORE.match(more) else " ") + more
+
+
+def _is_alike(one: Passage, other: Passage) -> bool:
+    return replace(one.prosody, sounds=()) == replace(other.prosody, sounds=())
+
+
+def _part(element: Element, prosody: Prosody) -> Iterator[Piece]:
+    element.check_attributes("xml:lang")
+    yield from _pieces(element, prosody)
+    if element.tag == "p":
+        yield Break(BREAKS["medium"])
+
+
+def _break(element: Element, prosody: Prosody) -> Iterator[Piece]:
+    element.check((), ("time", "strength"))
+    seconds = _named(element, "strength", BREAKS, "medium")
+    if time := element.get("time", ""):
+        found = _TIME.fullmatch(time.strip())
+        if found is None:
+            raise element.error(f'time is "{time}"', 'write "500ms" or "1.5s"', "time")
+        seconds = float(found[1]) / (1000 if found[2] == "ms" else 1)
+    if seconds > LONGEST_BREAK:
+        raise element.error(f"a break of {seconds:g} s", f"keep to {LONGEST_BREAK:g} s", "time")
+    if seconds:
+        yield Break(seconds)
+
+
+def _emphasis(element: Element, prosody: Prosody) -> Iterator[Piece]:
+    element.check_attributes("level")
+    yield from _pieces(element, combined(prosody, _named(element, "level", EMPHASES, "moderate")))
+
+
+def _prosody(element: Element, prosody: Prosody) -> Iterator[Piece]:
+    element.check_attributes("rate", "pitch", "range", "volume")
+    change = Prosody(
+        rate=_factor(element, "rate", RATES),
+        pitch=_factor(element, "pitch", PITCHES),
+        range=_factor(element, "range", RANGES),
+        volume=_factor(element, "volume", VOLUMES),
+    )
+    yield from _pieces(element, combined(prosody, change))
+
+
+def _voice(element: Element, prosody: Prosody) -> Iterator[Piece]:
+    element.check_attributes("name")
+    yield from _pieces(element, replace(prosody, voice=element.get("name")))
+
+
+def _say_as(element: Element, prosody: Prosody) -> Iterator[Piece]:
+    element.check_attributes("interpret-as", "format")
+    kind, words = element.get("interpret-as"), _words(element)
+    if kind not in _SAID_AS:
+        remedy = did_you_mean(kind, _SAID_AS)
+        raise element.error(f'interpret-as is "{kind}"', remedy, "interpret-as")
+    try:
+        yield Passage(_SAID_AS[kind](words, element.get("format", "")), prosody)
+    except ValueError as error:
+        what = f'"{words:.40}" cannot be read as {kind}'
+        raise element.error(what, str(error), "interpret-as") from error
+
+
+def _phoneme(element: Element, prosody: Prosody) -> Iterator[Piece]:
+    element.check_attributes("alphabet", "ph")
+    words, alphabet = _words(element).split(), element.get("alphabet", "ipa")
+    if len(words) != 1:
+        raise element.error(f"{len(words)} words in <phoneme>", "give each word its own")
+    if alphabet not in ALPHABETS:
+        remedy = did_you_mean(alphabet, ALPHABETS)
+        raise element.error(f'alphabet is "{alphabet}"', remedy, "alphabet")
+    try:
+        phones = ALPHABETS[alphabet](element.get("ph"))
+    except ValueError as error:
+        what, remedy = f'no sound "{error}" in {alphabet}', "write a sound of English"
+        raise element.error(what, remedy, "ph") from error
+    if not phones:
+        raise element.error("ph has no sounds", "write them, or leave out <phoneme>", "ph")
+    word = re.sub(r"^\W+|\W+$", "", words[0]).lower()
+    yield Passage(words[0], replace(prosody, sounds=((word, phones),)))
+
+
+def _sub(element: Element, prosody: Prosody) -> Iterator[Piece]:
+    element.check_attributes("alias")
+    _words(element)
+    if alias := " ".join(element.get("alias").split()):
+        yield Passage(alias, prosody)
+
+
+def _words(element: Element) -> str:
+    """The text of an element that has no others inside."""
+    for child in element:
+        raise child.error(f"<{child.tag}> has no place in <{element.tag}>", "delete it")
+    return " ".join(element.text.split())
+
+
+def _mark(element: Element, prosody: Prosody) -> Iterator[Piece]:
+    element.check((), ("name",))
+    yield Mark(element.get("name"))
+
+
+_ELEMENTS: Mapping[str, Callable[[Element, Prosody], Iterator[Piece]]] = {
+    "p": _part,
+    "s": _part,
+    "break": _break,
+    "emphasis": _emphasis,
+    "prosody": _prosody,
+    "voice": _voice,
+    "say-as": _say_as,
+    "phoneme": _phoneme,
+    "sub": _sub,
+    "mark": _mark,
+}
+
+
+def _characters(text: str, _: str) -> str:
+    return " ".join(in_words(c) if c.isdigit() else c.upper() for c in text if not c.isspace())
+
+
+def _digits(text: str, _: str) -> str:
+    groups = re.findall(r"\d+", text)
+    if not groups:
+        raise ValueError("write digits")
+    return ", ".join(" ".join(in_words(digit) for digit in group) for group in groups)
+
+
+def _cardinal(text: str, _: str) -> str:
+    if not re.fullmatch(r"-?[\d,]*\d(\.\d+)?", text):
+        raise ValueError("write a number, such as 42")
+    number = text.replace(",", "")
+    return f"minus {in_words(number[1:])}" if number.startswith("-") else in_words(number)
+
+
+def _ordinal(text: str, _: str) -> str:
+    if not re.fullmatch(r"\d{1,9}", text):
+        raise ValueError("write a whole number, such as 3")
+    last = "th" if text[-2:-1] == "1" else {"1": "st", "2": "nd", "3": "rd"}.get(text[-1], "th")
+    return text + last
+
+
+def _date(text: str, order: str) -> str:
+    numbers = re.findall(r"\d+", text)
+    order = order or ("ymd" if numbers and len(numbers[0]) == 4 else "mdy")
+    if order not in DATES or len(numbers) != 3:
+        raise ValueError('write three numbers, and format="mdy", "dmy" or "ymd"')
+    found = dict(zip(order, map(int, numbers), strict=True))
+    if not (1 <= found["m"] <= 12 and 1 <= found["d"] <= 31):
+        raise ValueError('change the format: "mdy", "dmy" or "ymd"')
+    return f"{MONTHS[found['m'] - 1]} {found['d']}, {found['y']}"
+
+
+def _as_written(text: str, _: str) -> str:
+    return text
+
+
+_SAID_AS: Mapping[str, Callable[[str, str], str]] = {
+    "characters": _characters,
+    "spell-out": _characters,
+    "digits": _digits,
+    "telephone": _digits,
+    "cardinal": _cardinal,
+    "number": _cardinal,
+    "ordinal": _ordinal,
+    "date": _date,
+    "time": _as_written,
+}
+
+
+def _named(element: Element, attribute: str, values: Mapping[str, T], otherwise: str) -> T:
+    name = element.get(attribute, otherwise)
+    if name not in values:
+        raise element.error(f'{attribute} is "{name}"', did_you_mean(name, values), attribute)
+    return values[name]
+
+
+def _factor(element: Element, attribute: str, names: Mapping[str, float]) -> float:
+    """A change as a factor: a word, percent, semitones, or decibels."""
+    value = element.get(attribute, "medium").strip()
+    if value in (*names, "default"):
+        return names.get(value, 1.0)
+    found = _CHANGE.fullmatch(value)
+    if found is None or found[3] not in UNITS[attribute].split():
+        remedy = did_you_mean(value, names, 'write "slow", "+10%", "-2st" or "+6dB"')
+        raise element.error(f'{attribute} is "{value}"', remedy, attribute)
+    sign, amount, unit = found[1], float(found[2]), found[3]
+    signed = -amount if sign == "-" else amount
+    if unit == "%":  # without a sign it is a share of the plain voice
+        return max(1 + signed / 100, 0.0) if sign else amount / 100
+    return float(2 ** (min(signed, 99) / 12) if unit == "st" else 10 ** (min(signed, 99) / 20))

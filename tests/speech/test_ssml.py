@@ -1,0 +1,173 @@
+"""Speech as markup: what is said, how, when; and what is refused, where."""
+
+# ruff: noqa: RUF001 - letters of the International Phonetic Alphabet are meant.
+
+import numpy as np
+import pytest
+from hypothesis import given, strategies as st
+
+from hri.core.clock import FakeClock
+from hri.core.errors import AuthoringError
+from hri.core.signals import Prosody
+from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
+from hri.speech.pronunciation.alphabets import from_arpabet, from_ipa, from_x_sampa
+from hri.speech.ssml import LIMITS, Break, Mark, Passage, Ssml, is_ssml, spoken
+from hri.speech.synthesizers.espeak import EspeakVoice
+from hri.speech.synthesizers.natural import NaturalVoice
+from hri.speech.synthesizers.silent import SilentVoice
+from hri.speech.voice import Voice
+
+from .fakes import Stage
+
+PLAIN = Prosody()
+
+
+def said(markup, kind=EspeakVoice):
+    voice = kind(Description("voice", "a voice"), ResourceManager((), FakeClock()))
+    voice.activate()
+    return spoken(Ssml.parse(markup), voice, PLAIN, lambda speech: None, lambda: True)
+
+
+def test_a_document_is_a_list_of_what_is_said_and_how():
+    document = Ssml.parse(
+        '<speak>It is <emphasis level="strong">very</emphasis> late.'
+        '<break time="500ms"/><mark name="bye"/>'
+        '<prosody rate="120%" pitch="-12st">Good <sub alias="evening">eve</sub></prosody>, sir.'
+        "</speak>"
+    )
+    assert document.text == "It is very late. Good evening, sir."
+    texts = [one.text if isinstance(one, Passage) else one for one in document.pieces]
+    assert texts == [
+        *("It is", "very", "late.", Break(0.5), Mark("bye"), "Good evening", ", sir."),
+    ]
+    _, very, _, _, _, good, _ = document.pieces
+    assert very.prosody.volume > 1
+    assert (good.prosody.rate, good.prosody.pitch) == (1.2, 0.5)
+
+
+@pytest.mark.parametrize(
+    ("kind", "written", "read"),
+    [
+        ("characters", "FAQ 1", "F A Q one"),
+        ("telephone", "555-12", "five five five, one two"),
+        ("cardinal", "-1,024", "minus one thousand twenty four"),
+        ("ordinal", "23", "23rd"),
+        ("ordinal", "112", "112th"),
+        ("date", "2026-11-24", "November 24, 2026"),
+        ("date", "12/31/2026", "December 31, 2026"),
+    ],
+)
+def test_what_is_said_as_something_is_read_so(kind, written, read):
+    markup = f'<speak><say-as interpret-as="{kind}">{written}</say-as></speak>'
+    assert Ssml.parse(markup).text == read
+
+
+@pytest.mark.parametrize("kind", [EspeakVoice, NaturalVoice, SilentVoice])
+def test_times_go_on_over_all_that_is_said(kind):
+    if kind is NaturalVoice:
+        pytest.importorskip("hibari", reason="no natural voice - pip install hibari-tts")
+    speech = said('<speak>One two.<break time="1s"/><mark name="m"/> Three four.</speak>', kind)
+    assert speech.text == "One two. Three four."
+    assert [w.text.strip(".") for w in speech.words] == ["One", "two", "Three", "four"]
+    assert all(speech.text[w.position :].startswith(w.text) for w in speech.words)
+    times = [time for word in speech.words for time in (word.start, word.end)]
+    assert times == sorted(times)
+    assert times[-1] <= speech.duration + 1e-9
+    ((name, time),) = speech.marks
+    assert name == "m"
+    assert times[3] + 1 <= time <= times[4]
+    quiet = speech.samples[round((time - 0.99) * speech.rate) : round(time * speech.rate)]
+    assert not quiet.any()
+
+
+@pytest.mark.parametrize("kind", [EspeakVoice, NaturalVoice])
+@pytest.mark.parametrize(
+    ("alphabet", "sounds"), [("ipa", "kˈæt"), ("x-sampa", 'k"{t'), ("x-arpabet", "K AE1 T")]
+)
+def test_a_word_sounds_as_it_is_written_in_phonemes(kind, alphabet, sounds):
+    if kind is NaturalVoice:
+        pytest.importorskip("hibari", reason="no natural voice - pip install hibari-tts")
+    word = f"<phoneme alphabet='{alphabet}' ph='{sounds}'>zyq</phoneme>"
+    names = [phoneme.name for phoneme in said(f"<speak>{word}</speak>", kind).phonemes]
+    assert names[:3] == ["k", "a", "t"]
+
+
+def test_within_a_sentence_no_pause_is_left():
+    pytest.importorskip("hibari", reason="no natural voice - pip install hibari-tts")
+    marked = said("<speak>It is <emphasis>very</emphasis> late today.</speak>", NaturalVoice)
+    pauses = [p for p in marked.phonemes[1:-1] if p.name.startswith("_") and p.duration > 0.12]
+    assert pauses == []
+
+
+def test_a_mark_is_an_event_when_it_is_reached():
+    stage = Stage(Voice())
+    stage.behavior.say(Ssml.parse('<speak>hello<mark name="half"/>hello<mark name="e"/></speak>'))
+    stage.run(2.0)
+    marks = [(time, what["name"]) for time, name, what in stage.events if name == "speech.marked"]
+    assert [name for _, name in marks] == ["half", "e"]
+    begun, ended = stage.events[0][0], stage.events[-1][0]
+    assert stage.names() == ["speech.said", "speech.marked", "speech.marked", "speech.finished"]
+    assert marks[0][0] == pytest.approx((begun + ended) / 2, abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("markup", "message"),
+    [
+        ("<speak>a <brek/></speak>", 'ssml:1:10: <brek> .* did you mean "break"'),
+        ('<speak>\n<break time="5 minutes"/></speak>', "ssml:2:8: time is"),
+        ('<speak><break time="11s"/>a</speak>', "keep to 10 s"),
+        ('<speak><prosody rate="slwo">x</prosody></speak>', 'did you mean "slow"'),
+        ('<speak><prosody rate="2st">x</prosody></speak>', "rate is"),
+        ('<speak><phoneme ph="ʘ">x</phoneme></speak>', 'no sound "ʘ"'),
+        ('<speak><phoneme ph="a">x y</phoneme></speak>', "2 words"),
+        ('<speak><say-as interpret-as="dat">x</say-as></speak>', 'did you mean "date"'),
+        ('<speak><say-as interpret-as="date">99/99/1</say-as></speak>', "cannot be read as date"),
+        ("<speak><sub>x</sub></speak>", 'no "alias"'),
+        ("<speak>a", "close <speak>"),
+        ("<speak/>", "it says nothing"),
+        ("<say>a</say>", "<speak>"),
+        ('<!DOCTYPE s [<!ENTITY a "b">]><speak>&a;</speak>', "DOCTYPE"),
+        ("<speak>&lol;</speak>", "undefined entity"),
+        ("<speak>" + "<p>" * 10_000, "too deep"),
+        ("<speak>" + "a " * 600_000 + "</speak>", "keep to 100000"),
+        ("<speak>\x07</speak>", "not well-formed"),
+    ],
+)
+def test_a_mistake_is_one_line_with_its_place(markup, message):
+    with pytest.raises(AuthoringError, match=message) as raised:
+        Ssml.parse(markup)
+    assert "\n" not in str(raised.value)
+
+
+@given(st.text(alphabet="<>/speakbr=\"'& a1\ud800é", max_size=80))
+def test_any_text_is_parsed_or_refused(text):
+    try:
+        document = Ssml.parse(f"<speak>{text}</speak>")
+    except AuthoringError:
+        return
+    assert document.text
+
+
+CHANGES = st.sampled_from(("+50%", "-90%", "300%", "x-low", "+24st", "medium"))
+
+
+@given(st.lists(CHANGES, min_size=1, max_size=12))
+def test_nested_changes_stay_within_what_can_be_followed(changes):
+    opened = "".join(f'<prosody pitch="{change}">' for change in changes)
+    (passage,) = Ssml.parse(f"<speak>{opened}a{'</prosody>' * len(changes)}</speak>").pieces
+    low, high = LIMITS["pitch"]
+    assert low <= passage.prosody.pitch <= high
+
+
+def test_plain_text_may_have_any_signs():
+    assert not is_ssml("a < b and <speakers>")
+    assert is_ssml(' <speak version="1.1">a</speak>')
+    speech = SilentVoice(Description("v", "v"), ResourceManager((), FakeClock())).synthesize("a<b>")
+    assert np.isclose(speech.duration, 2 * 0.06)
+
+
+def test_the_alphabets_name_the_same_sounds():
+    assert from_ipa("ʃəˈvɔn") == from_x_sampa('S@"vOn') == from_arpabet("SH AH V AO1 N")
+    with pytest.raises(ValueError, match="Q7"):
+        from_arpabet("Q7")
