@@ -16,6 +16,7 @@ from hri.core.signals import Samples, Span, Speech
 from hri.hal.drivers.resampling import resample
 from hri.speech.grammar.numerals import in_words
 from hri.speech.pronunciation.lexicon import load_lexicon
+from hri.speech.pronunciation.notation import read_aloud
 from hri.speech.recognizers.ctc.adaptation import adapted
 from hri.speech.recognizers.ctc.alignment import Placed, forced, free, phonemes, placed
 from hri.speech.recognizers.ctc.conformer import FRAME, Conformer
@@ -87,7 +88,7 @@ def posteriors(sound: Samples) -> Floats:
 def spoken_words(text: str) -> Iterator[tuple[str, int]]:
     """The words that a text is read as, each with the number of the written word it stands for."""
     written = text.split()
-    read = in_words(_read(text)).split()
+    read = in_words(_read(read_aloud(text))).split()
     for word, origin in zip(read, aligned(written, read), strict=True):
         plain = unicodedata.normalize(
             "NFKD", word.lower().replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")

@@ -7,10 +7,11 @@ import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from difflib import SequenceMatcher
-from itertools import accumulate
+from itertools import accumulate, zip_longest
 from typing import Any
 
 from hri.speech.pronunciation.lexicon import Lexicon
+from hri.speech.pronunciation.notation import goes_on, read_aloud
 from hri.speech.pronunciation.phones import Phones
 from hri.speech.synthesizers.espeak_text import plain, stressed, user_phones
 from hri.speech.synthesizers.natural_symbols import SPACE, symbols_of
@@ -55,7 +56,7 @@ class Reader:
         """
         text, lexicon = plain(text), self._lexicon.extended(sounds)
         done = 0
-        for sentence in self._split(text):
+        for sentence in _whole(self._split(text), text):
             position = text.index(sentence, done)
             done = position + len(sentence)
             symbols, words = ("", ()) if is_foreign(sentence) else self._read(sentence, lexicon)
@@ -64,7 +65,7 @@ class Reader:
     def _read(self, sentence: str, lexicon: Lexicon) -> tuple[str, tuple[int, ...]]:
         from hibari.g2p.normalize import normalize
 
-        normal = normalize(sentence.translate(_MARKUP))
+        normal = normalize(read_aloud(sentence.translate(_MARKUP)))
         tokens = self._g2p.tokenize(normal)
         for token in tokens:
             if phones := user_phones(token.text, lexicon):
@@ -78,6 +79,17 @@ class Reader:
             symbols.append(of_token)
             words += [origins[min(number, len(origins) - 1)]] * len(of_token)
         return "".join(symbols), tuple(words)
+
+
+def _whole(parts: Sequence[str], text: str) -> Iterator[str]:
+    """The sentences of a text, without parting it after abbreviations before a number."""
+    begin = done = 0
+    for part, after in zip_longest(parts, parts[1:], fillvalue=""):
+        begin = text.index(part, done) if begin == done else begin
+        done = text.index(part, done) + len(part)
+        if not goes_on(part, after):
+            yield text[begin:done]
+            begin = done
 
 
 def _numbers(tokens: Sequence[Any]) -> list[int]:

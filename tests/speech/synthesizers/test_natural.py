@@ -271,6 +271,13 @@ def test_what_was_kept_of_slow_voices_may_be_damaged(monkeypatch, tmp_path):
     assert fallen_back(RealClock())[1] == []
 
 
+def test_an_abbreviation_before_a_number_ends_no_sentence(voice):
+    text = "On Nov. 24 we met. It is No. 5. Yes."
+    speech = voice.synthesize(text)
+    assert [one.text for one in speech.sentences] == ["On Nov. 24 we met.", "It is No. 5.", "Yes."]
+    assert [word.text for word in speech.words] == text.split()
+
+
 @settings(max_examples=40)
 @given(st.text(max_size=60))
 def test_it_speaks_whatever_it_is_given(text):
