@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from benchmarks.speech import accuracy, alignment, feelings, peers
+from benchmarks.speech import accuracy, alignment, feelings, heard_back, peers
 from hri.bench.speech.latency import Progress
 from hri.bench.speech.listening import Listen
 from hri.bench.speech.samples import Recordings
@@ -26,3 +26,5 @@ def rows(
     yield from attempted(feelings.WHAT, feelings.rows)
     progress(alignment.WHAT)
     yield from attempted(alignment.WHAT, alignment.rows)
+    progress(heard_back.WHAT)
+    yield from attempted(heard_back.WHAT, heard_back.rows)
