@@ -78,6 +78,7 @@ class Companion:
         self.emotion = context.behavior(EmotionModel)
         self.camera = context.resources.obtain("camera", Camera)
         self.replies = authored_replies(context)
+        self.voice.voice = self.replies.voice or self.voice.voice
         self.talk = Lane(context)
         self.motion = Lane(context)
         self.face = Lane(context)

@@ -70,6 +70,8 @@ class Replies:
     """All that the companion can say."""
 
     name: str = ""
+    voice: str = ""
+    """Whose voice it speaks with; empty for that of the configuration."""
     replies: Mapping[str, Reply] = field(default_factory=dict)
     """By public rule of the grammar."""
     unasked: Mapping[str, str] = field(default_factory=dict)
@@ -117,6 +119,7 @@ def load_replies(files: Sequence[Path], vocabulary: Vocabulary) -> Replies:
 def _read(table: Table, vocabulary: Vocabulary, mistakes: Mistakes, is_own: bool) -> Replies:
     """One file; only the app's own must fit the grammar: those it extends may know other rules."""
     name = mistakes.keep(lambda: table.string("name", "")) or ""
+    voice = mistakes.keep(lambda: table.string("voice", "")) or ""
     entries = dict(mistakes.keep(lambda: list(table.tables("reply"))) or ())
     rules = vocabulary.grammar.public_rules
     missing = [rule for rule in rules if rule not in entries]
@@ -134,12 +137,13 @@ def _read(table: Table, vocabulary: Vocabulary, mistakes: Mistakes, is_own: bool
     asked = mistakes.keep(lambda: table.array("question")) or ()
     questions = [mistakes.keep(partial(_question, entry)) for entry in asked]
     mistakes.keep(table.finish)
-    return Replies(name, replies, unasked, tuple(filter(None, questions)))
+    return Replies(name, voice, replies, unasked, tuple(filter(None, questions)))
 
 
 def _joined(below: Replies, above: Replies) -> Replies:
     return Replies(
         above.name or below.name,
+        above.voice or below.voice,
         {**below.replies, **above.replies},
         {**below.unasked, **above.unasked},
         (*below.questions, *above.questions),

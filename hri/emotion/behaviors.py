@@ -290,7 +290,7 @@ class EmotionDisplay(Behavior):
         if override is None:
             self.expression.send(display.expression(shown, personality.expressiveness))
         felt = felt_now(shown)
-        self.prosody.send(display.prosody(felt))
+        self.prosody.send(replace(display.prosody(felt), voice=personality.voice))
         self.speed.send(display.speed.value(felt))
         self.arousal.send(felt[1])
         self.gaze.send(display.eyes(felt))

@@ -58,6 +58,8 @@ class Personality:
     """Seconds in which an emotion of charge 1 would move the mood by its own coordinates."""
     expressiveness: float = 1.0
     """How much of its feelings the face shows."""
+    voice: str = ""
+    """Whose voice it speaks with: a name, a language or a character; empty for the robot's own."""
     drives: tuple[Drive, ...] = DRIVES
     """What it needs."""
 
@@ -101,6 +103,7 @@ def load_personality(name: str) -> Personality:
         return_s=mood.number("return_s", _RETURN_S, minimum=1, maximum=86400),
         follow_s=mood.number("follow_s", _FOLLOW_S, minimum=1, maximum=86400),
         expressiveness=table.number("expressiveness", 1.0, minimum=0, maximum=2),
+        voice=table.string("voice", ""),
         drives=_drives(table.table("drive", optional=True)),
     )
     mood.finish()

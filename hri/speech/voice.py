@@ -96,6 +96,7 @@ class Voice(Behavior):
     word = Output[str]("string", "the word that is being said, when it begins")
     is_speaking = Output[bool]("boolean", "whether a sound is going on")
     voice_id = Param("voice", "resource that makes sound of text")
+    voice = Param("", "whose voice: a name, a language or a character (`hri voices`)")
     speaker_id = Param("speaker", "resource that plays it")
     latency_s = Param(0.05, "time that making the sound takes on a fake clock", minimum=0.0)
 
@@ -206,6 +207,7 @@ class Voice(Behavior):
             return
         saying = self._making = self._queue.pop(0)
         prosody = saying.prosody or self.prosody.value or self._prosody
+        prosody = prosody if prosody.voice else replace(prosody, voice=self.voice)
         take = self._taker(saying)
 
         def is_wanted() -> bool:

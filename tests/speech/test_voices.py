@@ -107,7 +107,7 @@ def test_pyttsx3_speaks_one_sentence_after_the_other_in_silence(resources, capfd
         pytest.skip(str(error))
 
     assert 0.3 < first.duration < second.duration < 4.0
-    assert first.phonemes == ()
+    assert {"h", "l", "oU"} <= {phoneme.name for phoneme in first.phonemes}
     assert capfd.readouterr().out == ""
     assert not list(Path().glob("*.wav"))
 

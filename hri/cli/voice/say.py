@@ -68,7 +68,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add(
         "--voice",
         default=PLAIN_VOICE,
-        help="a voice: heart, en-gb, en-us+f3, ... (%(default)s)",
+        help="a voice, a language or a character: en-gb, german, robot, ... (%(default)s)",
     )
     add("--rate", type=int, metavar="WPM", help=f"words a minute, {RATES}")
     add(
@@ -101,7 +101,7 @@ def run(options: argparse.Namespace) -> int:
     try:
         speech = _synthesize(resources, options)
         if not _written(speech, options):
-            trio.run(_play, resources, speech)
+            trio.run(play, resources, speech)
     except AuthoringError as error:
         if error.place.path != NO_FILE:
             raise
@@ -242,7 +242,8 @@ def _rounded(fields: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-async def _play(resources: ResourceManager, speech: Speech) -> None:
+async def play(resources: ResourceManager, speech: Speech) -> None:
+    """Play a speech to its end. Raises NotAvailable without a sound card."""
     from hri.hal.drivers.sound_card import SoundCardSpeaker
 
     speaker = SoundCardSpeaker(Description("speaker", "Hri.Speaker"), resources)

@@ -7,7 +7,8 @@ from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.hal.synthesizer import Synthesizer
 from hri.speech.synthesizers.espeak import EspeakVoice
-from hri.speech.synthesizers.natural import HEART, NaturalVoice
+from hri.speech.synthesizers.natural import NaturalVoice
+from hri.speech.synthesizers.voice_names import HEART, voice_named
 
 PLAIN_VOICE = HEART
 NO_FILE = Description("", "").place.path
@@ -18,6 +19,7 @@ def open_voice(resources: ResourceManager, name: str, rate: int | None = None) -
     """The voice of a name at a rate in words a minute. Raises HriError when there is none."""
     parameters = {} if rate is None else {"rate_wpm": str(rate)}
     voice: Synthesizer
+    name = voice_named(name) or name
     if name == HEART:
         voice = NaturalVoice(Description("voice", "Hri.NaturalVoice", parameters), resources)
     else:

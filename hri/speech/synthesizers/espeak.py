@@ -6,16 +6,18 @@ import math
 import re
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from hri.core.errors import HriError, did_you_mean
+from hri.core.errors import did_you_mean
 from hri.core.signals import Phoneme, Prosody, Samples, Span, Speech
 from hri.hal.synthesizer import PLAIN, Synthesizer
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.synthesizers.espeak_library import Event, Mark, Setting, load_espeak
 from hri.speech.synthesizers.espeak_text import reading
+from hri.speech.synthesizers.voice_names import HEART, unknown, voice_named
 
 PLAIN_SETTING = Setting()
 SLOWEST, FASTEST = 80, 450
@@ -40,6 +42,7 @@ class EspeakVoice(Synthesizer):
 
     def _open(self) -> None:
         self._library = load_espeak()
+        self._missing: set[str] = set()
         self._plain = Setting(
             voice=self.description.text("voice", PLAIN_SETTING.voice),
             rate=self.description.count("rate_wpm", PLAIN_SETTING.rate, SLOWEST, FASTEST),
@@ -49,6 +52,14 @@ class EspeakVoice(Synthesizer):
             raise self.description.error("voice", *self._unknown(self._plain.voice))
         own = self.description.text("lexicon")
         self._lexicon = load_lexicon(*[Path(own)] * bool(own))
+
+    def _meant(self, name: str) -> str:
+        """The voice of a name, a language or a character; empty: its own, after a notice."""
+        meant = voice_named(name) if name else ""
+        if name and not meant and name not in self._missing:
+            self._missing.add(name)
+            self.manager.notice(f"{self.id}: {unknown(name)}; {self._plain.voice} speaks")
+        return "" if meant == HEART else meant
 
     def _unknown(self, voice: str) -> tuple[str, str]:
         """What is wrong with the name of a voice that is not there, and the remedy."""
@@ -70,9 +81,7 @@ class EspeakVoice(Synthesizer):
         take: Callable[[Speech], object],
         is_wanted: Callable[[], bool],
     ) -> Speech:
-        setting = scaled(self._plain, prosody)
-        if prosody.voice and not self._library.has_voice(prosody.voice):
-            raise HriError(f"{self.id}: {' - '.join(self._unknown(prosody.voice))}")
+        setting = scaled(self._plain, replace(prosody, voice=self._meant(prosody.voice)))
         is_english = setting.voice.lower().startswith("en")
         lexicon = self._lexicon.extended(prosody.sounds) if is_english else None
         read = reading(text[:LONGEST_TEXT], lexicon)

@@ -23,9 +23,8 @@ from hri.speech.synthesizers.natural_network import RATE, Network, Sound, Uttera
 from hri.speech.synthesizers.natural_symbols import MNEMONICS, PAUSE, STRESSES, Sounded, phonemes
 from hri.speech.synthesizers.natural_text import Reader, Sentence
 from hri.speech.synthesizers.pace import Pace, remember_slow, slow_file, slow_voices
+from hri.speech.synthesizers.voice_names import HEART, unknown, voice_named
 
-HEART = "heart"
-"""The voice inside the package: an American woman."""
 PLAIN_WPM = 165
 """Words a minute at a rate of 1."""
 LOUDNESS = 0.1
@@ -53,6 +52,7 @@ class NaturalVoice(Synthesizer):
         model = self.description.text("model")
         self._name = model or HEART
         self._pace = Pace()
+        self._missing: set[str] = set()
         self._other = self._opened_other()
         self._network: Network | None = None
         try:
@@ -100,8 +100,7 @@ class NaturalVoice(Synthesizer):
         take: Callable[[Speech], object],
         is_wanted: Callable[[], bool],
     ) -> Speech:
-        if prosody.voice == HEART:
-            prosody = replace(prosody, voice="")
+        prosody = replace(prosody, voice=self._meant(prosody.voice))
         if self._other is not None and (self._network is None or prosody.voice):
             return self._other.stream(text, prosody, take, is_wanted)
         whole = Speech(text, np.zeros(0, np.int16), RATE)
@@ -112,6 +111,16 @@ class NaturalVoice(Synthesizer):
             take(whole)
         take(whole)
         return whole
+
+    def _meant(self, name: str) -> str:
+        """The voice of a name, a language or a character; empty: this one, after a notice."""
+        if not name or self._other is None:
+            return ""
+        meant = voice_named(name)
+        if not meant and name not in self._missing:
+            self._missing.add(name)
+            self.manager.notice(f"{self.id}: {unknown(name)}; {self._name} speaks")
+        return "" if meant == HEART else meant
 
     def _said(self, sentence: Sentence, prosody: Prosody) -> Speech:
         network = self._network

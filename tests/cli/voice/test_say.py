@@ -124,10 +124,20 @@ def test_voices_are_listed_by_language(capsys):
 
 def test_the_variants_take_a_few_lines_and_no_table(capsys):
     assert main(["voices", "--language", "Korean"]) == 0
-    table, variants = capsys.readouterr().out.split("\n\n")
+    table, variants, characters, engines = capsys.readouterr().out.split("\n\n")
     assert [line.split()[0] for line in table.splitlines()] == ["voice", "ko"]
     assert "+f3 +f4" in variants
     assert len(variants.splitlines()) < 20
+    assert "  robot " in characters
+    assert "Hri.EspeakVoice" in engines
+
+
+def test_voices_speak_one_after_the_other(tmp_path, capsys):
+    out = tmp_path / "heard.wav"
+    assert main(["voices", "--play", "en-us", "german", "robot", "--out", str(out)]) == 0
+    assert 7 < seconds(out) < 15
+    assert main(["voices", "--play", "robott", "--out", str(out)]) == 2
+    assert 'did you mean "robot"' in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
