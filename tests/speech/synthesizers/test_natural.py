@@ -1,6 +1,7 @@
 """The natural voice: the same sound each time, with times that hold, whatever it is given."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -231,7 +232,7 @@ def test_a_model_that_fails_while_it_speaks_loses_no_sentence():
 
     def after_the_first(speech):
         if len(speech.sentences) == 1:
-            voice._network = Lost()
+            voice._engine = replace(voice._engine, network=Lost())
 
     whole = voice.stream(TEXT, PLAIN, after_the_first, lambda: True)
     assert [word.text for word in whole.words] == TEXT.split()
