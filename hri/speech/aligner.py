@@ -7,7 +7,6 @@ import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cache
-from importlib.util import find_spec
 
 import numpy as np
 
@@ -16,14 +15,13 @@ from hri.core.signals import Samples, Span, Speech
 from hri.hal.drivers.resampling import resample
 from hri.speech.grammar.numerals import in_words
 from hri.speech.pronunciation.lexicon import load_lexicon
-from hri.speech.pronunciation.notation import read_aloud
 from hri.speech.recognizers.ctc.adaptation import adapted
 from hri.speech.recognizers.ctc.alignment import Placed, forced, free, phonemes, placed
 from hri.speech.recognizers.ctc.conformer import FRAME, Conformer
 from hri.speech.recognizers.ctc.features import RATE
 from hri.speech.recognizers.ctc.phone_graph import Floats
 from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
-from hri.speech.synthesizers.natural_text import aligned
+from hri.speech.synthesizers.natural_text import words_read
 
 PIECE, MARGIN = 14.0, 1.0
 """Seconds that the network hears at once, and on each side of what it is asked for."""
@@ -87,24 +85,12 @@ def posteriors(sound: Samples) -> Floats:
 
 def spoken_words(text: str) -> Iterator[tuple[str, int]]:
     """The words that a text is read as, each with the number of the written word it stands for."""
-    written = text.split()
-    read = in_words(_read(read_aloud(text))).split()
-    for word, origin in zip(read, aligned(written, read), strict=True):
-        plain = unicodedata.normalize(
-            "NFKD", word.lower().replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
-        )
-        for part in _WORD.findall("".join(c for c in plain if not unicodedata.combining(c))):
-            yield part, origin
-
-
-def _read(text: str) -> str:
-    """A text with prices, dates and abbreviations in words, where the natural voice is there."""
-    if find_spec("hibari") is None:
-        return text
-    from hibari.g2p.normalize import normalize
-
-    read: str = normalize(text)
-    return read
+    for read, origin in words_read(text):
+        for word in in_words(read).split():
+            straight = word.lower().replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
+            plain = unicodedata.normalize("NFKD", straight)
+            for part in _WORD.findall("".join(c for c in plain if not unicodedata.combining(c))):
+                yield part, origin
 
 
 def _spans(text: str, phones: Sequence[Placed], origins: Sequence[int]) -> Iterator[Span]:

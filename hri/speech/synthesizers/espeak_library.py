@@ -24,6 +24,7 @@ _PHONEME_EVENTS = 1
 _NO_EXIT = 0x8000
 _UTF8 = 1
 _SPELT_PHONEMES = 0x100
+_IPA = 0x02
 _RATE, _VOLUME, _PITCH, _RANGE = 1, 2, 3, 4
 _BLOCK_MS = 60
 _LONGEST_NAME = 40
@@ -204,6 +205,19 @@ class EspeakLibrary:
             # The mode asks for mnemonics with "_" between them.
             spelt = text_to_phonemes(ctypes.byref(rest), _UTF8, ord("_") << 8)
             return (spelt or b"").decode().replace("_", " ").split()
+
+    def ipa_of(self, text: str, voice: str) -> list[str]:
+        """The words of a text in the International Phonetic Alphabet, stress marks included."""
+        with self._lock:
+            self._choose(voice)
+            text_to_phonemes = self._library.espeak_TextToPhonemes
+            text_to_phonemes.restype = ctypes.c_char_p
+            rest = ctypes.c_char_p(text.replace("\0", " ").encode())
+            words: list[str] = []
+            while rest.value:  # a clause each time
+                spelt = text_to_phonemes(ctypes.byref(rest), _UTF8, _IPA)
+                words += (spelt or b"").decode(errors="replace").split()
+            return words
 
     @contextmanager
     def _fresh(self, voice: str) -> Iterator[ctypes.CDLL]:

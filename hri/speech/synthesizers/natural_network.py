@@ -78,7 +78,7 @@ class Network:
         """`synthesize` makes sound of spectra. Raises NotAvailable for another kind of file."""
         self._vocabulary = vocabulary
         self._synthesize = synthesize
-        self._session = _session(model)
+        self._session = session_of(model, _DURATIONS)
 
     def speak(self, symbols: str, prosody: Prosody) -> list[Utterance]:
         """The symbols in sound, in parts that the network can take at once."""
@@ -96,7 +96,7 @@ class Network:
         *spectra, pitch = (one[0] for one in framed)
         sound = self._sound(spectra, pitch, prosody)
         ends = np.cumsum(durations) * _FRAME / RATE - LEAD
-        return _trimmed(sound, _sounded(symbols, ids, ends))
+        return trimmed(sound, _sounded(symbols, ids, ends), RATE)
 
     def _sound(self, spectra: list[Spectrum], pitch: Curve, prosody: Prosody) -> Sound:
         """The sound of spectra, as loud at another pitch as at their own."""
@@ -125,17 +125,17 @@ def _sounded(symbols: str, ids: list[int | None], ends: NDArray[np.float64]) -> 
     return spoken
 
 
-def _trimmed(sound: Sound, symbols: list[Sounded]) -> Utterance:
-    """Without the silence that the network puts around a sentence, a third of a second each."""
+def trimmed(sound: Sound, symbols: list[Sounded], rate: int) -> Utterance:
+    """Without the silence that a network puts around a sentence, up to a third of a second."""
     blocks = sound[: len(sound) // _BLOCK * _BLOCK].reshape(-1, _BLOCK)
     loud = np.flatnonzero((blocks**2).mean(axis=1) > 10 ** (SILENCE_DBFS / 10))
     if not len(loud):
         return Utterance(sound[:0], tuple(Sounded(one.symbol, 0.0, 0.0) for one in symbols))
-    begin = max(int(loud[0]) * _BLOCK - round(BREATH * RATE), 0)
+    begin = max(int(loud[0]) * _BLOCK - round(BREATH * rate), 0)
     heard_until = (int(loud[-1]) + 1) * _BLOCK
-    end = min(heard_until + round(PAUSE * RATE), len(sound))
-    first, last = 0.0, (heard_until - begin) / RATE
-    times = [(one.start - begin / RATE, one.end - begin / RATE) for one in symbols]
+    end = min(heard_until + round(PAUSE * rate), len(sound))
+    first, last = 0.0, (heard_until - begin) / rate
+    times = [(one.start - begin / rate, one.end - begin / rate) for one in symbols]
     limited = [(min(max(a, first), last), min(max(b, first), last)) for a, b in times]
     kept = zip(symbols, limited, strict=True)
     return Utterance(sound[begin:end], tuple(Sounded(s.symbol, a, b - a) for s, (a, b) in kept))
@@ -183,8 +183,8 @@ def pitched(pitch: Curve, prosody: Prosody) -> Curve:
     return np.where(voiced, np.maximum(changed, VOICED_HZ + 1), pitch)
 
 
-def _session(path: Path) -> Any:
-    """The model with its durations among its outputs, on one thread."""
+def session_of(path: Path, output: str) -> Any:
+    """A model on one thread, with a tensor added to its outputs. Raises NotAvailable."""
     import onnxruntime
 
     options = onnxruntime.SessionOptions()
@@ -195,14 +195,12 @@ def _session(path: Path) -> Any:
     try:
         with TemporaryDirectory() as folder:  # a session keeps bytes for good, but closes a file
             model = Path(folder) / "model.onnx"
-            model.write_bytes(path.read_bytes() + _output(_DURATIONS))
+            model.write_bytes(path.read_bytes() + _output(output))
             session = onnxruntime.InferenceSession(model, options, ["CPUExecutionProvider"])
     except OSError as error:
         raise NotAvailable(f"{path}: {error.strerror} - see `hri voices`") from error
     except Exception as error:  # onnxruntime's own, one class for each status
-        raise NotAvailable(
-            f"{path}: not a model of the natural voice - take another file"
-        ) from error
+        raise NotAvailable(f"{path}: not a model of this kind of voice - take another") from error
     return session
 
 

@@ -7,6 +7,7 @@ import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from difflib import SequenceMatcher
+from importlib.util import find_spec
 from itertools import accumulate, zip_longest
 from typing import Any
 
@@ -96,6 +97,20 @@ def _numbers(tokens: Sequence[Any]) -> list[int]:
     """The word in which each token begins: tokens without a space between them are one."""
     spaces = [sum(part.isspace() for part in token.text + token.whitespace) for token in tokens]
     return [0, *accumulate(spaces)][: len(tokens)]
+
+
+def words_read(text: str) -> list[tuple[str, int]]:
+    """The words that an English text is read as, each with the number of its written word.
+
+    Without hibari, prices and dates stay as they are written.
+    """
+    read = read_aloud(text)
+    if find_spec("hibari") is not None:
+        from hibari.g2p.normalize import normalize
+
+        read = normalize(read)
+    words = read.split()
+    return list(zip(words, aligned(text.split(), words), strict=True))
 
 
 def aligned(written: Sequence[str], read: Sequence[str]) -> list[int]:
