@@ -90,7 +90,7 @@ class Settings:
 
 def read_settings(path: Path) -> Settings:
     """Raises HriError with what is wrong with the file."""
-    text = read_text(path, "settings of a Piper model")
+    text = read_text(path, "settings file of a Piper model")
     try:
         found = parse_json(text)
         ids = {str(name): int(numbers[0]) for name, numbers in found["phoneme_id_map"].items()}
@@ -199,7 +199,7 @@ class PiperReader:
             origin for (_, origin), many in zip(read, counts, strict=True) for _ in range(many)
         ]
         for number, word in enumerate(ipa):
-            place = number if len(origins) == len(ipa) else number * len(origins) // len(ipa)
+            place = round(number * (len(origins) - 1) / max(len(ipa) - 1, 1))
             yield word, origins[place] if origins else 0
 
     @property
