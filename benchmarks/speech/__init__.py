@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from benchmarks.speech import accuracy, alignment, feelings, heard_back, peers
+from benchmarks.speech import accuracy, alignment, barge_in, feelings, heard_back, peers
 from hri.bench.speech.latency import Progress
 from hri.bench.speech.listening import Listen
 from hri.bench.speech.samples import Recordings
@@ -28,3 +28,5 @@ def rows(
     yield from attempted(alignment.WHAT, alignment.rows)
     progress(heard_back.WHAT)
     yield from attempted(heard_back.WHAT, heard_back.rows)
+    progress(barge_in.WHAT)
+    yield from attempted(barge_in.WHAT, barge_in.rows)

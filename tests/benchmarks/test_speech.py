@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from benchmarks.speech import accuracy, babble
+from benchmarks.speech import accuracy, babble, barge_in
 from benchmarks.speech.accuracy import MEASURES, outside
 from benchmarks.speech.babble import above, active_power
 from hri.bench.speech import flite_voices, samples
@@ -11,6 +11,7 @@ from hri.bench.speech.listening import Hearing
 from hri.bench.speech.samples import ORDERS, ROBOT, Recordings
 from hri.speech.grammar import load_grammar
 from hri.speech.grammar.matching import parse
+from hri.speech.synthesizers.natural import NaturalVoice
 from tests.bench.heard import noise, piece
 
 
@@ -121,3 +122,11 @@ def test_every_clip_keeps_its_own_pieces_though_they_are_heard_in_batches():
         return Hearing([[piece(clip.sentence)] for clip in batch], 0.0)
 
     assert all(outcome.is_right for outcome in accuracy.hear(ROBOT, said, echo))
+
+
+@pytest.mark.parametrize("draw", [103, 109, 116])
+def test_the_first_words_of_its_voice_are_not_obeyed_and_a_stop_word_over_them_is(draw):
+    interruption = barge_in.interrupted(NaturalVoice, -12.0, draw)
+
+    assert interruption.obeyed == 0
+    assert interruption.delay < 0.6
