@@ -16,6 +16,7 @@ from hri.hal.resource import Description
 from hri.robot import Robot
 from hri.robot.app import load_app
 from hri.simulation.world import SimulatedWorld
+from hri.speech.synthesizers.espeak import EspeakVoice
 from hri.testing import live_for
 from tests.devices import BLIND, SMALL_SCREEN, live_microphone
 
@@ -33,6 +34,18 @@ class KeyedScreen(OffscreenScreen):
         due = [key for time, key in self.presses if time <= now]
         self.presses = [(time, key) for time, key in self.presses if time > now]
         return due
+
+
+class RememberingVoice(EspeakVoice):
+    """A voice that knows in whose voice it said what."""
+
+    def __init__(self, description, manager):
+        super().__init__(description, manager)
+        self.voices = {}
+
+    def stream(self, text, prosody, take, is_wanted):
+        self.voices[text] = prosody.voice
+        return super().stream(text, prosody, take, is_wanted)
 
 
 class Visit:
@@ -259,6 +272,21 @@ def test_a_new_command_needs_a_grammar_line_and_a_reply_and_no_python(
     robot.clock.call_at(1.0, lambda: world.say("how is the weather today", 1.0))
     events = live_for(robot, 6, *robot.app.load_tasks())
     assert "I do not know, I am inside." in [event.properties.get("text") for event in events]
+
+
+def test_the_companion_speaks_with_the_voice_of_its_replies(own_app):
+    replies = own_app / "replies.toml"
+    replies.write_text(replies.read_text().replace("# voice = ", "voice = ", 1))
+    robot = Robot(
+        app=str(own_app), config="simulated", clock=FakeClock(), devices=[SMALL_SCREEN, BLIND]
+    )
+    voice = RememberingVoice(Description("voice", "Hri.EspeakVoice"), robot.resources)
+    voice.activate()
+    robot.resources.substitute("voice", voice)
+    world = robot.resources.obtain("world", SimulatedWorld)
+    world.say("what is your name", at=1.0)
+    live_for(robot, 6, *robot.app.load_tasks())
+    assert voice.voices["My name is Robin."] == "robot"
 
 
 def test_a_command_without_a_reply_is_found(own_app):

@@ -283,6 +283,22 @@ def test_a_shy_one_shows_less() -> None:
     assert shown[1] < shown[0]
 
 
+def test_a_personality_has_its_voice(tmp_path, monkeypatch) -> None:
+    file = tmp_path / "emotions" / "personalities" / "shy.toml"
+    file.parent.mkdir(parents=True)
+    own = paths.find("emotions", "personalities/shy.toml").read_text()
+    file.write_text('voice = "warm"\n' + own)
+    monkeypatch.setenv("HRI_PATH", str(tmp_path))
+    display = EmotionDisplay(personality="shy")
+    display.start(Feeling().context)
+    source = OutputPort[EmotionState]()
+    source.value = EmotionState("joy", 0.5, 0.0, 0.0, 0.0, {"joy": 0.5})
+    display.state.sources.append(source)
+    display.compute(0.0, 0.0)
+    assert display.prosody.value is not None
+    assert display.prosody.value.voice == "warm"
+
+
 def test_the_mood_is_told_by_its_name_when_that_changes() -> None:
     feeling = Feeling()
     moods: list[Event] = []

@@ -47,10 +47,10 @@ whether it is "stressed"; names that begin with "_" are pauses), "words" and "se
 and "time").
 
 --visemes also writes one JSON object: "text", "duration", "visemes" (the mouth shapes, each with
-"viseme" by its Oculus name, "start" and "end" in seconds and "strength", 0 to 1; sounds too short "
-"to be seen have none), "rate" (frames a second) and "frames" (each with the "time" in seconds, "
-"the weights, 0 to 1.2, of the visemes of "lips", "jaw" and "tongue", and the
-"emphasis", 0 to 1, that lifts the brows).
+"viseme" by its Oculus name, "start" and "end" in seconds and "strength", 0 to 1; sounds too short
+to be seen have none), "rate" (frames a second) and "frames" (each with the "time" in seconds, the
+weights, 0 to 1.2, of the visemes of "lips", "jaw" and "tongue", and the "emphasis", 0 to 1, that
+lifts the brows).
 
   hri say "Hello there."
   hri say "Good evening." --voice en-gb
