@@ -218,7 +218,7 @@ def _samples(sound: Sound, gain: float) -> Samples:
 
 def _timed(sentence: Sentence, samples: Samples, rate: int, symbols: list[Sounded]) -> Speech:
     """A sentence with the times of its phonemes and words, counted from its own begin."""
-    spoken = list(phonemes(symbols))
+    spoken = [one for one in phonemes(symbols) if one.duration > 0.0]
     end = spoken[-1].start + spoken[-1].duration if spoken else 0.0
     pause = Phoneme(PAUSE, end, len(samples) / rate - end)
     words = tuple(_words(sentence, symbols))

@@ -87,6 +87,7 @@ def test_phonemes_follow_each_other_within_a_sentence(voice):
     speech = voice.synthesize("Please bring the blue cup to my kitchen.")
     ends = [phoneme.start + phoneme.duration for phoneme in speech.phonemes]
     assert ends[:-1] == pytest.approx([phoneme.start for phoneme in speech.phonemes[1:]])
+    assert all(phoneme.duration > 0.0 for phoneme in speech.phonemes)
     assert any(phoneme.stressed for phoneme in speech.phonemes)
 
 
