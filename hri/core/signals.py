@@ -80,6 +80,10 @@ class Rejection:
     end: float = 0.0
     detail: str = ""
     """More of the reason, for people: 'as likely: "turn around"'."""
+    sure: Mapping[str, Any] = field(default_factory=dict)
+    """With low confidence: the tags on which all likely sentences agree, if their rule is one."""
+    unsure: tuple[str, ...] = ()
+    """The names of the tags on which they do not agree: what is left to be asked."""
     latency: float = 0.0
     """Seconds from where the pause was long enough to the result."""
 

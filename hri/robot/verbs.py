@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
-from typing import TypeVar
+from dataclasses import dataclass, replace
+from typing import Any, TypeVar
 
 from hri.behavior.behavior import Behavior
 from hri.core.errors import HriError, did_you_mean
@@ -122,15 +124,24 @@ async def ask(
     answers with the head. With the name or path of a `grammar`, that one is in force while the
     question is open, and the first thing heard is the answer. `timeout` seconds count from the end
     of the question, and who speaks by then is heard out; it is asked again up to `retries` times.
+    When only a part of an answer was unclear, the next question is for that ("Which milk?"), and
+    the tags that were clear are kept.
     Raises `question.asked` when it has been spoken and `question.answered` with the answer. Raises
     HriError for a grammar that cannot be used.
     """
     if grammar:
         async with answers_of(context, grammar):
-            return await _ask(context, question, timeout, retries, _heard_answer)
+            return await _ask(context, question, timeout, retries, _HeardAnswer())
     if not context.behaviors:
         listener_of(context)
     return await _ask(context, question, timeout, retries, _plain_answer)
+
+
+@dataclass(frozen=True, slots=True)
+class _Again:
+    """Something is left to be asked."""
+
+    question: str
 
 
 async def _ask(
@@ -138,7 +149,7 @@ async def _ask(
     question: str,
     timeout: float,
     retries: int,
-    answer_of: Callable[[TaskContext, Event], tuple[T | None] | None],
+    answer_of: Callable[[TaskContext, Event], tuple[T | None] | _Again | None],
 ) -> T | None:
     """Ask until something is an answer; None without one.
 
@@ -146,16 +157,22 @@ async def _ask(
     is nothing to the question.
     """
     slot = context.board.slot(QUESTION)
-    for _ in range(retries + 1):
-        await say(context, question)
+    asked = question
+    for left in range(retries, -1, -1):
+        await say(context, asked)
         slot.set(True, context.clock.now())
         try:
-            with context.queue("speech.heard", "head.*") as queue:
-                context.events.raise_event("question.asked", text=question)
+            with context.queue("speech.heard", "speech.rejected", "head.*") as queue:
+                context.events.raise_event("question.asked", text=asked)
                 end = context.clock.now() + timeout
                 while (event := await next_heard(context, queue, end)) is not None:
                     answer = answer_of(context, event)
                     if answer is None:
+                        continue
+                    if isinstance(answer, _Again):
+                        asked = answer.question
+                        if left:
+                            break
                         continue
                     if answer[0] is not None:
                         _tell_answer(context, question, answer[0], event)
@@ -189,8 +206,27 @@ def _is_asked(context: TaskContext, person: str) -> bool:
     return not person or not attended or person == attended
 
 
-def _heard_answer(context: TaskContext, event: Event) -> tuple[Utterance | None] | None:
-    return (listener_of(context).last_utterance,) if event.name == "speech.heard" else None
+class _HeardAnswer:
+    """Takes the first thing heard for the answer, with what was clear of those before it."""
+
+    def __init__(self) -> None:
+        self._sure: dict[str, Any] = {}
+
+    def __call__(
+        self, context: TaskContext, event: Event
+    ) -> tuple[Utterance | None] | _Again | None:
+        if event.name == "speech.rejected" and event.properties.get("unsure"):
+            self._sure |= event.properties["sure"]
+            return _Again(f"Which {_in_words(event.properties['unsure'][0])}?")
+        heard = listener_of(context).last_utterance
+        if event.name != "speech.heard" or heard is None:
+            return None
+        return (replace(heard, tags={**self._sure, **heard.tags}),)
+
+
+def _in_words(tag: str) -> str:
+    """The name of a tag as it is said: milkAmount, milk_amount: "milk amount"."""
+    return " ".join(re.findall(r"[A-Z]?[a-z]+|[A-Z]+|\d+", tag)).lower()
 
 
 def is_quiet(behaviors: dict[str, Behavior]) -> bool:

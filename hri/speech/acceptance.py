@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import replace
+from typing import Any
 
 from hri.core.signals import HeardWord, Rejection, Utterance
 from hri.hal.recognizer import Alternative, Hypothesis, Segment
@@ -26,6 +28,9 @@ often short. Of right short sentences (8 phones at most) 93 % instead of 91 % ar
 88 % instead of 82 % at 12 dB; of foreign ones 0.6 % as before, and 6 % instead of 3 %."""
 FAR_BELOW = 0.2
 """Share of the strictness under which the nearest sentence of the grammar was not meant at all."""
+
+LIKELY = 0.05
+"""Share from which a sentence may be what was said, when the likely ones are compared."""
 
 MOST_EXPECTED = 6
 """Words that are named of those which might have followed."""
@@ -65,8 +70,11 @@ def judge(
     if turn.is_speaking and reason:
         reason = "robot speaking"
     if reason or found is None:
-        text = hypothesis.text
-        return Rejection(reason, text, confidence, start, end, detail)
+        rejection = Rejection(reason, hypothesis.text, confidence, start, end, detail)
+        if reason != "low confidence" or found is None:
+            return rejection
+        likely = [found, *_likely(grammar, hypothesis.alternatives)]
+        return replace(rejection, sure=agreed(likely), unsure=disputed(likely))
     return Utterance(
         text=found.text,
         rule=found.rule,
@@ -77,6 +85,32 @@ def judge(
         words=words,
         alternatives=hypothesis.alternatives,
     )
+
+
+def _likely(grammar: Grammar, alternatives: Iterable[Alternative]) -> Iterator[Parse]:
+    """What the likely alternatives mean."""
+    parses = (parse(grammar, one.text) for one in alternatives if one.share >= LIKELY)
+    return (found for found in parses if found is not None)
+
+
+def agreed(likely: Sequence[Parse]) -> dict[str, Any]:
+    """The tags that all of some sentences have; none unless they are of one rule."""
+    first, *others = likely
+    if any(other.rule != first.rule for other in others):
+        return {}
+    return {
+        name: value
+        for name, value in first.tags.items()
+        if all(name in other.tags and other.tags[name] == value for other in others)
+    }
+
+
+def disputed(likely: Sequence[Parse]) -> tuple[str, ...]:
+    """The names of the tags that some sentences of one rule do not agree on, in order."""
+    if len({one.rule for one in likely}) > 1:
+        return ()
+    names = dict.fromkeys(name for one in likely for name in one.tags)
+    return tuple(name for name in names if name not in agreed(likely))
 
 
 def _as_likely(text: str) -> str:

@@ -381,6 +381,8 @@ class Listener(Behavior):
                 detail=result.detail,
                 text=result.text,
                 confidence=confidence,
+                sure=dict(result.sure),
+                unsure=list(result.unsure),
             )
             return
         self._wakefulness.extend(result.end)

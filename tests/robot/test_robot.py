@@ -76,6 +76,31 @@ def test_a_spoken_yes_is_an_answer_too_and_silence_is_none(robot):
     assert robot.ask("Are you there?", timeout=3.0) is None
 
 
+def test_what_was_unclear_of_an_answer_is_asked_again(robot, tmp_path):
+    """The first answer is one that the recognizer would be unsure about in noise."""
+    order = tmp_path / "order.jsgf"
+    order.write_text(
+        "#JSGF V1.0;\ngrammar order;\n"
+        "public <order> = a (small {size=small} | large {size=large}) coffee with <milk>;\n"
+        "public <milk> = (soy {plantMilk=soy} | oat {plantMilk=oat}) milk;\n"
+    )
+    asked = []
+
+    def respond(event):
+        asked.append(event.properties["text"])
+        if len(asked) == 1:
+            robot.events.raise_event(
+                "speech.rejected", sure={"size": "large"}, unsure=["plantMilk"], reason="", text=""
+            )
+        else:
+            robot.visitor.say("soy milk", after=0.5)
+
+    robot.events.subscribe("question.asked", respond)
+    answer = robot.ask("What would you like?", grammar=str(order), retries=1)
+    assert asked == ["What would you like?", "Which plant milk?"]
+    assert answer.tags == {"size": "large", "plantMilk": "soy"}
+
+
 def test_it_hears_the_person(robot):
     world = robot.resources.obtain("world", SimulatedWorld)
     world.say("hello robot", robot.clock.now() + 0.5)

@@ -59,6 +59,32 @@ def test_what_may_as_well_mean_something_else_is_doubted(grammar):
     assert rejection.detail == 'as likely: "go forward"'
 
 
+def test_what_all_likely_sentences_agree_on_is_sure(write):
+    grammar = load_grammar(
+        write(
+            "public <order> = (small {size=small} | large {size=large}) coffee\n"
+            "  [with (soy milk {milk=soy} | oat milk {milk=oat})];\n"
+            "public <stop> = stop;\n"
+        )
+    )
+
+    def judged(confidence, *alternatives):
+        said = Hypothesis("large coffee with oat milk", confidence, alternatives=alternatives)
+        return judge(grammar, PIECE, said)
+
+    soy = Alternative("large coffee with soy milk", 0.6)
+    rejection = judged(0.9, soy, Alternative("small coffee with oat milk", 0.02))
+    assert (rejection.sure, rejection.unsure) == ({"size": "large"}, ("milk",))
+    black = judged(0.9, Alternative("large coffee", 0.6))
+    assert (black.sure, black.unsure) == ({"size": "large"}, ("milk",))
+    other = judged(0.9, Alternative("stop", 0.6))
+    assert (other.sure, other.unsure) == ({}, ())
+    unclear = judged(0.4)
+    assert (unclear.sure, unclear.unsure) == ({"size": "large", "milk": "oat"}, ())
+    far = judged(0.05)
+    assert (far.reason, far.sure) == ("unlike the sound", {})
+
+
 @pytest.mark.proves("R02")
 def test_only_listed_words_are_recognized(grammar):
     for text in ("go", "go forward back", "forward go", "robot hello", "stop stop"):

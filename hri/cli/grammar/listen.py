@@ -42,8 +42,9 @@ examples:
   hri grammar listen my.jsgf --typed < lines.txt
 
 The objects: file, start_s and end_s (seconds from its beginning), accepted, text, rule, tags,
-confidence, reason (empty, or why it was not accepted) and latency_s. Put FILE before --wav, which
-takes all the paths that follow it.
+confidence, reason (empty, or why it was not accepted), latency_s, and with low confidence sure (the
+tags that are certain nevertheless) and unsure (the names of those that are not). Put FILE before
+--wav, which takes all the paths that follow it.
 
 Status 0: everything was accepted. 1: something was not. 2: a file is wrong."""
 
@@ -227,6 +228,8 @@ def _show_json(file: str, heard: Heard) -> None:
         "confidence": round(heard.confidence, 4),
         "reason": rejected.reason if rejected else "",
         "latency_s": round(heard.latency, 4),
+        "sure": dict(rejected.sure) if rejected else {},
+        "unsure": list(rejected.unsure) if rejected else [],
     }
     print(json.dumps(line), flush=True)
 
