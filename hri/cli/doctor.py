@@ -16,7 +16,7 @@ from hri.cli.diagnostics import without_stand_ins
 from hri.core import paths
 from hri.core.clock import RealClock
 from hri.core.errors import HriError, NotAvailable
-from hri.core.signals import Twist
+from hri.core.signals import Samples, Twist
 from hri.hal.camera import Camera
 from hri.hal.choices import load_choices, save_choices
 from hri.hal.configuration import load_configuration
@@ -27,6 +27,7 @@ from hri.hal.resource_manager import ResourceManager
 from hri.hal.screen import Screen
 from hri.hal.speaker import Speaker
 from hri.hal.synthesizer import Synthesizer
+from hri.speech.room_noise import room_noise
 
 METER_WIDTH = 30
 QUIET_DBFS = -60.0
@@ -99,10 +100,12 @@ class Doctor:
         microphone = self.resources.obtain("microphone", Microphone)
         ear = microphone.listen()
         loudest = -120.0
+        heard: list[Samples] = []
         end = self.clock.now() + self.seconds
         while self.clock.now() < end:
             time.sleep(0.1)  # noqa: TID251 - a person watches the meter
             samples = ear.read(self.clock.now())
+            heard.append(samples)
             level = _dbfs(samples)
             loudest = max(loudest, level)
             if sys.stdout.isatty():
@@ -115,7 +118,12 @@ class Doctor:
             )
         if loudest > CLIPPED_DBFS:
             return Diagnosis(False, "clipping - lower its level in the sound settings")
-        return Diagnosis(True, f"{microphone.describe()}, loudest {loudest:.0f} dBFS")
+        noise = room_noise(np.concatenate(heard), ear.rate)
+        says = f"{microphone.describe()}, loudest {loudest:.0f} dBFS"
+        if noise.advice:
+            above = f"a voice of usual loudness is {noise.clearance:.0f} dB above it"
+            says += f", noise {noise.level:.0f} dBFS ({noise.kind}; {above}) - {noise.advice}"
+        return Diagnosis(True, says)
 
     def _speaker(self) -> Diagnosis:
         speaker = self.resources.obtain("speaker", Speaker)

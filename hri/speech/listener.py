@@ -22,6 +22,7 @@ from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar_stack import GrammarStack, Layer
 from hri.speech.hearing import SILENT_AFTER, STEP, Heard, anticipate, understand
 from hri.speech.recognizers.typed import LineDecoder
+from hri.speech.room_noise import RoomListener
 from hri.speech.turn import FOLLOW_UP, Turn, Wakefulness
 
 MOST_WAITING = 20
@@ -87,6 +88,8 @@ class Listener(Behavior):
     rule = Output[str]("string", "the rule that allows them")
     partial = Output[str]("string", "the words so far, when there are new ones")
     is_hearing = Output[bool]("boolean", "whether a voice is going on")
+    noise = Output[float]("double", "level of the noise in the room, dB against full scale")
+    noise_kind = Output[str]("string", "its kind: quiet, hum, hiss or unsteady")
     microphone_id = Param("microphone", "resource that hears")
     recognizer_id = Param("recognizer", "resource that finds the words")
     grammar = Param("companion", "name or path of the grammar")
@@ -119,6 +122,7 @@ class Listener(Behavior):
         self._wakefulness = Wakefulness(self.follow_up)
         self._own_voice = OwnVoice(self._recognizer.rate)
         self._canceller = EchoCanceller()
+        self._room = RoomListener(self._recognizer.rate)
         self._spoke = -ECHO_TAIL
         self._subtracted = 0.0  # seconds of its voice so far
         self._learned = 0.0  # when that was LEARNING
@@ -238,6 +242,9 @@ class Listener(Behavior):
             segments += self._recognizer.flush()
         if was_hearing or self._recognizer.is_hearing or segments:
             self._note(heard, samples, is_speaking)
+        elif not (is_deaf or is_speaking) and (noise := self._room.hear(samples)) is not None:
+            self.noise.send(noise.level)
+            self.noise_kind.send(noise.kind)
         self._waiting.extend((segment, self._piece) for segment in segments)
         if segments or not self._recognizer.is_hearing:
             self._piece = _Piece()
