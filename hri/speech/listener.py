@@ -220,6 +220,9 @@ class Listener(Behavior):
         self._change_grammar(now)
         self._work(now)
         self.is_hearing.send(self._recognizer.is_hearing)
+        if (noise := self._room.noise) is not None:
+            self.noise.send(noise.level)
+            self.noise_kind.send(noise.kind)
 
     def _listen(self, now: float) -> None:
         """Feed the endpointer; remember what happens during each piece."""
@@ -242,9 +245,8 @@ class Listener(Behavior):
             segments += self._recognizer.flush()
         if was_hearing or self._recognizer.is_hearing or segments:
             self._note(heard, samples, is_speaking)
-        elif not (is_deaf or is_speaking) and (noise := self._room.hear(samples)) is not None:
-            self.noise.send(noise.level)
-            self.noise_kind.send(noise.kind)
+        elif not (is_deaf or is_speaking):
+            self._room.hear(samples)
         self._waiting.extend((segment, self._piece) for segment in segments)
         if segments or not self._recognizer.is_hearing:
             self._piece = _Piece()

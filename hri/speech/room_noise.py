@@ -74,16 +74,16 @@ class RoomListener:
     """Judges the noise of a room again and again."""
 
     def __init__(self, rate: int) -> None:
+        self.noise: RoomNoise | None = None
+        """Of the last LISTENED seconds; None before."""
         self._rate = rate
         self._parts: list[Samples] = []
         self._count = 0
 
-    def hear(self, samples: Samples) -> RoomNoise | None:
-        """Take sound in which nobody speaks; the noise, each time that LISTENED of it are there."""
+    def hear(self, samples: Samples) -> None:
+        """Take sound in which nobody speaks."""
         self._parts.append(samples)
         self._count += len(samples)
-        if self._count < LISTENED * self._rate:
-            return None
-        found = room_noise(np.concatenate(self._parts), self._rate)
-        self._parts, self._count = [], 0
-        return found
+        if self._count >= LISTENED * self._rate:
+            self.noise = room_noise(np.concatenate(self._parts), self._rate)
+            self._parts, self._count = [], 0

@@ -14,6 +14,7 @@ from hri.hal.drive import Odometry
 from hri.hal.speaker import Speaker
 from hri.robot import load_app, verbs
 from hri.simulation.world import SimulatedWorld
+from hri.speech.behaviors import Listener
 from hri.task import navigation, speech
 from tests.devices import BLIND, SMALL_SCREEN
 
@@ -99,6 +100,13 @@ def test_what_was_unclear_of_an_answer_is_asked_again(robot, tmp_path):
     answer = robot.ask("What would you like?", grammar=str(order), retries=1)
     assert asked == ["What would you like?", "Which plant milk?"]
     assert answer.tags == {"size": "large", "plantMilk": "soy"}
+
+
+def test_it_knows_the_noise_of_the_room(robot):
+    robot.wait(4.0)
+    listener = robot.context.behavior(Listener)
+    assert listener.noise_kind.value == "quiet"
+    assert listener.noise.value == pytest.approx(-62.0, abs=1.0)
 
 
 def test_it_hears_the_person(robot):
