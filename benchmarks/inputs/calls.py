@@ -186,20 +186,6 @@ def poses(path: Path) -> object:
     return sum(1 for _ in read_poses(path, remarks)), list(remarks)
 
 
-@cache
-def _tensors_of_recognizer() -> Any:
-    from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
-
-    return read_tensors(find_weights())
-
-
-def adaptation(path: Path) -> object:
-    """A change of the recognizer's network."""
-    from hri.speech.recognizers.ctc.adaptation import adapted
-
-    return adapted(_tensors_of_recognizer(), path)
-
-
 def run_of_robot(path: Path) -> object:
     """A recorded run."""
     return named("hri.cli.drive.recorded:read_run")(str(path), "go_to")

@@ -33,7 +33,6 @@ def _named(name: str, seeds: Callable[[], list[bytes]], file: str, is_text: bool
 
 
 READERS: dict[str, Reader] = {
-    "adaptation": Reader(calls.adaptation, good.adaptation, "a.npz", is_text=False),
     "app": Reader(calls.app, good.apps, "app/app.toml"),
     "archive": Reader(calls.archive, good.archives, "a.zip", is_text=False),
     "choice of devices": Reader(calls.choices, good.choices, "home/hri/devices.toml"),
@@ -59,7 +58,7 @@ READERS: dict[str, Reader] = {
     "formula": Reader(calls.formula, good.formulas, "formula.txt"),
     "grammar": _named(
         "hri.speech.grammar:load_grammar",
-        _shipped("grammars/*.jsgf", "benchmarks/adaptation/calibration/*.jsgf"),
+        _shipped("grammars/*.jsgf", "benchmarks/phone_network/calibration/*.jsgf"),
         "grammars/a.jsgf",
     ),
     "grammar, checked": Reader(
@@ -131,7 +130,7 @@ READERS: dict[str, Reader] = {
         "hri.simulation.visit_script:load_visit", _shipped("apps/*/demo.toml"), "visit.toml"
     ),
     "weights of the recognizer": _named(
-        "hri.speech.recognizers.ctc.weights:read_tensors", good.tensors, "a.hama", is_text=False
+        "hri.speech.recognizers.ctc.weights:read_tensors", good.tensors, "a.npz", is_text=False
     ),
     "wire line": Reader(calls.wire_line, good.wire_lines, "line.txt"),
     "world": _named(

@@ -15,12 +15,10 @@ from hri.core.signals import Samples, Span, Speech
 from hri.hal.drivers.resampling import resample
 from hri.speech.grammar.numerals import in_words
 from hri.speech.pronunciation.lexicon import load_lexicon
-from hri.speech.recognizers.ctc.adaptation import adapted
 from hri.speech.recognizers.ctc.alignment import Placed, forced, free, phonemes, placed
-from hri.speech.recognizers.ctc.conformer import FRAME, Conformer
+from hri.speech.recognizers.ctc.conformer import FRAME, Conformer, load_network
 from hri.speech.recognizers.ctc.features import RATE
 from hri.speech.recognizers.ctc.phone_graph import Floats
-from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
 from hri.speech.synthesizers.natural_text import words_read
 
 PIECE, MARGIN = 14.0, 1.0
@@ -106,4 +104,4 @@ def _spans(text: str, phones: Sequence[Placed], origins: Sequence[int]) -> Itera
 
 @cache
 def _network() -> Conformer:
-    return Conformer(adapted(read_tensors(find_weights(""))))
+    return load_network()

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from hri.core.errors import NotAvailable
 from hri.core.models import Download, Packaged, fetched, models_folder
-from hri.speech.recognizers.ctc.weights import PACKAGE, find_weights
+from hri.speech.recognizers.ctc.weights import find_weights
 
 
 def find_pocketsphinx() -> Path:
@@ -28,7 +28,7 @@ def find_pocketsphinx() -> Path:
 _VOSK = "https://alphacephei.com/vosk/models"
 
 PACKAGED = (
-    Packaged("ctc", "English phones, the default engine", "Apache-2.0", PACKAGE, find_weights),
+    Packaged("ctc", "English phones, the default engine", "Apache-2.0", "hri", find_weights),
     Packaged("pocketsphinx", "English", "BSD", "pocketsphinx", find_pocketsphinx),
 )
 DOWNLOADS = (

@@ -409,7 +409,7 @@ def test_the_command_lists_fetches_and_tells_where(server, monkeypatch, capsys):
     assert capsys.readouterr().out.strip() == str(folder_of("small-model"))
     assert main.main(["models", "path", "small-model"]) == 0
     assert main.main(["models", "path", "ctc"]) == 0
-    assert capsys.readouterr().out.splitlines()[1].endswith("asr_waveform.hama")
+    assert capsys.readouterr().out.splitlines()[1].endswith("network.npz")
     assert main.main(["models", "path"]) == 0
     assert capsys.readouterr().out.strip() == str(models_folder())
     assert main.main(["models", "path", "nonsense"]) == 2

@@ -94,7 +94,7 @@ IN_NOISE = (0.60, 0.86, 0.94, 1.20, -0.20)
 """Weights of 1, margin, clarity, length and pace in the log odds that the sentence was said.
 
 In quiet what was said fits so well that a little less is suspicious; in noise it is not. Logistic
-regression by `benchmarks/adaptation/fit.py`: pieces of speech, clean and under babble at 15 to 6
+regression by `benchmarks/phone_network/fit.py`: pieces of speech, clean and under babble at 15 to 6
 dB, of grammars and sentences that the figures of `hri bench speech` are not taken from; the voices
 rms and kal16 are in both. Of noise the first weight would be 1.42 by the foreign speech of that
 fit; it was settled with sight of the figures, which are not an independent test of it.

@@ -1,4 +1,4 @@
-"""The phone network: a conformer with 4 blocks, run by numpy.
+"""The phone network: a conformer, run by numpy.
 
 Log-mel frames, a convolution that halves their rate, 4 blocks of (half a feed-forward layer,
 attention over all frames, a convolution over 31 frames, half a feed-forward layer), and a
@@ -17,19 +17,17 @@ frame of 9, within 0.005.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.signals import Samples
-from hri.speech.recognizers.ctc.classes import CLASSES, TOKENS, folding
+from hri.speech.recognizers.ctc.classes import CLASSES
 from hri.speech.recognizers.ctc.features import BANDS, BINS, WIDTH, log_mel, padded
 from hri.speech.recognizers.ctc.weights import Tensor, find_weights, read_tensors, take
 
 FRAME = 0.02
 """Seconds from one frame of posteriors to the next; frame i is about the sound at i * FRAME."""
-BLOCKS = 4
 DIMENSION = 144
 HIDDEN = 4 * DIMENSION
 HEADS = 4
@@ -41,8 +39,8 @@ FARTHEST = 1000
 """Frames (20 s, the longest piece of speech) that attention looks back over."""
 _STEM_TAPS = 3
 _EPSILON = 1e-5
-_LEAST = 1e-10
-"""Probability under which classes are not told apart."""
+_LEAST = -23.0
+"""Natural log of the probability under which classes are not told apart."""
 
 _MEAN = np.full(DIMENSION, 1.0 / DIMENSION, np.float32)
 
@@ -57,15 +55,12 @@ class Conformer:
     """
 
     def __init__(self, tensors: Mapping[str, Tensor]) -> None:
-        self._filters = take(tensors, "mel_fb", BINS, BANDS)
-        stem = take(tensors, "onnx::Conv_801", DIMENSION, BANDS, _STEM_TAPS)
-        self._stem = np.ascontiguousarray(stem.transpose(2, 1, 0).reshape(-1, DIMENSION))
-        self._stem_bias = take(tensors, "onnx::Conv_802", DIMENSION)
-        self._blocks = [Block(tensors, number) for number in range(BLOCKS)]
-        head = "acoustic_model.model.proj"
-        self._head = _transposed(take(tensors, f"{head}.weight", TOKENS, DIMENSION, 1))
-        self._head_bias = take(tensors, f"{head}.bias", TOKENS)
-        self._folding = folding()
+        self._filters = take(tensors, "filters", BINS, BANDS)
+        self._stem = take(tensors, "stem.matrix", _STEM_TAPS * BANDS, DIMENSION)
+        self._stem_bias = take(tensors, "stem.bias", DIMENSION)
+        self._blocks = [Block(tensors, str(number)) for number in range(block_count(tensors))]
+        self._head = take(tensors, "head.matrix", DIMENSION, len(CLASSES))
+        self._head_bias = take(tensors, "head.bias", len(CLASSES))
 
     def posteriors(self, samples: Samples) -> NDArray[np.float32]:
         """Natural logs of the probabilities of CLASSES, shape [frames, 40], of 16 kHz sound.
@@ -88,7 +83,7 @@ class Conformer:
 
     def past(self) -> list[Past]:
         """What is known of earlier frames at the start: nothing."""
-        return [Past() for _ in range(BLOCKS)]
+        return [Past() for _ in self._blocks]
 
     def run(self, mel: Frames, past: list[Past], settled: int) -> NDArray[np.float32]:
         """Posteriors of some frames after others: two log-mel frames each, and one before them.
@@ -100,15 +95,20 @@ class Conformer:
         frames = _gelu(windows[:: STRIDE * BANDS] @ self._stem + self._stem_bias)
         for block, before in zip(self._blocks, past, strict=True):
             frames = block.run(frames, before, settled)
-        return self._fold(frames)
+        return self._log_probabilities(frames)
 
-    def _fold(self, frames: Frames) -> Frames:
+    def _log_probabilities(self, frames: Frames) -> Frames:
         scores = frames @ self._head
         scores += self._head_bias
         scores -= scores.max(axis=1, keepdims=True)
-        folded: Frames = np.exp(scores) @ self._folding
-        folded /= folded.sum(axis=1, keepdims=True)
-        return np.log(np.maximum(folded, _LEAST))
+        scores -= np.log(np.exp(scores).sum(axis=1, keepdims=True))
+        likely: Frames = np.maximum(scores, _LEAST, out=scores)
+        return likely
+
+
+def block_count(tensors: Mapping[str, Tensor]) -> int:
+    """How many blocks a network has."""
+    return sum(name.endswith(".attention.inward.matrix") for name in tensors)
 
 
 class Past:
@@ -124,14 +124,12 @@ class Past:
 class Block:
     """One block of the conformer."""
 
-    def __init__(self, tensors: Mapping[str, Tensor], number: int) -> None:
-        prefix = f"acoustic_model.model.blocks.{number}"
-        self._first = FeedForward(tensors, f"{prefix}.ffn1", 829 + 9 * number)
-        self._attention = Attention(tensors, prefix, 831 + 9 * number)
-        self._convolution = Convolution(tensors, prefix, 804 + 3 * number)
-        self._second = FeedForward(tensors, f"{prefix}.ffn2", 836 + 9 * number)
-        self._gain = take(tensors, f"{prefix}.norm.weight", DIMENSION)
-        self._shift = take(tensors, f"{prefix}.norm.bias", DIMENSION)
+    def __init__(self, tensors: Mapping[str, Tensor], name: str) -> None:
+        self._first = FeedForward(tensors, f"{name}.first")
+        self._attention = Attention(tensors, f"{name}.attention")
+        self._convolution = Convolution(tensors, f"{name}.convolution")
+        self._second = FeedForward(tensors, f"{name}.second")
+        self._norm = Norm(tensors, f"{name}.norm") if f"{name}.norm.gain" in tensors else None
 
     def run(self, frames: Frames, past: Past, settled: int) -> Frames:
         """The frames one block on; `frames` is used up. `past` gains the first `settled`."""
@@ -139,6 +137,18 @@ class Block:
         frames += self._attention.run(frames, past, settled)
         frames += self._convolution.run(frames, past, settled)
         frames += self._second.run(frames)
+        return frames if self._norm is None else self._norm.run(frames)
+
+
+class Norm:
+    """Mean 0 and variance 1 over the dimensions, then a gain and a shift."""
+
+    def __init__(self, tensors: Mapping[str, Tensor], name: str) -> None:
+        self._gain = take(tensors, f"{name}.gain", DIMENSION)
+        self._shift = take(tensors, f"{name}.shift", DIMENSION)
+
+    def run(self, frames: Frames) -> Frames:
+        """`frames` is used up."""
         frames -= (frames @ _MEAN)[:, None]
         scaled = _normalized(frames)
         scaled *= self._gain
@@ -156,8 +166,8 @@ class Linear:
     def __init__(
         self, tensors: Mapping[str, Tensor], norm: str, matrix: Tensor, bias: Tensor
     ) -> None:
-        gain = take(tensors, f"{norm}.weight", DIMENSION)
-        shift = take(tensors, f"{norm}.bias", DIMENSION)
+        gain = take(tensors, f"{norm}.gain", DIMENSION)
+        shift = take(tensors, f"{norm}.shift", DIMENSION)
         self._bias = shift @ matrix + bias
         scaled = gain[:, None] * matrix
         self._matrix = np.ascontiguousarray(scaled - scaled.mean(axis=0))
@@ -171,12 +181,12 @@ class Linear:
 class FeedForward:
     """Half a feed-forward layer: out to HIDDEN and back."""
 
-    def __init__(self, tensors: Mapping[str, Tensor], prefix: str, number: int) -> None:
-        out = take(tensors, f"onnx::MatMul_{number}", DIMENSION, HIDDEN)
-        bias = take(tensors, f"{prefix}.fc1.bias", HIDDEN)
-        self._out = Linear(tensors, f"{prefix}.norm", out, bias)
-        self._back = 0.5 * take(tensors, f"onnx::MatMul_{number + 1}", HIDDEN, DIMENSION)
-        self._bias = 0.5 * take(tensors, f"{prefix}.fc2.bias", DIMENSION)
+    def __init__(self, tensors: Mapping[str, Tensor], name: str) -> None:
+        out = take(tensors, f"{name}.out.matrix", DIMENSION, HIDDEN)
+        bias = take(tensors, f"{name}.out.bias", HIDDEN)
+        self._out = Linear(tensors, f"{name}.norm", out, bias)
+        self._back = 0.5 * take(tensors, f"{name}.back.matrix", HIDDEN, DIMENSION)
+        self._bias = 0.5 * take(tensors, f"{name}.back.bias", DIMENSION)
 
     def run(self, frames: Frames) -> Frames:
         hidden = self._out.run(frames)
@@ -188,15 +198,15 @@ class FeedForward:
 class Attention:
     """Every frame looks at every other, by HEADS measures of likeness."""
 
-    def __init__(self, tensors: Mapping[str, Tensor], prefix: str, number: int) -> None:
-        matrix = take(tensors, f"onnx::MatMul_{number}", DIMENSION, 3 * DIMENSION).copy()
-        bias = take(tensors, f"{prefix}.attn.in_proj_bias", 3 * DIMENSION).copy()
+    def __init__(self, tensors: Mapping[str, Tensor], name: str) -> None:
+        matrix = take(tensors, f"{name}.inward.matrix", DIMENSION, 3 * DIMENSION).copy()
+        bias = take(tensors, f"{name}.inward.bias", 3 * DIMENSION).copy()
         scale = (DIMENSION / HEADS) ** -0.5
         matrix[:, :DIMENSION] *= scale
         bias[:DIMENSION] *= scale
-        self._inward = Linear(tensors, f"{prefix}.attn_norm", matrix, bias)
-        self._outward = take(tensors, f"onnx::MatMul_{number + 4}", DIMENSION, DIMENSION)
-        self._bias = take(tensors, f"{prefix}.attn.out_proj.bias", DIMENSION)
+        self._inward = Linear(tensors, f"{name}.norm", matrix, bias)
+        self._outward = take(tensors, f"{name}.outward.matrix", DIMENSION, DIMENSION)
+        self._bias = take(tensors, f"{name}.outward.bias", DIMENSION)
 
     def run(self, frames: Frames, past: Past, settled: int) -> Frames:
         count, before = len(frames), past.keys.shape[1]
@@ -223,16 +233,14 @@ class Attention:
 class Convolution:
     """A gate, and a filter of each dimension along time."""
 
-    def __init__(self, tensors: Mapping[str, Tensor], prefix: str, number: int) -> None:
-        inward = take(tensors, f"{prefix}.conv.pointwise1.weight", 2 * DIMENSION, DIMENSION, 1)
-        bias = take(tensors, f"{prefix}.conv.pointwise1.bias", 2 * DIMENSION)
-        self._inward = Linear(tensors, f"{prefix}.conv.norm", _transposed(inward), bias)
-        taps = take(tensors, f"onnx::Conv_{number}", DIMENSION, 1, TAPS)[:, 0]
-        self._filter = _banded(taps)
-        self._filter_bias = take(tensors, f"onnx::Conv_{number + 1}", DIMENSION)
-        outward = take(tensors, f"{prefix}.conv.pointwise2.weight", DIMENSION, DIMENSION, 1)
-        self._outward = _transposed(outward)
-        self._bias = take(tensors, f"{prefix}.conv.pointwise2.bias", DIMENSION)
+    def __init__(self, tensors: Mapping[str, Tensor], name: str) -> None:
+        inward = take(tensors, f"{name}.inward.matrix", DIMENSION, 2 * DIMENSION)
+        bias = take(tensors, f"{name}.inward.bias", 2 * DIMENSION)
+        self._inward = Linear(tensors, f"{name}.norm", inward, bias)
+        self._filter = _banded(take(tensors, f"{name}.taps.matrix", DIMENSION, TAPS))
+        self._filter_bias = take(tensors, f"{name}.taps.bias", DIMENSION)
+        self._outward = take(tensors, f"{name}.outward.matrix", DIMENSION, DIMENSION)
+        self._bias = take(tensors, f"{name}.outward.bias", DIMENSION)
 
     def run(self, frames: Frames, past: Past, settled: int) -> Frames:
         both = self._inward.run(frames)
@@ -269,11 +277,6 @@ def _banded(taps: Tensor) -> Tensor:
     return banded
 
 
-def _transposed(kernel: Tensor) -> Tensor:
-    """A convolution over one frame, [outputs, inputs, 1], as a matrix [inputs, outputs]."""
-    return np.ascontiguousarray(kernel[:, :, 0].T)
-
-
 def _normalized(frames: Frames) -> Frames:
     """Frames divided by their standard deviation; the mean stays."""
     mean = frames @ _MEAN
@@ -308,5 +311,4 @@ _ERF = np.array([1.061405429, -1.453152027, 1.421413741, -0.284496736, 0.2548295
 
 def load_network(path: str = "") -> Conformer:
     """The network of a weight file (from `find_weights`). Raises NotAvailable, HriError."""
-    file: Path = find_weights(path)
-    return Conformer(read_tensors(file))
+    return Conformer(read_tensors(find_weights(path)))

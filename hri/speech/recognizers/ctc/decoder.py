@@ -12,28 +12,22 @@ from hri.core.signals import Samples
 from hri.hal.recognizer import Alternative, Grammar, HeardWord, Hypothesis, Segment
 from hri.speech.hearing import SILENT_AFTER
 from hri.speech.pronunciation.lexicon import load_lexicon
-from hri.speech.recognizers.ctc.adaptation import adapted
 from hri.speech.recognizers.ctc.confidence import (
     confidence,
     fit_of,
     scores_of,
     shares,
 )
-from hri.speech.recognizers.ctc.conformer import FRAME, Conformer
+from hri.speech.recognizers.ctc.conformer import FRAME, load_network
 from hri.speech.recognizers.ctc.habits import Habits
-from hri.speech.recognizers.ctc.lattice import Path, Walk
+from hri.speech.recognizers.ctc.lattice import Path
 from hri.speech.recognizers.ctc.loudness import noise_of, sounding
 from hri.speech.recognizers.ctc.phone_graph import Floats, compile
 from hri.speech.recognizers.ctc.posterior_stream import PosteriorStream
+from hri.speech.recognizers.ctc.ranking import ranked
 from hri.speech.recognizers.ctc.rivals import Rivals
 from hri.speech.recognizers.ctc.search import Search
-from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
 from hri.speech.recognizers.endpointed import EndpointedRecognizer
-
-MOST_SENTENCES = 8
-"""Sentences that are told: the best and its alternatives."""
-BEAM = 12.0
-"""Natural log; alternatives worse than the best by more are dropped."""
 
 
 @dataclass
@@ -69,9 +63,9 @@ class Early:
 
 
 class CtcRecognizer(EndpointedRecognizer):
-    """Hears what the grammar allows, by the network of the `hama` wheel.
+    """Hears what the grammar allows, by a small network that knows phones.
 
-    `weights` names another file of the same network. Everything but the grammar's own graph is
+    `weights` names a file of other weights. Everything but the grammar's own graph is
     shared by all pieces; a new grammar takes its place between two of them.
 
     A piece is decoded as soon as the voice falls silent, within the pause that is waited for; when
@@ -82,8 +76,7 @@ class CtcRecognizer(EndpointedRecognizer):
 
     def _open(self) -> None:
         super()._open()
-        weights = find_weights(self.description.text("weights"))
-        self._network = Conformer(adapted(read_tensors(weights)))
+        self._network = load_network(self.description.text("weights"))
         self._work = threading.Lock()
         self._search: Search | None = None
         self._progress: Progress | None = None
@@ -165,19 +158,19 @@ def decoded(
     scores = scores_of(log_probabilities)
     search.begin(rules)
     search.advance(scores)
-    paths = Walk(search.trellis).sentences(MOST_SENTENCES, BEAM)
-    if not paths:
+    found = ranked(search, scores, rivals)
+    if not found:
         return Hypothesis("", 0.0)
-    best = paths[0]
+    best = found[0].path
     fit = fit_of(best, rivals.score(scores, best.words), scores, search.graph.phones)
-    chances = shares([path.score for path in paths])
+    chances = shares([candidate.score for candidate in found])
     return Hypothesis(
         text=" ".join(best.words),
         confidence=confidence(fit, noise),
         words=_times(best),
         alternatives=tuple(
-            Alternative(" ".join(path.words), float(chance))
-            for path, chance in zip(paths[1:], chances[1:], strict=True)
+            Alternative(" ".join(candidate.path.words), float(chance))
+            for candidate, chance in zip(found[1:], chances[1:], strict=True)
         ),
     )
 

@@ -18,15 +18,18 @@ import argparse
 import random
 import zlib
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
 import soxr
 from numpy.typing import NDArray
 
-from benchmarks.speech.babble import above, babble
+from benchmarks.speech.babble import babble
+from benchmarks.speech.kitchen import kitchen
+from benchmarks.speech.levels import above
 from hri.bench.speech import flite_voices, samples
 from hri.bench.speech.flite_voices import RATE
 from hri.core.signals import Samples
@@ -35,17 +38,14 @@ from hri.speech.grammar import load_grammar
 from hri.speech.grammar.expansion import random_sentence
 from hri.speech.grammar.matching import parse
 from hri.speech.pronunciation.lexicon import load_lexicon
-from hri.speech.recognizers.ctc.adaptation import adapted
 from hri.speech.recognizers.ctc.confidence import Fit, fit_of, scores_of, shares
-from hri.speech.recognizers.ctc.conformer import Conformer
-from hri.speech.recognizers.ctc.decoder import BEAM, MOST_SENTENCES
+from hri.speech.recognizers.ctc.conformer import load_network
 from hri.speech.recognizers.ctc.habits import Habits
-from hri.speech.recognizers.ctc.lattice import Walk
 from hri.speech.recognizers.ctc.loudness import noise_of, sounding
 from hri.speech.recognizers.ctc.phone_graph import compile
+from hri.speech.recognizers.ctc.ranking import ranked
 from hri.speech.recognizers.ctc.rivals import Rivals
 from hri.speech.recognizers.ctc.search import Search
-from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
 from hri.speech.recognizers.voice_activity import voice_detector
 from hri.speech.synthesizers.espeak_library import Mark, Setting, load_espeak
 
@@ -60,7 +60,7 @@ VOICES_EACH = 3
 OTHER_GRAMMARS = 2
 """That decode a sentence beside its own."""
 BABBLES, BABBLE_S = 40, 4.0
-MOST_FOREIGN = {None: 0.005, 12.0: 0.02}
+MOST_FOREIGN = {None: 0.005, 12.0: 0.015}
 """Share of the foreign pieces that may be accepted, by ratio."""
 FOLDS = 5
 STEPS = 30
@@ -70,17 +70,19 @@ def main() -> None:
     """Make the pieces, fit, and tell."""
     parser = argparse.ArgumentParser(description="Fits the confidence of the default engine.")
     parser.add_argument("--recordings", type=Path, required=True, help="see `hri bench speech`")
+    parser.add_argument("--weights", default="", help="of another network than that of `hri`")
     options = parser.parse_args()
-    recordings = samples.read_recordings(options.recordings)
-    orders = recordings.orders[::2]
-    talkers = [clip.samples for clip in (*orders, *recordings.read)]
-    grammars = {path.stem: Decoder(path) for path in sorted(HERE.glob("*.jsgf"))}
+    orders = orders_of(options.recordings)
     said = [
-        *sentences(grammars),
-        *(Said(clip.samples, "", "", "people") for clip in orders),
-        *talk(talkers),
+        *sentences(),
+        *(Said(clip, "", "", "people") for clip in orders),
+        *talk(talkers_of(options.recordings)),
     ]
-    pieces = list(pieces_of(said, talkers, grammars))
+    chance = random.Random(1)
+    names = [names_for(clip, chance) for clip in said]
+    with ProcessPoolExecutor() as pool:
+        work = partial(pieces_of, options.weights, options.recordings)
+        pieces = [piece for found in pool.map(work, said, names, chunksize=8) for piece in found]
     tell(pieces)
 
 
@@ -122,12 +124,46 @@ class Decoder:
         return None if found is None else (found.rule, found.tags)
 
 
-def sentences(grammars: dict[str, Decoder]) -> Iterator[Said]:
+@cache
+def decoders() -> dict[str, Decoder]:
+    """The grammars of `calibration/` by name."""
+    return {path.stem: Decoder(path) for path in sorted(HERE.glob("*.jsgf"))}
+
+
+@cache
+def orders_of(recordings: Path) -> list[Samples]:
+    """Every second of the recorded orders."""
+    return [clip.samples for clip in samples.read_recordings(recordings).orders[::2]]
+
+
+@cache
+def talkers_of(recordings: Path) -> list[Samples]:
+    """People whose talk lies under the sentences."""
+    read = samples.read_recordings(recordings).read
+    return [*orders_of(recordings), *(clip.samples for clip in read)]
+
+
+network_of = cache(load_network)
+
+
+@cache
+def rivals() -> Rivals:
+    """What else could have been said."""
+    return Rivals(Habits(load_lexicon()))
+
+
+def names_for(clip: Said, chance: random.Random) -> list[str]:
+    """The grammars that decode a clip: its own, and some others."""
+    others = [name for name in decoders() if name != clip.grammar]
+    return [*filter(None, [clip.grammar]), *chance.sample(others, OTHER_GRAMMARS)]
+
+
+def sentences() -> Iterator[Said]:
     """Sentences of all grammars and of none, each in a few voices."""
     chance = random.Random(0)
     texts = [
         (name, text)
-        for name, decoder in grammars.items()
+        for name, decoder in decoders().items()
         for text in {random_sentence(decoder.grammar, chance): None for _ in range(SENTENCES)}
     ]
     foreign = (HERE / "foreign.txt").read_text(encoding="utf-8").splitlines()
@@ -178,43 +214,38 @@ def _resampled(samples: Samples, rate: float) -> Samples:
 
 
 def pieces_of(
-    said: Sequence[Said], talkers: Sequence[Samples], grammars: dict[str, Decoder]
-) -> Iterator[Piece]:
-    """Every clip in every noise, decoded by its own grammar and by others."""
-    network = Conformer(adapted(read_tensors(find_weights(""))))
-    rivals = Rivals(Habits(load_lexicon()))
-    chance = random.Random(1)
-    for clip in said:
-        others = [name for name in grammars if name != clip.grammar]
-        names = [clip.grammar, *chance.sample(others, OTHER_GRAMMARS)]
-        for ratio in RATIOS:
-            for piece in cut(noisy(clip, talkers, ratio)):
-                noise = noise_of(piece)
-                posteriors = network.posteriors(piece[sounding(piece)])
-                scores = scores_of(posteriors)
-                for name in filter(None, names):
-                    found = _decoded(clip, name, grammars[name], scores, rivals)
-                    if found is not None:
-                        yield Piece(*found, ratio, noise, _fold(name, clip.voice))
+    weights: tuple[str, str], recordings: Path, clip: Said, names: list[str]
+) -> list[Piece]:
+    """A clip in every noise, decoded by some grammars."""
+    found = []
+    for ratio in RATIOS:
+        for piece in cut(noisy(clip, talkers_of(recordings), ratio)):
+            scores = scores_of(network_of(weights).posteriors(piece[sounding(piece)]))
+            for name in names:
+                if (decoded := _decoded(clip, name, scores)) is not None:
+                    fold = _fold(name, clip.voice)
+                    found.append(Piece(*decoded, ratio, noise_of(piece), fold))
+    return found
 
 
 def _decoded(
-    clip: Said, name: str, decoder: Decoder, scores: NDArray[np.float32], rivals: Rivals
+    clip: Said, name: str, scores: NDArray[np.float32]
 ) -> tuple[Fit, float, bool, bool] | None:
     """How it fits, its doubt, whether it is right and foreign; None for what says nothing."""
+    decoder = decoders()[name]
     decoder.search.begin()
     decoder.search.advance(scores)
-    paths = Walk(decoder.search.trellis).sentences(MOST_SENTENCES, BEAM)
+    candidates = ranked(decoder.search, scores, rivals())
     meaning = decoder.meaning(clip.sentence)
-    if not paths or (meaning is not None and name != clip.grammar):
+    if not candidates or (meaning is not None and name != clip.grammar):
         return None
-    meanings = [decoder.meaning(" ".join(path.words)) for path in paths]
-    chances = shares([path.score for path in paths])
+    meanings = [decoder.meaning(" ".join(one.path.words)) for one in candidates]
+    chances = shares([one.score for one in candidates])
     doubt = sum(
         chance for chance, other in zip(chances, meanings, strict=True) if other != meanings[0]
     )
-    rival = rivals.score(scores, paths[0].words)
-    fit = fit_of(paths[0], rival, scores, decoder.search.graph.phones)
+    best = candidates[0].path
+    fit = fit_of(best, rivals().score(scores, best.words), scores, decoder.search.graph.phones)
     return fit, float(doubt), meaning is not None and meanings[0] == meaning, meaning is None
 
 
@@ -223,13 +254,13 @@ def _fold(grammar: str, voice: str) -> int:
 
 
 def noisy(clip: Said, talkers: Sequence[Samples], ratio: float | None) -> Samples:
-    """The clip over the talk of others, the same at every run."""
+    """The clip among people who talk, or in a kitchen; the same at every run."""
     if ratio is None:
         return clip.samples
-    others = [talker for talker in talkers if talker is not clip.samples]
+    others = [talker for talker in talkers if not np.array_equal(talker, clip.samples)]
     seed = zlib.crc32(f"{clip.sentence} {clip.voice} {len(clip.samples)} {ratio:g}".encode())
-    noise = babble(others, len(clip.samples), np.random.default_rng(seed))
-    return above(clip.samples, noise, ratio)
+    make = (babble, kitchen)[seed % 2]
+    return above(clip.samples, make(others, len(clip.samples), np.random.default_rng(seed)), ratio)
 
 
 def cut(samples: Samples) -> list[Samples]:

@@ -53,7 +53,7 @@ def talk(clips: Sequence[Sound], chance: Chance) -> Sound:
     track = np.zeros(TRACK, np.float32)
     position = -int(chance.integers(RATE))
     while position < TRACK:
-        clip = clips[chance.integers(len(clips))]
+        clip = clips[chance.integers(len(clips))].astype(np.float32)
         clip = clip / np.sqrt(active_power(clip))
         start, position = position, position + len(clip)
         part = clip[max(-start, 0) : TRACK - start]
@@ -105,8 +105,75 @@ def music(clips: Sequence[Sound], chance: Chance) -> Sound:
     return track
 
 
+def shaped(chance: Chance, strength: NDArray[np.float64]) -> Sound:
+    """A track of noise with a strength for each frequency of `FREQUENCIES`; deviation 1."""
+    size = len(FREQUENCIES)
+    spectrum = (chance.normal(size=size) + 1j * chance.normal(size=size)) * strength
+    track = np.fft.irfft(spectrum, TRACK).astype(np.float32)
+    return track / track.std()
+
+
+FREQUENCIES = np.fft.rfftfreq(TRACK, 1 / RATE)
+
+
+def swelling(chance: Chance, steps: int, deviation_db: float) -> Sound:
+    """Factors for a track that come and go by chance."""
+    swells = 10 ** (chance.normal(0, deviation_db, steps) / 20)
+    return np.interp(np.arange(TRACK), np.linspace(0, TRACK, steps), swells).astype(np.float32)
+
+
+def water(clips: Sequence[Sound], chance: Chance) -> Sound:
+    """A tap, or something that fries: noise of the middle and high frequencies that flickers."""
+    middle, width = chance.uniform(1200, 5000), chance.uniform(0.5, 1.3)
+    octaves = np.log2(np.maximum(FREQUENCIES, 20) / middle)
+    hiss = shaped(chance, np.exp(-((octaves / width) ** 2)) + 0.05)
+    return hiss * swelling(chance, int(chance.integers(40, 400)), chance.uniform(1, 4))
+
+
+def motor(clips: Sequence[Sound], chance: Chance) -> Sound:
+    """The robot's own motors, or a mixer: harmonics of a pitch that wanders, gears, and hiss."""
+    rough = swelling(chance, int(chance.integers(4, 30)), 1.5)
+    pitch = chance.uniform(45, 500) * rough / rough.mean()
+    phase = 2 * np.pi * np.cumsum(pitch) / RATE
+    fall = chance.uniform(0.2, 1.2)
+    tones = sum(
+        np.sin(number * phase + chance.uniform(0, 6.3)) * number**-fall * chance.uniform(0.2, 1)
+        for number in range(1, int(chance.integers(6, 25)))
+    )
+    hiss = shaped(chance, 1 / (1 + FREQUENCIES / chance.uniform(300, 4000)))
+    track = tones / np.std(tones) + hiss * decibels(chance.uniform(-15, 3))
+    if chance.random() < 0.5:  # it runs now and then
+        track *= np.repeat(chance.random(16) < 0.6, TRACK // 16) + 0.03
+    return track.astype(np.float32)
+
+
+def traffic(clips: Sequence[Sound], chance: Chance) -> Sound:
+    """Cars that pass: low noise that swells and fades."""
+    track = shaped(chance, 1 / (1 + (FREQUENCIES / chance.uniform(80, 400)) ** 1.5))
+    track *= swelling(chance, int(chance.integers(4, 9)), 8)
+    tires = shaped(chance, 1 / (1 + ((FREQUENCIES - 900) / 700) ** 2))
+    return track + tires * swelling(chance, 6, 8) * np.float32(decibels(chance.uniform(-20, -3)))
+
+
+def television(clips: Sequence[Sound], chance: Chance) -> Sound:
+    """Someone talks over music."""
+    tune = music(clips, chance)
+    return talk(clips, chance) + tune / tune.std() * decibels(chance.uniform(-18, 0))
+
+
+def kitchen(clips: Sequence[Sound], chance: Chance) -> Sound:
+    """Some of it at once."""
+    track = np.zeros(TRACK, np.float32)
+    for kind in (clatter, water, motor, babble):
+        if chance.random() < 0.7:
+            part = kind(clips, chance)
+            track += part / part.std() * np.float32(decibels(chance.normal(0, 6)))
+    return track if track.any() else clatter(clips, chance)
+
+
 NOISES: dict[Callable[[Sequence[Sound], Chance], Sound], float] = {
-    babble: 0.70, one_talker: 0.06, steady: 0.12, clatter: 0.07, music: 0.05,
+    babble: 0.46, one_talker: 0.07, television: 0.06, steady: 0.10, clatter: 0.07, music: 0.05,
+    water: 0.04, motor: 0.05, traffic: 0.03, kitchen: 0.07,
 }  # fmt: skip
 
 
@@ -125,11 +192,14 @@ def tracks(count: int, clips: Sequence[Sound], chance: Chance) -> list[Sound]:
 
 
 def room(chance: Chance, length: int) -> NDArray[np.complex64]:
-    """A direct sound and an exponential tail that takes 0.1 to 0.5 s to fall by 60 dB."""
+    """A direct sound and an exponential tail that takes 0.1 to 0.6 s to fall by 60 dB.
+
+    Far from the speaker the tail has more power than the direct sound.
+    """
     time = np.arange(length // 4) / RATE
-    tail = chance.normal(size=len(time)) * 10 ** (-3 * time / chance.uniform(0.1, 0.5))
+    tail = chance.normal(size=len(time)) * 10 ** (-3 * time / chance.uniform(0.1, 0.6))
     tail[: RATE // 500] = 0
-    response = tail * decibels(-chance.uniform(0, 15)) / np.sqrt((tail**2).sum())
+    response = tail * decibels(-chance.uniform(-6, 15)) / np.sqrt((tail**2).sum())
     response[0] = 1
     return np.fft.rfft(response.astype(np.float32), length)
 
@@ -183,7 +253,9 @@ def noisy(sound: Sound, noises: Sequence[Sound], chance: Chance) -> Sound:
         ratio = chance.triangular(1, 7, 18) if chance.random() < 0.85 else chance.uniform(18, 40)
         noise = noises[chance.integers(len(noises))]
         start = chance.integers(TRACK - LENGTH)
-        sound = sound + noise[start : start + LENGTH] * (power**0.5 * decibels(-ratio))
+        sound = sound + noise[start : start + LENGTH].astype(np.float32) * (
+            power**0.5 * decibels(-ratio)
+        )
     if chance.random() < 0.6:
         sound = filtered(sound, microphone(chance, LENGTH))
     level = np.sqrt(active_power(sound))

@@ -1,4 +1,4 @@
-"""Aligns phones in the training speech: `python align.py speech.npz`.
+"""Aligns phones in the training speech: `python align.py speech.npz origin.npz`.
 
 Where the text of a clip is known, its words are laid along what the network as it comes hears in
 the clean sound; where it is not, or does not fit, what the network hears is taken for the truth.
@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import argparse
 from concurrent.futures import ProcessPoolExecutor
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +25,7 @@ from hri.speech.recognizers.ctc.habits import Habits
 from hri.speech.recognizers.ctc.lattice import Walk
 from hri.speech.recognizers.ctc.phone_graph import compile
 from hri.speech.recognizers.ctc.search import Search
-from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
+from hri.speech.recognizers.ctc.weights import read_tensors
 
 Phones = list[tuple[int, int]]
 """Classes, and the frames in which they begin."""
@@ -89,14 +89,14 @@ def habits() -> Habits:
 
 
 @cache
-def teacher() -> Conformer:
-    """The network as it comes."""
-    return Conformer(read_tensors(find_weights()))
+def network_of(file: Path) -> Conformer:
+    """The network of a weight file."""
+    return Conformer(read_tensors(file))
 
 
-def phones_of(text: str, clip: NDArray[np.int16]) -> tuple[Phones, bool]:
+def phones_of(teacher: Path, text: str, clip: NDArray[np.int16]) -> tuple[Phones, bool]:
     """The transcript of a clip, and whether the text is known."""
-    posteriors = teacher().posteriors(clip)
+    posteriors = network_of(teacher).posteriors(clip)
     found = spoken(text, posteriors) if text else None
     return (heard(posteriors), False) if found is None else (found, True)
 
@@ -105,11 +105,16 @@ def main() -> None:
     """Align all clips and write the file again."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("file", type=Path)
+    parser.add_argument("teacher", type=Path, help="what origin.py writes")
     args = parser.parse_args()
     stored = dict(np.load(args.file))
     clips = np.split(stored["clips"], stored["ends"][:-1])
     with ProcessPoolExecutor() as pool:
-        results = list(pool.map(phones_of, stored["texts"].tolist(), clips, chunksize=16))
+        results = list(
+            pool.map(
+                partial(phones_of, args.teacher), stored["texts"].tolist(), clips, chunksize=16
+            )
+        )
     phones = [phone for found, _ in results for phone in found]
     stored["phones"] = np.array([phone for phone, _ in phones], np.int32)
     stored["starts"] = np.array([frame * FRAME for _, frame in phones], np.int32)

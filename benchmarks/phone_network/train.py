@@ -1,0 +1,326 @@
+"""Trains the phone network: `python train.py speech.npz network.npz --minutes 80`.
+
+The teacher is the network that ours grew from (`origin.py`), on clean speech; the student hears the
+same speech under noise (G. Hinton, O. Vinyals, J. Dean, "Distilling the knowledge in a neural
+network", 2015). It also learns the phones from `align.py` in their order, whenever they sound
+(A. Graves et al., "Connectionist temporal classification", 2006). What is written is the
+exponential mean of the weights (B. Polyak, A. Juditsky, 1992). Training goes on from the file given
+with --start; --grow begins with a second block after each of its blocks.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import multiprocessing
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+
+import network
+import numpy as np
+import torch
+from network import Stored, Weights, log_probabilities
+from numpy.typing import NDArray
+from sound import LENGTH, RATE, Sound, clean, noisy, tracks
+from torch import Tensor
+from torch.nn import functional
+
+from hri.speech.recognizers.ctc.conformer import Conformer
+from hri.speech.recognizers.ctc.features import log_mel, padded
+
+Array = NDArray[np.float32]
+
+BATCH = 16
+RATE_OF_LEARNING = 6e-4
+WARM_UP = 200
+"""Steps until the full rate of learning; it falls along a cosine until the end."""
+DECAY = 0.01
+"""Of the matrices, relative to the rate of learning (I. Loshchilov, F. Hutter, "AdamW", 2019)."""
+MEAN = 0.999
+"""How much of the mean of the weights stays at each step."""
+DROPPED = 0.1
+"""Share of what each layer adds that is left out."""
+PEAK_WEIGHT = 4.0
+"""How much more a frame weighs in which the teacher hears a phone: most are blank."""
+SEQUENCE_WEIGHT = 6.0
+"""How much the phones in their order weigh, beside the frames."""
+DRAWN = 3
+"""Times as many clips as there are, so that few are never drawn."""
+MOST_PHONES = 96
+"""In one example."""
+LATEST = RATE // 50
+"""Samples: a phone that begins so shortly before the end of an example is not asked for."""
+WARPED = 0.5
+"""How many of the examples are warped, and by which factors."""
+WARPS = (0.84, 1.2)
+NOISES = 500
+"""Tracks."""
+ASIDE = ("allison", "flite")
+ASIDE_OF_EACH = 24
+"""Clips of these speakers on which the learning is watched, and which are not learned from."""
+WATCHED_DB = (6.0, 12.0, 60.0)
+NOT_TAUGHT = ("child", "whispered", "shouted")
+"""Speakers whom the teacher hardly understands: of them, only the phones are learned."""
+LEAST = 1e-7
+AHEAD = 3
+"""Batches that are made before they are asked for."""
+REPORTED = 200
+"""Steps between two reports."""
+
+
+def evenly(
+    speakers: NDArray[np.str_], aside: list[int], chance: np.random.Generator
+) -> NDArray[np.intp]:
+    """Numbers of clips, drawn so that a speaker of four times as many comes twice as often."""
+    _, speaker, counts = np.unique(speakers, return_inverse=True, return_counts=True)
+    weights = counts[speaker] ** -0.5
+    weights[aside] = 0
+    return chance.choice(len(speakers), DRAWN * len(speakers), p=weights / weights.sum())
+
+
+@dataclass(frozen=True, eq=False)
+class Lesson:
+    """What is heard at once, and what it should be heard as."""
+
+    mel: Array
+    target: NDArray[np.float16]
+    is_taught: NDArray[np.bool_]
+    """Whether the teacher's word counts."""
+    phones: NDArray[np.int32]
+
+
+class Lessons:
+    """Clean examples with what the teacher hears in them, and noise to lay over them."""
+
+    def __init__(self, file: Path, teacher: Stored, seed: int) -> None:
+        self._seed = seed
+        self._filters = teacher["filters"]
+        self._teacher = Conformer(teacher)
+        chance = np.random.default_rng(seed)
+        with np.load(file) as stored:
+            clips = np.split(stored["clips"], stored["ends"][:-1])
+            phones = np.split(
+                np.stack([stored["phones"], stored["starts"]], axis=1), stored["phone_ends"][:-1]
+            )
+            speakers = stored["speakers"]
+        aside = [
+            number
+            for speaker in ASIDE
+            for number in np.flatnonzero(speakers == speaker)[::5][:ASIDE_OF_EACH]
+        ]
+        chosen = evenly(speakers, aside, chance)
+        learned = [clips[number] for number in chosen]
+        self._noises = [track.astype(np.float16) for track in tracks(NOISES, learned, chance)]
+        self._clips = learned
+        self._spoken = [phones[number] for number in chosen]
+        self._is_taught = ~np.isin(speakers[chosen], NOT_TAUGHT)
+        kept = [(number, *clean([clips[number]], chance)) for number in aside]
+        self.watched_phones = np.stack(
+            [
+                phones_within([(phones[number], at) for _, at in placed])
+                for number, _, placed in kept
+            ]
+        )
+        self.watched = {
+            ratio: np.stack([self._mel(self._beside(sound, ratio, chance)) for _, sound, _ in kept])
+            for ratio in WATCHED_DB
+        }
+
+    def target(self, sound: Sound) -> NDArray[np.float16]:
+        """What the teacher hears."""
+        mel = np.pad(self._teacher.log_mel(padded(sound)), ((1, 1), (0, 0)))
+        return np.exp(self._teacher.run(mel, self._teacher.past(), 0)).astype(np.float16)
+
+    def _beside(self, sound: Sound, ratio: float, chance: np.random.Generator) -> Sound:
+        """A sound above noise, at a level difference in decibels."""
+        noise = self._noises[chance.integers(len(self._noises))][:LENGTH].astype(np.float32)
+        return sound + noise * np.float32(sound.std() * 10 ** (-ratio / 20))
+
+    def _mel(self, sound: Sound, filters: Array | None = None) -> Array:
+        filters = self._filters if filters is None else filters
+        return np.pad(log_mel(padded(sound), filters), ((1, 1), (0, 0)))
+
+    def batch(self, number: int) -> Lesson:
+        """Log-mel frames of noisy examples, what is to be heard in each, and the phones."""
+        chance = np.random.default_rng((self._seed, number))
+        mels, targets, taught, phones = [], [], [], []
+        for _ in range(BATCH):
+            sound, placed = clean(self._clips, chance)
+            targets.append(self.target(sound))
+            taught.append(all(self._is_taught[clip] for clip, _ in placed))
+            phones.append(phones_within([(self._spoken[clip], start) for clip, start in placed]))
+            mels.append(
+                self._mel(noisy(sound, self._noises, chance), warped(self._filters, chance))
+            )
+        return Lesson(np.stack(mels), np.stack(targets), np.array(taught), np.stack(phones))
+
+
+def warped(filters: Array, chance: np.random.Generator) -> Array:
+    """The filters [bins, bands] as if the mouth of the speaker were smaller or larger.
+
+    The lower frequencies are stretched, the highest stays (L. Lee, R. Rose, "A frequency warping
+    approach to speaker normalization", 1998).
+    """
+    if chance.random() > WARPED:
+        return filters
+    factor = chance.uniform(*WARPS)
+    last = len(filters) - 1
+    bend = 0.8 * last / max(factor, 1)
+    places = np.interp(np.arange(last + 1), [0, bend, last], [0, bend * factor, last])
+    lower = np.minimum(places.astype(int), last - 1)
+    share = (places - lower)[:, None].astype(np.float32)
+    return filters[lower] * (1 - share) + filters[lower + 1] * share
+
+
+def phones_within(placed: list[tuple[NDArray[np.int32], int]]) -> NDArray[np.int32]:
+    """The phones [MOST_PHONES] that begin in an example, in order; then 0.
+
+    Given are the classes and beginnings [phones, 2] of clips, and where each of these begins.
+    """
+    classes = [
+        phone
+        for phones, start in placed
+        for phone, begins in phones
+        if 0 <= start + begins < LENGTH - LATEST
+    ][:MOST_PHONES]
+    return np.pad(np.array(classes, np.int32), (0, MOST_PHONES - len(classes)))
+
+
+def loss(weights: Weights, lesson: Lesson) -> Tensor:
+    """How far the student is from the teacher, and from what was said, a frame.
+
+    The first frame by frame, by Kullback and Leibler's measure; the second by how likely it finds
+    the phones in their order, whenever they sound.
+    """
+    target = torch.from_numpy(lesson.target.astype(np.float32))
+    phones = torch.from_numpy(lesson.phones.astype(np.int64))
+    with torch.autocast("cpu", torch.bfloat16):
+        heard = log_probabilities(weights, torch.from_numpy(lesson.mel), DROPPED)
+    apart = (target * (target.clamp_min(LEAST).log() - heard)).sum(dim=-1)
+    apart = (apart * (1 + PEAK_WEIGHT * (1 - target[..., 0]))).mean(dim=-1)
+    apart = (apart * torch.from_numpy(lesson.is_taught)).mean()
+    return apart + SEQUENCE_WEIGHT * unlikely(heard, phones).mean() / heard.shape[1]
+
+
+def unlikely(heard: Tensor, phones: Tensor) -> Tensor:
+    """Negative logarithm of the chance to hear phones [batch, MOST_PHONES] in their order."""
+    batch, frames, _ = heard.shape
+    lengths = torch.full((batch,), frames), (phones > 0).sum(dim=1)
+    return functional.ctc_loss(
+        heard.transpose(0, 1), phones, *lengths, reduction="none", zero_infinity=True
+    )
+
+
+class Student:
+    """The network that learns, and the mean of its weights."""
+
+    def __init__(self, tensors: Stored) -> None:
+        self.fixed = {"filters": tensors["filters"]}
+        self.weights = {
+            name: torch.tensor(tensor, requires_grad=True)
+            for name, tensor in tensors.items()
+            if name not in self.fixed
+        }
+        self.mean = {name: weight.detach().clone() for name, weight in self.weights.items()}
+        matrices = [w for name, w in self.weights.items() if name.endswith(".matrix")]
+        others = [w for name, w in self.weights.items() if not name.endswith(".matrix")]
+        self._optimizer = torch.optim.AdamW(
+            [{"params": matrices, "weight_decay": DECAY}, {"params": others, "weight_decay": 0.0}],
+            betas=(0.9, 0.98), fused=True,
+        )  # fmt: skip
+        self._number = 0
+
+    def learn(self, lesson: Lesson, rate: float) -> float:
+        """One step; the loss before it."""
+        value = loss(self.weights, lesson)
+        self._optimizer.zero_grad()
+        value.backward()
+        torch.nn.utils.clip_grad_norm_(self.weights.values(), 1.0)
+        for group in self._optimizer.param_groups:
+            group["lr"] = rate
+        self._optimizer.step()
+        self._number += 1
+        kept = min(MEAN, (1 + self._number) / (10 + self._number))
+        with torch.no_grad():
+            torch._foreach_lerp_(list(self.mean.values()), list(self.weights.values()), 1.0 - kept)
+        return float(value.detach())
+
+    def cost(self, mels: Array, phones: NDArray[np.int32]) -> float:
+        """What a phone costs the mean of the weights: negative logarithm of its chance."""
+        total = 0.0
+        with torch.no_grad():
+            for begin in range(0, len(mels), BATCH):
+                heard = log_probabilities(self.mean, torch.from_numpy(mels[begin : begin + BATCH]))
+                wanted = torch.from_numpy(phones[begin : begin + BATCH].astype(np.int64))
+                total += float(unlikely(heard, wanted).sum())
+        return total / int((phones > 0).sum())
+
+    def write(self, file: Path) -> None:
+        """The mean of the weights."""
+        network.write(self.fixed | {n: w.numpy() for n, w in self.mean.items()}, file)
+
+
+_lessons: Lessons
+"""Of a separate process: what it was forked with, which is too much to be sent to it."""
+
+
+def _batch(number: int) -> Lesson:
+    return _lessons.batch(number)
+
+
+def batches(lessons: Lessons) -> Iterator[Lesson]:
+    """One batch after another, made in a separate process while the one before is learned from."""
+    global _lessons
+    _lessons = lessons
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        coming = [pool.apply_async(_batch, (number,)) for number in range(AHEAD)]
+        for number in count(AHEAD):
+            coming.append(pool.apply_async(_batch, (number,)))
+            yield coming.pop(0).get()
+
+
+def main() -> None:
+    """Train for some minutes and write the file, now and then in between."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("speech", type=Path)
+    parser.add_argument("file", type=Path)
+    parser.add_argument("--teacher", type=Path, required=True, help="what origin.py writes")
+    parser.add_argument("--start", type=Path, required=True)
+    parser.add_argument("--grow", action="store_true")
+    parser.add_argument("--minutes", type=float, default=60)
+    parser.add_argument("--rate", type=float, default=RATE_OF_LEARNING)
+    parser.add_argument("--seed", type=int, default=11)
+    args = parser.parse_args()
+    lessons = Lessons(args.speech, network.read(args.teacher), args.seed)
+    start = network.read(args.start)
+    student = Student(network.grown(start) if args.grow else start)
+
+    def report(number: int, losses: list[float]) -> None:
+        costs = [
+            f"{ratio:g} dB {student.cost(mels, lessons.watched_phones):.3f}"
+            for ratio, mels in lessons.watched.items()
+        ]
+        minutes = (time.perf_counter() - begun) / 60
+        now = f"{minutes:5.1f} min, step {number}: loss {np.mean(losses or [math.nan]):.4f}"
+        print(now, *costs, sep=", ", flush=True)
+        student.write(args.file)
+
+    begun = time.perf_counter()
+    losses: list[float] = []
+    report(0, losses)
+    for number, lesson in enumerate(batches(lessons), 1):
+        done = (time.perf_counter() - begun) / 60 / args.minutes
+        if done >= 1:
+            break
+        rate = args.rate * min(1, number / WARM_UP) * (1 + math.cos(math.pi * done)) / 2
+        losses.append(student.learn(lesson, rate))
+        if number % REPORTED == 0:
+            report(number, losses[-REPORTED:])
+    report(len(losses), losses[-REPORTED:])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,57 @@
+"""Which of the sentences that fit best was said."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.speech.recognizers.ctc.lattice import Path, Walk
+from hri.speech.recognizers.ctc.likelihood import likelihoods
+from hri.speech.recognizers.ctc.phone_graph import Floats, Pronouncing
+from hri.speech.recognizers.ctc.search import BLANK, Search
+
+MOST_SENTENCES = 8
+"""Sentences that are told: the best and its alternatives."""
+BEAM = 12.0
+"""Natural log; sentences whose best way is worse than the best by more are dropped."""
+ALL_WAYS = 0.5
+"""How much the sum over all ways to say a sentence counts, beside the best of them: more decodes
+more orders of people and fewer commands (benchmarks/phone_network/README.md).
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A sentence that may have been said."""
+
+    path: Path
+    score: float
+    """Natural log; the higher, the likelier."""
+
+
+def ranked(search: Search, scores: Floats, lexicon: Pronouncing) -> list[Candidate]:
+    """The sentences that fit a whole piece of speech, the likeliest first; none where none fits.
+
+    The search has advanced by the `scores` [frames, classes].
+    """
+    paths = Walk(search.trellis).sentences(MOST_SENTENCES, BEAM)
+    if not paths:
+        return []
+    sums = likelihoods(scores, [path.words for path in paths], lexicon)
+    phones = search.graph.phones
+    found = [
+        Candidate(path, path.score + ALL_WAYS * (float(total) - _along(path, scores, phones)))
+        for path, total in zip(paths, sums, strict=True)
+    ]
+    return sorted(found, key=lambda candidate: -candidate.score)
+
+
+def _along(path: Path, scores: Floats, phones: NDArray[np.integer]) -> float:
+    """What scores [frames, classes] add up to along a path, without the grammar's weights."""
+    classes = np.full(len(scores), BLANK)
+    for span in path.spans:
+        states = np.array(span.states)
+        classes[span.start : span.end] = np.where(states >= 0, phones[states], BLANK)
+    return float(scores[np.arange(len(scores)), classes].sum(dtype=np.float64))
