@@ -1,4 +1,4 @@
-"""Collects clean speech of many voices for the adaptation: `python collect.py speech.npz`.
+"""Collects clean speech of many voices to learn from: `python collect.py speech.npz`.
 
 With the texts of what synthesizers were given to say; of recordings there are none, and what the
 network itself hears in them has to do. Which voices, and under which licenses: README.md beside

@@ -1,17 +1,15 @@
 """The phone network: a conformer, run by numpy.
 
-Log-mel frames, a convolution that halves their rate, 4 blocks of (half a feed-forward layer,
+Log-mel frames, a convolution that halves their rate, blocks of (half a feed-forward layer,
 attention over all frames, a convolution over 31 frames, half a feed-forward layer), and a
-projection onto the network's tokens (A. Gulati et al., "Conformer", Interspeech 2020). Trained by
+projection onto the classes (A. Gulati et al., "Conformer", Interspeech 2020). The network that
+comes with `hri` has 4 blocks; how it was made: benchmarks/phone_network/README.md. Trained by
 connectionist temporal classification: most frames are blank, a phone shows as a peak of one or
 two frames.
 
 With one thread of OpenBLAS on a core of 2.6 GHz with AVX-512, 2 s of sound take 7.5 ms, 9 s 34 ms
 and 15 s 73 ms (attention grows with the square); weights and work take 22 to 35 MB, loading some
 50 ms. More threads made it slower, so `hri` asks for one unless OPENBLAS_NUM_THREADS says another.
-A plain form of it gave the same best token in every frame of 6 recordings as the package's own
-engine, its probability within 0.001; this form gives the same best class as the plain one in every
-frame of 9, within 0.005.
 """
 
 from __future__ import annotations
