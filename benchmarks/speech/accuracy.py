@@ -94,8 +94,7 @@ def rows(
 ) -> Iterator[Row]:
     """The rows of recognition; every `step`th sentence and recording is taken.
 
-    `draw` chooses other noise, which shows how much of a figure is chance; the constants of the
-    recognizer were settled with sight of no draw.
+    `draw` chooses other noise, which shows how much of a figure is chance.
     """
 
     @cache
