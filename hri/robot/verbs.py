@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import Any, TypeVar
 
 from hri.behavior.behavior import Behavior
@@ -142,6 +143,8 @@ class _Again:
     """Something is left to be asked."""
 
     question: str
+    answer_of: Callable[[TaskContext, Event], Any]
+    """What an event answers then."""
 
 
 async def _ask(
@@ -170,8 +173,8 @@ async def _ask(
                     if answer is None:
                         continue
                     if isinstance(answer, _Again):
-                        asked = answer.question
                         if left:
+                            asked, answer_of = answer.question, answer.answer_of
                             break
                         continue
                     if answer[0] is not None:
@@ -209,15 +212,16 @@ def _is_asked(context: TaskContext, person: str) -> bool:
 class _HeardAnswer:
     """Takes the first thing heard for the answer, with what was clear of those before it."""
 
-    def __init__(self) -> None:
-        self._sure: dict[str, Any] = {}
+    def __init__(self, sure: Mapping[str, Any] = MappingProxyType({})) -> None:
+        self._sure = sure
 
     def __call__(
         self, context: TaskContext, event: Event
     ) -> tuple[Utterance | None] | _Again | None:
-        if event.name == "speech.rejected" and event.properties.get("unsure"):
-            self._sure |= event.properties["sure"]
-            return _Again(f"Which {_in_words(event.properties['unsure'][0])}?")
+        sure, unsure = (event.properties.get(name) for name in ("sure", "unsure"))
+        if event.name == "speech.rejected" and sure and unsure:
+            question = f"Which {_in_words(unsure[0])}?"
+            return _Again(question, _HeardAnswer({**self._sure, **sure}))
         heard = listener_of(context).last_utterance
         if event.name != "speech.heard" or heard is None:
             return None
