@@ -30,6 +30,7 @@ from numpy.typing import NDArray
 from benchmarks.speech.babble import babble
 from benchmarks.speech.kitchen import kitchen
 from benchmarks.speech.levels import above
+from benchmarks.speech.manners import MANNERS
 from hri.bench.speech import flite_voices, samples
 from hri.bench.speech.flite_voices import RATE
 from hri.core.signals import Samples
@@ -56,7 +57,9 @@ RATIOS = (None, 15.0, 12.0, 9.0, 6.0)
 """Decibels above the babble; None is without."""
 SENTENCES = 36
 """Of each grammar."""
-VOICES_EACH = 3
+VOICES_EACH = 4
+SPOKEN = ("plain", "fast", "far")
+"""Manners in which the natural voice speaks."""
 OTHER_GRAMMARS = 2
 """That decode a sentence beside its own."""
 BABBLES, BABBLE_S = 40, 4.0
@@ -184,12 +187,14 @@ def talk(talkers: Sequence[Samples]) -> Iterator[Said]:
 
 
 def speakers() -> Iterator[tuple[str, Callable[[str], Samples]]]:
-    """Voices by name; those of flite once more as larger and smaller people."""
+    """Voices by name; some of them once more as larger and smaller people."""
     for voice, rate, pitch in (("en-us", 165, 50), ("en-us+f3", 160, 60), ("en-gb", 150, 45)):
         yield voice, partial(_espeak, setting=Setting(voice=voice, rate=rate, pitch=pitch))
     for voice in ("rms", "kal16"):
         for size in (1.0, 1.08, 0.93):
             yield f"{voice} {size:g}", partial(_flite, voice=voice, size=size)
+    for manner in SPOKEN:
+        yield manner, MANNERS[manner]
 
 
 def _espeak(text: str, setting: Setting) -> Samples:
@@ -213,9 +218,7 @@ def _resampled(samples: Samples, rate: float) -> Samples:
     return np.clip(sound, -32768, 32767).astype(np.int16)
 
 
-def pieces_of(
-    weights: tuple[str, str], recordings: Path, clip: Said, names: list[str]
-) -> list[Piece]:
+def pieces_of(weights: str, recordings: Path, clip: Said, names: list[str]) -> list[Piece]:
     """A clip in every noise, decoded by some grammars."""
     found = []
     for ratio in RATIOS:
