@@ -15,21 +15,24 @@ import math
 import multiprocessing
 import time
 from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 from itertools import count
 from pathlib import Path
 
 import network
 import numpy as np
 import torch
+from align import network_of
 from network import Stored, Weights, log_probabilities
 from numpy.typing import NDArray
-from sound import LENGTH, RATE, Sound, clean, noisy, tracks
+from sound import GRID, LENGTH, RATE, Sound, clean, noisy, tracks
 from torch import Tensor
 from torch.nn import functional
 
-from hri.speech.recognizers.ctc.conformer import Conformer
-from hri.speech.recognizers.ctc.features import log_mel, padded
+from hri.speech.recognizers.ctc.classes import CLASSES
+from hri.speech.recognizers.ctc.features import HOP, WIDTH, log_mel_of, padded
 
 Array = NDArray[np.float32]
 
@@ -56,6 +59,13 @@ LATEST = RATE // 50
 WARPED = 0.5
 """How many of the examples are warped, and by which factors."""
 WARPS = (0.84, 1.2)
+PACED = 0.35
+"""How many of the examples are faster or slower, and by which factors."""
+PACES = (0.75, 1.7)
+MASKED = 0.6
+"""How many of the examples have holes, how many holes, and the greatest width of each."""
+BAND_HOLES, BANDS_WIDE = 2, 14
+TIME_HOLES, FRAMES_WIDE = 3, 14
 NOISES = 500
 """Tracks."""
 ASIDE = ("allison", "flite")
@@ -95,10 +105,9 @@ class Lesson:
 class Lessons:
     """Clean examples with what the teacher hears in them, and noise to lay over them."""
 
-    def __init__(self, file: Path, teacher: Stored, seed: int) -> None:
+    def __init__(self, file: Path, teacher: Path, seed: int) -> None:
         self._seed = seed
-        self._filters = teacher["filters"]
-        self._teacher = Conformer(teacher)
+        self._filters = network.read(teacher)["filters"]
         chance = np.random.default_rng(seed)
         with np.load(file) as stored:
             clips = np.split(stored["clips"], stored["ends"][:-1])
@@ -106,17 +115,17 @@ class Lessons:
                 np.stack([stored["phones"], stored["starts"]], axis=1), stored["phone_ends"][:-1]
             )
             speakers = stored["speakers"]
+        targets = taught(clips, ~np.isin(speakers, NOT_TAUGHT), teacher)
         aside = [
             number
             for speaker in ASIDE
             for number in np.flatnonzero(speakers == speaker)[::5][:ASIDE_OF_EACH]
         ]
         chosen = evenly(speakers, aside, chance)
-        learned = [clips[number] for number in chosen]
-        self._noises = [track.astype(np.float16) for track in tracks(NOISES, learned, chance)]
-        self._clips = learned
+        self._clips = [clips[number] for number in chosen]
         self._spoken = [phones[number] for number in chosen]
-        self._is_taught = ~np.isin(speakers[chosen], NOT_TAUGHT)
+        self._targets = [targets[number] for number in chosen]
+        self._noises = [track.astype(np.float16) for track in tracks(NOISES, self._clips, chance)]
         kept = [(number, *clean([clips[number]], chance)) for number in aside]
         self.watched_phones = np.stack(
             [
@@ -125,37 +134,85 @@ class Lessons:
             ]
         )
         self.watched = {
-            ratio: np.stack([self._mel(self._beside(sound, ratio, chance)) for _, sound, _ in kept])
+            ratio: np.stack(
+                [frames(self._beside(sound, ratio, chance), self._filters) for _, sound, _ in kept]
+            )
             for ratio in WATCHED_DB
         }
-
-    def target(self, sound: Sound) -> NDArray[np.float16]:
-        """What the teacher hears."""
-        mel = np.pad(self._teacher.log_mel(padded(sound)), ((1, 1), (0, 0)))
-        return np.exp(self._teacher.run(mel, self._teacher.past(), 0)).astype(np.float16)
 
     def _beside(self, sound: Sound, ratio: float, chance: np.random.Generator) -> Sound:
         """A sound above noise, at a level difference in decibels."""
         noise = self._noises[chance.integers(len(self._noises))][:LENGTH].astype(np.float32)
         return sound + noise * np.float32(sound.std() * 10 ** (-ratio / 20))
 
-    def _mel(self, sound: Sound, filters: Array | None = None) -> Array:
-        filters = self._filters if filters is None else filters
-        return np.pad(log_mel(padded(sound), filters), ((1, 1), (0, 0)))
-
     def batch(self, number: int) -> Lesson:
         """Log-mel frames of noisy examples, what is to be heard in each, and the phones."""
         chance = np.random.default_rng((self._seed, number))
-        mels, targets, taught, phones = [], [], [], []
-        for _ in range(BATCH):
-            sound, placed = clean(self._clips, chance)
-            targets.append(self.target(sound))
-            taught.append(all(self._is_taught[clip] for clip, _ in placed))
-            phones.append(phones_within([(self._spoken[clip], start) for clip, start in placed]))
-            mels.append(
-                self._mel(noisy(sound, self._noises, chance), warped(self._filters, chance))
-            )
-        return Lesson(np.stack(mels), np.stack(targets), np.array(taught), np.stack(phones))
+        return Lesson(*map(np.stack, zip(*(self._one(chance) for _ in range(BATCH)), strict=True)))
+
+    def _one(
+        self, chance: np.random.Generator
+    ) -> tuple[Array, NDArray[np.float16], np.bool_, NDArray[np.int32]]:
+        pace = chance.uniform(*PACES) if chance.random() < PACED else 1.0
+        sound, placed = clean(self._clips, chance, math.ceil(LENGTH * pace))
+        heard = [(self._targets[clip], start) for clip, start in placed]
+        is_taught = pace == 1.0 and all(target is not None for target, _ in heard)
+        mel = frames(noisy(sound, self._noises, chance), warped(self._filters, chance), pace)
+        phones = phones_within([(self._spoken[clip], start) for clip, start in placed], pace)
+        return masked(mel, chance), composed(heard), np.bool_(is_taught), phones
+
+
+Heard = NDArray[np.float16] | None
+"""What the teacher hears in a clip, [frames, classes]; None where it has no say."""
+
+
+def taught(
+    clips: list[NDArray[np.int16]], is_taught: NDArray[np.bool_], teacher: Path
+) -> list[Heard]:
+    """What the teacher hears in each clip."""
+    with ProcessPoolExecutor() as pool:
+        chosen = (clip for clip, is_one in zip(clips, is_taught, strict=True) if is_one)
+        found = pool.map(partial(posteriors, teacher), chosen, chunksize=64)
+        return [next(found) if is_one else None for is_one in is_taught]
+
+
+def posteriors(teacher: Path, clip: NDArray[np.int16]) -> NDArray[np.float16]:
+    """Chances of the classes, [frames, classes]."""
+    return np.exp(network_of(teacher).posteriors(clip)).astype(np.float16)
+
+
+def composed(heard: list[tuple[Heard, int]]) -> NDArray[np.float16]:
+    """What is heard in an example that is composed of clips, given where each begins."""
+    count = LENGTH // GRID + 1
+    whole = np.zeros((count, len(CLASSES)), np.float16)
+    whole[:, 0] = 1.0
+    for target, start in heard:
+        if target is not None:
+            first = start // GRID
+            part = target[max(-first, 0) : max(count - first, 0)]
+            whole[max(first, 0) : max(first, 0) + len(part)] = part
+    return whole
+
+
+def frames(sound: Sound, filters: Array, pace: float = 1.0) -> Array:
+    """Log-mel frames of an example, said faster by a factor: its windows lie further apart."""
+    begins = np.round(np.arange(LENGTH // HOP + 1) * HOP * pace).astype(int)
+    windows = np.lib.stride_tricks.sliding_window_view(padded(sound), WIDTH)
+    apart = windows[np.minimum(begins, len(windows) - 1)]
+    return np.pad(log_mel_of(apart, filters), ((1, 1), (0, 0)))
+
+
+def masked(mel: Array, chance: np.random.Generator) -> Array:
+    """Frames with holes of the mean energy (D. Park et al., "SpecAugment", 2019)."""
+    if chance.random() < MASKED:
+        mean = mel.mean()
+        for _ in range(BAND_HOLES):
+            first = int(chance.integers(mel.shape[1]))
+            mel[:, first : first + int(chance.integers(BANDS_WIDE))] = mean
+        for _ in range(TIME_HOLES):
+            first = int(chance.integers(len(mel)))
+            mel[first : first + int(chance.integers(FRAMES_WIDE))] = mean
+    return mel
 
 
 def warped(filters: Array, chance: np.random.Generator) -> Array:
@@ -175,7 +232,9 @@ def warped(filters: Array, chance: np.random.Generator) -> Array:
     return filters[lower] * (1 - share) + filters[lower + 1] * share
 
 
-def phones_within(placed: list[tuple[NDArray[np.int32], int]]) -> NDArray[np.int32]:
+def phones_within(
+    placed: list[tuple[NDArray[np.int32], int]], pace: float = 1.0
+) -> NDArray[np.int32]:
     """The phones [MOST_PHONES] that begin in an example, in order; then 0.
 
     Given are the classes and beginnings [phones, 2] of clips, and where each of these begins.
@@ -184,7 +243,7 @@ def phones_within(placed: list[tuple[NDArray[np.int32], int]]) -> NDArray[np.int
         phone
         for phones, start in placed
         for phone, begins in phones
-        if 0 <= start + begins < LENGTH - LATEST
+        if 0 <= start + begins < LENGTH * pace - LATEST
     ][:MOST_PHONES]
     return np.pad(np.array(classes, np.int32), (0, MOST_PHONES - len(classes)))
 
@@ -294,7 +353,7 @@ def main() -> None:
     parser.add_argument("--rate", type=float, default=RATE_OF_LEARNING)
     parser.add_argument("--seed", type=int, default=11)
     args = parser.parse_args()
-    lessons = Lessons(args.speech, network.read(args.teacher), args.seed)
+    lessons = Lessons(args.speech, args.teacher, args.seed)
     start = network.read(args.start)
     student = Student(network.grown(start) if args.grow else start)
 

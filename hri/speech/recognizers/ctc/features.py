@@ -34,7 +34,11 @@ def log_mel(sound: NDArray[np.float32], filters: NDArray[np.float32]) -> NDArray
     with the weights; their first two rows are 0 and the window is a periodic Hann window, so a
     constant offset of the sound leaves no trace.
     """
-    windows = np.lib.stride_tricks.sliding_window_view(sound, WIDTH)[::HOP]
+    return log_mel_of(np.lib.stride_tricks.sliding_window_view(sound, WIDTH)[::HOP], filters)
+
+
+def log_mel_of(windows: NDArray[np.float32], filters: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Log energies [frames, BANDS] of the sound [frames, WIDTH] under each window."""
     spectrum = np.fft.rfft(windows * _WINDOW)
     energies = spectrum.real**2 + spectrum.imag**2
     mel: NDArray[np.float32] = energies.astype(np.float32, copy=False) @ filters
