@@ -162,13 +162,13 @@ class Lessons:
         return masked(mel, chance), composed(heard), np.bool_(is_taught), phones
 
 
-Heard = NDArray[np.float16] | None
+Target = NDArray[np.float16] | None
 """What the teacher hears in a clip, [frames, classes]; None where it has no say."""
 
 
 def taught(
     clips: list[NDArray[np.int16]], is_taught: NDArray[np.bool_], teacher: Path
-) -> list[Heard]:
+) -> list[Target]:
     """What the teacher hears in each clip."""
     with ProcessPoolExecutor() as pool:
         chosen = (clip for clip, is_one in zip(clips, is_taught, strict=True) if is_one)
@@ -181,7 +181,7 @@ def posteriors(teacher: Path, clip: NDArray[np.int16]) -> NDArray[np.float16]:
     return np.exp(network_of(teacher).posteriors(clip)).astype(np.float16)
 
 
-def composed(heard: list[tuple[Heard, int]]) -> NDArray[np.float16]:
+def composed(heard: list[tuple[Target, int]]) -> NDArray[np.float16]:
     """What is heard in an example that is composed of clips, given where each begins."""
     count = LENGTH // GRID + 1
     whole = np.zeros((count, len(CLASSES)), np.float16)

@@ -3,8 +3,8 @@
 How well a sentence fits does not tell alone whether it was said: in noise nothing fits well. How
 much better it fits than other words does (`rivals`). The mean of few phones scatters more than that
 of many, by the root of their number, so what they tell counts for less. Beside it counts how
-clearly the phones are heard where they are clearest, how many there are, and whether someone can
-say as many in the time.
+clearly the phones are heard where they are clearest, how many there are, and in noise whether
+someone can say as many in the time.
 """
 
 from __future__ import annotations

@@ -11,9 +11,13 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from hri.core.errors import HriError
+from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.classes import CLASSES
+from hri.speech.recognizers.ctc.confidence import scores_of
 from hri.speech.recognizers.ctc.conformer import Conformer, _gelu, block_count, load_network
 from hri.speech.recognizers.ctc.features import WIDTH, log_mel, padded
+from hri.speech.recognizers.ctc.habits import Habits
+from hri.speech.recognizers.ctc.likelihood import likelihoods
 from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
 from tests.recorded import spoken_by_a_person
 from tests.speech.recognizers.speaking import spoken
@@ -144,8 +148,20 @@ def test_a_person_is_heard_phone_by_phone(network):
     best = network.posteriors(spoken_by_a_person("cards003")).argmax(axis=1)
     changes = best[np.flatnonzero(np.diff(best, prepend=0))]
     heard = " ".join(CLASSES[i] for i in changes if i)
-    # It is unsure of two sounds, which it learned to be under noise; the grammar decides them.
+    # It is unsure of two sounds, which it learned to be under noise; the next test decides them.
     assert re.fullmatch("S EH V AH N AO F [KG] L AH [BV] Z", heard), "seven of clubs"
+
+
+def test_of_all_cards_the_one_that_a_person_names_is_likeliest(network):
+    ranks = (
+        "ace", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "jack",
+        "queen", "king",
+    )  # fmt: skip
+    suits = ("clubs", "diamonds", "hearts", "spades")
+    cards = [(rank, "of", suit) for rank in ranks for suit in suits]
+    scores = scores_of(network.posteriors(spoken_by_a_person("cards003")))
+    found = likelihoods(scores, cards, Habits(load_lexicon()))
+    assert cards[int(found.argmax())] == ("seven", "of", "clubs")
 
 
 @pytest.mark.parametrize(("chosen", "threads"), [("", "1"), ("2", "2")])
