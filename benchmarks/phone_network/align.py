@@ -1,7 +1,7 @@
-"""Aligns phones in the training speech: `python align.py speech.npz origin.npz`.
+"""Aligns phones in the training speech: `python align.py speech.npz`.
 
-Where the text of a clip is known, its words are laid along what the network as it comes hears in
-the clean sound; where it is not, or does not fit, what the network hears is taken for the truth.
+Where the text of a clip is known, its words are laid along what the engine's network hears in the
+clean sound; where it is not, or does not fit, what the network hears is taken for the truth.
 Adds to the file: the classes of the phones of all clips, the sample at which each begins, counted
 from the beginning of its clip, and where the phones of each clip end.
 """
@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import argparse
 from concurrent.futures import ProcessPoolExecutor
-from functools import cache, partial
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -20,12 +20,11 @@ from hri.core.errors import HriError
 from hri.hal.word_graph import WordGraph
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.confidence import scores_of
-from hri.speech.recognizers.ctc.conformer import Conformer
+from hri.speech.recognizers.ctc.conformer import load_network
 from hri.speech.recognizers.ctc.habits import Habits
 from hri.speech.recognizers.ctc.lattice import Walk
 from hri.speech.recognizers.ctc.phone_graph import compile
 from hri.speech.recognizers.ctc.search import Search
-from hri.speech.recognizers.ctc.weights import read_tensors
 
 Phones = list[tuple[int, int]]
 """Classes, and the frames in which they begin."""
@@ -88,15 +87,12 @@ def habits() -> Habits:
     return Habits(load_lexicon())
 
 
-@cache
-def network_of(file: Path) -> Conformer:
-    """The network of a weight file."""
-    return Conformer(read_tensors(file))
+network = cache(load_network)
 
 
-def phones_of(teacher: Path, text: str, clip: NDArray[np.int16]) -> tuple[Phones, bool]:
+def phones_of(text: str, clip: NDArray[np.int16]) -> tuple[Phones, bool]:
     """The transcript of a clip, and whether the text is known."""
-    posteriors = network_of(teacher).posteriors(clip)
+    posteriors = network().posteriors(clip)
     found = spoken(text, posteriors) if text else None
     return (heard(posteriors), False) if found is None else (found, True)
 
@@ -105,16 +101,11 @@ def main() -> None:
     """Align all clips and write the file again."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("file", type=Path)
-    parser.add_argument("teacher", type=Path, help="what origin.py writes")
     args = parser.parse_args()
     stored = dict(np.load(args.file))
     clips = np.split(stored["clips"], stored["ends"][:-1])
     with ProcessPoolExecutor() as pool:
-        results = list(
-            pool.map(
-                partial(phones_of, args.teacher), stored["texts"].tolist(), clips, chunksize=16
-            )
-        )
+        results = list(pool.map(phones_of, stored["texts"].tolist(), clips, chunksize=16))
     phones = [phone for found, _ in results for phone in found]
     stored["phones"] = np.array([phone for phone, _ in phones], np.int32)
     stored["starts"] = np.array([frame * FRAME for _, frame in phones], np.int32)

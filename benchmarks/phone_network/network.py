@@ -16,34 +16,17 @@ from hri.speech.recognizers.ctc.conformer import DIMENSION, HEADS, STRIDE, TAPS,
 Weights = Mapping[str, Tensor]
 Stored = Mapping[str, NDArray[np.float32]]
 
-BACK = (
-    "first.back", "attention.outward", "convolution.outward", "second.back",
-)  # fmt: skip
-"""What a block adds to its frames comes out of these."""
 
-
-def log_probabilities(weights: Weights, mel: Tensor, dropped: float = 0.0) -> Tensor:
-    """Of CLASSES, [batch, frames, classes], of log-mel frames [batch, 2 * frames + 1, 80].
-
-    `dropped` is the share of what each layer adds that is left out while it learns (N. Srivastava
-    et al., "Dropout", 2014).
-    """
-    scores = frames_of(weights, mel, dropped) @ weights["head.matrix"] + weights["head.bias"]
-    return scores.float().log_softmax(dim=-1)
-
-
-def frames_of(weights: Weights, mel: Tensor, dropped: float = 0.0) -> Tensor:
-    """What the head sees, [batch, frames, DIMENSION]."""
+def log_probabilities(weights: Weights, mel: Tensor) -> Tensor:
+    """Of CLASSES, [batch, frames, classes], of log-mel frames [batch, 2 * frames + 1, 80]."""
     count = (mel.shape[1] - 1) // STRIDE
     taps = [mel[:, tap : tap + STRIDE * count : STRIDE] for tap in range(3)]
     frames = functional.gelu(_product(torch.cat(taps, dim=-1), weights, "stem"))
     for block in map(str, range(block_count(weights))):
         for name, layer in LAYERS.items():
-            added = layer(frames, weights, f"{block}.{name}")
-            frames = frames + functional.dropout(added, dropped, training=dropped > 0.0)
-        if f"{block}.norm.gain" in weights:
-            frames = _normalized(frames, weights, f"{block}.norm")
-    return frames
+            frames = frames + layer(frames, weights, f"{block}.{name}")
+        frames = _normalized(frames, weights, f"{block}.norm")
+    return _product(frames, weights, "head").float().log_softmax(dim=-1)
 
 
 def _product(frames: Tensor, weights: Weights, name: str) -> Tensor:
@@ -90,28 +73,6 @@ LAYERS = {
     "convolution": _convolution,
     "second": _feed_forward,
 }
-
-
-def grown(tensors: Stored) -> dict[str, NDArray[np.float32]]:
-    """The network with a second block after each, which adds nothing as yet.
-
-    The new block is the old one's copy but for the matrices by which it adds to the frames: these
-    are 0 (T. Chen, I. Goodfellow, J. Shlens, "Net2Net", 2016). The norm moves to the new one's end.
-    """
-    found: dict[str, NDArray[np.float32]] = {}
-    for name, tensor in tensors.items():
-        block, _, part = name.partition(".")
-        if not block.isdigit():
-            found[name] = tensor
-            continue
-        old, new = 2 * int(block), 2 * int(block) + 1
-        if part.startswith("norm."):
-            found[f"{new}.{part}"] = tensor
-            continue
-        found[f"{old}.{part}"] = tensor
-        is_last = part.startswith(BACK)
-        found[f"{new}.{part}"] = np.zeros_like(tensor) if is_last else tensor.copy()
-    return found
 
 
 def read(file: Path) -> dict[str, NDArray[np.float32]]:

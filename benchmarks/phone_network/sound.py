@@ -174,8 +174,8 @@ def kitchen(clips: Sequence[Sound], chance: Chance) -> Sound:
 
 
 NOISES: dict[Callable[[Sequence[Sound], Chance], Sound], float] = {
-    babble: 0.46, one_talker: 0.07, television: 0.06, steady: 0.10, clatter: 0.07, music: 0.05,
-    water: 0.04, motor: 0.05, traffic: 0.03, kitchen: 0.07,
+    babble: 0.44, one_talker: 0.06, television: 0.05, steady: 0.08, clatter: 0.06, music: 0.04,
+    water: 0.05, motor: 0.05, traffic: 0.03, kitchen: 0.14,
 }  # fmt: skip
 
 

@@ -1,11 +1,12 @@
 """Trains the phone network: `python train.py speech.npz network.npz --minutes 80`.
 
-The teacher is the network that ours grew from (`origin.py`), on clean speech; the student hears the
-same speech under noise (G. Hinton, O. Vinyals, J. Dean, "Distilling the knowledge in a neural
-network", 2015). It also learns the phones from `align.py` in their order, whenever they sound
-(A. Graves et al., "Connectionist temporal classification", 2006). What is written is the
-exponential mean of the weights (B. Polyak, A. Juditsky, 1992). Training goes on from the file given
-with --start; --grow begins with a second block after each of its blocks.
+The teacher is the network that training starts from, on clean speech; the student hears the same
+speech under noise (G. Hinton, O. Vinyals, J. Dean, "Distilling the knowledge in a neural network",
+2015). It also learns the phones from `align.py` in their order, whenever they sound (A. Graves et
+al., "Connectionist temporal classification", 2006). A matrix changes by the product of two narrow
+ones (E. Hu et al., "LoRA", 2021). What is written is the exponential mean of the weights (B.
+Polyak, A. Juditsky, 1992), and of their change only a part: what the network knows of people, whom
+these voices are not, stays (M. Wortsman et al., "Robust fine-tuning of zero-shot models", 2022).
 """
 
 from __future__ import annotations
@@ -17,14 +18,13 @@ import time
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from itertools import count
 from pathlib import Path
 
 import network
 import numpy as np
 import torch
-from align import network_of
 from network import Stored, Weights, log_probabilities
 from numpy.typing import NDArray
 from sound import GRID, LENGTH, RATE, Sound, clean, noisy, tracks
@@ -32,24 +32,28 @@ from torch import Tensor
 from torch.nn import functional
 
 from hri.speech.recognizers.ctc.classes import CLASSES
+from hri.speech.recognizers.ctc.conformer import load_network
 from hri.speech.recognizers.ctc.features import HOP, WIDTH, log_mel_of, padded
+from hri.speech.recognizers.ctc.weights import FILE
 
 Array = NDArray[np.float32]
 
 BATCH = 16
-RATE_OF_LEARNING = 6e-4
+RATE_OF_LEARNING = 7e-4
+SMALLER = 0.3
+"""The rate of what is learned by itself, relative to the narrow matrices."""
+RANK = 48
+"""Of the change of a matrix."""
 WARM_UP = 200
 """Steps until the full rate of learning; it falls along a cosine until the end."""
-DECAY = 0.01
-"""Of the matrices, relative to the rate of learning (I. Loshchilov, F. Hutter, "AdamW", 2019)."""
 MEAN = 0.999
 """How much of the mean of the weights stays at each step."""
-DROPPED = 0.1
-"""Share of what each layer adds that is left out."""
 PEAK_WEIGHT = 4.0
 """How much more a frame weighs in which the teacher hears a phone: most are blank."""
 SEQUENCE_WEIGHT = 6.0
 """How much the phones in their order weigh, beside the frames."""
+KEPT = 0.5
+"""How much of the change is written."""
 DRAWN = 3
 """Times as many clips as there are, so that few are never drawn."""
 MOST_PHONES = 96
@@ -62,10 +66,6 @@ WARPS = (0.84, 1.2)
 PACED = 0.35
 """How many of the examples are faster or slower, and by which factors."""
 PACES = (0.75, 1.7)
-MASKED = 0.6
-"""How many of the examples have holes, how many holes, and the greatest width of each."""
-BAND_HOLES, BANDS_WIDE = 2, 14
-TIME_HOLES, FRAMES_WIDE = 3, 14
 NOISES = 500
 """Tracks."""
 ASIDE = ("allison", "flite")
@@ -159,7 +159,7 @@ class Lessons:
         is_taught = pace == 1.0 and all(target is not None for target, _ in heard)
         mel = frames(noisy(sound, self._noises, chance), warped(self._filters, chance), pace)
         phones = phones_within([(self._spoken[clip], start) for clip, start in placed], pace)
-        return masked(mel, chance), composed(heard), np.bool_(is_taught), phones
+        return mel, composed(heard), np.bool_(is_taught), phones
 
 
 Target = NDArray[np.float16] | None
@@ -176,9 +176,12 @@ def taught(
         return [next(found) if is_one else None for is_one in is_taught]
 
 
+hearing = cache(load_network)
+
+
 def posteriors(teacher: Path, clip: NDArray[np.int16]) -> NDArray[np.float16]:
     """Chances of the classes, [frames, classes]."""
-    return np.exp(network_of(teacher).posteriors(clip)).astype(np.float16)
+    return np.exp(hearing(str(teacher)).posteriors(clip)).astype(np.float16)
 
 
 def composed(heard: list[tuple[Target, int]]) -> NDArray[np.float16]:
@@ -200,19 +203,6 @@ def frames(sound: Sound, filters: Array, pace: float = 1.0) -> Array:
     windows = np.lib.stride_tricks.sliding_window_view(padded(sound), WIDTH)
     apart = windows[np.minimum(begins, len(windows) - 1)]
     return np.pad(log_mel_of(apart, filters), ((1, 1), (0, 0)))
-
-
-def masked(mel: Array, chance: np.random.Generator) -> Array:
-    """Frames with holes of the mean energy (D. Park et al., "SpecAugment", 2019)."""
-    if chance.random() < MASKED:
-        mean = mel.mean()
-        for _ in range(BAND_HOLES):
-            first = int(chance.integers(mel.shape[1]))
-            mel[:, first : first + int(chance.integers(BANDS_WIDE))] = mean
-        for _ in range(TIME_HOLES):
-            first = int(chance.integers(len(mel)))
-            mel[first : first + int(chance.integers(FRAMES_WIDE))] = mean
-    return mel
 
 
 def warped(filters: Array, chance: np.random.Generator) -> Array:
@@ -257,7 +247,7 @@ def loss(weights: Weights, lesson: Lesson) -> Tensor:
     target = torch.from_numpy(lesson.target.astype(np.float32))
     phones = torch.from_numpy(lesson.phones.astype(np.int64))
     with torch.autocast("cpu", torch.bfloat16):
-        heard = log_probabilities(weights, torch.from_numpy(lesson.mel), DROPPED)
+        heard = log_probabilities(weights, torch.from_numpy(lesson.mel))
     apart = (target * (target.clamp_min(LEAST).log() - heard)).sum(dim=-1)
     apart = (apart * (1 + PEAK_WEIGHT * (1 - target[..., 0]))).mean(dim=-1)
     apart = (apart * torch.from_numpy(lesson.is_taught)).mean()
@@ -273,53 +263,84 @@ def unlikely(heard: Tensor, phones: Tensor) -> Tensor:
     )
 
 
+TALL, WIDE = " tall", " wide"
+"""Ends of the names of the two narrow matrices."""
+
+
+def beginning(tensors: Stored) -> dict[str, Tensor]:
+    """What is learned: of a large matrix two narrow ones, whose product is 0; the rest as it is."""
+    chance = torch.Generator().manual_seed(3)
+    learned = {}
+    for name, tensor in tensors.items():
+        if tensor.ndim == 2 and min(tensor.shape) > RANK:
+            height, width = tensor.shape
+            learned[name + TALL] = torch.randn(height, RANK, generator=chance) * height**-0.5
+            learned[name + WIDE] = torch.zeros(RANK, width)
+        else:
+            learned[name] = torch.tensor(tensor)
+    return learned
+
+
 class Student:
-    """The network that learns, and the mean of its weights."""
+    """The network that learns, and the mean of what it has learned."""
 
     def __init__(self, tensors: Stored) -> None:
-        self.fixed = {"filters": tensors["filters"]}
-        self.weights = {
-            name: torch.tensor(tensor, requires_grad=True)
-            for name, tensor in tensors.items()
-            if name not in self.fixed
-        }
-        self.mean = {name: weight.detach().clone() for name, weight in self.weights.items()}
-        matrices = [w for name, w in self.weights.items() if name.endswith(".matrix")]
-        others = [w for name, w in self.weights.items() if not name.endswith(".matrix")]
-        self._optimizer = torch.optim.AdamW(
-            [{"params": matrices, "weight_decay": DECAY}, {"params": others, "weight_decay": 0.0}],
-            betas=(0.9, 0.98), fused=True,
+        self._filters = tensors["filters"]
+        tensors = {name: tensor for name, tensor in tensors.items() if name != "filters"}
+        self._before = {name: torch.from_numpy(tensor) for name, tensor in tensors.items()}
+        self._learned = beginning(tensors)
+        self._mean = {name: part.clone() for name, part in self._learned.items()}
+        for part in self._learned.values():
+            part.requires_grad_()
+        narrow = [part for name, part in self._learned.items() if name.endswith((TALL, WIDE))]
+        others = [part for name, part in self._learned.items() if not name.endswith((TALL, WIDE))]
+        self._optimizer = torch.optim.Adam(
+            [{"params": narrow, "share": 1.0}, {"params": others, "share": SMALLER}],
+            betas=(0.9, 0.99), fused=True,
         )  # fmt: skip
         self._number = 0
 
+    def _weights(self, learned: Weights) -> dict[str, Tensor]:
+        return {
+            name: learned[name] if name in learned
+            else before + learned[name + TALL] @ learned[name + WIDE]
+            for name, before in self._before.items()
+        }  # fmt: skip
+
     def learn(self, lesson: Lesson, rate: float) -> float:
         """One step; the loss before it."""
-        value = loss(self.weights, lesson)
+        value = loss(self._weights(self._learned), lesson)
         self._optimizer.zero_grad()
         value.backward()
-        torch.nn.utils.clip_grad_norm_(self.weights.values(), 1.0)
+        torch.nn.utils.clip_grad_norm_(self._learned.values(), 1.0)
         for group in self._optimizer.param_groups:
-            group["lr"] = rate
+            group["lr"] = rate * group["share"]
         self._optimizer.step()
         self._number += 1
         kept = min(MEAN, (1 + self._number) / (10 + self._number))
         with torch.no_grad():
-            torch._foreach_lerp_(list(self.mean.values()), list(self.weights.values()), 1.0 - kept)
+            means, learned = list(self._mean.values()), list(self._learned.values())
+            torch._foreach_lerp_(means, learned, 1.0 - kept)
         return float(value.detach())
 
     def cost(self, mels: Array, phones: NDArray[np.int32]) -> float:
         """What a phone costs the mean of the weights: negative logarithm of its chance."""
         total = 0.0
+        weights = self._weights(self._mean)
         with torch.no_grad():
             for begin in range(0, len(mels), BATCH):
-                heard = log_probabilities(self.mean, torch.from_numpy(mels[begin : begin + BATCH]))
+                heard = log_probabilities(weights, torch.from_numpy(mels[begin : begin + BATCH]))
                 wanted = torch.from_numpy(phones[begin : begin + BATCH].astype(np.int64))
                 total += float(unlikely(heard, wanted).sum())
         return total / int((phones > 0).sum())
 
     def write(self, file: Path) -> None:
-        """The mean of the weights."""
-        network.write(self.fixed | {n: w.numpy() for n, w in self.mean.items()}, file)
+        """What was known before, and the part of the change that is kept."""
+        tensors = {
+            name: torch.lerp(self._before[name], weight, KEPT).numpy()
+            for name, weight in self._weights(self._mean).items()
+        }
+        network.write({"filters": self._filters} | tensors, file)
 
 
 _lessons: Lessons
@@ -346,16 +367,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("speech", type=Path)
     parser.add_argument("file", type=Path)
-    parser.add_argument("--teacher", type=Path, required=True, help="what origin.py writes")
-    parser.add_argument("--start", type=Path, required=True)
-    parser.add_argument("--grow", action="store_true")
+    parser.add_argument("--start", type=Path, default=FILE, help="the network that learns")
     parser.add_argument("--minutes", type=float, default=60)
     parser.add_argument("--rate", type=float, default=RATE_OF_LEARNING)
     parser.add_argument("--seed", type=int, default=11)
     args = parser.parse_args()
-    lessons = Lessons(args.speech, args.teacher, args.seed)
-    start = network.read(args.start)
-    student = Student(network.grown(start) if args.grow else start)
+    lessons = Lessons(args.speech, args.start, args.seed)
+    student = Student(network.read(args.start))
 
     def report(number: int, losses: list[float]) -> None:
         costs = [
