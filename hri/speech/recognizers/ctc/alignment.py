@@ -24,7 +24,7 @@ from hri.speech.recognizers.ctc.confidence import FLOOR
 from hri.speech.recognizers.ctc.conformer import FRAME
 from hri.speech.recognizers.ctc.lattice import Walk
 from hri.speech.recognizers.ctc.phone_graph import Floats, Indices, Pronouncing, compile
-from hri.speech.recognizers.ctc.search import Search
+from hri.speech.recognizers.ctc.search import BLANK, Search
 from hri.speech.synthesizers.espeak_text import MNEMONICS
 
 DELAYS = {
@@ -49,6 +49,8 @@ SHORTEST_PHONE = 0.02
 _LEVEL_STEP = 0.01
 _CLEAR = np.log(0.3)
 """Probability from which a peak counts where the text is unknown."""
+_LESS_BLANK = 1.0
+"""Natural log that blanks lose there: the network gives too many of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +92,9 @@ def forced(
 
 def free(log_probabilities: Floats) -> list[Peak]:
     """The peaks of the likeliest phones, where the text is unknown."""
-    best = log_probabilities.argmax(axis=1) if len(log_probabilities) else np.zeros(0, np.intp)
+    less = np.zeros(len(CLASSES), np.float32)
+    less[BLANK] = _LESS_BLANK
+    best = (log_probabilities - less).argmax(axis=1)
     found = []
     for index, frames in _runs(best, 0):
         heard = log_probabilities[frames, index]

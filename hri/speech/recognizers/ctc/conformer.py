@@ -127,7 +127,7 @@ class Block:
         self._attention = Attention(tensors, f"{name}.attention")
         self._convolution = Convolution(tensors, f"{name}.convolution")
         self._second = FeedForward(tensors, f"{name}.second")
-        self._norm = Norm(tensors, f"{name}.norm") if f"{name}.norm.gain" in tensors else None
+        self._norm = Norm(tensors, f"{name}.norm")
 
     def run(self, frames: Frames, past: Past, settled: int) -> Frames:
         """The frames one block on; `frames` is used up. `past` gains the first `settled`."""
@@ -135,7 +135,7 @@ class Block:
         frames += self._attention.run(frames, past, settled)
         frames += self._convolution.run(frames, past, settled)
         frames += self._second.run(frames)
-        return frames if self._norm is None else self._norm.run(frames)
+        return self._norm.run(frames)
 
 
 class Norm:

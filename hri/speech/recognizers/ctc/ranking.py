@@ -16,10 +16,6 @@ MOST_SENTENCES = 8
 """Sentences that are told: the best and its alternatives."""
 BEAM = 12.0
 """Natural log; sentences whose best way is worse than the best by more are dropped."""
-ALL_WAYS = 0.5
-"""How much the sum over all ways to say a sentence counts, beside the best of them: more decodes
-more orders of people and fewer commands (benchmarks/phone_network/README.md).
-"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +24,7 @@ class Candidate:
 
     path: Path
     score: float
-    """Natural log; the higher, the likelier."""
+    """Natural log, of the grammar's weights and of all ways to say it; the higher, the likelier."""
 
 
 def ranked(search: Search, scores: Floats, lexicon: Pronouncing) -> list[Candidate]:
@@ -42,7 +38,7 @@ def ranked(search: Search, scores: Floats, lexicon: Pronouncing) -> list[Candida
     sums = likelihoods(scores, [path.words for path in paths], lexicon)
     phones = search.graph.phones
     found = [
-        Candidate(path, path.score + ALL_WAYS * (float(total) - _along(path, scores, phones)))
+        Candidate(path, path.score - _along(path, scores, phones) + float(total))
         for path, total in zip(paths, sums, strict=True)
     ]
     return sorted(found, key=lambda candidate: -candidate.score)

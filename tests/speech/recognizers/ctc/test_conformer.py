@@ -84,8 +84,7 @@ def straightforward(tensors, samples):
         h = h + attention(h, f"{block}.attention")
         h = h + convolution(h, f"{block}.convolution")
         h = h + feed_forward(h, f"{block}.second")
-        if f"{block}.norm.gain" in tensors:
-            h = normalized(h, f"{block}.norm")
+        h = normalized(h, f"{block}.norm")
     scores = np.exp(product(h, "head"))
     return scores / scores.sum(1, keepdims=True)
 
