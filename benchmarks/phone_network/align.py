@@ -87,12 +87,12 @@ def habits() -> Habits:
     return Habits(load_lexicon())
 
 
-network = cache(load_network)
+network_of = cache(load_network)
 
 
 def phones_of(text: str, clip: NDArray[np.int16]) -> tuple[Phones, bool]:
     """The transcript of a clip, and whether the text is known."""
-    posteriors = network().posteriors(clip)
+    posteriors = network_of().posteriors(clip)
     found = spoken(text, posteriors) if text else None
     return (heard(posteriors), False) if found is None else (found, True)
 

@@ -1,12 +1,12 @@
 """Fits the confidence of the default engine: `python fit.py --recordings FOLDER`.
 
-Sentences of the grammars in `calibration/` are spoken by synthetic voices, laid over babble, cut
-and decoded as the engine does it, each by its own grammar and by others. What its own grammar
-decodes right speaks for a sentence; whatever a grammar makes of sentences that it does not have, of
-`calibration/foreign.txt` and of babble alone speaks against, and so does what its own grammar takes
-for another sentence. Every second of the recorded orders stands against all grammars, too. Prints
-the constants for `confidence.py`, and how well a fit without a fifth of the grammars and voices
-separates the two there.
+Sentences of the grammars in `calibration/` are spoken by synthetic voices, laid over babble or a
+kitchen, cut and decoded as the engine does it, each by its own grammar and by others. What its own
+grammar decodes right speaks for a sentence; whatever a grammar makes of sentences that it does not
+have, of `calibration/foreign.txt` and of babble alone speaks against, and so does what its own
+grammar takes for another sentence. Every second of the recorded orders stands against all grammars,
+too. Prints the constants for `confidence.py`, and how well a fit without a fifth of the grammars
+and voices separates the two there.
 
 Kept out, since figures are taken from them: the voices slt and awb, the other half of the orders,
 and the grammars of `hri bench speech`.

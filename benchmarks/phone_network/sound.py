@@ -231,7 +231,7 @@ def filtered(sound: Sound, response: NDArray[np.complex64] | NDArray[np.float32]
 def clean(
     clips: Sequence[Sound], chance: Chance, length: int = LENGTH
 ) -> tuple[Sound, list[tuple[int, int]]]:
-    """As many samples with some clips in them, at 16-bit full scale, and a whisper of noise.
+    """`length` samples with some clips in them, at 16-bit full scale, and a whisper of noise.
 
     Beside them the numbers of the clips, and the sample at which each begins, on the GRID.
     """

@@ -176,12 +176,12 @@ def taught(
         return [next(found) if is_one else None for is_one in is_taught]
 
 
-hearing = cache(load_network)
+network_of = cache(load_network)
 
 
 def posteriors(teacher: Path, clip: NDArray[np.int16]) -> NDArray[np.float16]:
     """Chances of the classes, [frames, classes]."""
-    return np.exp(hearing(str(teacher)).posteriors(clip)).astype(np.float16)
+    return np.exp(network_of(str(teacher)).posteriors(clip)).astype(np.float16)
 
 
 def composed(heard: list[tuple[Target, int]]) -> NDArray[np.float16]:
@@ -227,7 +227,8 @@ def phones_within(
 ) -> NDArray[np.int32]:
     """The phones [MOST_PHONES] that begin in an example, in order; then 0.
 
-    Given are the classes and beginnings [phones, 2] of clips, and where each of these begins.
+    Given are the classes and beginnings [phones, 2] of clips, where each of these begins, and by
+    which factor all of them are said faster.
     """
     classes = [
         phone
@@ -324,7 +325,7 @@ class Student:
         return float(value.detach())
 
     def cost(self, mels: Array, phones: NDArray[np.int32]) -> float:
-        """What a phone costs the mean of the weights: negative logarithm of its chance."""
+        """What a phone costs with the whole change: negative logarithm of its chance."""
         total = 0.0
         weights = self._weights(self._mean)
         with torch.no_grad():

@@ -57,17 +57,17 @@ class Measure:
         return f"{self.what}, {self.condition}"
 
 
-_UNDERSTOOD = "commands understood word for word"
+UNDERSTOOD = "commands understood word for word"
 _CONFUSED = "another sentence accepted for a command"
 _MADE_UP = "sentences outside of the grammar accepted"
-_ORDERED = "people's orders, all slots right"
+ORDERED = "people's orders, all slots right"
 _MISTAKEN = "another order accepted"
 _SPOKEN = "commands understood word for word, spoken"
 _LIMITS: Mapping[tuple[str, Kind, Literal["right", "mistaken"]], Mapping[str, float]] = {
-    (_UNDERSTOOD, "commands", "right"): {"clean": 0.98, "12 dB": 0.92, "6 dB": 0.75},
+    (UNDERSTOOD, "commands", "right"): {"clean": 0.98, "12 dB": 0.92, "6 dB": 0.75},
     (_CONFUSED, "commands", "mistaken"): {"clean": 0.005, "12 dB": 0.02, "6 dB": 0.04},
     (_MADE_UP, "outside", "mistaken"): {"clean": 0.005, "12 dB": 0.015, "6 dB": 0.03},
-    (_ORDERED, "orders", "right"): {
+    (ORDERED, "orders", "right"): {
         "clean": 0.98, "12 dB": 0.90, "6 dB": 0.72,
         "12 dB in a kitchen": 0.92, "6 dB in a kitchen": 0.78,
     },

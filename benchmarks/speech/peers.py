@@ -8,7 +8,7 @@ from importlib.metadata import version
 from importlib.util import find_spec
 from itertools import product
 
-from benchmarks.speech.accuracy import GRAMMARS, Kind, hear, sounds
+from benchmarks.speech.accuracy import GRAMMARS, ORDERED, UNDERSTOOD, Kind, hear, sounds
 from hri.bench.speech.latency import Progress, Work, count_right, real_time_factor, works
 from hri.bench.speech.listening import Listen
 from hri.bench.speech.samples import ROBOT, Recordings
@@ -20,10 +20,7 @@ from hri.speech.grammar.matching import parse
 from hri.speech.recognizers.vosk import find_model
 
 ENGINES = ("pocketsphinx", "vosk")
-KINDS: dict[Kind, str] = {
-    "orders": "people's orders, all slots right",
-    "commands": "commands understood word for word",
-}
+KINDS: dict[Kind, str] = {"orders": ORDERED, "commands": UNDERSTOOD}
 CONDITIONS = ("clean", "12 dB", "6 dB")
 EVERY = 4
 """Only every fourth command is said, since PocketSphinx is slow."""

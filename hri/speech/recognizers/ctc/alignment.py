@@ -50,7 +50,8 @@ _LEVEL_STEP = 0.01
 _CLEAR = np.log(0.3)
 """Probability from which a peak counts where the text is unknown."""
 _LESS_BLANK = 1.0
-"""Natural log that blanks lose there: the network gives too many of them."""
+"""Natural log that blanks lose there: the network gives too many of them. With BLANK_BIAS, which
+suits a search, some sounds would be heard as three phones."""
 
 
 @dataclass(frozen=True, slots=True)

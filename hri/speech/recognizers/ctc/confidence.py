@@ -26,7 +26,7 @@ gives too many as soon as there is noise."""
 LONG = 16
 """Phones."""
 SHARE_SCALE = 0.7
-"""Odds between two sentences are their difference in score times this."""
+"""The log odds between two sentences are their difference in score times this."""
 
 
 def scores_of(log_probabilities: Floats) -> Floats:
@@ -94,19 +94,18 @@ IN_NOISE = (1.60, 0.60, 0.60, 0.80, -0.30)
 """Weights of 1, margin, clarity, length and pace in the log odds that the sentence was said.
 
 In quiet what was said fits so well that a little less is suspicious; in noise it is not. Logistic
-regression by `benchmarks/phone_network/fit.py`: pieces of speech, clean and under babble at 15 to 6
-dB, of grammars and sentences that the figures of `hri bench speech` are not taken from; the voices
-rms and kal16 are in both. Around its result the weights were settled with sight of the figures in
-quiet, and in noise with sight of the same sentences in other draws of the noise: in the middle of a
-wide region where the limits of `hri bench speech` are missed least. So the figures are not an
-independent test.
+regression by `benchmarks/phone_network/fit.py`: pieces of speech, clean and in noise at 15 to 6 dB,
+of grammars and sentences that the figures of `hri bench speech` are not taken from; some voices are
+in both. Around its result the weights were settled with sight of the figures in quiet, and in noise
+mostly with sight of the same sentences in other draws of the noise: in the middle of a wide region
+where the limits of `hri bench speech` are missed least. So the figures are not an independent test.
 """
 
 
 def confidence(fit: Fit, noise: float = 0.0) -> float:
     """0 to 1: the chance that the sentence was said; 0.5 is the calibrated point of acceptance.
 
-    `noise` is how noisy it was, 0 to 1 (`silence.noise_of`).
+    `noise` is how noisy it was, 0 to 1 (`loudness.noise_of`).
     """
     weights = (1.0 - noise) * np.array(IN_QUIET) + noise * np.array(IN_NOISE)
     odds = float(weights @ fit.numbers)

@@ -13,7 +13,7 @@ from hri.speech.recognizers.ctc.phone_graph import Floats, Pronouncing
 from hri.speech.recognizers.ctc.search import BLANK, Search
 
 MOST_SENTENCES = 8
-"""Sentences that are told: the best and its alternatives."""
+"""Sentences that are reported: the best and its alternatives."""
 BEAM = 12.0
 """Natural log; sentences whose best way is worse than the best by more are dropped."""
 
