@@ -179,8 +179,9 @@ def test_a_folder_is_opened_by_its_path_and_what_is_none_is_refused(studio, fold
         for wrong in (folder.parent, "/missing", "%"):
             page.fill("#rec-folder", str(wrong))
             page.keyboard.press("Enter")
-            expect(page.locator("#rec-notice")).to_contain_text("not a recording")
+            expect(page.locator("#rec-notice")).to_contain_text(f"{wrong}: not a recording")
             expect(page.locator("#rec-list")).to_be_visible()
+            expect(page.locator("#rec-folder")).to_have_value(str(wrong))
         page.fill("#rec-folder", str(folder))
         page.keyboard.press("Enter")
         expect(page.locator("#rec-title")).to_have_text(folder.name)

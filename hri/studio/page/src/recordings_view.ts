@@ -62,6 +62,7 @@ export class RecordingsView {
     this.close();
     this.isOn = true;
     say("");
+    element<HTMLInputElement>("rec-folder").value = folder;
     const { asked } = this;
     try {
       if (!folder) return await this.list();
@@ -70,8 +71,7 @@ export class RecordingsView {
     } catch (error) {
       if (asked !== this.asked) return;
       if (folder) await this.list().catch(() => undefined);
-      element<HTMLInputElement>("rec-folder").value = folder;
-      say(why(error));
+      if (asked === this.asked) say(why(error));
     }
   }
 
