@@ -202,7 +202,7 @@ def room(chance: Chance, length: int) -> NDArray[np.complex64]:
     time = np.arange(length // 4) / RATE
     tail = chance.normal(size=len(time)) * 10 ** (-3 * time / chance.uniform(0.1, 0.8))
     tail[: RATE // 500] = 0
-    response = tail * decibels(chance.uniform(-15, 16)) / np.sqrt((tail**2).sum())
+    response = tail * decibels(chance.triangular(-15, 10, 18)) / np.sqrt((tail**2).sum())
     response[0] = 1
     return np.fft.rfft(response.astype(np.float32), length)
 
@@ -253,7 +253,7 @@ def clean(
 def noisy(sound: Sound, noises: Sequence[Sound], chance: Chance) -> Sound:
     """The same sound as a microphone in a noisy room gets it."""
     power, length = active_power(sound), len(sound)
-    if chance.random() < 0.4:
+    if chance.random() < 0.5:
         sound = filtered(sound, room(chance, length))
     if chance.random() < 0.8:
         ratio = chance.triangular(1, 7, 18) if chance.random() < 0.85 else chance.uniform(18, 40)

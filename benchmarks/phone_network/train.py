@@ -53,7 +53,7 @@ PEAK_WEIGHT = 4.0
 SEQUENCE_WEIGHT = 6.0
 """How much the phones in their order weigh, beside the frames."""
 KEPT = 0.5
-"""How much of the change is written."""
+"""How much of the change is written, unless someone wants more or less."""
 DRAWN = 3
 """Times as many clips as there are, so that few are never drawn."""
 MOST_PHONES = 96
@@ -335,10 +335,10 @@ class Student:
                 total += float(unlikely(heard, wanted).sum())
         return total / int((phones > 0).sum())
 
-    def write(self, file: Path) -> None:
-        """What was known before, and the part of the change that is kept."""
+    def write(self, file: Path, kept: float) -> None:
+        """What was known before, and the part of the change that is kept, 0 to 1."""
         tensors = {
-            name: torch.lerp(self._before[name], weight, KEPT).numpy()
+            name: torch.lerp(self._before[name], weight, kept).numpy()
             for name, weight in self._weights(self._mean).items()
         }
         network.write({"filters": self._filters} | tensors, file)
@@ -372,6 +372,7 @@ def main() -> None:
     parser.add_argument("--minutes", type=float, default=60)
     parser.add_argument("--rate", type=float, default=RATE_OF_LEARNING)
     parser.add_argument("--seed", type=int, default=11)
+    parser.add_argument("--kept", type=float, default=KEPT, help="how much is written")
     args = parser.parse_args()
     lessons = Lessons(args.speech, args.start, args.seed)
     student = Student(network.read(args.start))
@@ -384,7 +385,7 @@ def main() -> None:
         minutes = (time.perf_counter() - begun) / 60
         now = f"{minutes:5.1f} min, step {number}: loss {np.mean(losses or [math.nan]):.4f}"
         print(now, *costs, sep=", ", flush=True)
-        student.write(args.file)
+        student.write(args.file, args.kept)
 
     begun = time.perf_counter()
     losses: list[float] = []
