@@ -53,7 +53,7 @@ PEAK_WEIGHT = 4.0
 SEQUENCE_WEIGHT = 6.0
 """How much the phones in their order weigh, beside the frames."""
 KEPT = 0.5
-"""How much of the change is written, unless someone wants more or less."""
+"""Part of the change that is written."""
 DRAWN = 3
 """Times as many clips as there are, so that few are never drawn."""
 MOST_PHONES = 96
@@ -372,7 +372,7 @@ def main() -> None:
     parser.add_argument("--minutes", type=float, default=60)
     parser.add_argument("--rate", type=float, default=RATE_OF_LEARNING)
     parser.add_argument("--seed", type=int, default=11)
-    parser.add_argument("--kept", type=float, default=KEPT, help="how much is written")
+    parser.add_argument("--kept", type=float, default=KEPT, help="part of what it learns")
     args = parser.parse_args()
     lessons = Lessons(args.speech, args.start, args.seed)
     student = Student(network.read(args.start))

@@ -35,7 +35,8 @@ LEARNING = 2.0
 """Seconds of the robot's voice after which most of it is subtracted."""
 UNLEARNED = 0.97
 """Confidence from which words count before: what is left of its voice then sounds like a command,
-most often "halt", in one first sentence of ten (at most 0.95), while "stop" has 0.99 or more.
+most often "halt", in one first sentence of ten (at most 0.95), while "stop" in quiet has 0.99 or
+more.
 """
 
 Tell = Callable[[float], object]

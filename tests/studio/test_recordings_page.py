@@ -188,6 +188,22 @@ def test_a_folder_is_opened_by_its_path_and_what_is_none_is_refused(studio, fold
         expect(page.locator("#rec-notice")).to_be_hidden()
 
 
+def test_a_refusal_that_comes_late_leaves_what_was_typed_since(studio, folder):
+    with opened(studio.address()) as page:
+
+        def type_on(route):
+            page.fill("#rec-folder", str(folder))
+            route.continue_()
+
+        view(page)
+        expect(page.locator("#rec-known")).to_contain_text(folder.name)
+        page.route("**/api/v1/recordings", type_on)
+        page.fill("#rec-folder", "/missing")
+        page.keyboard.press("Enter")
+        expect(page.locator("#rec-notice")).to_contain_text("/missing: not a recording")
+        expect(page.locator("#rec-folder")).to_have_value(str(folder))
+
+
 def test_one_that_is_still_written_says_so_and_grows(studio, tmp_path):
     growing = tmp_path / "now"
     growing.mkdir()
