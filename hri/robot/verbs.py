@@ -17,6 +17,7 @@ from hri.emotion.behaviors import EmotionModel
 from hri.face.behaviors import Face
 from hri.face.model import load_face
 from hri.speech.behaviors import Listener
+from hri.speech.grammar import Grammar, parse
 from hri.speech.tasks import answers_of, listener_of, next_heard, play, say, wait_for_speech
 from hri.speech.turn import QUESTION
 from hri.task.context import TaskContext
@@ -123,16 +124,17 @@ async def ask(
     Without a grammar it is a yes/no question: a nod, a shake, "yes" and "no" are answers, and
     anything else that is heard changes the subject. Of several people, only the one attended to
     answers with the head. With the name or path of a `grammar`, that one is in force while the
-    question is open, and the first thing heard is the answer. `timeout` seconds count from the end
-    of the question, and who speaks by then is heard out; it is asked again up to `retries` times.
-    When only a part of an answer was unclear, the next question is for that ("Which milk?"), and
-    the tags that were clear are kept.
+    question is open, and the first thing heard is the answer; rules marked @interrupts of the
+    grammars below, such as "stop", still count, and change the subject. `timeout` seconds count
+    from the end of the question, and who speaks by then is heard out; it is asked again up to
+    `retries` times. When only a part of an answer was unclear, the next question is for that
+    ("Which milk?"), and the tags that were clear are kept.
     Raises `question.asked` when it has been spoken and `question.answered` with the answer. Raises
     HriError for a grammar that cannot be used.
     """
     if grammar:
-        async with answers_of(context, grammar):
-            return await _ask(context, question, timeout, retries, _HeardAnswer())
+        async with answers_of(context, grammar) as allowed:
+            return await _ask(context, question, timeout, retries, _HeardAnswer(allowed))
     if not context.behaviors:
         listener_of(context)
     return await _ask(context, question, timeout, retries, _plain_answer)
@@ -212,7 +214,8 @@ def _is_asked(context: TaskContext, person: str) -> bool:
 class _HeardAnswer:
     """Takes the first thing heard for the answer, with what was clear of those before it."""
 
-    def __init__(self, sure: Mapping[str, Any] = MappingProxyType({})) -> None:
+    def __init__(self, grammar: Grammar, sure: Mapping[str, Any] = MappingProxyType({})) -> None:
+        self._grammar = grammar
         self._sure = sure
 
     def __call__(
@@ -221,10 +224,15 @@ class _HeardAnswer:
         sure, unsure = (event.properties.get(name) for name in ("sure", "unsure"))
         if event.name == "speech.rejected" and sure and unsure:
             question = f"Which {_in_words(unsure[0])}?"
-            return _Again(question, _HeardAnswer({**self._sure, **sure}))
+            return _Again(question, _HeardAnswer(self._grammar, {**self._sure, **sure}))
         heard = listener_of(context).last_utterance
         if event.name != "speech.heard" or heard is None:
             return None
+        if heard.rule not in self._grammar.public_rules:  # it interrupts; it may answer as well
+            meant = parse(self._grammar, heard.text)
+            if meant is None:
+                return (None,)
+            heard = replace(heard, rule=meant.rule, tags=meant.tags)
         return (replace(heard, tags={**self._sure, **heard.tags}),)
 
 

@@ -2,6 +2,9 @@
 
 A grammar is read and compiled in a worker, and the one before it stays in force meanwhile. One
 that is refused leaves the stack as it was.
+
+Rules marked @interrupts, such as "stop", stay in force under every other grammar: those of the
+first grammar, also when another one took its place, and those of all that lie below.
 """
 
 from __future__ import annotations
@@ -24,7 +27,11 @@ class Layer:
 
     path: Path
     grammar: Grammar | None = None
-    """Once it has been read."""
+    """What its file says, once it has been read."""
+    heard: Grammar | None = None
+    """What is understood once it is in force: this, and the interrupting rules of those below."""
+    below: tuple[Layer, ...] = ()
+    """The layers whose interrupting rules stay in force."""
     error: HriError | None = None
     """Why it was refused."""
     origin: Layer | None = None
@@ -50,6 +57,7 @@ class GrammarStack:
         self._worker = worker
         self._take = take
         self._layers: list[Layer] = []
+        self._first: Layer | None = None
         self._loading: Layer | None = None
         self._looked = 0.0
         self.in_force: Layer | None = None
@@ -59,6 +67,7 @@ class GrammarStack:
         """Put a grammar in the place of the topmost."""
         replaced = self._layers.pop() if self._layers else None
         self._layers.append(Layer(path, replaces=replaced))
+        self._first = self._first or self._layers[-1]
         return self._layers[-1]
 
     def push(self, path: Path) -> Layer:
@@ -79,6 +88,8 @@ class GrammarStack:
         old = self._layers[-1]
         new = self.use(old.path)
         new.origin = old.origin or old
+        if old is self._first:
+            self._first = new
         return new
 
     @property
@@ -105,6 +116,7 @@ class GrammarStack:
             self._refuse(loading)
         if self._layers and self._layers[-1] is not self.in_force and not self._worker.is_busy:
             wanted = self._loading = self._layers[-1]
+            wanted.below = self._below(wanted)
             self._worker.submit(lambda: self._taken(wanted))
         return finished
 
@@ -122,6 +134,14 @@ class GrammarStack:
         """Wait for a grammar that is being taken, and end the worker."""
         self._worker.close()
 
+    def _below(self, layer: Layer) -> tuple[Layer, ...]:
+        """The first layer and those below a layer, the lowest first."""
+        below = self._layers[: self._layers.index(layer)]
+        first = self._first
+        if first is None or first is layer or first in below:
+            return tuple(below)
+        return first, *below
+
     def _taken(self, layer: Layer) -> Layer:
         self._take(layer)
         if layer.grammar is not None:
@@ -132,6 +152,8 @@ class GrammarStack:
         if layer not in self._layers:
             return
         place = self._layers.index(layer)
+        if layer is self._first:
+            self._first = layer.replaces
         self._layers[place : place + 1] = [layer.replaces] if layer.replaces else []
 
 

@@ -19,6 +19,7 @@ from hri.hal.recognizer import Recognizer, Segment
 from hri.speech.acceptance import OVER_SPEECH, STRICTNESS
 from hri.speech.echo import EchoCanceller, OwnVoice
 from hri.speech.grammar import Grammar, load_grammar
+from hri.speech.grammar.merging import with_interrupts_of
 from hri.speech.grammar_stack import GrammarStack, Layer
 from hri.speech.hearing import SILENT_AFTER, STEP, Heard, anticipate, understand
 from hri.speech.recognizers.typed import LineDecoder
@@ -143,19 +144,23 @@ class Listener(Behavior):
     def loaded_grammar(self) -> Grammar:
         """What is understood; there once the behavior has started."""
         layer = self._grammars.in_force
-        return self._first if layer is None or layer.grammar is None else layer.grammar
+        return self._first if layer is None or layer.heard is None else layer.heard
 
     def use(self, grammar: str | Path) -> Layer:
         """Take another grammar, by name or path, in the place of the topmost one.
 
         It is read and compiled while the old one stays in force, and no sound is lost: a piece of
-        speech is decoded by the grammar that is in force when it has ended. `Layer.error` says why
-        one was refused. Raises HriError when there is no such file.
+        speech is decoded by the grammar that is in force when it has ended. The rules marked
+        @interrupts of the grammar that the listener started with stay in force. `Layer.error` says
+        why one was refused. Raises HriError when there is no such file.
         """
         return self._grammars.use(paths.find("grammars", str(grammar)))
 
     def push(self, grammar: str | Path) -> Layer:
-        """Put another grammar above the topmost one, until `pop`. Raises HriError as `use`."""
+        """Put another grammar above the topmost one, until `pop`. Raises HriError as `use`.
+
+        The rules of the grammars below that are marked @interrupts stay in force.
+        """
         return self._grammars.push(paths.find("grammars", str(grammar)))
 
     def pop(self, layer: Layer) -> None:
@@ -169,9 +174,11 @@ class Listener(Behavior):
 
     def _take_grammar(self, layer: Layer) -> None:
         """Read a grammar and give it to the recognizer; runs in a worker."""
-        grammar = layer.grammar or load_grammar(layer.path)
-        self._recognizer.start(grammar)
-        layer.grammar = grammar
+        grammar = heard = layer.grammar or load_grammar(layer.path)
+        for below in layer.below:
+            heard = with_interrupts_of(heard, below.grammar or load_grammar(below.path))
+        self._recognizer.start(heard)
+        layer.grammar, layer.heard = grammar, heard
         self._grammars.in_force = layer
 
     def _change_grammar(self, now: float) -> None:
@@ -298,12 +305,12 @@ class Listener(Behavior):
         while True:
             layer = self._grammars.in_force
             assert layer is not None
-            assert layer.grammar is not None
-            engine = LineDecoder(layer.grammar) if segment.text else self._recognizer
-            heard = understand(engine, layer.grammar, segment, self.strictness, turn)
+            assert layer.heard is not None
+            engine = LineDecoder(layer.heard) if segment.text else self._recognizer
+            heard = understand(engine, layer.heard, segment, self.strictness, turn)
             if layer is self._grammars.in_force:
                 break  # else another grammar came meanwhile, and the words may be of either
-        grammar = layer.grammar
+        grammar = layer.heard
 
         def tell(now: float) -> None:
             if self._told_early == (segment.number, _rule_of(heard)):
@@ -326,8 +333,8 @@ class Listener(Behavior):
         self._worked = replace(segment, samples=None)
         layer = self._grammars.in_force
         assert layer is not None
-        assert layer.grammar is not None
-        grammar, turn = layer.grammar, self._turn(piece, segment.start)
+        assert layer.heard is not None
+        grammar, turn = layer.heard, self._turn(piece, segment.start)
 
         def job() -> Tell:
             if is_silent and grammar.marked("interrupts"):

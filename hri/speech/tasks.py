@@ -18,6 +18,7 @@ from hri.hal.resource import Resource
 from hri.hal.speaker import Speaker
 from hri.hal.synthesizer import Synthesizer
 from hri.speech.behaviors import Listener, Voice
+from hri.speech.grammar import Grammar
 from hri.speech.ssml import Ssml
 from hri.speech.turn import QUESTION
 from hri.speech.voice import Saying
@@ -105,10 +106,11 @@ async def next_heard(context: TaskContext, queue: EventQueue, end: float) -> Eve
 
 
 @asynccontextmanager
-async def answers_of(context: TaskContext, grammar: str) -> AsyncIterator[Listener]:
-    """Let another grammar be in force for a while; what it is, is ready when the body runs.
+async def answers_of(context: TaskContext, grammar: str) -> AsyncIterator[Grammar]:
+    """Let another grammar be in force while the body runs; the grammar as its file has it.
 
-    Raises HriError for a grammar that is not there or cannot be used.
+    The interrupting rules of those below stay in force. Raises HriError for a grammar that is not
+    there or cannot be used.
     """
     listener = listener_of(context)
     layer = listener.push(grammar)
@@ -117,7 +119,8 @@ async def answers_of(context: TaskContext, grammar: str) -> AsyncIterator[Listen
             if layer.error is not None:
                 raise layer.error
             await context.clock.sleep(LOOK_EVERY)
-        yield listener
+        assert layer.grammar is not None
+        yield layer.grammar
     finally:
         listener.pop(layer)
 

@@ -13,7 +13,7 @@ from hri.core.signals import Pose2D
 from hri.hal.drive import Odometry
 from hri.hal.drivers.memory import OffscreenScreen
 from hri.hal.resource import Description
-from hri.robot import Robot
+from hri.robot import Robot, verbs
 from hri.robot.app import load_app
 from hri.simulation.world import SimulatedWorld
 from hri.speech.synthesizers.espeak import EspeakVoice
@@ -60,6 +60,7 @@ class Visit:
         config="simulated",
         prepare=lambda robot: None,
         devices=(SMALL_SCREEN, BLIND),
+        jobs=(),
         **more,
     ):
         clock = FakeClock()
@@ -72,7 +73,9 @@ class Visit:
             clock.call_at(time, lambda line=line: world.say(line, clock.now()))
         self.poses = []
         self.world = world
-        self.events = live_for(self.robot, seconds, *self.robot.app.load_tasks(), self._watch)
+        self.events = live_for(
+            self.robot, seconds, *self.robot.app.load_tasks(), self._watch, *jobs
+        )
 
     def _place_screen(self, keys):
         screen = KeyedScreen(SMALL_SCREEN, self.robot.resources)
@@ -125,6 +128,25 @@ def test_stop_is_obeyed_while_it_drives():
     assert 0.3 < visit.pose_at(stop).x < 3
     assert visit.pose_at(stop + 1.5).x == pytest.approx(visit.pose_at(10.5).x, abs=0.005)
     assert visit.pose_at(stop + 1.5).x - visit.pose_at(stop).x < 0.25
+
+
+def test_stop_is_obeyed_while_it_asks_with_another_grammar(tmp_path):
+    size = tmp_path / "size.jsgf"
+    size.write_text("#JSGF V1.0;\ngrammar size;\npublic <size> = small | medium | large;\n")
+    answers = []
+
+    async def order(context):
+        await context.clock.sleep(4.0)
+        answers.append(await verbs.ask(context, "Which size?", timeout=20, grammar=str(size)))
+
+    visit = Visit(
+        13, {1.0: "go forward three meters", 7.0: "stop"}, devices=[SMALL_SCREEN], jobs=[order]
+    )
+    assert visit.heard() == ["move", "stop"]
+    assert answers == [None]
+    stop = visit.named("speech.heard")[1].time
+    assert 0.3 < visit.pose_at(stop).x < 2.5
+    assert visit.pose_at(12.5).x - visit.pose_at(stop).x < 0.25
 
 
 def test_the_stop_key_stops_and_the_other_key_makes_it_deaf():

@@ -102,6 +102,20 @@ def test_what_was_unclear_of_an_answer_is_asked_again(robot, tmp_path):
     assert answer.tags == {"size": "large", "plantMilk": "soy"}
 
 
+def test_an_answer_that_is_also_a_stop_is_both(robot, tmp_path):
+    """A grammar of one's own that has "stop" among its answers."""
+    grammar = tmp_path / "go_on.jsgf"
+    grammar.write_text(
+        "#JSGF V1.0;\ngrammar go_on;\npublic <next> = go on {next=more} | stop {next=end};\n"
+    )
+    rules = []
+    robot.events.subscribe("speech.heard", lambda event: rules.append(event.properties["rule"]))
+    robot.events.subscribe("question.asked", lambda event: robot.visitor.say("stop", after=0.5))
+    answer = robot.ask("Go on?", grammar=str(grammar))
+    assert rules == ["stop"]
+    assert (answer.rule, answer.tags) == ("next", {"next": "end"})
+
+
 def test_it_knows_the_noise_of_the_room(robot):
     robot.wait(4.0)
     listener = robot.context.behavior(Listener)

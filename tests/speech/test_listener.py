@@ -262,6 +262,63 @@ def test_another_grammar_takes_over_while_somebody_speaks(write):
     assert stage.events[-1][2]["text"] == "go back"
 
 
+@pytest.mark.parametrize("way", ["push", "use", "push twice", "use above"])
+def test_stop_counts_under_every_other_grammar(write, way):
+    stage = Stage(Listener())
+    stage.run(0.5)
+    drinks, snacks = (
+        write("public <drink> = red wine;", "drinks"),
+        write("public <a> = b;", "snacks"),
+    )
+    put = {
+        "push": [stage.behavior.push],
+        "use": [stage.behavior.use],
+        "push twice": [lambda path: stage.behavior.push(snacks), stage.behavior.push],
+        "use above": [lambda path: stage.behavior.push(snacks), stage.behavior.use],
+    }[way]
+    for step in put:
+        step(drinks)
+        stage.run(0.5)
+    stage.ears.script |= {2.5: ("stop", 0.9), 3.5: ("red wine", 0.9), 4.5: ("go forward", 0.9)}
+    stage.run(4.0)
+    stage.behavior.type_line("stop moving")
+    stage.run(0.5)
+
+    heard = [(p.get("rule"), p["text"]) for _, name, p in stage.events if "speech" in name]
+    assert heard == [
+        ("stop", "stop"),
+        ("drink", "red wine"),
+        (None, "go forward"),
+        ("stop", "stop moving"),
+    ]
+
+
+def test_stop_counts_over_speech_and_before_the_pause_under_another_grammar(write):
+    listener = Listener()
+    port = speaking(listener)
+    stage = Stage(listener)
+    stage.ears.pause = 0.45
+    stage.run(0.5)
+    listener.push(write("public <drink> = red wine | stop;", "drinks"))
+    port.value = True
+    stage.ears.script = {1.5: ("stop", 0.9)}
+    stage.run(0.8)
+    assert stage.names() == ["grammar.changed", "speech.interrupted", "speech.heard"]
+    assert stage.events[-1][2]["rule"] == "stop"
+
+
+def test_a_first_grammar_that_was_read_again_is_the_one_whose_stop_counts(write):
+    path = write("/** @interrupts */\npublic <stop> = stop;", "first")
+    stage = Stage(Listener(grammar=str(path), reload=True))
+    stage.run(2.0)
+    write("/** @interrupts */\npublic <end> = enough;", "first")
+    os.utime(path, (2_000_000_000, 2_000_000_000))
+    stage.run(2.0)
+    stage.behavior.use(write("public <drink> = red wine;", "drinks"))
+    stage.run(0.5)
+    assert stage.behavior.loaded_grammar.public_rules == ("end", "drink")
+
+
 @pytest.mark.parametrize(
     ("rules", "why"),
     [("public <a> = <b>;", "no rule <b>"), ("public <a> = unspeakable;", "unspeakable - write")],
@@ -309,7 +366,7 @@ def test_a_grammar_that_was_read_again_is_taken_away_by_who_put_it_there(write):
         write("public <drink> = white wine;", "drinks")
         os.utime(path, (2_000_000_000, 2_000_000_000 + second))
         stage.run(2.5)
-        assert list(stage.behavior.loaded_grammar.sentences(1)) == ["white wine"]
+        assert list(stage.behavior.loaded_grammar.sentences_of("drink", 1)) == ["white wine"]
         assert stage.behavior.is_in_force(layer)
     assert stage.names() == ["grammar.changed"] * 3
 
