@@ -1,4 +1,4 @@
-"""`hri token`: prints the token that programs show to move the robot over a network."""
+"""`hri token`: prints the token with which programs move the robot over a network."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hri.core.token import VARIABLE, new_token, own_token
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    about = "make a new one; programs that showed the old one must show the new one"
+    about = "make a new one; programs that proved the old one must prove the new one"
     parser.add_argument("--new", action="store_true", help=about)
 
 

@@ -1,7 +1,10 @@
-"""The token: whoever shows it over a network may move the robot, let it speak, and release it.
+"""The token: whoever knows it may move the robot over a network, let it speak, and release it.
 
 There is one for all programs of a user: in the environment variable HRI_TOKEN, else in a file that
 only this user may read. `hri token` shows it, `hri token --new` replaces it.
+
+Programs prove that they know the token instead of sending it (`proof`): whoever listens at the
+other end of a connection may be a stranger.
 """
 
 from __future__ import annotations
@@ -12,7 +15,9 @@ import re
 import secrets
 import stat
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from hri.core.errors import HriError
 from hri.core.ownership import is_of_user
@@ -26,6 +31,11 @@ VARIABLE = "HRI_TOKEN"
 _BYTES = 32
 _FORM = re.compile(r"[A-Za-z0-9_.~+/=-]{16,200}")
 """What a token may look like: long enough not to be guessed, and the same in every form of text."""
+_NONCE_BYTES = 16
+_NONCE = re.compile(r"[A-Za-z0-9_-]{16,64}")
+
+Role = Literal["client", "server"]
+"""Who proves: a proof of one side is worth nothing to the other."""
 
 
 def token_file() -> Path:
@@ -79,8 +89,41 @@ def own_token() -> str:
     return load_token() or new_token()
 
 
+@dataclass(frozen=True, slots=True)
+class Challenge:
+    """What a proof is made for: one connection, and a number of each side that is used once."""
+
+    client: str
+    """The client's nonce."""
+    server: str
+    """The server's nonce."""
+    ends: str
+    """The two ends of the connection, the client's first: `127.0.0.1 40112 127.0.0.1 25000`."""
+
+
+def new_nonce() -> str:
+    """128 random bits, as 22 characters."""
+    return secrets.token_urlsafe(_NONCE_BYTES)
+
+
+def is_nonce(text: str) -> bool:
+    """Whether the other side may have chosen this as its nonce: 16 to 64 letters, digits, - _."""
+    return _NONCE.fullmatch(text) is not None
+
+
+def proof(token: str, role: Role, challenge: Challenge) -> str:
+    """What only someone who knows the token can say: HMAC-SHA256 (RFC 2104), in hexadecimal."""
+    told = f"hri {role} {challenge.ends} {challenge.client} {challenge.server}"
+    return hmac.new(token.encode(), told.encode(), "sha256").hexdigest()
+
+
+def is_proof(shown: str, token: str, role: Role, challenge: Challenge) -> bool:
+    """Whether this is that proof, compared in constant time."""
+    return hmac.compare_digest(shown.encode(), proof(token, role, challenge).encode())
+
+
 class Grant:
-    """What whoever shows a token may do, as long as that is the token."""
+    """What whoever knows a token may do, as long as that is the token."""
 
     def __init__(self, shown: str) -> None:
         """Raises HriError as `load_token` does."""

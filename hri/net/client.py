@@ -7,13 +7,16 @@ import logging
 import math
 import selectors
 import socket
+import threading
 import time
+from collections import deque
 from contextlib import suppress
 
 from hri.core.errors import HriError
 from hri.core.quoting import escaped
 from hri.core.token import load_token
 from hri.net import control
+from hri.net.handshake import Handshake
 from hri.net.malleable_protocol import Message
 from hri.net.peer import Peer, PeerLimits
 from hri.net.tcp_port import TcpPort
@@ -24,27 +27,53 @@ FIRST_PAUSE, LONGEST_PAUSE = 0.1, 2.0
 """Seconds between two attempts to connect; doubles from the first to the longest."""
 TO_CONNECT = 5.0
 """Seconds that one attempt may take."""
+TO_CHALLENGE = 0.5
+"""Seconds for which lines wait for the server's challenge: before the proof it refuses them."""
+MOST_WAITING = 100
+"""Such lines; the oldest give way."""
+OLDER = "asks for no proof of the token, so it gets none: the hri there is an older one"
 
 
 class Client(TcpPort):
     """Connects to a server, and again whenever the connection is lost."""
 
     def __init__(
-        self, host: str, port: int, limits: PeerLimits | None = None, *, shows_token: bool = False
+        self, host: str, port: int, limits: PeerLimits | None = None, *, proves_token: bool = False
     ) -> None:
-        """`shows_token`: begin each connection with the token of this user, if there is one."""
+        """`proves_token`: prove on each connection that this user's token is known, if any is."""
         super().__init__(host, port, limits)
-        self._shows_token = shows_token
-        self._shown = ""
+        self._proves_token = proves_token
+        self._handshake: Handshake | None = None
+        """What has begun on this connection and is not answered."""
+        self._proven = ""
+        """The token that this connection's last handshake was for."""
+        self._held: deque[bytes] | None = None
+        """Lines that wait for the end of the handshake; None: lines are sent at once."""
+        self._holding = threading.Lock()
+        self._held_until = math.inf
+        self._is_silent = False
+        """Whether the server has left a handshake unanswered: no line waits for one again."""
+        self._told: set[str] = set()
         self._addresses: list[tuple[int, tuple[str, int]]] = []
         self._dialing: socket.socket | None = None
         self._pause = FIRST_PAUSE
         self._next = -math.inf
         self._thread.start()
 
+    def send(self, frame: bytes) -> None:
+        with self._holding:
+            if self._held is None:
+                super().send(frame)
+            else:
+                self._held.append(frame)
+
     def _tend(self, now: float) -> float:
         if self._peers:
-            return math.inf
+            if now >= self._held_until:
+                self._is_silent = True
+                self._release()
+            return self._held_until
+        self._held, self._held_until = None, math.inf  # what waited is lost like all that is sent
         if now >= self._next:
             if self._dialing is not None:
                 self._give_up(self._dialing, errno.ETIMEDOUT)
@@ -84,27 +113,62 @@ class Client(TcpPort):
         self._pause = FIRST_PAUSE
         # Also when this connection is lost at once, the next one is not tried in a rush.
         self._next = time.perf_counter() + FIRST_PAUSE
-        self._shown = ""
-        self._add(dialed, self.address, self._introduction())
+        self._proven = ""
+        hello = self._hello()
+        if hello and not self._is_silent:
+            self._held = deque(maxlen=MOST_WAITING)
+            self._held_until = time.perf_counter() + TO_CHALLENGE
+        self._add(dialed, self.address, hello)
 
-    def _introduction(self) -> bytes:
-        """The line that shows the token; empty when it was shown on this connection."""
+    def _hello(self) -> bytes:
+        """The line that begins a handshake; empty when this connection had one for this token."""
         try:
-            token = load_token() if self._shows_token else None
+            token = load_token() if self._proves_token else None
         except HriError as error:
-            log.warning("%s: goes without the token: %s", self.address, error)
+            self._tell(f"goes without the token: {error}")
             return b""
-        if token is None or token == self._shown:
+        if token is None or token == self._proven:
             return b""
-        self._shown = token
-        return control.introduction(token)
+        self._proven = token
+        self._handshake = Handshake(token)
+        return self._handshake.hello
 
     def _obey(self, message: Message, peer: Peer) -> bool:
-        if (why := control.why_refused(message)) is not None:
+        if control.said(message, control.CHALLENGE) is not None:
+            self._answer(message, peer)
+        if (why := control.said(message, control.REFUSED)) is not None:
             log.warning("%s: %s", self.address, escaped(why))
-            if line := self._introduction():  # it may have been made only now
+            if self._handshake is not None:
+                self._handshake = None
+                self._tell(f"{OLDER} - update it, or start it with --trusted")
+            elif line := self._hello():  # the token may have been made only now
                 peer.send(line)
         return False
+
+    def _answer(self, challenge: Message, peer: Peer) -> None:
+        handshake, self._handshake = self._handshake, None
+        if handshake is None:
+            return  # nobody asked for it
+        self._is_silent = False
+        try:
+            peer.send(handshake.answer(challenge, peer.connection))
+        except (HriError, OSError) as error:
+            self._tell(str(error))
+        self._release()
+
+    def _release(self) -> None:
+        """Send what waited."""
+        self._held_until = math.inf
+        with self._holding:
+            held, self._held = self._held, None
+            for frame in held or ():
+                super().send(frame)
+
+    def _tell(self, what: str) -> None:
+        """Log it once, however often the connection is made."""
+        if what not in self._told:
+            self._told.add(what)
+            log.warning("%s: %s", self.address, escaped(what))
 
     def _give_up(self, dialed: socket.socket, code: int) -> float:
         """End an attempt; in how many seconds to try the next address."""

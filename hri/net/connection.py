@@ -11,6 +11,7 @@ This is what TCPConnection with its StringTerminatedProtocol was in 2003.
 
 from __future__ import annotations
 
+import logging
 import os
 import socket
 import threading
@@ -20,12 +21,18 @@ from contextlib import contextmanager, suppress
 from types import TracebackType
 
 from hri.core.errors import HriError
+from hri.core.quoting import escaped
 from hri.core.token import VARIABLE, load_token
 from hri.net import control
+from hri.net.handshake import Handshake
 from hri.net.loopback import is_loopback
-from hri.net.malleable_protocol import LONGEST
+from hri.net.malleable_protocol import LONGEST, ProtocolError, decode
 
+TO_CHALLENGE = 2.0
+"""Seconds that the other end has to ask for a proof of the token."""
 _CHUNK = 65_536
+
+log = logging.getLogger("hri.net")
 
 
 class Disconnected(HriError, ConnectionError):
@@ -44,9 +51,11 @@ class Connection:
     ) -> None:
         """Connect; `timeout` in seconds holds for this, and for each read and send.
 
-        The first line shows the `token`; without one, that of the user, if there is one: on this
-        machine from its file, elsewhere from HRI_TOKEN alone. An empty one shows none. Raises
-        HriError when nobody answers, or the user's token cannot be used.
+        It proves to a robot that the `token` is known, and never sends it; without one, that of
+        the user, if there is one: on this machine from its file, elsewhere from HRI_TOKEN alone.
+        An empty one proves nothing. Whoever does not know the token gets no proof, and the log
+        says so; a program that does not answer within 2 s is taken for one that knows of no token.
+        Raises HriError when nobody answers, or the user's token cannot be used.
         """
         self.timeout = timeout
         if token is None:
@@ -63,8 +72,10 @@ class Connection:
         self._rest = b""
         self._lines: list[str] = []
         self._reader: threading.Thread | None = None
-        if token:
-            self._send(control.introduction(token))
+        self._handshake = Handshake(token) if token else None
+        if self._handshake is not None:
+            self._send(self._handshake.hello)
+            self._await_challenge()
 
     def __enter__(self) -> Connection:
         return self
@@ -129,6 +140,39 @@ class Connection:
             self._socket.settimeout(self.timeout)
             self._socket.sendall(data)
 
+    def _await_challenge(self) -> None:
+        """Do not let the caller send what would be refused before the proof."""
+        end = time.perf_counter() + min(self.timeout, TO_CHALLENGE)
+        try:
+            while self._handshake is not None:
+                if (left := end - time.perf_counter()) <= 0:
+                    raise TimeoutError
+                self._socket.settimeout(left)
+                self._receive()
+        except TimeoutError:
+            what = "asks for no proof of the token, so it gets none"
+            remedy = 'update the hri there; for a program that knows of no token, pass token=""'
+            log.warning("%s: %s - %s", self._other, what, remedy)
+        except (EOFError, OSError):
+            pass  # whoever sends or reads is told
+
+    def _is_challenge(self, line: bytes) -> bool:
+        """Whether a line is the challenge of our handshake, which is answered here."""
+        if self._handshake is None or not line.startswith(b"<hri>"):
+            return False
+        try:
+            message = decode(line)
+        except ProtocolError:
+            return False
+        if control.said(message, control.CHALLENGE) is None:
+            return False
+        handshake, self._handshake = self._handshake, None
+        try:
+            self._send(handshake.answer(message, self._socket))
+        except (HriError, OSError) as error:
+            log.warning("%s: %s", self._other, escaped(str(error)))
+        return True
+
     @contextmanager
     def _explained(self) -> Iterator[None]:
         """Say of what the system reports that the connection is gone."""
@@ -148,7 +192,8 @@ class Connection:
         *lines, self._rest = (self._rest + data).split(b"\n")
         if len(self._rest) > LONGEST:
             raise HriError(f"a line of more than {LONGEST} bytes - the other end must send less")
-        self._lines += [line.decode(errors="replace").rstrip("\r") for line in lines]
+        kept = [line for line in lines if not self._is_challenge(line)]
+        self._lines += [line.decode(errors="replace").rstrip("\r") for line in kept]
 
     def _call(self, callback: Callable[[str], object]) -> None:
         self._socket.settimeout(None)

@@ -1,7 +1,7 @@
 """Who may write to the ports of one behavior of the bridge.
 
 A port from which nothing moves, speaks or releases takes what anyone sends, as in 2003. Any other
-takes the values of a peer that has shown the token, and those for which whoever started the
+takes the values of a peer that has proven the token, and those for which whoever started the
 program has said `trusted`.
 """
 
@@ -81,7 +81,7 @@ class Door:
         # A peer that comes again and again must not fill the log.
         if now - self._told.get(port, -math.inf) >= TELL_EVERY:
             self._told[port] = now
-            remedy = f"show it (hri token), or start this with --trusted {self._tag}.{port}"
+            remedy = f"prove it (hri token, docs/bridge.md), or start this with --trusted {self._tag}.{port}"
             log.warning("%s: %s - %s", sender.name, what, remedy)
 
     def _closed_outputs(self) -> Iterable[str]:
@@ -90,7 +90,9 @@ class Door:
     def _announce(self, guarded: Mapping[str, frozenset[Effect]]) -> None:
         """Say that a token is needed, and make one if there is none."""
         for port, effects in guarded.items():
-            log.info("%s.%s %s: who writes to it shows a token", self._tag, port, _words(effects))
+            log.info(
+                "%s.%s %s: who writes to it proves the token", self._tag, port, _words(effects)
+            )
         _make_token()
 
 
@@ -98,7 +100,7 @@ def _make_token() -> None:
     try:
         own_token()
     except HriError as error:
-        log.warning("nobody can show a token: %s", error)
+        log.warning("nobody can prove a token: %s", error)
 
 
 def _words(effects: Iterable[Effect]) -> str:

@@ -2,7 +2,7 @@
 sent to them.
 
 What comes is text in the query form, `Examples.PhotoEvent.Shoot?count=5&delay=1`. Who sends it
-shows the token, since a task may do anything when it hears an event. Names that begin with a
+proves the token, since a task may do anything when it hears an event. Names that begin with a
 capital may come, and those that `events` of app.toml allows; no event passes for one of the robot's
 own. The task ends when an event comes that has "End" in its name.
 """

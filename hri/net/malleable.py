@@ -75,7 +75,7 @@ class MalleableBehavior(Behavior):
         self._clock = context.clock
         self._inbox = Inbox({name: port.datatype for name, port in self.outputs.items()})
         self._events = context.events
-        # The other end may be a robot, to which this program shows the token.
+        # The other end may be a robot, to which this program proves the token.
         self.may_do = ANYTHING if self.tcp_host else NOTHING
         self._door = Door(self, self.tag_name, context)
         self._door.prepare()
@@ -88,8 +88,8 @@ class MalleableBehavior(Behavior):
         """Raises HriError when it would let other machines in and nobody has allowed it."""
         port = int(self.tcp_port)
         if self.tcp_host:
-            shows_token = allows_remote or is_loopback(self.tcp_host)
-            return borrow(Client, self.tcp_host, port, shows_token=shows_token)
+            proves_token = allows_remote or is_loopback(self.tcp_host)
+            return borrow(Client, self.tcp_host, port, proves_token=proves_token)
         host = self.bind or os.environ.get(BIND) or LOOPBACK
         if not allows_remote and not is_loopback(host):
             where = "bind" if self.bind else BIND

@@ -60,7 +60,7 @@ class Sender:
     is_gone = False
     """Whether the connection has ended."""
     grant: Grant | None = None
-    """What it got for the token that it has shown; None before."""
+    """What it got for the token that it has proven; None before."""
     refused: frozenset[str] = frozenset()
     """The ports that refused a value of this peer, which it was informed of."""
     name = "somebody"
@@ -68,7 +68,7 @@ class Sender:
 
     @property
     def is_authorized(self) -> bool:
-        """Whether it has shown the token that counts now."""
+        """Whether it has proven the token that counts now."""
         return self.grant is not None and self.grant.holds
 
     def tell(self, line: bytes) -> None:

@@ -10,6 +10,7 @@ from collections import deque
 from dataclasses import dataclass
 
 from hri.core.errors import HriError
+from hri.core.token import Challenge
 from hri.net.loopback import is_from_loopback
 from hri.net.malleable_protocol import LONGEST, Sender
 
@@ -33,7 +34,7 @@ class PeerLimits:
     silence: float = 3.0
     """Seconds without a message after which a peer gives way to a new one, when all are there."""
     introduction: float = 0.25
-    """Seconds in which a peer for whom there is no place may show the token, which gives it one."""
+    """Seconds in which a peer without a place may prove the token, which gives it one."""
 
 
 class PeerError(HriError):
@@ -60,6 +61,8 @@ class Peer(Sender):
         """When the line began that has not ended yet."""
         self.is_local = is_from_loopback(connection)
         """Whether it is on this machine."""
+        self.challenge: Challenge | None = None
+        """What it was asked to prove and has not yet; a server asks one thing at a time."""
         self.came = now
         self.heard = now
         """When its last message came, or it did."""

@@ -9,18 +9,20 @@ import os
 import selectors
 import socket
 import time
+from typing import NoReturn
 
 from hri.core.errors import HriError
-from hri.core.token import Grant
+from hri.core.token import Challenge, Grant, is_nonce, is_proof, load_token, new_nonce, proof
 from hri.net import control
 from hri.net.malleable_protocol import Message
+from hri.net.other_end import ends_of_server
 from hri.net.peer import Peer, PeerError, PeerLimits
 from hri.net.tcp_port import TcpPort
 
 log = logging.getLogger("hri.net")
 
 AT_THE_DOOR = 8
-"""Connections above the limit of peers that may show the token, each for a moment."""
+"""Connections above the limit of peers that may prove the token, each for a moment."""
 REST = 1.0
 """Seconds without a new peer, when this process has no file left for one."""
 
@@ -69,7 +71,7 @@ class Server(TcpPort):
     def _settle(self, now: float) -> float:
         """Find places for those at the door, or turn them away; when to look again.
 
-        Whoever shows the token gets the place of a stranger. Others get the place of whoever had
+        Whoever proves the token gets the place of a stranger. Others get the place of whoever had
         been silent for long when they came: nobody who steers had.
         """
         for guest in self._peers[self._limits.peers :]:
@@ -88,25 +90,52 @@ class Server(TcpPort):
         return min((peer.came + self._limits.introduction for peer in waiting), default=math.inf)
 
     def _obey(self, message: Message, peer: Peer) -> bool:
-        token = control.shown_token(message)
-        if token is not None:
-            self._authorize(peer, token)
-        if not control.asks_to_stop(message):
+        for what, take in (
+            (control.HELLO, self._challenge),
+            (control.PROOF, self._check),
+            (control.TOKEN, self._authorize),
+        ):
+            if (said := control.said(message, what)) is not None:
+                try:
+                    take(peer, said)
+                except (HriError, OSError) as error:
+                    raise PeerError(str(error)) from error
+        if control.said(message, control.STOP) is None:
             return False
         may_stop = peer.is_local or peer.is_authorized
         if not may_stop:
             peer.tell(control.refusal("from another machine it takes the token to stop the robot"))
         return may_stop
 
+    def _challenge(self, peer: Peer, nonce: str) -> None:
+        """Prove to a client that this is the robot, and let it do the same."""
+        if peer.challenge is not None:
+            raise PeerError("it said hello again instead of an answer")
+        if not is_nonce(nonce):
+            raise PeerError("its hello has no nonce of 16 to 64 letters, digits, - and _")
+        peer.challenge = Challenge(nonce, new_nonce(), ends_of_server(peer.connection))
+        token = load_token()
+        own = proof(token, "server", peer.challenge) if token is not None else ""
+        peer.tell(control.challenge(peer.challenge, own))
+
+    def _check(self, peer: Peer, shown: str) -> None:
+        """A challenge is good for one proof."""
+        challenge, peer.challenge = peer.challenge, None
+        token = load_token()
+        if challenge is None or token is None or not is_proof(shown, token, "client", challenge):
+            self._refuse(peer, "this does not prove the token")
+        else:
+            self._authorize(peer, token)
+
     def _authorize(self, peer: Peer, token: str) -> None:
-        try:
-            peer.grant = Grant(token)
-        except HriError as error:
-            raise PeerError(str(error)) from error
+        peer.grant = Grant(token)
         if not peer.is_authorized:
-            peer.tell(control.refusal("this is not the token"))
-            raise PeerError("it showed a wrong token")
+            self._refuse(peer, "this is not the token")
         peer.refused = frozenset()  # a refusal after the token has changed is told again
+
+    def _refuse(self, peer: Peer, why: str) -> NoReturn:
+        peer.tell(control.refusal(why))
+        raise PeerError(f"it was told: {why}")
 
     def _turned_away(self, name: str) -> None:
         self._warn(f"turned {name} away: {self._limits.peers} peers")

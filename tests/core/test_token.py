@@ -2,6 +2,7 @@
 
 import os
 import stat
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,20 @@ from hypothesis import given, strategies as st
 
 from hri.cli.main import main
 from hri.core.errors import HriError
-from hri.core.token import VARIABLE, Grant, is_token, load_token, new_token, own_token, token_file
+from hri.core.token import (
+    VARIABLE,
+    Challenge,
+    Grant,
+    is_nonce,
+    is_proof,
+    is_token,
+    load_token,
+    new_nonce,
+    new_token,
+    own_token,
+    proof,
+    token_file,
+)
 
 
 @pytest.fixture(autouse=True)
@@ -73,6 +87,79 @@ def test_what_is_not_a_file_is_to_be_moved_away_which_then_helps(make, tmp_path)
 def test_nothing_else_fits(shown):
     assert not is_token(shown)
     assert is_token(own_token()) or shown
+
+
+KNOWN = "2cb88ede82146d13cc2e99d6e641815e0f7131a164cfb42868c3234dca097f98"
+TOKENS = st.from_regex(r"[A-Za-z0-9_.~+/=-]{16,50}", fullmatch=True)
+NONCES = st.from_regex(r"[A-Za-z0-9_-]{16,64}", fullmatch=True)
+ADDRESSES = st.ip_addresses().map(str)
+PORTS = st.integers(1, 65535)
+ENDS = st.tuples(ADDRESSES, PORTS, ADDRESSES, PORTS).map(lambda ends: " ".join(map(str, ends)))
+PROVEN = st.tuples(
+    TOKENS, st.sampled_from(["client", "server"]), st.builds(Challenge, NONCES, NONCES, ENDS)
+)
+
+
+@st.composite
+def two_that_differ_in_one_thing(draw):
+    """Who proves what, and the same with another token, role, nonce, address, or port."""
+    token, role, challenge = draw(PROVEN)
+    other_token, _, other = draw(PROVEN)
+    words, others = challenge.ends.split(), other.ends.split()
+    swapped = [*words[2:], *words[:2]]
+    changed = draw(
+        st.sampled_from(
+            [
+                (other_token, role, challenge),
+                (token, "server" if role == "client" else "client", challenge),
+                (token, role, replace(challenge, client=other.client)),
+                (token, role, replace(challenge, server=other.server)),
+                (token, role, replace(challenge, client=challenge.server, server=challenge.client)),
+                (token, role, replace(challenge, ends=" ".join(swapped))),
+                *(
+                    (
+                        token,
+                        role,
+                        replace(challenge, ends=" ".join([*words[:i], others[i], *words[i + 1 :]])),
+                    )
+                    for i in range(4)
+                ),
+            ]
+        )
+    )
+    return (token, role, challenge), changed
+
+
+@given(two_that_differ_in_one_thing())
+def test_a_proof_is_for_one_token_role_and_connection(both):
+    one, other = both
+    assert is_proof(proof(*one), *one)
+    assert is_proof(proof(*one), *other) == (one == other)
+
+
+@given(PROVEN, PROVEN)
+def test_a_proof_tells_nothing_of_the_token_and_never_fits_another_challenge(one, other):
+    assert one[0] not in proof(*one)
+    assert (proof(*one) == proof(*other)) == (one == other)
+
+
+def test_a_proof_is_hmac_sha256_of_one_line():
+    """From an independent implementation: `printf ... | openssl dgst -sha256 -hmac TOKEN`."""
+    ends = "127.0.0.1 40112 127.0.0.1 25000"
+    challenge = Challenge("client-nonce-1234", "server-nonce-5678", ends)
+    assert proof("a-token-of-somebody", "client", challenge) == KNOWN
+
+
+@given(st.text())
+def test_what_is_no_proof_does_not_fit(shown):
+    challenge = Challenge(new_nonce(), new_nonce(), "127.0.0.1 1 127.0.0.1 2")
+    assert not is_proof(shown, "a-token-of-somebody", "client", challenge)
+
+
+def test_a_nonce_is_new_each_time():
+    found = {new_nonce() for _ in range(1000)}
+    assert len(found) == 1000
+    assert all(map(is_nonce, found))
 
 
 def test_the_environment_goes_before_the_file(monkeypatch):

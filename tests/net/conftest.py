@@ -4,8 +4,10 @@ from pathlib import Path
 import pytest
 
 from hri.core.token import VARIABLE
+from hri.net import client, connection
 from hri.net.client import Client
 from hri.net.malleable import BIND
+from hri.net.malleable_protocol import Item, Message, encode
 from hri.net.peer import PeerLimits
 from hri.net.server import Server
 
@@ -19,6 +21,18 @@ def own_token(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     for name in (VARIABLE, BIND):
         monkeypatch.delenv(name, raising=False)
+
+
+@pytest.fixture(autouse=True)
+def patience(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A robot on a busy machine answers in time."""
+    for module in (client, connection):
+        monkeypatch.setattr(module, "TO_CHALLENGE", WITHIN)
+
+
+def introduction(token: str) -> bytes:
+    """The line with the token itself, as a program may send it that cannot prove it."""
+    return encode(Message("hri", (Item("token", token, None),)))
 
 
 class Taken:
@@ -48,8 +62,8 @@ def links():
         opened.append(Server("127.0.0.1", 0, PeerLimits(**limits)))
         return opened[-1]
 
-    def client(port, **limits):
-        opened.append(Client("127.0.0.1", port, PeerLimits(**limits)))
+    def client(port, proves_token=False, **limits):
+        opened.append(Client("127.0.0.1", port, PeerLimits(**limits), proves_token=proves_token))
         return opened[-1]
 
     yield server, client

@@ -22,14 +22,13 @@ from hri.drive.behaviors import CommandGate
 from hri.hal.drive import DriveSystem
 from hri.hal.resource import Description
 from hri.net.connection import Connection
-from hri.net.control import introduction
 from hri.net.loopback import is_loopback
 from hri.net.malleable import BIND, MalleableBehavior
 from hri.net.malleable_protocol import decode
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import SpeakOn
 from hri.testing import context
-from tests.net.conftest import WITHIN, Taken
+from tests.net.conftest import WITHIN, Taken, introduction
 
 VELOCITY = "<bridge><velocity>20</velocity></bridge>"
 TICK = 0.05
@@ -184,10 +183,20 @@ def test_the_client_classes_show_it_by_themselves(robot, links):
 @pytest.mark.parametrize("shown", ["x" * 43, " ", "\u00fc" * 20])
 def test_a_wrong_token_costs_the_connection(robot, shown):
     here = steered(robot())
-    peer = here.connect(shown)
+    peer = here.connect()
+    peer.send(introduction(shown).decode().strip())
     assert "this is not the token" in peer.read()
     with pytest.raises(EOFError):
         peer.read()
+
+
+def test_one_that_was_sent_by_hand_counts_as_before(robot):
+    here = steered(robot())
+    peer = here.connect()
+    peer.send(introduction(own_token()).decode().strip())
+    here.send(peer, VELOCITY)
+    here.tick()
+    assert here.goal == pytest.approx(0.2)
 
 
 def test_a_client_that_came_before_the_token_was_made_shows_it_later(robot, caplog):
@@ -218,7 +227,8 @@ def test_a_token_that_was_replaced_is_a_wrong_one(robot):
     here = steered(robot())
     old = own_token()
     new_token()
-    peer = here.connect(old)
+    peer = here.connect()
+    peer.send(introduction(old).decode().strip())
     assert "this is not the token" in peer.read()
 
 

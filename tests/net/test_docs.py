@@ -9,8 +9,11 @@ import pytest
 from hri.behavior.network_file import load_network
 from hri.behavior.runner import Runner
 from hri.core import paths
+from hri.core.token import Challenge, own_token, proof
 from hri.net.connection import Connection
+from hri.net.control import said
 from hri.net.malleable_protocol import decode
+from hri.net.server import Server
 from hri.testing import context
 from tests.net.conftest import WITHIN, Taken
 
@@ -50,7 +53,7 @@ def test_the_line_for_netcat_works_as_told(server, heard, capsys):
 
 @pytest.mark.proves("W11")
 def test_the_program_runs_as_it_is(server, heard, tmp_path):
-    (program,) = blocks("python")
+    _, program = blocks("python")
     assert len(program.splitlines()) <= 17
     script = tmp_path / "client.py"
     script.write_text(program)
@@ -72,8 +75,40 @@ def test_the_program_runs_as_it_is(server, heard, tmp_path):
 def test_the_messages_on_the_page_are_messages():
     messages = [block for block in blocks("xml") if "BehaviorSchema" not in block]
     assert [decode(block.encode()).tag for block in messages] == [
-        *("tutorial", "hri", "hri", "event_server"),
+        *("tutorial", *["hri"] * 5, "event_server"),
     ]
+
+
+def test_the_lines_that_prove_the_token_are_right():
+    lines = [decode(block.encode()) for block in blocks("xml") if block.startswith("<hri>")]
+    hello, asked, proven = lines[2:]
+    (told,) = (text for text in blocks("text") if text.startswith("hri client"))
+    said_by = (said(hello, "hello"), said(asked, "challenge"), said(asked, "ends"))
+    challenge = Challenge(*said_by)
+    (token,) = re.findall(r"with the token `(\S+)`", PAGE)
+    assert told.strip() == f"hri client {challenge.ends} {challenge.client} {challenge.server}"
+    assert said(asked, "proof") == proof(token, "server", challenge)
+    assert said(proven, "proof") == proof(token, "client", challenge)
+
+
+@pytest.mark.parametrize("is_known", [True, False])
+def test_the_program_that_proves_the_token_steers(is_known, tmp_path):
+    proving, _ = blocks("python")
+    script = tmp_path / "steer.py"
+    script.write_text(proving)
+    token = own_token() if is_known else "another-one-that-is-wrong"
+    server, taken = Server("127.0.0.1", 0), Taken()
+    server.subscribe("steering", taken)
+    try:
+        words = [sys.executable, script, "127.0.0.1", str(server.port)]
+        done = subprocess.run(words, input=token, capture_output=True, text=True, timeout=WITHIN)
+        if is_known:
+            assert (done.returncode, done.stderr) == (0, "")
+            assert taken.wait_for(1)[0].sender.grant.holds
+        else:
+            assert done.stderr == "the program that listens there does not know the token\n"
+    finally:
+        server.close()
 
 
 def test_the_schema_on_the_page_makes_a_behavior(tmp_path, monkeypatch):

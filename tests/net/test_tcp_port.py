@@ -11,12 +11,11 @@ import pytest
 
 from hri.core.errors import HriError
 from hri.net.client import Client, _own_echo
-from hri.net.control import introduction
 from hri.net.malleable_protocol import Item, Message, decode, encode
 from hri.net.port_pool import borrow, give_back
 from hri.net.server import AT_THE_DOOR, Server
 from hri.net.tcp_port import MOST_WARNINGS
-from tests.net.conftest import WITHIN, Taken
+from tests.net.conftest import WITHIN, Taken, introduction
 
 
 def message(text):
