@@ -12,11 +12,14 @@ from hri.core.token import VARIABLE, new_token, own_token
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     about = "make a new one; programs that proved the old one must prove the new one"
     parser.add_argument("--new", action="store_true", help=about)
+    about = "print it as a header for curl, which reads it: hri token --curl | curl --config - URL"
+    parser.add_argument("--curl", action="store_true", help=about)
 
 
 def run(options: argparse.Namespace) -> int:
     """Print the token; make one if there is none."""
-    print(new_token() if options.new else own_token())
+    token = new_token() if options.new else own_token()
+    print(f'header = "Authorization: Bearer {token}"' if options.curl else token)
     if options.new and os.environ.get(VARIABLE):
         print(f"{VARIABLE} is set and takes precedence - unset {VARIABLE}", file=sys.stderr)
     return 0

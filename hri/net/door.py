@@ -81,7 +81,7 @@ class Door:
         # A peer that comes again and again must not fill the log.
         if now - self._told.get(port, -math.inf) >= TELL_EVERY:
             self._told[port] = now
-            remedy = f"prove it (hri token, docs/bridge.md), or start this with --trusted {self._tag}.{port}"
+            remedy = f"prove it (hri token), or start this with --trusted {self._tag}.{port}"
             log.warning("%s: %s - %s", sender.name, what, remedy)
 
     def _closed_outputs(self) -> Iterable[str]:

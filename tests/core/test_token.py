@@ -202,6 +202,11 @@ def test_the_command_shows_it_and_makes_another(capsys):
     assert shown[2] == shown[3] == f"{load_token()}\n"
 
 
+def test_curl_reads_it_from_its_standard_input(capsys):
+    assert main(["token", "--curl"]) == 0
+    assert capsys.readouterr().out == f'header = "Authorization: Bearer {load_token()}"\n'
+
+
 @pytest.mark.parametrize("is_there", [True, False])
 def test_a_link_in_its_place_is_replaced_and_what_it_leads_to_stays(tmp_path, is_there):
     own_token()

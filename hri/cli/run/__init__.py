@@ -11,6 +11,7 @@ from itertools import chain, count
 from pathlib import Path
 
 from hri.cli.door_options import add_door_options, doors_of
+from hri.cli.run.browser import forget_page
 from hri.cli.run.changes import announce_changes
 from hri.cli.run.narrator import Narrator
 from hri.cli.run.studio_options import add_studio_options, show_address, studio_of
@@ -134,6 +135,7 @@ def _run(options: argparse.Namespace, ending: Ending) -> int:
     finally:
         if studio is not None:
             studio.close()
+            forget_page(studio.port)
         robot.close()
     if robot.recording is not None:
         robot.recording.plot()

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import webbrowser
 from collections.abc import Callable
+from contextlib import suppress
 
+from hri.cli.run.browser import open_page
 from hri.cli.terminal.messages import Within
+from hri.core.errors import HriError
 from hri.robot import Robot
 from hri.studio.port import PortTaken
 from hri.studio.session import PORT, StudioSession
@@ -27,7 +29,8 @@ def studio_of(robot: Robot, options: argparse.Namespace) -> StudioSession:
         return StudioSession(robot, options.port, options.allow_remote)
     except PortTaken as taken:
         if options.open and taken.page:
-            webbrowser.open(taken.page)
+            with suppress(HriError):  # the address is in the message
+                open_page(taken.page)
         raise
 
 
@@ -36,5 +39,10 @@ def show_address(
 ) -> None:
     """Print where the page is, and open it when asked to."""
     tell(f"studio    {studio.address()}")
-    if options.open:
-        webbrowser.open(studio.address())
+    if not options.open:
+        return
+    try:
+        open_page(studio.address())
+        tell("          a browser opens it; if none does, open this address in one")
+    except HriError as error:
+        tell(f"          not opened: {error}, or open this address in a browser")
