@@ -13,6 +13,7 @@ import psutil
 from hri.core.errors import HriError
 from hri.core.quoting import message_line
 from hri.core.token import own_token
+from hri.net.other_end import is_program_of_this_user
 
 SERVER = "hri.studio.server"
 """The module that a robot starts for its studio, and that has the port as well."""
@@ -64,17 +65,31 @@ def _holder(port: int) -> psutil.Process | None:
 
 def _page_of(holder: psutil.Process, port: int) -> str:
     """The page of a studio that this user runs, with another code; empty for any other program."""
-    # The token must not get into the hands of other users, nor of this process itself, which would
-    # wait for its own answer.
-    with suppress(
-        psutil.Error, OSError, ValueError, LookupError, HriError, http.client.HTTPException
+    # This process itself would wait for its own answer.
+    if holder.pid == os.getpid():
+        return ""
+    with (
+        suppress(OSError, ValueError, LookupError, HriError, http.client.HTTPException),
+        closing(http.client.HTTPConnection("127.0.0.1", port, timeout=PATIENCE)) as asked,
     ):
-        if holder.pid == os.getpid() or holder.username() != psutil.Process().username():
+        # The first answer shows that this connection was accepted, so that it is known by whom: who
+        # had the port before does not matter. The token must not get to another user.
+        _answer(asked, "GET", "/api/v1/state")
+        if asked.sock is None or not is_program_of_this_user(asked.sock):
             return ""
-        with closing(http.client.HTTPConnection("127.0.0.1", port, timeout=PATIENCE)) as asked:
-            proof = {"Authorization": f"Bearer {own_token()}"}
-            asked.request("POST", "/api/v1/codes", headers=proof)
-            answer = asked.getresponse().read(LONGEST_ANSWER)
-        page = str(json.loads(answer)["result"])
+        shown = {"Authorization": f"Bearer {own_token()}"}
+        asked.auto_open = 0  # never shown on another connection
+        page = str(json.loads(_answer(asked, "POST", "/api/v1/codes", shown))["result"])
         return page if page.startswith(f"http://127.0.0.1:{port}/?code=") else ""
     return ""
+
+
+def _answer(
+    asked: http.client.HTTPConnection, method: str, path: str, headers: dict[str, str] | None = None
+) -> bytes:
+    """What the other end says. Raises HTTPException for more than LONGEST_ANSWER."""
+    asked.request(method, path, headers=headers or {})
+    answer = asked.getresponse().read(LONGEST_ANSWER + 1)
+    if len(answer) > LONGEST_ANSWER:
+        raise http.client.HTTPException("a long answer")
+    return answer
