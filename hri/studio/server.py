@@ -36,6 +36,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
+from hri.core.paths import is_file
 from hri.core.token import is_token
 from hri.studio.access import Cookies, is_loopback, is_own_host, is_own_origin
 from hri.studio.api import openapi
@@ -46,6 +47,7 @@ from hri.studio.composer.routes import (
     ROOT as NETWORKS,
     NetworkRoutes,
 )
+from hri.studio.json_body import read_body
 from hri.studio.link import NETWORK, PICTURES, TEXT, THUMBNAIL, LinkError, Unpacker, packed_json
 from hri.studio.recording_routes import Answer, RecordingRoutes
 
@@ -349,11 +351,11 @@ class Studio:
             return _stranger()
         try:
             body = await _body(request, _most(request.url.path))
-            given = json.loads(body) if body else {}
+            given = read_body(body) if body else {}
             if not isinstance(given, dict):
                 raise HriError("the body must be a JSON object")
             arguments = checked(name, given)
-        except (HriError, ValueError, RecursionError) as error:
+        except HriError as error:
             return JSONResponse({"error": str(error)}, 400)
         return await self._answered(name, arguments)
 
@@ -457,7 +459,7 @@ def _file(name: str) -> Response:
     """A file of the page."""
     suffix = name.rpartition(".")[2]
     found = resources.files("hri.studio") / "built" / name
-    if "/" in name or suffix not in TYPES or not found.is_file():
+    if "/" in name or suffix not in TYPES or not is_file(Path(str(found))):
         return JSONResponse({"error": "not found"}, 404)
     return Response(found.read_bytes(), media_type=TYPES[suffix])
 

@@ -178,6 +178,31 @@ def test_junk_never_breaks_the_server(name, body):
     assert set(robot.obeyed) <= OPEN
 
 
+@pytest.mark.parametrize(
+    ("body", "why"),
+    [
+        (b'{"text": ' + b"9" * 5000 + b"}", "the body is too much: an integer of 5000 digits - "),
+        (b'{"text": -' + b"9" * 301 + b"}", "the body is too much: an integer of "),
+        (b"[" * 60_000, "the body is too much: its brackets are nested too deeply - "),
+        (b'{"text": "\xff"}', "the body is not UTF-8 at byte 10 - send UTF-8"),
+        (b'{"text" 1}', "the body is not JSON: Expecting ':' delimiter (line 1, column 9) - "),
+    ],
+    ids=["digits", "more digits", "brackets", "bytes", "colon"],
+)
+@pytest.mark.parametrize("path", ["say", "networks/check"])
+def test_a_body_that_cannot_be_read_is_explained_in_plain_words(person, robot, body, why, path):
+    answer = person.post(f"/api/v1/{path}", content=body)
+    assert answer.status_code == 400
+    assert answer.json()["error"].startswith(why)
+    assert robot.obeyed == []
+
+
+@pytest.mark.parametrize("name", ["a" * 300 + ".js", "\u00fc" * 200 + ".css", "a" * 5000 + ".svg"])
+def test_a_file_that_cannot_exist_is_not_found(app, name):
+    with client(app, raise_server_exceptions=True) as made:
+        assert made.get(f"/{name}").status_code == 404
+
+
 def test_a_body_that_is_too_long_is_refused(person, robot):
     long = b'{"text":"' + b"x" * LONGEST_BODY + b'"}'
     assert person.post("/api/v1/say", content=long).status_code == 403

@@ -15,6 +15,7 @@ from starlette.responses import Response
 from hri.core.errors import HriError
 from hri.studio.composer.files import LARGEST, Changed, Json, Library, NoFile
 from hri.studio.composer.workshop import Workshop
+from hri.studio.json_body import read_body
 
 Answer = Callable[[Request], Awaitable[Response]]
 Body = Callable[[Request, int], Awaitable[bytes]]
@@ -148,8 +149,8 @@ class NetworkRoutes:
         given: Any = dict(request.query_params)
         if route.method in ("PUT", "POST"):
             try:
-                given = json.loads(await self._body(request, LONGEST_BODY))
-            except (HriError, ValueError, RecursionError) as error:
+                given = read_body(await self._body(request, LONGEST_BODY))
+            except HriError as error:
                 raise Wrong(str(error)) from error
         if not isinstance(given, dict):
             raise Wrong("the body must be a JSON object")
