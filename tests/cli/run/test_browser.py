@@ -9,13 +9,16 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 import httpx2 as httpx
+import psutil
 import pytest
 
 from hri.cli.run import browser
 from hri.cli.run.studio_options import show_address, studio_of
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.core.token import own_token
 from hri.studio.port import PortTaken
+from tests.studio.browser import CHROMIUM, NEEDS_BROWSER
 from tests.studio.living import living
 
 ADDRESS = "http://127.0.0.1:8311/?code=a-code"
@@ -83,8 +86,33 @@ def test_the_page_is_reached_by_the_file_and_gives_a_cookie(shown):
             assert client.get(shown.leads_to()).status_code == 200
             state = f"http://127.0.0.1:{studio.port}/api/v1/state"
             assert client.get(state).status_code == 200
+        token, secrets = own_token(), (studio._config["secret"], *studio._codes._open)
+        children = psutil.Process().children(recursive=True)
+        assert studio.server in [child.pid for child in children]
+        for child in children:
+            told_to_it = [*child.cmdline(), *child.environ().values()]
+            assert not [one for one in (token, *secrets) if one in "\n".join(told_to_it)]
         assert re.fullmatch(rf"studio +http://127.0.0.1:{studio.port}/\?code=\S+", told[0])
         assert "open this address" in told[1]
+        browser.forget_page(studio.port)
+
+
+@pytest.mark.slow
+@NEEDS_BROWSER
+def test_a_real_browser_is_led_to_the_page_and_known_there(shown):
+    playwright = pytest.importorskip("playwright.sync_api", reason="no playwright")
+    with living() as (studio, robot), playwright.sync_playwright() as started:
+        while robot.clock.now() < 0.1:
+            os.sched_yield()
+        browser.open_page(studio.address())
+        chromium = started.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        page = chromium.new_page()
+        page.goto(shown.words[0])
+        linked = page.locator("#link")
+        playwright.expect(linked).to_have_text("linked", timeout=20_000)
+        assert page.url.startswith(f"http://127.0.0.1:{studio.port}/")
+        assert "code" not in page.url
+        chromium.close()
         browser.forget_page(studio.port)
 
 
