@@ -137,7 +137,8 @@ class Client(TcpPort):
         if control.said(message, control.CHALLENGE) is not None:
             self._answer(message, peer)
         if (why := control.said(message, control.REFUSED)) is not None:
-            log.warning("%s: %s", self.address, escaped(why))
+            level = logging.WARNING if self._may_warn() else logging.DEBUG
+            log.log(level, "%s: %s", self.address, escaped(why))
             if self._handshake is not None:
                 self._handshake = None
                 self._tell(f"{OLDER} - update it, or start it with --trusted")

@@ -203,7 +203,9 @@ class _Reader:
         if self.depth == 2:
             self.text.append(text)
         elif text.strip():
-            raise _Refused(f'"{text[:60]}" outside of a value - put it into <port>...</port>')
+            # The log gets this: in a line for the bridge itself it may be the token.
+            what = "text" if self.tag == "hri" else f'"{text[:60]}"'
+            raise _Refused(f"{what} outside of a value - put it into <port>...</port>")
 
     def _doctype(self, *_: object) -> None:
         raise _Refused("a DOCTYPE - take it out")

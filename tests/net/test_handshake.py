@@ -13,6 +13,7 @@ from hri.core.token import Challenge, new_nonce, new_token, own_token, proof
 from hri.net import client, connection, control, handshake
 from hri.net.connection import Connection
 from hri.net.malleable_protocol import decode
+from hri.net.other_end import ends_of_client, ends_of_server
 from hri.net.server import Server
 from tests.net.conftest import WITHIN, Taken
 
@@ -117,8 +118,8 @@ def test_a_stranger_gets_nothing_of_a_network(stranger, links):
 class Robot:
     """The real one, and who was allowed to do more than a stranger."""
 
-    def __init__(self, port=0):
-        self.server = Server("127.0.0.1", port)
+    def __init__(self, port=0, host="127.0.0.1"):
+        self.server = Server(host, port)
         self.port = self.server.port
         self.taken = Taken()
         self.server.subscribe("t", self.taken)
@@ -134,8 +135,8 @@ class Robot:
 def robot():
     made = []
 
-    def start(port=0):
-        made.append(Robot(port))
+    def start(port=0, host="127.0.0.1"):
+        made.append(Robot(port, host))
         return made[-1]
 
     yield start
@@ -184,6 +185,56 @@ class Relay:
             self.passed[which] += data
             target.sendall(data)
         target.shutdown(socket.SHUT_WR)
+
+
+@pytest.mark.parametrize(
+    ("bind", "dialed"),
+    [("::1", "::1"), ("0.0.0.0", "127.0.0.2"), ("127.0.0.1", "localhost")],
+)
+def test_both_sides_mean_the_same_ends_by_whatever_address(bind, dialed, robot):
+    if bind == "::1" and not has_ipv6():
+        pytest.skip("no IPv6 here")
+    own_token()
+    here = robot(host=bind)
+    with Connection(dialed, here.port, WITHIN) as script:
+        script.send(VALUE.decode().strip())
+        assert here.is_known()
+
+
+def has_ipv6():
+    try:
+        socket.create_server(("::1", 0), family=socket.AF_INET6).close()
+    except OSError:
+        return False
+    return True
+
+
+@pytest.mark.skipif(not socket.has_dualstack_ipv6(), reason="no IPv6 here")
+def test_an_address_inside_ipv6_is_written_as_it_is_seen_there():
+    listening = socket.create_server(("::", 0), family=socket.AF_INET6, dualstack_ipv6=True)
+    here = socket.create_connection(("127.0.0.1", listening.getsockname()[1]), WITHIN)
+    with listening, here, listening.accept()[0] as there:
+        assert there.getpeername()[0] == "::ffff:127.0.0.1"
+        assert ends_of_server(there) == ends_of_client(here)
+
+
+@pytest.mark.usefixtures("impatient")
+def test_a_challenge_that_comes_late_is_answered_by_who_reads(caplog):
+    token, may_answer = own_token(), threading.Event()
+    ends = []
+
+    def answer(hello):
+        assert may_answer.wait(WITHIN)
+        made = Challenge(nonce_of(hello), new_nonce(), *ends)
+        return control.challenge(made, proof(token, "server", made)) + VALUE
+
+    stranger = Stranger(answer)  # who knows the token, and so is none
+    with Connection(port=stranger.port, timeout=WITHIN) as script:
+        ends.append(ends_of_client(script._socket))
+        may_answer.set()
+        assert script.read() == VALUE.decode().strip(), "and not the challenge"
+    assert b"<proof>" in stranger.all_heard()
+    assert "asks for no proof" in caplog.text
 
 
 def test_a_stranger_between_gets_no_proof(robot, monkeypatch, caplog):

@@ -71,6 +71,7 @@ def test_several_values_travel_in_one_message():
         (b"<a><b>1</c></a>", "column 10: mismatched tag"),
         (b"<a><b><c>1</c></b></a>", "column 10: <c> within a value"),
         (b"<a>1</a>", '"1" outside of a value'),
+        (b"<hri>the token</hri>", "text outside of a value"),
         (b"<a><b>&bomb;</b></a>", "undefined entity"),
         (b'<!DOCTYPE a [<!ENTITY b "c">]><a><b>&b;</b></a>', "a DOCTYPE"),
         (b'<!DOCTYPE a SYSTEM "file:///etc/passwd"><a/>', "a DOCTYPE"),

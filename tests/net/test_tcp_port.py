@@ -11,6 +11,7 @@ import pytest
 
 from hri.core.errors import HriError
 from hri.net.client import Client, _own_echo
+from hri.net.connection import Connection
 from hri.net.malleable_protocol import Item, Message, decode, encode
 from hri.net.port_pool import borrow, give_back
 from hri.net.server import AT_THE_DOOR, Server
@@ -292,6 +293,18 @@ def test_chatty_strangers_do_not_keep_out_who_shows_the_token(links, monkeypatch
         assert heard.messages[0].sender.is_authorized
     for peer in strangers:
         peer.close()
+
+
+def test_at_the_door_the_token_may_be_proven(links, monkeypatch):
+    monkeypatch.setenv("HRI_TOKEN", "known-to-someone")
+    server, _ = links
+    here = server(peers=1, silence=math.inf, introduction=WITHIN)
+    heard = Taken()
+    here.subscribe("t", heard)
+    with raw(here.port) as stranger, Connection(port=here.port, timeout=WITHIN) as known:
+        assert stranger.recv(1) == b""
+        known.send(encode(message("here")).decode().strip())
+        assert heard.wait_for(1)[0].sender.is_authorized
 
 
 def test_at_the_door_a_stranger_may_stop_the_robot(links):
