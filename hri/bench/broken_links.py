@@ -37,14 +37,14 @@ def words(done: Combination) -> str:
 def stopped(bench: Bench, path: str, done: Combination, speed: float = SPEED) -> float:
     """Seconds from the first deed to the bytes that stop the base."""
     with driving_program(bench, path, speed) as program:
-        links = dict(zip(LINKS, _chain(program), strict=True))
+        links = dict(zip(LINKS, chain_of(program), strict=True))
         try:
             time = bench.clock.now()
             for link, deed in done.items():
                 links[link].send_signal(DEEDS[deed])
             return bench.stop_after(time)
         finally:
-            _end(links.values())
+            end(links.values())
 
 
 def figures(tries: int, busy: int = 0) -> dict[str, Any]:
@@ -58,7 +58,7 @@ def figures(tries: int, busy: int = 0) -> dict[str, Any]:
     return {"all": _told(together), "combinations": told, "tries": tries, "busy": busy}
 
 
-def _chain(program: int) -> Sequence[psutil.Process]:
+def chain_of(program: int) -> Sequence[psutil.Process]:
     """The processes of LINKS. Raises ValueError when one is missing."""
     top = psutil.Process(program)
     (supervisor,) = top.children()
@@ -66,7 +66,7 @@ def _chain(program: int) -> Sequence[psutil.Process]:
     return top, supervisor, watchdog
 
 
-def _end(processes: Iterable[psutil.Process]) -> None:
+def end(processes: Iterable[psutil.Process]) -> None:
     """Kill all of them: a frozen one would keep the port."""
     for process in processes:
         with suppress(psutil.NoSuchProcess):

@@ -102,12 +102,16 @@ def settings(path: str) -> Settings:
 
 
 def drive_on(path: str, speed: float = SPEED) -> None:
-    """A program that drives, for ever; to be killed."""
+    """A program that drives until Ctrl-C; mostly it is killed."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
     clock = RealClock()
     connection = Remote(clock, settings(path))
-    while True:
-        ask(connection, speed)
-        clock.advance(BEAT)
+    try:
+        while True:
+            ask(connection, speed)
+            clock.advance(BEAT)
+    except KeyboardInterrupt:
+        connection.close()
 
 
 def ask(connection: Remote, speed: float) -> None:

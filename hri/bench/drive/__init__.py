@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from hri.bench.drive import simulated_world, steering, stopping
+from hri.bench.drive import leaving, simulated_world, steering, stopping
 from hri.bench.table import Parts, measured
 
 PARTS: Parts = {
     "stops": stopping.rows,
     "chain": stopping.chain,
+    "leaving": leaving.rows,
     "steering": steering.rows,
     "simulated world": simulated_world.rows,
 }

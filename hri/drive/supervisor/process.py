@@ -31,7 +31,7 @@ from hri.drive.supervisor.free_space import Body
 from hri.drive.supervisor.link import Packets, decoded_order, encoded
 from hri.drive.supervisor.standby import Lifeline
 from hri.drive.supervisor.supervisor import Supervisor
-from hri.drive.supervisor.watchdog import Watchdog
+from hri.drive.supervisor.watchdog import LastWords, Watchdog
 from hri.drive.velocity_limits import BaseLimits
 from hri.hal.drivers.serial_port import SerialPort
 from hri.hal.resource import Description
@@ -109,11 +109,20 @@ class Process:
             while not self._packets.is_over:
                 self._turn()
         finally:
-            self._supervisor.trip(NO_PROGRAM)
-            now = self._clock.now()
-            self._controller.close(now)
-            self._unwatch()
-            self._lifeline.beat(now)
+            self._leave()
+
+    def _leave(self) -> None:
+        """Stop the base and leave it to itself, as the watchdog does at the same time.
+
+        Neither waits for the other: each may be killed, and whoever writes last has said all.
+        """
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
+        self._supervisor.trip(NO_PROGRAM)
+        self._unwatch()
+        self._lifeline.beat(self._clock.now())
+        if self._port.is_open:
+            LastWords.of(self._controller.protocol).write_all(self._port.fileno())
+        self._port.close()
 
     def _turn(self) -> None:
         self._wait()
@@ -143,8 +152,8 @@ class Process:
         if self._watchdog is not None:
             self._hear_watchdog(self._watchdog, now)
         if self._watchdog is None and self._port.is_open:
-            stop = self._controller.protocol.emergency_stop
-            self._watchdog = Watchdog(self._port.fileno(), stop, now)
+            words = LastWords.of(self._controller.protocol)
+            self._watchdog = Watchdog(self._port.fileno(), words, now)
             self._lifeline.lend(self._port.fileno(), self._watchdog.pid)
 
     def _hear_watchdog(self, watchdog: Watchdog, now: float) -> None:
@@ -152,6 +161,7 @@ class Process:
         self._supervisor.is_watched = not watchdog.is_late(now)
         if watchdog.is_dead(now):
             self._supervisor.trip(NO_WATCHDOG)
+            watchdog.kill()
             self._unwatch()
 
     def _unwatch(self) -> None:

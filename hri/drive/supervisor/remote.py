@@ -30,6 +30,7 @@ from hri.drive.supervisor.process import Settings
 from hri.drive.supervisor.standby import Standby
 from hri.drive.supervisor.supervisor_connection import BEAT, SupervisorConnection
 from hri.drive.supervisor.velocity_arbiter import Level
+from hri.drive.supervisor.watchdog import LastWords
 from hri.hal.drivers.serial_port import Backoff
 from hri.hal.motion import REST, Way
 
@@ -52,13 +53,13 @@ class Child:
 
     def __init__(self, settings: Settings) -> None:
         """Start it. Raises NotAvailable where this machine cannot."""
-        stop = settings.make().emergency_stop
+        words = LastWords.of(settings.make())
         try:
             with _two_pairs() as (ours, theirs, our_lifeline, its_lifeline):
                 line, lifeline = theirs.fileno(), its_lifeline.fileno()
                 self._process = _started(replace(settings, line=line, lifeline=lifeline))
                 self.packets = Packets(_kept(ours))
-                self._standby = Standby(_kept(our_lifeline), stop)
+                self._standby = Standby(_kept(our_lifeline), words)
         except OSError as error:
             raise NotAvailable(f"no supervisor starts: {error} - end other programs") from error
         self.has_spoken = False

@@ -2,8 +2,8 @@
 
 The supervisor lends the program the open port and a handle on its watchdog, and sends heartbeats on
 a separate line. A thread of the program listens: when the heartbeats cease, it writes the emergency
-stop itself. When the supervisor has ended, the thread also ends a watchdog that stands still, and
-gives the port back, so that the next supervisor can open it.
+stop itself. When the supervisor has ended, the thread also ends a watchdog that stands still,
+leaves the base to itself, and gives the port back, so that the next supervisor can open it.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import threading
 from collections.abc import Sequence
 from contextlib import suppress
 
-from hri.drive.supervisor.watchdog import AGAIN, BEAT, EVERY, write_last_stops, write_stop
+from hri.drive.supervisor.watchdog import BEAT, EVERY, LastWords, Silence
 
 PATIENCE = 0.13
 """Seconds without a heartbeat after which the program stops the base. The watchdog is due before
@@ -75,9 +75,8 @@ class Lifeline:
 class Standby:
     """The program's side: a thread that listens, whatever the program's own loop does."""
 
-    def __init__(self, line: socket.socket, stop: bytes) -> None:
-        """`stop`: the bytes that stop this base from any state."""
-        self._line, self._stop = line, stop
+    def __init__(self, line: socket.socket, words: LastWords) -> None:
+        self._line, self._words = line, words
         self._lent: Sequence[int] = ()
         self._thread = threading.Thread(target=self._stand_by, name="base standby", daemon=True)
         self._thread.start()
@@ -96,23 +95,22 @@ class Standby:
 
     def _listen(self) -> None:
         """Until the supervisor has ended."""
-        patience = PATIENCE
+        silence = Silence(self._words, PATIENCE)
         while True:
-            self._line.settimeout(patience)
+            self._line.settimeout(silence.patience)
             try:
                 word, lent, *_ = socket.recv_fds(
                     self._line, LONGEST_WORD, MOST_LENT, socket.MSG_CMSG_CLOEXEC
                 )
             except TimeoutError:
-                self._write_stop()
-                patience = AGAIN
+                silence.answer(self._port)
                 continue
             except OSError:
                 return
             if not word:
                 return
             self._obey(word, lent)
-            patience = PATIENCE
+            silence = Silence(self._words, PATIENCE)
 
     def _obey(self, word: bytes, lent: Sequence[int]) -> None:
         if word in (LEND, WITHDRAW):
@@ -121,16 +119,17 @@ class Standby:
 
     def _end(self) -> None:
         """The supervisor has ended, and did not take the port back before: it was killed."""
-        self._write_stop()
+        if self._port is None:
+            return
+        self._words.write_stop(self._port)
         for watchdog in self._lent[1:]:
             with suppress(AttributeError, OSError):  # it has ended by itself
                 signal.pidfd_send_signal(watchdog, signal.SIGKILL)
-        for port in self._lent[:1]:
-            write_last_stops(port, self._stop)
+        self._words.write_all(self._port)
 
-    def _write_stop(self) -> None:
-        for port in self._lent[:1]:
-            write_stop(port, self._stop)
+    @property
+    def _port(self) -> int | None:
+        return self._lent[0] if self._lent else None
 
     def _give_back(self) -> None:
         lent, self._lent = self._lent, ()

@@ -15,6 +15,7 @@ from contextlib import suppress
 import psutil
 import pytest
 
+from hri.bench.drive.leaving import ENDS, is_left_alone
 from hri.bench.stops import SLOW, Bench, drive_to, ended, settings
 from hri.core.clock import FakeClock
 from hri.core.errors import NotAvailable
@@ -31,6 +32,7 @@ from hri.drive.supervisor.velocity_arbiter import Level
 from hri.hal.drivers.serial_port import Backoff
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
+from hri.simulation.bases.emulated_create2 import PASSIVE
 from hri.simulation.bases.pseudo_terminal import PseudoTerminal
 
 SOON = 3.0
@@ -372,12 +374,25 @@ def test_a_program_that_is_killed_or_frozen_no_longer_moves_the_base(world, alon
     assert not bench.line.base.is_rolling
 
 
+SOME_ENDS = ("program ended by Ctrl-C", "program, supervisor killed")
+
+
+@pytest.mark.parametrize(
+    "name",
+    [name if name in SOME_ENDS else pytest.param(name, marks=pytest.mark.slow) for name in ENDS],
+)
+def test_whatever_ends_the_base_stands_and_is_left_to_itself(world, alone, name) -> None:
+    bench, port = world
+    assert is_left_alone(bench, port.path, ENDS[name])
+
+
 def test_no_process_is_left_behind(world, alone) -> None:
     """After all tests above, their watchdogs have gone by themselves."""
     bench, port = world
     bench.wait(
         "the end of all", lambda: not any(port.path in " ".join(c) for c in _command_lines())
     )
+    assert bench.line.base.mode == PASSIVE
 
 
 def _command_lines() -> Iterator[list[str]]:

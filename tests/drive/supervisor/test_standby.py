@@ -9,8 +9,11 @@ import pytest
 
 from hri.drive.supervisor.link import pair
 from hri.drive.supervisor.standby import Lifeline, Standby
+from hri.drive.supervisor.watchdog import AGAIN, LastWords, Silence
 
-STOP = b"stop!"
+STOP, BYE = b"stop!", b"bye.."
+NOBODY = 2**22 + 1
+"""More than the id of any process."""
 
 
 @dataclass
@@ -21,7 +24,7 @@ class Stage:
 
     def __post_init__(self) -> None:
         self.ours, theirs = pair()
-        self.lifeline, self.standby = Lifeline(self.ours), Standby(theirs, STOP)
+        self.lifeline, self.standby = Lifeline(self.ours), Standby(theirs, LastWords(STOP, BYE))
 
     @property
     def port(self) -> int:
@@ -54,6 +57,39 @@ def test_for_a_supervisor_that_falls_silent_the_program_stops_the_base_again_and
 ) -> None:
     stage.lend()
     assert [stage.heard() for _ in range(3)] == [STOP] * 3
+
+
+def test_for_a_supervisor_that_has_ended_the_last_word_is_the_farewell(stage) -> None:
+    stage.lifeline.lend(stage.port, NOBODY)
+    stage.lifeline.beat(0.0)
+    while stage.heard() != STOP:  # the supervisor is silent; the program has the port
+        continue
+    stage.ours.close()
+    stage.standby.wait()
+    os.close(stage.port)
+    told = list(iter(stage.heard, b""))
+    assert told.count(BYE) == 2
+    assert told.index(BYE) == told.count(STOP) >= 3
+
+
+def test_after_some_seconds_of_stops_the_base_is_left_to_itself_and_not_spoken_to() -> None:
+    ours, port = os.pipe()
+    silence, waited = Silence(LastWords(STOP, BYE), AGAIN), 0.0
+    while silence.patience is not None:
+        waited += silence.patience
+        silence.answer(port)
+    os.close(port)
+    with os.fdopen(ours, "rb") as pipe:
+        told = pipe.read()
+    assert 4.5 < waited < 5.5
+    assert told == STOP * round(waited / AGAIN) + BYE * 2
+
+
+def test_a_base_without_a_farewell_is_stopped_on_and_on() -> None:
+    silence = Silence(LastWords(STOP), AGAIN)
+    for _ in range(1000):
+        silence.answer(None)
+    assert silence.patience == AGAIN
 
 
 def test_a_port_that_was_taken_back_is_closed_and_not_written_to(stage) -> None:
