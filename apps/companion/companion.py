@@ -192,7 +192,7 @@ class Companion:
             "text": lambda: text,
             "name": lambda: self.replies.name,
             "time": lambda: f"{self.context.clock.wall():%H:%M}",
-            "battery": lambda: round(100 * self._battery()),
+            "battery": self._percent_of_battery,
             "why": lambda: self.emotion.why_words(str(tags.get("emotion", ""))),
             "feeling": self.emotion.feeling_words,
             "why_stopped": lambda: self.guard.explain() or self.replies.unasked["no_stop"],
@@ -202,11 +202,15 @@ class Companion:
         # Only what is filled in is asked for: commands are named in turns.
         fields = {field for _, field, _, _ in Formatter().parse(template) if field}
         values.update((field, facts[field]()) for field in fields & facts.keys())
+        if "battery" in fields and values["battery"] is None:
+            return self.replies.unasked["battery_unknown"]
         return template.format_map(values)
 
-    def _battery(self) -> float:
+    def _percent_of_battery(self) -> int | None:
+        """None while it is not known."""
         battery = self.context.resources.find(Battery)
-        return battery.level(self.context.clock.now()) if battery else 1.0
+        level = battery.level(self.context.clock.now()) if battery else 1.0
+        return None if level is None else round(100 * level)
 
     def _commands(self) -> str:
         """Examples of some commands, own ones first and others each time; the last one stops it."""

@@ -93,6 +93,7 @@ class Vocabulary:
 UNASKED = ("blocked", "bump", "battery_low", "nobody", "waiting", "no_stop")
 USUALLY_UNASKED = {
     "not_understood": "Sorry, I did not understand. You can say: {nearest}.",
+    "battery_unknown": "I do not know how full my battery is.",
     **things.WORDS,
 }
 """What need not be written."""

@@ -126,7 +126,10 @@ class CliffEdge(DeviceBehavior):
 
 
 class BatteryLevel(DeviceBehavior):
-    """Sends how full the battery is; raises `battery.lowered` when it falls below the limit."""
+    """Sends how full the battery is; raises `battery.lowered` when it falls below the limit.
+
+    While that is not known, it sends nothing, and what was low stays low.
+    """
 
     is_sensor = True
     battery_id = Param("battery", "id of the battery")
@@ -141,6 +144,8 @@ class BatteryLevel(DeviceBehavior):
 
     def compute(self, now: float, dt: float) -> None:
         level = self._battery.level(now)
+        if level is None or not 0.0 <= level <= 1.0:
+            return
         is_low = level < self.low + (0.05 if self._is_low else 0.0)
         if is_low and not self._is_low:
             self._events.raise_event("battery.lowered", level=round(level, 3))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import math
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -222,7 +223,7 @@ class EmotionModel(Behavior):
     def _feel_battery(self, now: float) -> None:
         """The battery runs down slowly: only what can be felt counts as something that happened."""
         level = self.battery.value
-        if level is None:
+        if level is None or not math.isfinite(level):
             return
         need = min(max(1.0 - level, 0.0), 1.0)
         felt = self._dynamics.drives(self._affect)["energy"]

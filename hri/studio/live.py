@@ -238,6 +238,7 @@ class Live:
         resources = context.resources
         odometry = next(iter(resources.opened(Odometry)), None)
         battery = next(iter(resources.opened(Battery)), None)
+        level = battery.level(now) if battery else None
         base = next(iter(resources.opened(EmergencyStop)), None)
         pose = self._pose(context, now)
         velocity = odometry.velocity(now) if odometry else None
@@ -246,7 +247,8 @@ class Live:
         return {
             "pose": _placed(pose.x, pose.y, pose.heading) if pose else None,
             "velocity": _placed(velocity.linear, velocity.angular) if velocity else None,
-            "battery": _short(battery.level(now)) if battery else None,
+            "battery": _short(level) if level is not None else None,
+            "has_battery": battery is not None,
             "is_stopped": base is not None and base.is_latched,
             "why": base.explain() if base is not None else "",
             "ranges": [_range(one, resources.pose_of(one.id), now) for one in _sensors(context)],

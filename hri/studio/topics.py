@@ -101,11 +101,13 @@ class Range(TypedDict):
 
 
 class Base(TypedDict):
-    """The base: x, y (meters), and heading (radians); m/s and rad/s; the battery from 0 to 1."""
+    """The base: x, y (meters), and heading (radians); m/s and rad/s; the battery from 0 to 1, null
+    without one and while that is not known."""
 
     pose: list[float] | None
     velocity: list[float] | None
     battery: Number
+    has_battery: bool
     is_stopped: bool
     why: str
     ranges: list[Range]

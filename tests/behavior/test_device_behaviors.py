@@ -154,6 +154,16 @@ def test_a_battery_tells_its_level_and_warns_once(lent):
     assert len(warnings) == 1
 
 
+def test_a_battery_that_is_not_known_sends_nothing_and_stays_as_low_as_it_was(lent, monkeypatch):
+    battery, warnings = started(BatteryLevel(low=0.5), lent), []
+    lent.events.subscribe("battery.lowered", warnings.append)
+    levels = iter((None, math.nan, 0.9, None, 0.4, None, 24.3, 0.4, None, 0.9, None, 0.3))
+    monkeypatch.setattr(battery._battery, "level", lambda now: next(levels))
+    sent = [tick(battery, now=0.1 * index).get("level") for index in range(12)]
+    assert sent == [None, None, 0.9, None, 0.4, None, None, 0.4, None, 0.9, None, 0.3]
+    assert len(warnings) == 2
+
+
 @pytest.mark.proves("R03")
 def test_the_microphone_level_is_that_of_what_is_heard(lent):
     level = started(MicrophoneLevel(), lent)

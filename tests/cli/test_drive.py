@@ -6,6 +6,7 @@ import os
 import select
 import termios
 import tty
+from dataclasses import replace
 
 import pytest
 from hypothesis import given, strategies as st
@@ -136,6 +137,9 @@ def test_the_picture_tells_pose_sensors_and_why_it_stands():
     state = State(1.0, report=report, is_open=True, faults=("my left bumper is stuck",))
     moment = Snapshot(state, Pose2D(1.0, -0.5, 0.0), Twist(0.2, 0.0), 0.5, 1.0)
     shown = "\n".join(TextMap("A base").lines(moment))
+    odd = replace(report, battery=None, battery_fault="says 65529 of 2696 mAh")
+    told = TextMap("A base").lines(replace(moment, state=replace(state, report=odd)))
+    assert "unknown: it says 65529 of 2696 mAh   14.4 V" in "\n".join(told)
     for words in (
         "A base",
         "x +1.00 m   y -0.50 m   +0 degrees",

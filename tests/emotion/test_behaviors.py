@@ -351,7 +351,11 @@ def test_the_battery_is_felt_in_steps() -> None:
     feeling = Feeling()
     battery = OutputPort[float]()
     feeling.model.battery.sources.append(battery)
-    for level in (1.0, 0.4, 0.4, 0.395, 0.2, -1.0):
+    for level in (1.0, 0.4, None, math.nan):
+        battery.value = level
+        feeling.live(0.2)
+    assert feeling.model.feeling().drives["energy"] == pytest.approx(0.6, abs=0.01)
+    for level in (0.4, 0.395, 0.2, -1.0):
         battery.value = level
         feeling.live(0.2)
     assert feeling.model.feeling().drives["energy"] == 1.0

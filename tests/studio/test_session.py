@@ -157,6 +157,8 @@ def test_the_topics_are_those_of_the_page(client):
     assert {"camera", "microphone", "drive"} <= {one["id"] for one in state["devices"]}
     assert -1 <= state["feeling"]["pleasure"] <= 1
     assert state["base"]["ranges"][0]["id"] == "range_front"
+    assert state["base"]["has_battery"]
+    assert 0.9 < state["base"]["battery"] <= 1.0
 
 
 def test_what_the_robot_sends_is_as_the_document_says(client):

@@ -133,6 +133,7 @@ def _name(place: str) -> str:
 
 def _battery(report: BaseReport) -> str:
     parts: Sequence[tuple[bool, str]] = (
+        (bool(report.battery_fault), f"unknown: it {report.battery_fault}"),
         (report.battery is not None, f"{report.battery or 0:.0%}"),
         (report.voltage is not None, f"{report.voltage or 0:.1f} V"),
         (report.is_charging, "charging"),

@@ -21,7 +21,7 @@ from typing import ClassVar, Self
 from hri.core.signals import Twist
 from hri.drive.bases.line_check import checked, without_check
 from hri.drive.bases.odometer import Encoders, Odometer
-from hri.drive.bases.protocol import BaseProtocol, BaseReport, Greeting, Sensors
+from hri.drive.bases.protocol import BaseProtocol, BaseReport, Greeting, Sensors, within
 from hri.hal.resource import Description
 
 ANSWER_TIME = 0.1
@@ -58,6 +58,10 @@ BATTERY = {
 }
 """Default, least and most: the analog pin, -1 for none; its volts for a count, of 5 V by 10 bits
 behind a divider by three; and the battery's ends, those of two lithium cells."""
+VOLTAGES = (0.5, 1.2)
+"""Of a battery that is there, as parts of its voltage when it is empty, and full."""
+COUNTS = range(-(2**31), 2**31)
+"""What an encoder's counter can hold."""
 BUMPER_PRESSED = 0
 """What a bumper's pin reads when it is pressed: the switch goes to ground."""
 BUTTON_PRESSED = 1
@@ -245,7 +249,7 @@ class ArduinoBridge(BaseProtocol):
         """Whether a line is the next answer of a round; what makes no sense ends the round."""
         question = self._owed[0]
         numbers = [int(word) for word in line.split()] if NUMBERS.fullmatch(line) else []
-        if question.kind == "counts" and len(numbers) == 2:
+        if question.kind == "counts" and len(numbers) == 2 and all(n in COUNTS for n in numbers):
             self._counts = numbers[0], numbers[1]
         elif question.kind != "counts" and len(numbers) == 1 and 0 <= numbers[0] <= question.most:
             self._numbers.setdefault(question.kind, {})[question.place] = numbers[0]
@@ -266,7 +270,9 @@ class ArduinoBridge(BaseProtocol):
         numbers = self._numbers
         cliffs, sonars = numbers.get("cliffs", {}), numbers.get("sonars", {})
         least = self.shape["cliff_counts"]
-        voltage = self._voltage()
+        told = self._voltage()
+        empty, full = self.battery["empty_volts"], self.battery["full_volts"]
+        voltage = within(told, VOLTAGES[0] * empty, VOLTAGES[1] * full)
         return BaseReport(
             time=now,
             rolled=self._odometer.rolled,
@@ -279,6 +285,7 @@ class ArduinoBridge(BaseProtocol):
             ranges={place: cm / 100 if cm else math.inf for place, cm in sonars.items()},
             battery=None if voltage is None else self._charge(voltage),
             voltage=voltage,
+            battery_fault=f"says {told:.3g} V" if told is not None and voltage is None else "",
             mode="ready",
         )
 
@@ -287,6 +294,8 @@ class ArduinoBridge(BaseProtocol):
         return None if counts is None else counts * self.battery["volts_per_count"]
 
     def _charge(self, voltage: float) -> float:
+        """A battery rests below what is called full, and works above what is called empty: beyond
+        them it still is the one or the other."""
         empty, full = self.battery["empty_volts"], self.battery["full_volts"]
         return min(1.0, max(0.0, (voltage - empty) / (full - empty)))
 

@@ -16,7 +16,7 @@ from typing import ClassVar, Self
 from hri.core.errors import HriError
 from hri.core.signals import Twist
 from hri.drive.bases.odometer import Encoders, Odometer
-from hri.drive.bases.protocol import BaseProtocol, BaseReport, Greeting, Note, Sensors
+from hri.drive.bases.protocol import BaseProtocol, BaseReport, Greeting, Note, Sensors, within
 from hri.hal.resource import Description
 
 # Opcodes.
@@ -77,6 +77,12 @@ TRACK = 0.235
 FASTEST = 0.5
 """Of a wheel's rim, m/s."""
 METERS_PER_COUNT = math.pi * 0.072 / 508.8
+MOST_CAPACITY = 0x7FFF
+"""mAh; the base says more of an empty battery, whose charge it takes for less than 0."""
+VOLTAGES = (5.0, 25.0)
+"""Of a battery of 14.4 V, with which it can still run, and by which it is not destroyed."""
+MOST_LIGHT = 4095
+"""Counts of a light bumper: 12 bits."""
 LIGHT_AT_10_CM = (200.0, 1.0, 4095.0)
 """Default, least and most of what a light bumper counts 10 cm from white paper. The default is a
 guess, not a measurement: hold a sheet there and read it."""
@@ -167,7 +173,12 @@ class Create2(BaseProtocol):
 
     def _report(self, values: Mapping[int, int], now: float) -> BaseReport:
         self._odometer.add(values[LEFT_COUNT], values[RIGHT_COUNT], now)
-        flags, capacity = values[BUMPS_AND_DROPS], values[CAPACITY]
+        flags, lights = values[BUMPS_AND_DROPS], {p: values[n] for p, n in LIGHT_BUMPS.items()}
+        charge, capacity, millivolts = values[CHARGE], values[CAPACITY], values[VOLTAGE]
+        level = charge / capacity if 0 < capacity <= MOST_CAPACITY else None
+        level, voltage = within(level, 0.0, 1.0), within(millivolts / 1000, *VOLTAGES)
+        faults = [f"says {charge} of {capacity} mAh"] if level is None else []
+        faults += [f"says {millivolts / 1000:g} V"] if voltage is None else []
         return BaseReport(
             time=now,
             rolled=self._odometer.rolled,
@@ -177,9 +188,11 @@ class Create2(BaseProtocol):
             cliff_signals={place: values[packet] for place, packet in CLIFF_SIGNALS.items()},
             wheel_drops={place: bool(flags & bit) for place, bit in WHEEL_DROPS.items()},
             buttons={name: bool(values[PRESSED] & bit) for name, bit in BUTTONS.items()},
-            ranges={place: self._range(values[packet]) for place, packet in LIGHT_BUMPS.items()},
-            battery=min(1.0, values[CHARGE] / capacity) if capacity else None,
-            voltage=values[VOLTAGE] / 1000,
+            # A sensor that is left out counts as one that says nothing.
+            ranges={p: self._range(n) for p, n in lights.items() if 0 <= n <= MOST_LIGHT},
+            battery=level,
+            voltage=voltage,
+            battery_fault=" and ".join(faults),
             is_charging=values[CHARGING] in CHARGES,
             mode=MODES[values[MODE]] if values[MODE] < len(MODES) else "off",
         )

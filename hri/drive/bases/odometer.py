@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections import deque
 from dataclasses import dataclass
 
@@ -17,6 +16,13 @@ SLACK = 0.1
 """Seconds that the reports before and after a way may have come off their time."""
 HEADROOM = 1.5
 """How many times faster than its fastest a wheel may turn, pushed or downhill."""
+AT_ZERO = 0.005
+"""Meters from 0 within which counters that restarted are first read, beside what the wheels may
+have rolled since the last report."""
+REBOOT = 0.3
+"""Seconds without a report in which a base may have restarted, unseen; it does not drive then."""
+COASTED = 0.03
+"""Meters from 0 within which its counters are then."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,9 +39,11 @@ class Encoders:
 
 
 class Odometer:
-    """Adds up counts, across overruns; a leap that no wheel can make is a new beginning.
+    """Adds up counts, across overruns, never faster than wheels can roll.
 
-    So counters that a reset of the base puts to 0 move nothing.
+    Reports come late and in bursts, so what was rolled too fast for the time since the last report
+    counts with the next ones. A leap that SLACK does not explain moves nothing, and neither do
+    counters that restart at 0, as after a reset of the base.
     """
 
     def __init__(self, encoders: Encoders) -> None:
@@ -44,6 +52,10 @@ class Odometer:
         self._wheels = WheelPair(half, -half)
         self._counts: tuple[int, int] | None = None
         self._ways = (0.0, 0.0)
+        self._owed = (0.0, 0.0)
+        """Meters that the counts show beyond `_ways`."""
+        self._time = 0.0
+        """Of the last counts."""
         self._history: deque[tuple[float, float, float]] = deque(maxlen=64)
 
     @property
@@ -68,24 +80,45 @@ class Odometer:
     def add(self, left: int, right: int, now: float) -> None:
         """What the counters show at a time, in seconds."""
         if self._counts is not None:
-            ways = self._steps(left, right)
-            elapsed = max(0.0, now - self._history[-1][0]) + SLACK
-            if max(map(abs, ways)) > HEADROOM * self._encoders.fastest * elapsed:
-                self._history.clear()
-            else:
-                self._ways = self._ways[0] + ways[0], self._ways[1] + ways[1]
-        self._counts = left, right
+            self._roll((left, right), self._counts, max(0.0, now - self._time))
+        self._counts, self._time = (left, right), now
         self._remember(now)
 
-    def _steps(self, left: int, right: int) -> tuple[float, float]:
-        """Meters that both wheels rolled since the last counts."""
-        assert self._counts is not None
-        size = 1 << self._encoders.bits
-        steps = (
-            math.remainder(new - old, size) * self._encoders.meters_per_count
-            for new, old in zip((left, right), self._counts, strict=True)
-        )
-        return next(steps), next(steps)
+    def _roll(self, new: tuple[int, int], old: tuple[int, int], elapsed: float) -> None:
+        """Take the way between two counts, or as much of it as wheels can roll in that time."""
+        fastest = HEADROOM * self._encoders.fastest
+        steps = self._meters(new[0] - old[0], new[1] - old[1])
+        owed = self._owed[0] + steps[0], self._owed[1] + steps[1]
+        if self._has_restarted(new, old, elapsed):
+            self._owed = 0.0, 0.0
+            self._history.clear()
+        elif _longer(owed) > fastest * (elapsed + SLACK):
+            self._history.clear()
+        else:
+            self._owed = owed
+        way = _longer(self._owed)
+        share = min(1.0, fastest * elapsed / way) if way else 0.0
+        left, right = self._owed[0] * share, self._owed[1] * share
+        self._ways = self._ways[0] + left, self._ways[1] + right
+        self._owed = self._owed[0] - left, self._owed[1] - right
+
+    def _has_restarted(self, new: tuple[int, int], old: tuple[int, int], elapsed: float) -> bool:
+        """Whether the counters began at 0 since: what they show then is short, and the way back
+        there was too far for the time, or nobody saw it."""
+        fastest = HEADROOM * self._encoders.fastest
+        here, there = _longer(self._meters(*new)), _longer(self._meters(*old))
+        step = _longer(self._meters(new[0] - old[0], new[1] - old[1]))
+        if here >= there or not elapsed:
+            return False
+        if elapsed > REBOOT:
+            return here <= COASTED and here < step
+        return step > fastest * elapsed and here <= fastest * elapsed + AT_ZERO
+
+    def _meters(self, left: int, right: int) -> tuple[float, float]:
+        """Ways of both wheels for counts, or for differences of counts."""
+        half, meters = 1 << self._encoders.bits - 1, self._encoders.meters_per_count
+        signed = ((count + half) % (2 * half) - half for count in (left, right))
+        return next(signed) * meters, next(signed) * meters
 
     def _remember(self, now: float) -> None:
         """Keep one value that is WINDOW old, and all since."""
@@ -95,3 +128,7 @@ class Odometer:
         history.append((now, *self._ways))
         while len(history) > 2 and history[1][0] <= now - WINDOW:
             history.popleft()
+
+
+def _longer(ways: tuple[float, float]) -> float:
+    return max(map(abs, ways))

@@ -48,7 +48,9 @@ class BaseReport:
     battery: float | None = None
     """0 (empty) to 1 (full); None while that is not known."""
     voltage: float | None = None
-    """Volts."""
+    """Volts; None while that is not known."""
+    battery_fault: str = ""
+    """What the base says of its battery that cannot be: "says 65529 of 2696 mAh"."""
     is_charging: bool = False
     mode: str = "off"
     """"off", "passive", or one of OBEYING."""
@@ -57,6 +59,11 @@ class BaseReport:
     def obeys(self) -> bool:
         """Whether the base follows velocities."""
         return self.mode in OBEYING
+
+
+def within(value: float | None, least: float, most: float) -> float | None:
+    """A value that can be; None for one that is not known, not a number, or out of its range."""
+    return value if value is not None and least <= value <= most else None
 
 
 @dataclass(frozen=True, slots=True)

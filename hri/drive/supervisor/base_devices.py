@@ -13,8 +13,10 @@ from typing import ClassVar
 from hri.core.errors import did_you_mean
 from hri.core.geometry import along_arc
 from hri.core.signals import Pose2D, RangeReading, Twist
+from hri.drive.bases.protocol import BaseReport, within
 from hri.drive.supervisor.base_bus import STALE, BaseBus
 from hri.drive.supervisor.link import State
+from hri.drive.supervisor.plausibility import MOST_VOLTAGE
 from hri.drive.supervisor.velocity_arbiter import Level
 from hri.drive.velocity_limits import Cap, within_hardware
 from hri.hal.battery import Battery
@@ -194,16 +196,15 @@ class BaseRangeSensor(OfSensor, RangeSensor):
 
 
 class BaseBattery(OnBase, Battery):
-    """The battery, as the base measures it."""
+    """The battery, as the base measures it; unknown while the base says nothing."""
 
-    def level(self, now: float) -> float:
-        level = self.bus.report().battery
-        if level is None:
-            raise self.not_available("the base does not say how full it is", "measure the voltage")
-        return level
+    def level(self, now: float) -> float | None:
+        report = self._heard(now)
+        return None if report is None else within(report.battery, 0.0, 1.0)
 
-    def voltage(self, now: float) -> float:
-        voltage = self.bus.report().voltage
-        if voltage is None:
-            raise self.not_available("the base does not say its voltage", "ask for the level")
-        return voltage
+    def voltage(self, now: float) -> float | None:
+        report = self._heard(now)
+        return None if report is None else within(report.voltage, 0.0, MOST_VOLTAGE)
+
+    def _heard(self, now: float) -> BaseReport | None:
+        return self.bus.state.report if self.bus.age(now) <= STALE else None

@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Iterator, Mapping
 
 from hri.core.signals import Twist
-from hri.drive.bases.protocol import BaseReport, Sensors
+from hri.drive.bases.protocol import BaseReport, Sensors, within
 from hri.drive.supervisor.cliffs import Light
 from hri.drive.supervisor.hazards import Fault, Kind, Sensor
 from hri.hal.motion import Way
@@ -82,8 +82,7 @@ class Plausibility:
         yield from self._stuck_bumpers(report)
         yield from self._contradictions(now, report, lights)
         yield from self._wheels(now, report, asked)
-        if report.voltage is not None and not 0 <= report.voltage <= MOST_VOLTAGE:
-            yield Fault(Sensor(Kind.BATTERY), f"says {report.voltage:g} V, which cannot be")
+        yield from _battery(report)
 
     def _roll(self, rolled: Way) -> None:
         if not _is_finite(rolled):
@@ -207,6 +206,17 @@ class _Analog:
                 self._leaps.append(now)
             self._leap = change
         return len(self._leaps) == MOST_JUMPS and now - self._leaps[0] <= 1.0
+
+
+def _battery(report: BaseReport) -> Iterator[Fault]:
+    level, voltage = report.battery, report.voltage
+    said = report.battery_fault
+    if level is not None and within(level, 0.0, 1.0) is None:
+        said = f"says {level:.0%}"
+    if voltage is not None and within(voltage, 0.0, MOST_VOLTAGE) is None:
+        said = f"says {voltage:g} V"
+    if said:
+        yield Fault(Sensor(Kind.BATTERY), f"{said}, which cannot be")
 
 
 def _is_finite(motion: Twist | Way) -> bool:

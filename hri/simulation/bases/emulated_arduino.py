@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 
-from hri.drive.bases.arduino import BUMPER_PRESSED, BUTTON_PRESSED, SHAPE, STOP, Wiring
+from hri.drive.bases.arduino import BATTERY, BUMPER_PRESSED, BUTTON_PRESSED, SHAPE, STOP, Wiring
 from hri.drive.bases.line_check import checked, has_check, without_check
 from hri.simulation.base import HardwareLimits
 from hri.simulation.bases.body import Body
@@ -19,10 +19,12 @@ one, unless it is STOP."""
 WEIGHTY = b"mrux"
 FLOOR, NO_FLOOR = 700, 30
 """Counts of a cliff sensor."""
+MOST_COUNTS = 1023
+"""Of an analog pin."""
 SONAR_REACH = 4.0
 """Meters; beyond it no echo comes back, and the answer is 0."""
-BATTERY_COUNTS = (440, 573)
-"""What the battery's pin reads when it is empty and full."""
+BOOT = 1.5
+"""Seconds that it is deaf after a reset."""
 
 
 def limits(shape: Mapping[str, float]) -> HardwareLimits:
@@ -52,13 +54,17 @@ class EmulatedArduino(Emulator):
         auto_stop: float = 2.0,
         shape: Mapping[str, float] | None = None,
         knows_checks: bool = False,
+        battery: Mapping[str, float] | None = None,
     ) -> None:
-        """`auto_stop`: seconds without a velocity after which the wheels stop; `shape`: what
-        differs from the defaults of SHAPE; `knows_checks`: as our firmware does."""
+        """`auto_stop`: seconds without a velocity after which the wheels stop; `battery`, `shape`:
+        what differs from the defaults of BATTERY, SHAPE; `knows_checks`: as our firmware does."""
         self._wiring = wiring or Wiring()
         shape = {name: value[0] for name, value in SHAPE.items()} | dict(shape or {})
         self.body = body or Body(limits(shape))
+        self._battery = {name: value[0] for name, value in BATTERY.items()} | dict(battery or {})
         self._battery_pin, self._auto_stop = battery_pin, auto_stop
+        self.overrides: dict[int, int] = {}
+        """What analog pins read, whatever is wired to them."""
         self._meters_per_count = (
             math.pi * shape["wheel_diameter_cm"] / 100 / shape["counts_per_turn"]
         )
@@ -70,6 +76,7 @@ class EmulatedArduino(Emulator):
         """Until when it does nothing of weight without a check."""
         self._commanded = 0.0
         self._now = 0.0
+        self._deaf_until = -math.inf
         self._origin = (0.0, 0.0)
         self.is_rolling = False
         """Whether its motors are commanded to roll."""
@@ -79,6 +86,9 @@ class EmulatedArduino(Emulator):
             self._roll(0, 0, max(self._now, self._commanded + self._auto_stop))
         self._now = now
         self.body.advance(now)
+        if now < self._deaf_until:
+            self._reset_counts(0, 0, now)
+            data = b""
         for byte in data:
             if byte == 13:
                 self._run(bytes(self._command), now)
@@ -86,6 +96,13 @@ class EmulatedArduino(Emulator):
             elif len(self._command) < LONGEST:
                 self._command.append(byte)
         return self._wire.arrived(now)
+
+    def reset(self, now: float, boot: float = BOOT) -> None:
+        """Restart, as when someone presses its button, or its power fails: deaf for a while."""
+        self._roll(0, 0, now)
+        self._reset_counts(0, 0, now)
+        self._command.clear()
+        self._checked_until, self._deaf_until = -math.inf, now + boot
 
     def _run(self, command: bytes, now: float) -> None:
         if not self._knows_checks or not has_check(command):
@@ -145,13 +162,16 @@ class EmulatedArduino(Emulator):
         return "0"
 
     def _analog(self, pin: int, _: int, now: float) -> str:
+        if pin in self.overrides:
+            return str(self.overrides[pin])
         for place, its_pin in self._wiring.cliffs.items():
             if its_pin == pin:
                 return str(NO_FLOOR if self.body.is_over_edge(place) else FLOOR)
         if pin != self._battery_pin:
             return "0"
-        empty, full = BATTERY_COUNTS
-        return str(round(empty + (full - empty) * self.body.battery(now)))
+        empty, full = self._battery["empty_volts"], self._battery["full_volts"]
+        volts = empty + (full - empty) * self.body.battery(now)
+        return str(min(MOST_COUNTS, round(volts / self._battery["volts_per_count"])))
 
     def _ping(self, pin: int, _: int, now: float) -> str:
         for place, its_pin in self._wiring.sonars.items():

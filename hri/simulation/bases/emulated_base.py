@@ -69,5 +69,11 @@ class ArduinoLine(EmulatedBase):
         body = RoomBody(self.world, limits(told.shape))
         pin = int(told.battery["battery_pin"])
         return EmulatedArduino(
-            told.wiring, body, pin, auto_stop=AUTO_STOP, shape=told.shape, knows_checks=True
+            told.wiring,
+            body,
+            pin,
+            auto_stop=AUTO_STOP,
+            shape=told.shape,
+            knows_checks=True,
+            battery=told.battery,
         )

@@ -66,13 +66,17 @@ SETTING_OFF = {"clean", "spot", "dock"}
 CAPACITY_MAH = 2696
 VOLTS = (12.4, 16.2)
 """Of an empty and of a full battery."""
+SLEEPY = 300.0
+"""Seconds in passive mode without a byte, a motion or a button after which it falls asleep."""
 LONGEST_GAP = 1.0
 """Seconds; after a longer pause between calls, only the end of it is streamed."""
 
 
 class EmulatedCreate2(Emulator):
-    """Set `overrides[packet] = value` to fake a sensor reading. While asleep, it ignores bytes and
-    is silent until the wire RTS, tied to its pin BRC, is asserted.
+    """Set `overrides[packet] = value` to fake a sensor reading.
+
+    It falls asleep after SLEEPY seconds of rest in passive mode. While asleep, it ignores bytes and
+    is silent until the wire RTS, tied to its pin BRC, is asserted; then it waits for a start.
     """
 
     baud = 115_200
@@ -82,6 +86,8 @@ class EmulatedCreate2(Emulator):
         self.mode = OFF
         self.is_asleep = False
         self._is_rts_on = True
+        self._active = 0.0
+        """When something last happened to it."""
         self.overrides: dict[int, int] = {}
         self.leds = (0, 0, 0)
         self.songs: dict[int, bytes] = {}
@@ -96,6 +102,8 @@ class EmulatedCreate2(Emulator):
         """The last one; none before time began."""
         self._asked = (0, 0)
         """Commanded wheel velocities, right and left, mm/s."""
+        self._zero = self.body.rolled
+        """What the wheels had rolled when its counters began."""
         self._origins = {DISTANCE: (0.0, 0.0), ANGLE: (0.0, 0.0)}
         """What the wheels had rolled when these ways were last asked for."""
         self._held: set[str] = set()
@@ -117,6 +125,8 @@ class EmulatedCreate2(Emulator):
             self._tick(self._slot * SLOT)
         if self.is_asleep:
             return b""
+        if data:
+            self._active = now
         for byte in data:
             self._take(byte, now)
         return self._wire.arrived(now)
@@ -133,6 +143,7 @@ class EmulatedCreate2(Emulator):
         self._sense(now)
         self._protect(now)
         self._heed_buttons(now)
+        self._rest(now)
         if self._is_streaming and self.mode != OFF and not self.is_asleep:
             packed = zip(self._streamed, self._packed(self._streamed), strict=True)
             content = b"".join(bytes([packet]) + data for packet, data in packed)
@@ -155,6 +166,14 @@ class EmulatedCreate2(Emulator):
         if self.mode == PASSIVE and newly & SETTING_OFF:
             self._roll(SEEKING, SEEKING, now)
 
+    def _rest(self, now: float) -> None:
+        """Fall asleep when nothing happens for long."""
+        if self.mode != PASSIVE or self.is_rolling or self._held:
+            self._active = now
+        elif now - self._active > SLEEPY:
+            self._enter(OFF, now)
+            self.is_asleep = True
+
     @property
     def _radius(self) -> float:
         """Radius of the commanded curve, mm; infinity straight ahead."""
@@ -167,7 +186,7 @@ class EmulatedCreate2(Emulator):
         flags = sum(bit for place, bit in BUMPS.items() if place in bumps)
         flags += sum(bit for place, bit in WHEEL_DROPS.items() if place in body.hanging)
         values = dict.fromkeys(FORMATS, 0)
-        left, right = body.rolled
+        left, right = (now - then for now, then in zip(body.rolled, self._zero, strict=True))
         values |= {
             BUMPS_AND_DROPS: flags,
             PRESSED: sum(bit for name, bit in BUTTONS.items() if name in body.held),
@@ -289,6 +308,7 @@ class EmulatedCreate2(Emulator):
     def _reset(self, data: bytes, now: float) -> None:
         self._enter(OFF, now)
         self._streamed = ()
+        self._zero = self.body.rolled
         self._origins = dict.fromkeys(self._origins, self.body.rolled)
         self._wire.send(b"bl-start\r\n2015-08-24-1648-L   \r\n", now)
 

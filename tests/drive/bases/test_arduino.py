@@ -150,6 +150,51 @@ def test_the_battery_is_read_now_and_then():
     assert talk.last.battery == pytest.approx(1.0, abs=0.02)
 
 
+@pytest.mark.parametrize(
+    ("counts", "level", "volts"),
+    [
+        (0, None, None),  # no battery at the pin
+        (200, None, None),
+        (430, 0.0, 6.3),
+        (590, 1.0, 8.65),  # on the charger
+        (1023, None, None),
+    ],
+)
+def test_a_battery_that_cannot_be_is_not_known(counts, level, volts):
+    base = EmulatedArduino(battery_pin=5)
+    base.overrides[5] = counts
+    talk = Talk(ArduinoBridge(battery={"battery_pin": 5}), Line(base))
+    talk.run(0.1)
+    assert talk.last.battery == level
+    assert talk.last.voltage == (volts if volts is None else pytest.approx(volts, abs=0.02))
+    assert bool(talk.last.battery_fault) == (volts is None)
+
+
+@pytest.mark.parametrize("boot", [0.0, 0.4, 1.5])
+@pytest.mark.parametrize("way", [480, 3000])
+def test_a_board_that_restarts_moves_nothing_back(boot, way):
+    base = EmulatedArduino(WIRING)
+    talk = Talk(ArduinoBridge(WIRING), Line(base))
+    talk.run(way * 0.000142 / 0.3 + 0.1, Twist(0.3))
+    before = talk.last.rolled.linear
+    assert before > 0.9 * way * 0.000142
+    base.reset(talk.now, boot)
+    talk.run(boot + 0.5)
+    assert talk.last.time > talk.now - 0.1
+    slowest = min(r.velocity.linear for r in talk.reports if r.velocity)
+    assert slowest >= 0.0
+    assert -0.001 < talk.last.rolled.linear - before < 0.06  # it coasts
+
+
+def test_counts_that_no_counter_holds_make_no_sense():
+    talk = Talk(ArduinoBridge(), Line(EmulatedArduino()))
+    talk.run(0.1)
+    before = len(talk.reports)
+    talk.say(talk.protocol.poll(talk.now + 0.02))
+    talk.hear(b"9999999999 0\r\n")
+    assert len(talk.reports) == before
+
+
 def test_what_a_configuration_says_is_used():
     parameters = {
         "bumps": "left:2 right:3",

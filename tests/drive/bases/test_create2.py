@@ -137,6 +137,40 @@ def test_battery_and_voltage_are_told(talk):
     assert 10 < talk.last.voltage < 18
 
 
+@pytest.mark.parametrize(
+    ("charge", "capacity", "level", "said"),
+    [
+        (0, 2696, 0.0, ""),
+        (2696, 2696, 1.0, ""),
+        (65_529, 2696, None, "says 65529 of 2696 mAh"),  # an empty battery: -7 mAh
+        (2800, 2696, None, "says 2800 of 2696 mAh"),
+        (0, 0, None, "says 0 of 0 mAh"),
+        (100, 65_530, None, "says 100 of 65530 mAh"),
+    ],
+)
+def test_a_charge_that_cannot_be_is_no_charge(emulator, talk, charge, capacity, level, said):
+    emulator.overrides.update({25: charge, 26: capacity})
+    talk.run(0.1)
+    assert talk.last.battery == level
+    assert talk.last.battery_fault == said
+
+
+@pytest.mark.parametrize("millivolts", [0, 900, 32_000, 65_535])
+def test_a_voltage_that_cannot_be_is_no_voltage(emulator, talk, millivolts):
+    emulator.overrides[22] = millivolts
+    talk.run(0.1)
+    assert talk.last.voltage is None
+    assert talk.last.battery == pytest.approx(1.0)
+    assert talk.last.battery_fault == f"says {millivolts / 1000:g} V"
+
+
+def test_a_light_bumper_that_tells_what_it_cannot_count_says_nothing(emulator, talk):
+    emulator.overrides[48] = 4096
+    talk.run(0.1)
+    assert "center_left" not in talk.last.ranges
+    assert len(talk.last.ranges) == 5
+
+
 def test_light_bumpers_tell_distances_by_what_they_were_measured_at(emulator):
     talk = Talk(Create2(light_at_10_cm=800.0), Line(emulator))
     emulator.overrides[46] = 800

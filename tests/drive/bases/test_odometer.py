@@ -1,4 +1,5 @@
 import math
+from itertools import pairwise
 
 import pytest
 from hypothesis import given, strategies as st
@@ -35,6 +36,63 @@ def test_it_never_leaps_farther_than_wheels_can_roll(readings):
         most = 0.75 * (max(0.0, now - last) + 0.1)
         assert abs(odometer.rolled.linear - before) <= most * 1.0001
         before, last = odometer.rolled.linear, now
+
+
+times = st.one_of(st.floats(0, 1e6), st.sampled_from([0.0, PERIOD, 0.1, 1.0]))
+counts = st.one_of(st.integers(-300, 300), st.integers(0, 65_535), st.integers())
+
+
+@given(st.lists(st.tuples(counts, counts, times, st.booleans()), max_size=30))
+def test_whatever_counts_come_nothing_moves_faster_than_wheels_can(readings):
+    """Times are steps, a few of them back."""
+    odometer, now, fastest = Odometer(ENCODERS), 0.0, 1.5 * 0.5 * 1.0001
+    before = odometer.rolled
+    for left, right, step, is_back in readings:
+        now += -step if is_back else step
+        odometer.add(left, right, now)
+        rolled, way = odometer.rolled, 0.0 if is_back else fastest * step + 1e-6
+        linear, aside = rolled.linear - before.linear, (rolled.angular - before.angular) * TRACK / 2
+        assert max(abs(linear - aside), abs(linear + aside)) <= way + 1e-9 * abs(rolled.linear)
+        before = rolled
+        if odometer.velocity is not None and step >= 1e-3:
+            linear, aside = odometer.velocity.linear, odometer.velocity.angular * TRACK / 2
+            assert max(abs(linear - aside), abs(linear + aside)) <= 1.01 * fastest
+
+
+@pytest.mark.parametrize("counts", [200, 480, 1000, 20_000, 65_000])
+@pytest.mark.parametrize("pause", [0.02, 0.35, 0.5, 2.0, 10.0])
+@pytest.mark.parametrize("after", [0, 3])
+def test_counters_that_restart_move_nothing(counts, pause, after):
+    odometer, now = Odometer(Encoders(0.000142, 0.2, 32, 0.4)), 0.0
+    for index in range(counts // 20 + 1):
+        now = 0.01 * index
+        odometer.add(20 * index, 20 * index, now)
+    for _ in range(5):
+        now += 0.01
+        odometer.add(counts, counts, now)
+    before = odometer.rolled.linear
+    for index in range(40):
+        odometer.add(after + 10 * index, after + 10 * index, now + pause + 0.01 * index)
+        velocity = odometer.velocity
+        assert velocity is None or 0.0 <= velocity.linear < 0.3
+    assert odometer.rolled.linear - before == pytest.approx(390 * 0.000142, abs=0.001)
+
+
+def test_wheels_that_roll_back_over_zero_are_followed():
+    odometer = Odometer(ENCODERS)
+    for index in range(60):
+        odometer.add(300 - 10 * index, 300 - 10 * index, index * PERIOD)
+    assert odometer.rolled.linear == pytest.approx(-590 * METERS_PER_COUNT)
+
+
+def test_a_number_that_was_damaged_on_the_way_is_made_up_for():
+    odometer, ways = Odometer(ENCODERS), []
+    for index in range(100):
+        count = 245 if index == 50 else 100 + 5 * index
+        odometer.add(count, count, index * PERIOD)
+        ways.append(odometer.rolled.linear)
+    assert min(b - a for a, b in pairwise(ways)) > -0.012
+    assert odometer.rolled.linear == pytest.approx(495 * METERS_PER_COUNT)
 
 
 def test_velocity_is_measured_over_a_tenth_of_a_second():

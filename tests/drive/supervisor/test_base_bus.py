@@ -238,6 +238,27 @@ def test_sensors_of_a_base_that_is_gone_count_as_hazards(robot, manager) -> None
     assert ("drive.stopped", "lost port") in robot.told()
 
 
+def test_a_battery_whose_base_is_gone_or_talks_nonsense_is_not_known(robot, manager) -> None:
+    battery, clock = manager.obtain("battery", BaseBattery), robot.clock
+    robot.clock.advance(1.0)
+    assert battery.level(clock.now()) == pytest.approx(1.0, abs=0.01)
+    robot.base.overrides[25] = 65_529
+    clock.advance(0.1)
+    assert battery.level(clock.now()) is None
+    assert 12 < battery.voltage(clock.now()) < 17
+    assert robot.bus.state.faults == ("my battery says 65529 of 2696 mAh, which cannot be",)
+    robot.base.overrides.clear()
+    clock.advance(0.1)
+    assert battery.level(clock.now()) == pytest.approx(1.0, abs=0.01)
+    robot.port.is_plugged = False
+    clock.advance(1.0)
+    assert battery.level(clock.now()) is None
+    assert battery.voltage(clock.now()) is None
+    robot.port.is_plugged = True
+    clock.advance(2.0)
+    assert battery.level(clock.now()) == pytest.approx(1.0, abs=0.01)
+
+
 def test_it_sings_lights_its_lamps_and_goes_to_its_dock_by_name(robot) -> None:
     robot.unlatched()
     robot.bus.song([Note(60, 0.25), Note(64, 0.5)])

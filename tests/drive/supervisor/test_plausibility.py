@@ -87,6 +87,18 @@ def test_a_voltage_that_cannot_be_is_told() -> None:
     ]
 
 
+def test_a_charge_that_cannot_be_is_told() -> None:
+    for told, said in (
+        ({"battery": 24.3}, "says 2430%"),
+        ({"battery": math.nan}, "says nan%"),
+        ({"voltage": math.nan}, "says nan V"),
+        ({"battery_fault": "says 65529 of 2696 mAh"}, "says 65529 of 2696 mAh"),
+    ):
+        assert faults(Sensors(), lambda now, told=told: told) == [
+            f"my battery {said}, which cannot be"
+        ]
+
+
 def test_a_fault_is_forgotten_some_time_after_it_was_seen_last() -> None:
     bad = lambda now: {"ranges": {"front": -1.0 if now < 1.0 else 1.0 + 0.01 * (now % 1)}}  # noqa: E731
     assert faults(FAR, bad, seconds=1.0 + HOLD - 0.1)

@@ -11,7 +11,11 @@ def report(resources: ResourceManager) -> None:
     """A line for each device."""
     now = resources.clock.now()
     battery, bumper = resources.obtain("battery", Battery), resources.obtain("bumper", Bumper)
-    print(f"battery      {battery.level(now):.0%}, {battery.voltage(now):.1f} V")
+    level, voltage = battery.level(now), battery.voltage(now)
+    if level is None or voltage is None:
+        print("battery      unknown")
+    else:
+        print(f"battery      {level:.0%}, {voltage:.1f} V")
     print(f"bumper       {'pressed' if bumper.is_pressed(now) else 'free'}")
     for id in resources.ids(RangeSensor):
         print(f"{id:<12} {resources.obtain(id, RangeSensor).read(now).distance / cm:.0f} cm")

@@ -147,7 +147,8 @@ function drawBase(base: Values["base"]): void {
   const [x, y, heading] = (base?.pose ?? [0, 0, 0]) as [number, number, number];
   const place = base?.pose ? `x ${x.toFixed(2)} m, y ${y.toFixed(2)} m, ${Math.round((heading * 180) / Math.PI)}°` : "no base";
   element("where").textContent = base?.is_stopped ? `${base.why}. Release it to let it move.` : place;
-  element("battery").textContent = base?.battery == null ? "" : `Battery ${Math.round(base.battery * 100)} %`;
+  const level = base?.battery == null ? "unknown" : `${Math.round(base.battery * 100)} %`;
+  element("battery").textContent = base?.has_battery ? `Battery ${level}` : "";
 }
 
 function drawVisitors(world: Values["world"]): void {

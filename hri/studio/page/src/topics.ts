@@ -78,11 +78,12 @@ export interface Range {
   distance: number | null;
 }
 
-/** The base: x, y (meters), and heading (radians); m/s and rad/s; the battery from 0 to 1. */
+/** The base: x, y (meters), and heading (radians); m/s and rad/s; the battery from 0 to 1, null without one and while that is not known. */
 export interface Base {
   pose: number[] | null;
   velocity: number[] | null;
   battery: number | null;
+  has_battery: boolean;
   is_stopped: boolean;
   why: string;
   ranges: Range[];
