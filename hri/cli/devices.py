@@ -78,7 +78,9 @@ def _probe(ports: Sequence[str], as_json: bool) -> int:
 
 
 def _heard(answer: Answer) -> str:
-    return f"{answer.says} ({answer.about})" if answer.about else answer.says
+    says = f"{answer.says} ({answer.about})" if answer.about else answer.says
+    says += ", was asleep" if answer.was_asleep else ""
+    return f"{says} - name it {answer.by_id}" if answer.type and answer.by_id else says
 
 
 def examine(configuration: Configuration, patience: float = PATIENCE) -> list[Found]:

@@ -6,10 +6,16 @@ import json
 import pytest
 
 from hri.cli import devices
-from hri.cli.probe import KINDS, ask_ports, is_recognized
+from hri.cli.probe import KINDS, Presence, ask_ports, is_recognized
 from hri.core.clock import FakeClock, RealClock
 from hri.simulation.bases.emulated_arduino import EmulatedArduino
-from hri.simulation.bases.emulated_create2 import EmulatedCreate2
+from hri.simulation.bases.emulated_create2 import (
+    OFF,
+    PASSIVE,
+    SAFE,
+    SLEEPY,
+    EmulatedCreate2,
+)
 from hri.simulation.bases.emulated_line import EmulatedPort, Line
 from hri.simulation.bases.emulator import Emulator
 from hri.simulation.bases.pseudo_terminal import PseudoTerminal
@@ -58,6 +64,60 @@ def test_no_wheel_moves_and_no_stream_goes_on():
         port.read(clock.now())
         clock.advance(0.5)
         assert port.read(clock.now()) == b""
+
+
+def asleep():
+    base = EmulatedCreate2()
+    base.feed(b"\x80", 0.0)
+    for second in range(round(SLEEPY) + 2):
+        base.feed(b"", float(second))
+    assert base.is_asleep
+    return base
+
+
+@pytest.mark.parametrize("mode", [OFF, PASSIVE, SAFE])
+def test_a_base_that_is_awake_is_left_in_passive_mode(mode):
+    base = EmulatedCreate2()
+    base.feed(b"\x80\x83"[:mode], 0.0)
+    assert base.mode == mode
+    assert is_recognized(KINDS["Hri.Create2"], opened(base), FakeClock()) is Presence.AWAKE
+    assert base.mode == PASSIVE
+    assert not base.is_asleep
+
+
+def test_a_base_that_sleeps_is_woken_and_left_so_that_it_can_fall_asleep_again():
+    base, clock = asleep(), FakeClock()
+    clock.advance(SLEEPY + 2)
+    port = EmulatedPort(Line(base))
+    port.open(clock.now())
+    assert is_recognized(KINDS["Hri.Create2"], port, clock) is Presence.WOKEN
+    assert base.mode == PASSIVE
+    for _ in range(round(SLEEPY) + 2):
+        clock.advance(1.0)
+        port.read(clock.now())
+    assert base.is_asleep
+
+
+def test_a_base_whose_answers_are_lost_does_not_go_on_talking():
+    base, clock = EmulatedCreate2(), FakeClock()
+    port = opened(base)
+    port.line.faults.report_delay = 100.0
+    assert not is_recognized(KINDS["Hri.Create2"], port, clock)
+    assert base.mode == PASSIVE
+    assert not base._is_streaming
+
+
+def test_what_the_probe_found_is_told_with_the_path_that_stays(capsys, monkeypatch):
+    with PseudoTerminal(Line(EmulatedCreate2()), RealClock()) as terminal:
+        (answer,) = ask_ports([terminal.path], terminal.by_id)
+        assert answer.by_id == terminal.by_id + "/usb-emulated_base"
+        assert not answer.was_asleep
+    answer.was_asleep = True
+    monkeypatch.setattr(devices, "ask_ports", lambda ports: [answer])
+    parser = argparse.ArgumentParser()
+    devices.add_arguments(parser)
+    devices.run(parser.parse_args(["--probe"]))
+    assert f"or Roomba, was asleep - name it {answer.by_id}" in capsys.readouterr().out
 
 
 def test_a_board_that_its_port_resets_is_asked_again():

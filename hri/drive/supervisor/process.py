@@ -33,6 +33,7 @@ from hri.drive.supervisor.standby import Lifeline
 from hri.drive.supervisor.supervisor import Supervisor
 from hri.drive.supervisor.watchdog import LastWords, Watchdog
 from hri.drive.velocity_limits import BaseLimits
+from hri.hal.drivers.serial_id import BY_ID
 from hri.hal.drivers.serial_port import SerialPort
 from hri.hal.resource import Description
 
@@ -60,6 +61,8 @@ class Settings:
     """Why it begins latched."""
     lifeline: int = -1
     """Descriptor of the socket to the thread of the program that stands by."""
+    by_id: str = BY_ID
+    """Folder with the ids of serial adapters."""
 
     def encoded(self) -> str:
         return json.dumps(asdict(self))
@@ -95,7 +98,7 @@ class Process:
         self._packets = Packets(socket.socket(fileno=settings.line))
         self._lifeline = Lifeline(socket.socket(fileno=settings.lifeline))
         protocol = settings.make()
-        self._port = SerialPort(settings.port, protocol.baud)
+        self._port = SerialPort(settings.port, protocol.baud, settings.by_id)
         self._supervisor = Supervisor(
             rules(protocol, settings.limits, settings.body, settings.mounts), settings.cause
         )

@@ -31,6 +31,7 @@ from hri.drive.supervisor.standby import Standby
 from hri.drive.supervisor.supervisor_connection import BEAT, SupervisorConnection
 from hri.drive.supervisor.velocity_arbiter import Level
 from hri.drive.supervisor.watchdog import LastWords
+from hri.hal.drivers.serial_id import id_of
 from hri.hal.drivers.serial_port import Backoff
 from hri.hal.motion import REST, Way
 
@@ -110,6 +111,10 @@ class Remote(SupervisorConnection):
         except BaseException:
             self.close()
             raise
+        # The next supervisor has to find the same adapter, whatever its path is by then.
+        self._settings = replace(
+            settings, port=id_of(settings.port, settings.by_id) or settings.port
+        )
 
     @property
     def pid(self) -> int:

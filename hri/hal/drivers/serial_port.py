@@ -13,6 +13,7 @@ import serial
 from serial.tools import list_ports
 
 from hri.core.errors import NotAvailable
+from hri.hal.drivers.serial_id import BY_ID, id_of
 
 SOONEST, LATEST = 0.1, 2.0
 """Seconds to the first and to any later attempt to open a port again."""
@@ -93,10 +94,16 @@ class Backoff:
 
 
 class SerialPort(Port):
-    """A port of this machine, through pyserial: eight bits, no parity, one stop bit."""
+    """A port of this machine, through pyserial: eight bits, no parity, one stop bit.
 
-    def __init__(self, path: str, baud: int) -> None:
+    An adapter that was open once is waited for under whatever path it comes back, where the system
+    knows it by an id; another one that takes its path is left alone.
+    """
+
+    def __init__(self, path: str, baud: int, by_id: str = BY_ID) -> None:
+        """`by_id`: the folder with the ids of adapters; see `hri.hal.drivers.serial_id`."""
         self.path, self.baud = path, baud
+        self._by_id, self._id = by_id, ""
         self._serial: serial.Serial | None = None
         self._reason = ""
         self._backoff = Backoff()
@@ -114,8 +121,10 @@ class SerialPort(Port):
             return self.is_open
         try:
             # Without a timeout of 0 pyserial would wait for the bytes that we ask for.
-            self._serial = serial.Serial(self.path, self.baud, timeout=0, exclusive=True)
+            path = self._id or self.path
+            self._serial = serial.Serial(path, self.baud, timeout=0, exclusive=True)
             _hasten(self._serial)
+            self._id = self._id or id_of(path, self._by_id)
             self._reason = ""
             self._backoff.reset()
         except (OSError, ValueError, OverflowError) as error:
@@ -180,6 +189,8 @@ class SerialPort(Port):
         cause = error.__context__ if number is None else None
         number = getattr(cause, "errno", number)
         why, remedy = _WHY.get(number or 0, (str(error), "name a serial port"))
+        if self._id and number == errno.ENOENT:
+            why, remedy = f"{os.path.basename(self._id)} is not there", "plug it in again"
         return f"{self.path}: {why} - {remedy}"
 
 

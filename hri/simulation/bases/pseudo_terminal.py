@@ -21,7 +21,8 @@ MOST_RECEIVED = 1_000_000
 
 
 class PseudoTerminal:
-    """Open while a `with` lasts. `path` stays the same when the base is pulled out and comes back.
+    """Open while a `with` lasts. `path` stays the same when the base is pulled out and comes back,
+    unless it is plugged in as another; the link in the folder `by_id` leads to it under any path.
 
     What nobody reads is lost as soon as the terminal holds no more, as on a real line.
     """
@@ -37,7 +38,8 @@ class PseudoTerminal:
 
     def __enter__(self) -> Self:
         self._folder = tempfile.TemporaryDirectory(prefix="hri-base-")
-        self.path = str(Path(self._folder.name, "port"))
+        self.by_id = str(Path(self._folder.name, "by-id"))
+        os.mkdir(self.by_id)
         self.plug()
         self._thread = threading.Thread(target=self._serve, name="emulated base", daemon=True)
         self._thread.start()
@@ -54,8 +56,8 @@ class PseudoTerminal:
         self.unplug()
         self._folder.cleanup()
 
-    def plug(self) -> None:
-        """Let the port be there; a second call does nothing."""
+    def plug(self, name: str = "port") -> None:
+        """Let the port be there, under a name in its folder; a second call does nothing."""
         with self._lock:
             if self._ends is not None:
                 return
@@ -65,17 +67,24 @@ class PseudoTerminal:
             os.set_blocking(ours, False)
             # We keep their end open too: with nobody there, ours could not even be waited for.
             self._ends = ours, theirs
+            self.path = str(Path(self._folder.name, name))
             os.symlink(os.ttyname(theirs), self.path)
+            os.symlink(self.path, self._link)
 
     def unplug(self) -> None:
         """Let the port vanish, whoever has it open; a second call does nothing."""
         with self._lock:
             if self._ends is None:
                 return
-            os.unlink(self.path)
+            for path in (self._link, self.path):
+                os.unlink(path)
             for end in self._ends:
                 os.close(end)
             self._ends = None
+
+    @property
+    def _link(self) -> str:
+        return str(Path(self.by_id, "usb-emulated_base"))
 
     def _serve(self) -> None:
         while not self._is_over.is_set():

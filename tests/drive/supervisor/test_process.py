@@ -11,6 +11,7 @@ import os
 import signal
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import replace
 
 import psutil
 import pytest
@@ -166,6 +167,28 @@ def test_a_port_that_takes_no_bytes_is_cleared_for_the_stop(driving) -> None:
     bench.wait("rest", lambda: not line.base.is_rolling)
     assert driving.stays()
     assert driving.state().reason.name == "jammed"
+
+
+def test_a_base_that_comes_back_as_another_port_is_found_by_its_id() -> None:
+    bench = Bench()
+    with bench.port() as port:
+        connection = Remote(bench.clock, replace(settings(port.path), by_id=port.by_id))
+        try:
+            port.unplug()
+            port.plug("another")
+            bench.wait("a latch", lambda: _looked(connection).reason.name == "lost port")
+            bench.wait("the port", lambda: _looked(connection).is_open)
+            drive_to(bench, connection)
+            os.kill(connection.pid, signal.SIGKILL)
+            bench.wait("the end", lambda: _looked(connection).reason.name == "supervisor")
+            bench.wait("another", lambda: _looked(connection).is_open)
+        finally:
+            connection.close()
+
+
+def _looked(connection: Remote) -> State:
+    connection.look()
+    return connection.state
 
 
 def test_a_second_program_is_refused_while_the_first_drives_on(driving) -> None:

@@ -103,6 +103,73 @@ def test_a_port_that_comes_back_is_opened_again(tmp_path):
     os.close(theirs)
 
 
+class Adapters:
+    """Serial adapters that come and go: ports by number, and a folder with their ids."""
+
+    def __init__(self, folder):
+        self.folder, self.by_id = folder, folder / "by-id"
+        self._ends = []
+
+    def plug(self, port, id=""):
+        ours, theirs = os.openpty()
+        self._ends += [ours, theirs]
+        (self.folder / port).symlink_to(os.ttyname(theirs))
+        if id:
+            self.by_id.mkdir(exist_ok=True)
+            (self.by_id / id).symlink_to(self.folder / port)
+        return ours
+
+    def unplug(self, port, id=""):
+        (self.folder / port).unlink()
+        if id:
+            (self.by_id / id).unlink()
+            self.by_id.rmdir()  # as udev does with an empty one
+
+    def close(self):
+        for end in self._ends:
+            os.close(end)
+
+
+@pytest.fixture
+def adapters(tmp_path):
+    adapters = Adapters(tmp_path)
+    yield adapters
+    adapters.close()
+
+
+@pytest.mark.parametrize("configured", ["ttyUSB0", "by-id/usb-base"])
+def test_an_adapter_that_comes_back_as_another_port_is_found_by_its_id(adapters, configured):
+    adapters.plug("ttyUSB0", "usb-base")
+    port = SerialPort(str(adapters.folder / configured), 57_600, str(adapters.by_id))
+    assert port.open(0.0)
+    adapters.unplug("ttyUSB0", "usb-base")
+    port.close()
+    adapters.plug("ttyUSB0")  # another device takes its number
+    assert not port.open(1.0)
+    assert "usb-base is not there - plug it in again" in port.reason or "by-id" in configured
+    ours = adapters.plug("ttyUSB1", "usb-base")
+    assert port.open(5.0)
+    assert port.write(b"hello", 5.0)
+    assert os.read(ours, 10) == b"hello"
+    port.close()
+
+
+@pytest.mark.parametrize(("folder", "id"), [("", ""), ("by-path", "usb-cheap")])
+def test_an_adapter_without_an_id_or_of_a_socket_is_waited_for_there(adapters, folder, id):
+    path = adapters.folder / folder / "ttyUSB0"
+    path.parent.mkdir(exist_ok=True)
+    adapters.plug(path, id)
+    port = SerialPort(str(path), 57_600, str(adapters.by_id))
+    assert port.open(0.0)
+    adapters.unplug(path, id)
+    port.close()
+    adapters.plug("ttyUSB7", id)
+    assert not port.open(1.0)
+    adapters.plug(path)
+    assert port.open(5.0)
+    port.close()
+
+
 def test_attempts_become_rarer_up_to_a_limit():
     backoff, now, tries = Backoff(0.1, 2.0), 0.0, []
     for step in range(2000):
