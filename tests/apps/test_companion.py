@@ -15,6 +15,7 @@ from hri.hal.drivers.memory import OffscreenScreen
 from hri.hal.resource import Description
 from hri.robot import Robot, verbs
 from hri.robot.app import load_app
+from hri.simulation.simulated_devices import SimulatedBattery
 from hri.simulation.world import SimulatedWorld
 from hri.speech.synthesizers.espeak import EspeakVoice
 from hri.testing import live_for
@@ -117,6 +118,15 @@ def test_while_it_speaks_nothing_but_stop_counts():
     reasons = [event.properties["reason"] for event in visit.named("speech.rejected")]
     assert reasons == ["robot speaking"]
     assert visit.pose_at(7.9).x == pytest.approx(0, abs=0.01)
+
+
+def test_a_battery_that_is_not_known_is_not_called_full(monkeypatch):
+    lines = {1.0: "how is your battery"}
+    assert Visit(5, lines).said() == ["My battery is at 100 percent."]
+    monkeypatch.setattr(SimulatedBattery, "level", lambda self, now: None)
+    visit = Visit(5, lines)
+    assert visit.said() == ["I do not know how full my battery is."]
+    assert not visit.named("battery.lowered")
 
 
 def test_stop_is_obeyed_while_it_drives():

@@ -30,6 +30,7 @@ from hri.drive.supervisor.process import Settings
 from hri.drive.supervisor.remote import Remote
 from hri.drive.supervisor.supervisor_connection import BEAT
 from hri.drive.supervisor.velocity_arbiter import Level
+from hri.drive.supervisor.watchdog import ABANDONED
 from hri.hal.drivers.serial_port import Backoff
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
@@ -344,6 +345,18 @@ def test_supervisor_and_watchdog_that_go_on_after_a_rest_know_that_they_were_awa
     os.kill(driving.connection.pid, signal.SIGCONT)
     watchdog.resume()
     bench.wait("an answer", lambda: "frozen" in [n.cause.name for n in driving.ask().news])
+    drive_to(bench, driving.connection)
+
+
+@pytest.mark.slow
+def test_a_base_that_was_left_to_itself_by_a_silent_supervisor_is_greeted_again(driving) -> None:
+    bench = driving.bench
+    os.kill(driving.connection.pid, signal.SIGSTOP)
+    bench.clock.advance(ABANDONED + 1.5)  # this program stands still too, and replaces nobody
+    assert bench.line.base.mode == PASSIVE
+    os.kill(driving.connection.pid, signal.SIGCONT)
+    driving.state()
+    assert driving.stays()
     drive_to(bench, driving.connection)
 
 
