@@ -195,7 +195,9 @@ class SimulatedWorld(Resource):
         return self._charge.level_at(now, self.base.way)
 
     def set_battery(self, level: float, now: float) -> None:
-        """Replace the battery by one that holds this much."""
+        """Replace the battery by one that holds this much, 0 to 1. Raises HriError for others."""
+        if not 0.0 <= level <= 1.0:
+            raise HriError(f"the battery's level is {level:g} - give a number from 0 to 1")
         self.advance(now)
         self._charge = Charge(level, now, self.base.way)
 

@@ -1,3 +1,5 @@
+import math
+
 import numpy as np
 import pytest
 
@@ -52,6 +54,9 @@ def test_time_and_motion_empty_the_battery(build: Build) -> None:
     world.set_battery(0.1, 20.0)
     assert world.battery_level(20.0) == 0.1
     assert world.battery_level(1e6) == 0.0
+    for level in (-0.1, 24.3, math.nan):
+        with pytest.raises(HriError, match="from 0 to 1"):
+            world.set_battery(level, 20.0)
 
 
 def test_the_person_stops_the_base_only_while_there(build: Build) -> None:
