@@ -28,6 +28,8 @@ import os
 
 import lazy_loader
 
+import hri.core.telemetry  # noqa: F401 - first of all, before a package is imported that has some
+
 # Read when numpy is first imported. The matrices here are small: more threads make their products
 # slower (three times, for the phone network), and take the core that the robot loop runs on.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

@@ -6,6 +6,7 @@ Whatever else the program writes is about the robot and its own voice.
 from __future__ import annotations
 
 import os
+import sys
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from contextlib import suppress
@@ -278,9 +279,38 @@ class Pictures(Kept):
         self.delete(place)
 
 
+class Telemetry(Kept):
+    """A device id, and unsent events with the path of the program.
+
+    The natural voice's onnxruntime wrote them before its telemetry was switched off.
+    """
+
+    about = "telemetry of onnxruntime: its device id, and events it has not sent"
+
+    def places(self) -> list[Path]:
+        if sys.platform == "darwin":
+            base = paths.home() / "Library" / "Application Support"
+        else:
+            base = paths.cache_folder().parent
+        folder = base / "Microsoft" / "DeveloperTools" / ".onnxruntime"
+        return [folder] if folder.is_dir() else []
+
+    def concerns(self, place: Path, person: str) -> bool:
+        return any(_mentions(file, person) for file in place.iterdir())
+
+    def forget(self, place: Path, person: str) -> None:
+        self.delete(place)
+
+    def delete(self, place: Path) -> None:
+        delete(*place.iterdir())
+        with suppress(OSError):  # what else lies there is not onnxruntime's
+            for folder in (place, *place.parents[:2]):
+                folder.rmdir()
+
+
 KEPT: tuple[Kept, ...] = (
     Feelings(), Faces(), LookedUpWords(), OwnWords(), Devices(), Objects(), Colors(), Recordings(),
-    Pictures(),
+    Pictures(), Telemetry(),
 )  # fmt: skip
 """The one list. What the program begins to keep about people is added here."""
 

@@ -282,3 +282,16 @@ def a_recording(out, said="Hello."):
     (out / "face.mp4").write_bytes(b"film")
     note("recording", out)
     return out
+
+
+@pytest.mark.parametrize("words", [(), (ANNA,)])
+def test_what_the_telemetry_of_a_package_kept_is_forgotten_without_asking(home, capsys, words):
+    folder = paths.cache_folder().parent / "Microsoft" / "DeveloperTools" / ".onnxruntime"
+    folder.mkdir(parents=True)
+    (folder / "deviceid").write_text("0b9e6a")
+    (folder / "onnxruntime.db").write_bytes(b"\x00\xff/home/" + ANNA.encode() + b"/python\x00")
+    assert forget(BEN) == 0  # nothing of him
+    assert (folder / "deviceid").exists()
+    assert forget(*words) == 0
+    assert f"{folder}: telemetry of onnxruntime" in capsys.readouterr().out
+    assert not (home / ".cache" / "Microsoft").exists()

@@ -187,6 +187,7 @@ def session_of(path: Path, output: str) -> Any:
     """A model on one thread, with a tensor added to its outputs. Raises NotAvailable."""
     import onnxruntime
 
+    onnxruntime.disable_telemetry_events()  # where it was imported before `hri`
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = options.inter_op_num_threads = 1
     # Without its own store of memory it takes 45 MB less after a long sentence, and no more time.
