@@ -4,7 +4,7 @@
 # make fuzz    run the property tests with examples of chance; OPTIONS=--hypothesis-seed=1 repeats a run
 # make check   format, lint, types, import rules, spelling, prose
 # make bench   measure what is in benchmarks/ on this machine; OPTIONS="vision --only nods" one part
-# make wheels  resolve the dependencies to wheels for every supported Python and system
+# make wheels  renew the locked packages in requirements/, with wheels for every supported Python and system
 # make docs    the reference of all classes, in build/reference/
 # make checklist    run the tests and write docs/checklist.md
 
@@ -56,6 +56,7 @@ bench: $(VENV)/.dev
 	@$(if $(OPTIONS),$(BIN)/hri bench $(OPTIONS),for name in $(COMPARED); do $(BIN)/hri bench $$name || exit; done)
 
 wheels: $(VENV)/.dev
+	.ci/lock
 	.ci/wheels
 
 docs: $(VENV)/.dev
@@ -80,12 +81,21 @@ $(BIN)/python:
 	@echo "setting up $(VENV) (once) ..."
 	@$(PYTHON) -m venv $(VENV)
 
-$(VENV)/.run: pyproject.toml | $(BIN)/python
+# Each package has one of the locked hashes. Only srt and `hri` itself run something of theirs when
+# they are installed; both are built with what is locked, too.
+PIP    := $(BIN)/python -m pip install --disable-pip-version-check --progress-bar on --no-deps --no-build-isolation
+LOCKED := $(PIP) --require-hashes --only-binary :all: --no-binary srt --use-pep517 --requirement
+
+$(VENV)/.run: pyproject.toml requirements/build.txt requirements/run.txt | $(BIN)/python
 	@$(TELL_SOURCE)
-	$(BIN)/python -m pip install --disable-pip-version-check --progress-bar on --editable .
+	$(LOCKED) requirements/build.txt
+	$(LOCKED) requirements/run.txt
+	$(PIP) --editable .
 	@touch $@
 
-$(VENV)/.dev: pyproject.toml | $(BIN)/python
+$(VENV)/.dev: pyproject.toml requirements/build.txt requirements/dev.txt | $(BIN)/python
 	@$(TELL_SOURCE)
-	$(BIN)/python -m pip install --disable-pip-version-check --progress-bar on --editable '.[dev]'
+	$(LOCKED) requirements/build.txt
+	$(LOCKED) requirements/dev.txt
+	$(PIP) --editable .
 	@touch $@ $(VENV)/.run

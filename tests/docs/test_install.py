@@ -1,17 +1,31 @@
-"""Installing: another Python is refused before anything is downloaded."""
+"""Installing: another Python is refused before anything is downloaded; versions are locked."""
 
 from __future__ import annotations
 
+import re
 import subprocess
 import tomllib
 
 import pytest
 from packaging.requirements import Requirement
 from packaging.specifiers import SpecifierSet
+from packaging.utils import canonicalize_name
 
 from hri.core.paths import house
 
-PROJECT = tomllib.loads((house() / "pyproject.toml").read_text())["project"]
+PYPROJECT = tomllib.loads((house() / "pyproject.toml").read_text())
+PROJECT = PYPROJECT["project"]
+LOCKED = {
+    "build": PYPROJECT["dependency-groups"]["build"],
+    "run": PROJECT["dependencies"],
+    "dev": [*PROJECT["dependencies"], *PROJECT["optional-dependencies"]["dev"]],
+}
+"""What each file of the folder `requirements` has to satisfy."""
+VERSIONS = ("3.11", "3.12", "3.13", "3.14")
+SYSTEMS = (
+    ("linux", "x86_64"), ("linux", "aarch64"), ("darwin", "x86_64"), ("darwin", "arm64"),
+    ("win32", "AMD64"),
+)  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -44,9 +58,71 @@ esac
 
 
 @pytest.mark.parametrize("machine", ["x86_64", "aarch64"])
-@pytest.mark.parametrize("version", ["3.11", "3.12", "3.13", "3.14"])
+@pytest.mark.parametrize("version", VERSIONS)
 def test_every_python_gets_one_pygame(version, machine):
     target = {"python_version": version, "platform_machine": machine}
     wanted = [Requirement(line) for line in PROJECT["dependencies"]]
     names = {one.name for one in wanted if one.marker is None or one.marker.evaluate(target)}
     assert len(names & {"pygame", "pygame-ce"}) == 1
+
+
+def locked(name):
+    """The requirements of a file, each with its hashes."""
+    text = (house() / "requirements" / f"{name}.txt").read_text().replace("\\\n", " ")
+    lines = [line for line in text.splitlines() if line and not line.lstrip().startswith("#")]
+    for line in lines:
+        requirement, *hashes = re.split(r"\s+--hash=", line)
+        yield Requirement(requirement), hashes
+
+
+def chosen(name, version, system, machine):
+    """The locked version of each package for a Python and a system."""
+    target = {
+        "python_version": version, "python_full_version": f"{version}.4",
+        "sys_platform": system, "platform_machine": machine, "extra": "",
+    }  # fmt: skip
+    entries = [one for one, _ in locked(name) if one.marker is None or one.marker.evaluate(target)]
+    found = {canonicalize_name(one.name): str(one.specifier).removeprefix("==") for one in entries}
+    assert len(found) == len(entries)
+    wanted = (Requirement(line) for line in LOCKED[name])
+    return found, [one for one in wanted if one.marker is None or one.marker.evaluate(target)]
+
+
+@pytest.mark.parametrize("name", LOCKED)
+def test_every_locked_package_has_hashes_and_a_marker_that_every_pip_can_evaluate(name):
+    """pip compares releases of kernels as versions, which their names on Linux are not."""
+    for requirement, hashes in locked(name):
+        assert re.fullmatch(r"==[^,*]+", str(requirement.specifier)), requirement
+        assert hashes, requirement
+        assert all(re.fullmatch(r"sha256:[0-9a-f]{64}\s*", one) for one in hashes), requirement
+        assert requirement.url is None
+        assert "platform_release" not in str(requirement.marker)
+    assert "://" not in (house() / "requirements" / f"{name}.txt").read_text()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("name", LOCKED)
+def test_what_is_locked_satisfies_the_project_everywhere(name, version):
+    """After a change of the dependencies in pyproject.toml: `make wheels`."""
+    for system, machine in SYSTEMS:
+        found, wanted = chosen(name, version, system, machine)
+        for one in wanted:
+            assert canonicalize_name(one.name) in found, one
+            assert one.specifier.contains(found[canonicalize_name(one.name)], prereleases=True), one
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_tests_run_with_the_versions_that_users_get(version):
+    for system, machine in SYSTEMS:
+        run, _ = chosen("run", version, system, machine)
+        dev, _ = chosen("dev", version, system, machine)
+        assert run.items() <= dev.items()
+
+
+def test_each_locked_package_is_named_among_the_licenses():
+    named = {
+        canonicalize_name(word)
+        for word in re.findall(r"[\w.-]+\w", (house() / "THIRD_PARTY.md").read_text())
+    }
+    for name in ("build", "run"):
+        assert {canonicalize_name(one.name) for one, _ in locked(name)} <= named

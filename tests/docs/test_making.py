@@ -71,6 +71,10 @@ def test_setting_up_tells_what_is_fetched_and_from_where(target):
     words = ["make", "-n", "-W", "pyproject.toml", target]
     done = subprocess.run(words, cwd=paths.house(), capture_output=True, text=True, check=True)
     (told,) = (line for line in done.stdout.splitlines() if "fetching packages from" in line)
-    (install,) = (line for line in done.stdout.splitlines() if " pip install " in line)
+    installs = [line for line in done.stdout.splitlines() if " pip install " in line]
     assert "index-url" in told
-    assert "--quiet" not in install
+    assert "--quiet" not in "".join(installs)
+    *others, own = installs
+    assert own.endswith("--editable .")
+    assert all("--require-hashes" in line for line in others)
+    assert all("--no-deps --no-build-isolation" in line for line in installs)
