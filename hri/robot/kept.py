@@ -6,7 +6,9 @@ Whatever else the program writes is about the robot and its own voice.
 from __future__ import annotations
 
 import os
+import re
 import sys
+import tempfile
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from contextlib import suppress
@@ -280,12 +282,14 @@ class Pictures(Kept):
 
 
 class Telemetry(Kept):
-    """A device id, and unsent events with the path of the program.
+    """Ids of the machine, and unsent events with the path of the program.
 
     The natural voice's onnxruntime wrote them before its telemetry was switched off.
     """
 
-    about = "telemetry of onnxruntime: its device id, and events it has not sent"
+    about = "telemetry of onnxruntime: ids of this machine, and events it has not sent"
+    session = re.compile(rb"\d+\s+[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}\s*")
+    """What its file of a session holds."""
 
     def places(self) -> list[Path]:
         if sys.platform == "darwin":
@@ -293,19 +297,32 @@ class Telemetry(Kept):
         else:
             base = paths.cache_folder().parent
         folder = base / "Microsoft" / "DeveloperTools" / ".onnxruntime"
-        return [folder] if folder.is_dir() else []
+        session = Path(tempfile.gettempdir(), ".ses")
+        found = [folder] if folder.is_dir() else []
+        return [*found, session] if self._is_session(session) else found
 
     def concerns(self, place: Path, person: str) -> bool:
-        return any(_mentions(file, person) for file in place.iterdir())
+        return any(_mentions(file, person) for file in self._files(place))
 
     def forget(self, place: Path, person: str) -> None:
         self.delete(place)
 
     def delete(self, place: Path) -> None:
-        delete(*place.iterdir())
+        delete(*self._files(place))
         with suppress(OSError):  # what else lies there is not onnxruntime's
             for folder in (place, *place.parents[:2]):
                 folder.rmdir()
+
+    def _is_session(self, file: Path) -> bool:
+        """Whether it is onnxruntime's, and this user's: others write to the same folder."""
+        with suppress(OSError):
+            if file.is_file() and file.stat().st_uid == os.getuid():
+                return self.session.fullmatch(file.read_bytes()[:200]) is not None
+        return False
+
+    @staticmethod
+    def _files(place: Path) -> list[Path]:
+        return [place] if place.is_file() else list(place.iterdir())
 
 
 KEPT: tuple[Kept, ...] = (

@@ -52,6 +52,7 @@ def home(tmp_path, monkeypatch):
         monkeypatch.delenv(f"XDG_{name}_HOME", raising=False)
     monkeypatch.setenv("HOME", str(tmp_path))
     monkeypatch.chdir(tmp_path)  # recordings below the current folder are theirs, too
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     return tmp_path
 
 
@@ -290,8 +291,14 @@ def test_what_the_telemetry_of_a_package_kept_is_forgotten_without_asking(home, 
     folder.mkdir(parents=True)
     (folder / "deviceid").write_text("0b9e6a")
     (folder / "onnxruntime.db").write_bytes(b"\x00\xff/home/" + ANNA.encode() + b"/python\x00")
+    session = home / ".ses"
+    session.write_text("1795649504638\ncdefa83e-e7ff-cac0-fbef-bffd944ef77f")
     assert forget(BEN) == 0  # nothing of him
     assert (folder / "deviceid").exists()
     assert forget(*words) == 0
     assert f"{folder}: telemetry of onnxruntime" in capsys.readouterr().out
     assert not (home / ".cache" / "Microsoft").exists()
+    assert session.exists() == bool(words)
+    session.write_text("someone else's")
+    assert forget() == 0
+    assert session.exists()
