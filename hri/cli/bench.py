@@ -21,6 +21,7 @@ BENCHES: dict[str, tuple[str, ...]] = {
     "face": ("quick",),
     "inputs": ("tries", "seed", "keep", "only", "jobs"),
     "net": (),
+    "offline": ("seconds",),
     "people": ("quick",),
     "speech": ("quick", "recordings", "draw"),
     "studio": ("quick", "only"),
@@ -28,7 +29,7 @@ BENCHES: dict[str, tuple[str, ...]] = {
     "writes": ("quick",),
 }
 """Each is a module with `measure(...) -> dict`; the options that it takes."""
-RESEARCH = ("inputs", "people", "studio", "writes")
+RESEARCH = ("inputs", "offline", "people", "studio", "writes")
 """Those of the folder `benchmarks`; the others are of `hri.bench`."""
 
 
@@ -36,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = "Missed limits are listed; the exit status is 0 all the same."
     about = f"what to measure; {', '.join(RESEARCH)} need a checkout"
     parser.add_argument("name", choices=BENCHES, help=about)
-    about = "how long each case runs (behavior, companion)"
+    about = "how long each case runs (behavior, companion, offline)"
     parser.add_argument("--seconds", type=Within(float, 1, 3600), metavar="S", help=about)
     about = "take every sixth sentence (speech), a tenth (drive, face, people, vision, writes);"
     about += " less of everything (studio)"
