@@ -4,7 +4,7 @@
 # make fuzz    run the property tests with examples of chance; OPTIONS=--hypothesis-seed=1 repeats a run
 # make check   format, lint, types, import rules, spelling, prose
 # make bench   measure what is in benchmarks/ on this machine; OPTIONS="vision --only nods" one part
-# make wheels  renew the locked packages in requirements/, with wheels for every supported Python and system
+# make wheels  renew the locked packages in .ci/requirements/, with wheels for every supported Python and system
 # make docs    the reference of all classes, in build/reference/
 # make checklist    run the tests and write docs/checklist.md
 
@@ -86,16 +86,16 @@ $(BIN)/python:
 PIP    := $(BIN)/python -m pip install --disable-pip-version-check --progress-bar on --no-deps --no-build-isolation
 LOCKED := $(PIP) --require-hashes --only-binary :all: --no-binary srt --use-pep517 --requirement
 
-$(VENV)/.run: pyproject.toml requirements/build.txt requirements/run.txt | $(BIN)/python
+$(VENV)/.run: pyproject.toml .ci/requirements/build.txt .ci/requirements/run.txt | $(BIN)/python
 	@$(TELL_SOURCE)
-	$(LOCKED) requirements/build.txt
-	$(LOCKED) requirements/run.txt
+	$(LOCKED) .ci/requirements/build.txt
+	$(LOCKED) .ci/requirements/run.txt
 	$(PIP) --editable .
 	@touch $@
 
-$(VENV)/.dev: pyproject.toml requirements/build.txt requirements/dev.txt | $(BIN)/python
+$(VENV)/.dev: pyproject.toml .ci/requirements/build.txt .ci/requirements/dev.txt | $(BIN)/python
 	@$(TELL_SOURCE)
-	$(LOCKED) requirements/build.txt
-	$(LOCKED) requirements/dev.txt
+	$(LOCKED) .ci/requirements/build.txt
+	$(LOCKED) .ci/requirements/dev.txt
 	$(PIP) --editable .
 	@touch $@ $(VENV)/.run

@@ -20,7 +20,7 @@ LOCKED = {
     "run": PROJECT["dependencies"],
     "dev": [*PROJECT["dependencies"], *PROJECT["optional-dependencies"]["dev"]],
 }
-"""What each file of the folder `requirements` has to satisfy."""
+"""What each file of the folder `.ci/requirements` has to satisfy."""
 VERSIONS = ("3.11", "3.12", "3.13", "3.14")
 SYSTEMS = (
     ("linux", "x86_64"), ("linux", "aarch64"), ("darwin", "x86_64"), ("darwin", "arm64"),
@@ -68,7 +68,7 @@ def test_every_python_gets_one_pygame(version, machine):
 
 def locked(name):
     """The requirements of a file, each with its hashes."""
-    text = (house() / "requirements" / f"{name}.txt").read_text().replace("\\\n", " ")
+    text = (house() / ".ci" / "requirements" / f"{name}.txt").read_text().replace("\\\n", " ")
     lines = [line for line in text.splitlines() if line and not line.lstrip().startswith("#")]
     for line in lines:
         requirement, *hashes = re.split(r"\s+--hash=", line)
@@ -97,7 +97,7 @@ def test_every_locked_package_has_hashes_and_a_marker_that_every_pip_can_evaluat
         assert all(re.fullmatch(r"sha256:[0-9a-f]{64}\s*", one) for one in hashes), requirement
         assert requirement.url is None
         assert "platform_release" not in str(requirement.marker)
-    assert "://" not in (house() / "requirements" / f"{name}.txt").read_text()
+    assert "://" not in (house() / ".ci" / "requirements" / f"{name}.txt").read_text()
 
 
 @pytest.mark.parametrize("version", VERSIONS)
