@@ -19,6 +19,7 @@ from pathlib import Path
 
 from hri.core.clock import Worker
 from hri.core.errors import HriError
+from hri.core.origin import KEYBOARD, caused_by
 from hri.core.signals import Event
 from hri.emotion.stimulus import load_stimuli
 from hri.face.behaviors import FaceRenderer
@@ -187,20 +188,22 @@ async def watch_keys(context: TaskContext) -> None:
     while True:
         await context.clock.sleep(0.05)
         for key in screen.pressed_keys():
-            if key == "space":
-                companion.guard.halt("someone pressed the stop key")
+            with caused_by(KEYBOARD):
+                if key == "space":
+                    companion.guard.halt("someone pressed the stop key")
+                elif key == "r":
+                    companion.guard.release()
+                elif key == "m":
+                    muted = companion.listener.is_muted = not companion.listener.is_muted
+                    context.events.raise_event("microphone.muted", muted=muted)
+                elif key == "v":
+                    companion.switch_camera(not companion.camera.is_on)
+                elif key == "c":
+                    renderer.captions_on = not renderer.captions_on
+                elif key == "escape":
+                    context.events.raise_event("window.closed")
+            if key == "space":  # what it says then are its own words
                 companion.reply("stop", "stop", {})
-            elif key == "r":
-                companion.guard.release()
-            elif key == "m":
-                companion.listener.is_muted = not companion.listener.is_muted
-                context.events.raise_event("microphone.muted", muted=companion.listener.is_muted)
-            elif key == "v":
-                companion.switch_camera(not companion.camera.is_on)
-            elif key == "c":
-                renderer.captions_on = not renderer.captions_on
-            elif key == "escape":
-                context.events.raise_event("window.closed")
         if screen.is_closed:
             context.events.raise_event("window.closed")
             return

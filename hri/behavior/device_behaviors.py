@@ -15,6 +15,7 @@ from hri.behavior.ports import (
     Output,
     Param,
 )
+from hri.core.origin import caused_by
 from hri.core.signals import Frame, Pose2D, RangeReading, Twist
 from hri.hal.audio_level import AudioLevel
 from hri.hal.battery import Battery
@@ -55,7 +56,8 @@ class CameraFrames(DeviceBehavior):
     def _tell(self, is_on: bool, is_lost: bool) -> None:
         camera = self._camera.id
         if is_on != self._is_on:
-            self._events.raise_event("camera.switched", camera=camera, on=is_on)
+            with caused_by(self._camera.switched_by):
+                self._events.raise_event("camera.switched", camera=camera, on=is_on)
         self._is_on = is_on
         if is_on and is_lost != self._is_lost:
             name = "camera.lost" if is_lost else "camera.found"

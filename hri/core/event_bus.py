@@ -9,6 +9,7 @@ from typing import Any
 
 from hri.core.clock import Clock
 from hri.core.errors import HriError
+from hri.core.origin import BRIDGE, caused_by, origin
 from hri.core.signals import Event
 
 Listener = Callable[[Event], object]
@@ -17,12 +18,12 @@ Listener = Callable[[Event], object]
 OWN_SUBJECTS = frozenset((
     "battery", "behavior", "bumper", "camera", "cliff", "drive", "emotion", "emotions", "face",
     "gesture", "grammar", "head", "memory", "microphone", "motion", "network", "object", "odometry",
-    "person", "question", "recording", "replies", "speech", "stimulus", "target", "task", "vision",
-    "visitor", "window",
+    "person", "question", "recording", "replies", "speech", "stimulus", "studio", "target", "task",
+    "vision", "visitor", "window",
 ))
 # fmt: on
 """What the robot's own events are about: the first word of their names."""
-OWN_KEYS = frozenset(("t", "event", "outside"))
+OWN_KEYS = frozenset(("t", "event", "outside", "origin"))
 """What the line of an event in a recording says beside its properties."""
 
 log = logging.getLogger("hri.events")
@@ -61,9 +62,10 @@ class EventBus:
 
     def raise_event(self, name: str, /, **properties: Any) -> Event:
         """Call all listeners whose pattern matches, now; a failing one does not affect the
-        others.
+        others. It has the origin of what goes on now (`hri.core.origin`).
         """
-        return self._tell(Event(name, self.clock.now(), properties, is_raised=True))
+        now = self.clock.now()
+        return self._tell(Event(name, now, properties, origin=origin(), is_raised=True))
 
     def raise_from_outside(self, event: Event) -> Event:
         """Raise an event of another program, now and marked as such.
@@ -71,8 +73,9 @@ class EventBus:
         Raises HriError as `check_from_outside` does.
         """
         check_from_outside(event)
-        now = self.clock.now()
-        return self._tell(replace(event, time=now, is_from_outside=True, is_raised=True))
+        event = replace(event, time=self.clock.now(), is_from_outside=True, is_raised=True)
+        with caused_by(BRIDGE):
+            return self._tell(replace(event, origin=BRIDGE))
 
     def _tell(self, event: Event) -> Event:
         for subscription in tuple(self.subscriptions):

@@ -25,7 +25,11 @@ _REMEDY = "delete this line, or record again"
 
 
 class EventLog:
-    """Writes every event to a file: `t` in seconds, `event`, and the event's properties."""
+    """Writes every event to a file: `t` in seconds, `event`, and the event's properties.
+
+    An event that was caused from outside has an `origin`, one that another program raised also
+    `"outside": true`.
+    """
 
     def __init__(
         self, path: Path, events: EventBus, withheld: Mapping[str, Collection[str]] = NOTHING
@@ -44,6 +48,8 @@ class EventLog:
         own = {"t": round(event.time, 4), "event": event.name}
         if event.is_from_outside:
             own["outside"] = True
+        if event.origin:
+            own["origin"] = event.origin
         if not self._file.append(f"{_line({**own, **told, **own})}\n".encode()):
             self._subscription.cancel()
 

@@ -524,6 +524,8 @@ class Event:
     properties: Mapping[str, Any] = field(default_factory=dict)
     is_from_outside: bool = False
     """Whether another program raised it, over the network: nothing that the robot has sensed."""
+    origin: str = ""
+    """Who caused it from outside, as `hri.core.origin` has it; empty for the robot itself."""
     is_raised: bool = field(default=False, compare=False, repr=False)
     """Whether it has happened, so that others have it."""
 

@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 import trio
 from numpy.typing import NDArray
 
+from hri.core.origin import origin
 from hri.core.signals import Frame
 from hri.hal.picture import TURNS, as_picture, oriented
 from hri.hal.resource import Description, Resource, Resources
@@ -80,6 +81,8 @@ class Camera(Resource):
     def __init__(self, description: Description, manager: Resources) -> None:
         super().__init__(description, manager)
         self._is_on = True
+        self.switched_by = ""
+        """Who switched it last, as `hri.core.origin` has it."""
         self._log = _Log()
 
     @classmethod
@@ -183,6 +186,7 @@ class Camera(Resource):
         with self._lock:
             if on == self._is_on:
                 return
+            self.switched_by = origin()
             if on:
                 self._is_on = True
                 if self._is_active:

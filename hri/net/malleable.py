@@ -12,6 +12,7 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.effects import ANYTHING, NOTHING
 from hri.behavior.ports import Input, Output, Param
 from hri.core.errors import HriError
+from hri.core.origin import BRIDGE, caused_by
 from hri.core.quoting import quoted
 from hri.net import control, values
 from hri.net.client import Client
@@ -114,7 +115,8 @@ class MalleableBehavior(Behavior):
         self._door.look()
         if self._is_told_to_stop:
             self._is_told_to_stop = False
-            self._events.raise_event("drive.halt", because="I was told to over the network")
+            with caused_by(BRIDGE):
+                self._events.raise_event("drive.halt", because="I was told to over the network")
         for name, (value, spoken) in self._inbox.take(self._door.admits).items():
             is_bare = self.keep_quotes or not isinstance(value, str)
             self.output_port(name).send(value if is_bare else values.unquoted(value), spoken)

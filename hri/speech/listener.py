@@ -13,6 +13,7 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
 from hri.core import paths
 from hri.core.clock import Worker
+from hri.core.origin import caused_by, origin
 from hri.core.signals import Rejection, Samples, Speech, Utterance
 from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer, Segment
@@ -202,7 +203,8 @@ class Listener(Behavior):
         """
         now = self._clock.now()
         if text.strip():
-            self._waiting.append((Segment(now, now, text=text.strip()), _Piece()))
+            typed = Segment(now, now, text=text.strip(), origin=origin())
+            self._waiting.append((typed, _Piece()))
 
     def hold(self, seconds: float) -> None:
         """Hear for that long whoever said to be deaf, and without a wake word: someone holds a
@@ -318,7 +320,8 @@ class Listener(Behavior):
             result = replace(heard, latency=now - begun)
             if isinstance(result, Utterance) and self._is_own(result, piece):
                 result = _own_words(result)
-            self._tell(result, grammar, piece)
+            with caused_by(segment.origin):
+                self._tell(result, grammar, piece)
 
         return tell
 

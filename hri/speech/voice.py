@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from pathlib import Path
 
@@ -15,6 +15,7 @@ from hri.behavior.effects import Effect
 from hri.behavior.ports import Input, Output, Param
 from hri.core.clock import Worker
 from hri.core.errors import HriError
+from hri.core.origin import caused_by, origin
 from hri.core.signals import Prosody, Speech
 from hri.hal.drivers.wav_file import load_sound
 from hri.hal.speaker import Speaker
@@ -58,6 +59,8 @@ class Saying:
     was_cut: bool = False
     heard: str = ""
     """The words of it that were heard to their end; known when it is done."""
+    origin: str = field(default_factory=origin)
+    """Who had it said, as `hri.core.origin` has it; empty for the robot itself."""
 
     def drop(self) -> None:
         """It is done, and nothing of it was heard."""
@@ -274,7 +277,7 @@ class Voice(Behavior):
         if playing is None:
             self._speaker.play(speech.samples, speech.rate, now)
             self._playing = _Playing(saying, speech)
-            self._events.raise_event("speech.said", text=saying.text)
+            self._tell(saying, "speech.said")
         elif len(speech.samples) > len(playing.speech.samples):
             self._speaker.extend(speech.samples[len(playing.speech.samples) :], now)
             playing.speech = speech
@@ -299,7 +302,7 @@ class Voice(Behavior):
             if time > playing.position:
                 return
             playing.marks += 1
-            self._events.raise_event("speech.marked", name=name, text=playing.saying.text)
+            self._tell(playing.saying, "speech.marked", name=name)
 
     def _finish(self, was_cut: bool) -> None:
         assert self._playing is not None
@@ -310,9 +313,12 @@ class Voice(Behavior):
         saying = playing.saying
         saying.is_done, saying.was_cut = True, was_cut
         saying.heard = playing.speech.heard(playing.position) if was_cut else saying.text
-        self._events.raise_event(
-            "speech.finished", text=saying.text, cut=was_cut, heard=saying.heard
-        )
+        self._tell(saying, "speech.finished", cut=was_cut, heard=saying.heard)
+
+    def _tell(self, saying: Saying, event: str, **properties: object) -> None:
+        """Raise an event about a saying, of whoever had it said, whoever cuts it."""
+        with caused_by(saying.origin):
+            self._events.raise_event(event, text=saying.text, **properties)
 
     def stop(self) -> None:
         self._interruption.cancel()

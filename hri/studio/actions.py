@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from hri.core.errors import HriError
+from hri.core.origin import STUDIO, caused_by
 from hri.hal.camera import Camera
 from hri.hal.emergency_stop import EmergencyStop
 from hri.robot import Robot
@@ -21,6 +22,8 @@ from hri.task.context import TaskContext
 BECAUSE = "someone pressed stop in the studio"
 HOLD = 1.5
 """Seconds of hearing for each word that the button is still held: a page may vanish meanwhile."""
+LONGEST_TOLD = 4000
+"""Letters of an argument that its event has; a whole network is left out."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,5 +127,15 @@ def obey(asked: Asked, name: str, given: Mapping[str, Any]) -> Awaitable[None] |
     cannot be done.
     """
     arguments = checked(name, given)
-    done = ACTIONS[name](asked, **arguments)
+    is_repeated = name == "talk" and arguments["on"] and asked.context.behavior(Listener).is_held
+    with caused_by(STUDIO):
+        done = ACTIONS[name](asked, **arguments)
+        if not is_repeated:
+            # The words of "hear" are in `speech.heard`, and if rejected are nobody's business.
+            told = {} if name == "hear" else _short(arguments)
+            asked.context.events.raise_event("studio.asked", command=name, arguments=told)
     return done if isinstance(done, Awaitable) else None
+
+
+def _short(arguments: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: one for key, one in arguments.items() if len(str(one)) <= LONGEST_TOLD}

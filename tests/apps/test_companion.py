@@ -169,6 +169,10 @@ def test_the_stop_key_stops_and_the_other_key_makes_it_deaf():
     assert visit.named("drive.stopped")[0].time == pytest.approx(5.05, abs=0.1)
     assert visit.pose_at(6.5).x == pytest.approx(visit.pose_at(11.5).x, abs=0.005)
     assert visit.named("microphone.muted")[0].properties["muted"] is True
+    assert {event.name for event in visit.events if event.origin == "keyboard"} == {
+        "microphone.muted",
+        "drive.stopped",
+    }
 
 
 def test_it_sleeps_until_it_is_woken():

@@ -11,6 +11,7 @@ from hri.core.errors import HriError
 from hri.core.event_bus import OWN_SUBJECTS, EventBus, matches
 from hri.core.event_log import EventLog, read_events
 from hri.core.latest import Board, Latest
+from hri.core.origin import BRIDGE
 from hri.core.signals import Event
 
 
@@ -158,7 +159,9 @@ def test_an_event_from_outside_is_marked_and_has_the_time_of_now():
     bus.subscribe("*", heard.append)
     clock.advance(2.0)
     raised = bus.raise_from_outside(Event("Examples.Door", 99.0, {"side": "left"}))
-    assert heard == [raised] == [Event("Examples.Door", clock.now(), {"side": "left"}, True)]
+    assert (
+        heard == [raised] == [Event("Examples.Door", clock.now(), {"side": "left"}, True, BRIDGE)]
+    )
     assert not bus.raise_event("door.opened").is_from_outside
     with pytest.raises(HriError, match=r'only the robot itself raises "speech\.heard"'):
         bus.raise_from_outside(Event("speech.heard"))

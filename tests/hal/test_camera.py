@@ -11,6 +11,7 @@ from hypothesis import given, settings, strategies as st
 from hri.behavior.device_behaviors import CameraFrames
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError, NotAvailable
+from hri.core.origin import STUDIO, caused_by
 from hri.core.signals import Frame
 from hri.hal.camera import Camera
 from hri.hal.drivers.blank import BlankCamera
@@ -165,7 +166,12 @@ def test_the_network_tells_when_the_camera_is_switched_or_lost():
     lent = context(Description("camera", "Hri.MemoryCamera"))
     camera = FaultyCamera(picture, [Fault("stall", 2.0, 7.0)], lent.resources)
     lent.resources.substitute("camera", camera)
-    lent.clock.call_at(8.0, lambda: camera.switch(False))
+
+    def switch_off():
+        with caused_by(STUDIO):
+            camera.switch(False)
+
+    lent.clock.call_at(8.0, switch_off)
     lent.clock.call_at(9.0, lambda: camera.switch(True))
     frames = CameraFrames("camera", camera_id="camera")
     events = run_for(10.0, [frames], lent, TICK)
@@ -177,6 +183,7 @@ def test_the_network_tells_when_the_camera_is_switched_or_lost():
         ("camera.switched", True, 9),
     ]
     assert {event.properties["camera"] for event in events} == {"camera"}
+    assert [event.origin for event in events] == ["", "", STUDIO, ""]
 
 
 @pytest.mark.parametrize(

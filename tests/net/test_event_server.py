@@ -183,9 +183,9 @@ def test_no_event_from_outside_passes_for_the_robots_own(events, caplog):
 def test_events_from_outside_are_marked_and_come_under_an_allow_list(caplog):
     lines = ["Examples.PhotoEvent.Shoot?count=1", "door.opened", "lamp.lit"]
     found = raised(lines, events=("door.*",))
-    assert [(event.name, event.is_from_outside) for event in found] == [
-        ("Examples.PhotoEvent.Shoot", True),
-        ("door.opened", True),
+    assert [(event.name, event.is_from_outside, event.origin) for event in found] == [
+        ("Examples.PhotoEvent.Shoot", True, "bridge"),
+        ("door.opened", True, "bridge"),
     ]
     assert '"lamp.lit" may not come from outside' in caplog.text
 
@@ -195,6 +195,6 @@ def test_without_the_token_no_event_comes_in(caplog):
     assert "event_server.event may do anything" in caplog.text
 
 
-@pytest.mark.parametrize("key", ["t", "event", "outside"])
+@pytest.mark.parametrize("key", ["t", "event", "outside", "origin"])
 def test_no_property_passes_for_what_a_recording_says(key, caplog):
     assert raised([f"Examples.Event?{key}=speech.heard"]) == []

@@ -1,6 +1,8 @@
 from __future__ import annotations
 
+import io
 import itertools
+import sys
 
 import numpy as np
 import pytest
@@ -167,6 +169,19 @@ def test_typed_lines_are_heard(resources, companion):
     result = judge(companion, segment, typed.decode(segment), 0.5)
     assert result.tags == {"distance": 10.0}
     assert typed.listen(SECOND, 4.0) == []
+
+
+def test_lines_of_the_terminal_have_the_keyboard_as_their_origin(resources, monkeypatch):
+    monkeypatch.setattr(sys, "stdin", io.StringIO("go home\n"))
+    typed = TypedRecognizer(Description("keys", "Hri.Typed"), resources)
+    typed.activate()
+    typed.type_line("stop", 2.0)
+    typed._read()  # what its thread does
+    found = [typed.listen(SECOND, time)[0] for time in (3.0, 9.0)]
+    assert [(segment.text, segment.origin) for segment in found] == [
+        ("stop", ""),
+        ("go home", "keyboard"),
+    ]
 
 
 def test_a_wrong_source_is_refused(resources):

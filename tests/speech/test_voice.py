@@ -12,6 +12,7 @@ from hri.behavior.behavior import Context
 from hri.behavior.ports import OutputPort
 from hri.core.clock import FakeClock, RealClock
 from hri.core.event_bus import EventBus
+from hri.core.origin import STUDIO, caused_by
 from hri.core.signals import Prosody, Speech
 from hri.hal.drivers.memory import SilentSpeaker
 from hri.hal.drivers.wav_file import write_wav
@@ -47,6 +48,25 @@ def test_one_thing_is_said_after_the_other():
         ("speech.finished", {"text": "hello", "cut": False, "heard": "hello"}),
         ("speech.said", {"text": "you"}),
         ("speech.finished", {"text": "you", "cut": False, "heard": "you"}),
+    ]
+
+
+def test_whose_sentence_it_is_is_told_whoever_cuts_it():
+    stage = Stage(Voice())
+    heard = []
+    stage.behavior._events.subscribe("*", lambda event: heard.append((event.name, event.origin)))
+    with caused_by(STUDIO):
+        stage.behavior.say("you")
+    stage.run(1.0)
+    stage.behavior.say("a long sentence")
+    stage.run(0.3)
+    with caused_by(STUDIO):
+        stage.behavior.hush()
+    assert heard == [
+        ("speech.said", STUDIO),
+        ("speech.finished", STUDIO),
+        ("speech.said", ""),
+        ("speech.finished", ""),
     ]
 
 

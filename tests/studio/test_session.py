@@ -51,6 +51,33 @@ def client(studio):
         yield made
 
 
+def test_what_an_operator_says_and_types_is_not_the_robots_own(client, robot):
+    client.post("/api/v1/hush")
+    heard = []
+    robot.events.subscribe("speech.*", heard.append)
+    client.post("/api/v1/say", json={"text": "One moment."})
+    client.post("/api/v1/hear", json={"text": "hello"})
+    client.post("/api/v1/hear", json={"text": "gibberish"})
+
+    def names(origin):
+        return {event.name for event in tuple(heard) if event.origin == origin}
+
+    while not names("studio") >= {"speech.said", "speech.finished", "speech.heard"}:
+        told(client, "speech", lambda speech: True)
+    while "speech.said" not in names("") or "speech.rejected" not in names("studio"):
+        told(client, "speech", lambda speech: True)  # its answer is its own
+    by_operator = [e.properties["text"] for e in heard if e.origin and e.name == "speech.said"]
+    assert by_operator == ["One moment."]
+
+
+def test_a_refused_command_is_not_told(client, robot):
+    asked = []
+    listening = robot.events.subscribe("studio.asked", asked.append)
+    assert client.post("/api/v1/network_stop", json={"name": "no"}).status_code == 409
+    listening.cancel()
+    assert not asked
+
+
 def test_a_typed_sentence_is_heard_and_answered(client, robot):
     heard = []
     robot.events.subscribe("speech.heard", lambda event: heard.append(event.properties["text"]))
@@ -193,9 +220,17 @@ EXAMPLES = {
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_each_command_is_obeyed(client, command):
-    answer = client.post(f"/api/v1/{command}", json=EXAMPLES.get(command, {}))
+def test_each_command_is_obeyed_and_told(client, robot, command):
+    asked = []
+    listening = robot.events.subscribe("studio.asked", asked.append)
+    arguments = EXAMPLES.get(command, {})
+    answer = client.post(f"/api/v1/{command}", json=arguments)
     assert (answer.status_code, answer.json()) == (200, {"result": None})
+    listening.cancel()
+    told = {} if command == "hear" else arguments
+    assert [(one.properties, one.origin) for one in asked] == [
+        ({"command": command, "arguments": told}, "studio")
+    ]
     if command == "visitor_leave":
         assert client.post("/api/v1/visitor_enter").status_code == 200
     if command == "network_tick":

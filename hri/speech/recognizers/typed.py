@@ -15,7 +15,9 @@ import sys
 import threading
 from collections import deque
 from collections.abc import Collection
+from typing import NamedTuple
 
+from hri.core.origin import KEYBOARD, origin
 from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, Hypothesis, Recognizer, Segment
 from hri.speech.grammar import Grammar as WrittenGrammar
@@ -24,6 +26,13 @@ from hri.speech.grammar.tolerance import MOST_COST, nearest
 
 REPLY_SECONDS = 1.0
 """How long the line behind another one waits for the robot to begin to speak."""
+
+
+class _Line(NamedTuple):
+    text: str
+    time: float | None
+    """Seconds of the clock at which it was typed; None: when it is heard."""
+    origin: str
 
 
 class TypedRecognizer(Recognizer):
@@ -36,7 +45,7 @@ class TypedRecognizer(Recognizer):
         if source not in ("code", "stdin"):
             raise self.description.error("source", f'no source "{source}"', "write code or stdin")
         self._grammar: WrittenGrammar | None = None
-        self._lines: deque[tuple[str, float | None]] = deque()
+        self._lines: deque[_Line] = deque()
         self._is_speaking = False
         self._free_at = -math.inf
         """Seconds of the clock from which the next line may be heard."""
@@ -46,7 +55,7 @@ class TypedRecognizer(Recognizer):
 
     def _read(self) -> None:
         for line in sys.stdin:
-            self._lines.append((line.strip(), None))
+            self._lines.append(_Line(line.strip(), None, KEYBOARD))
         self._is_closed = True
 
     _is_closed = False
@@ -58,7 +67,7 @@ class TypedRecognizer(Recognizer):
 
     def type_line(self, text: str, now: float) -> None:
         """Let it hear a line, typed at `now` seconds."""
-        self._lines.append((text, now))
+        self._lines.append(_Line(text, now, origin()))
 
     def start(self, grammar: Grammar) -> None:
         self._grammar = grammar if isinstance(grammar, WrittenGrammar) else None
@@ -69,24 +78,24 @@ class TypedRecognizer(Recognizer):
         self._is_speaking = is_speaking
 
     def listen(self, samples: Samples, end: float) -> list[Segment]:
-        text, when = self._next(end)
-        if not text:
+        line = self._next(end)
+        if line is None:
             return []
         self._free_at = end + REPLY_SECONDS
-        time = end if when is None else when
-        return [Segment(time, time, text=text)]
+        time = end if line.time is None else line.time
+        return [Segment(time, time, text=line.text, origin=line.origin)]
 
-    def _next(self, now: float) -> tuple[str, float | None]:
-        """The line that is heard now, and when it was typed; an empty one when all must wait."""
-        while self._lines and not self._lines[0][0]:
+    def _next(self, now: float) -> _Line | None:
+        """The line that is heard now; None when all must wait."""
+        while self._lines and not self._lines[0].text:
             self._lines.popleft()
         if not self._is_speaking and now >= self._free_at:
-            return self._lines.popleft() if self._lines else ("", None)
+            return self._lines.popleft() if self._lines else None
         for line in tuple(self._lines):
-            if self._interrupts(line[0]):
+            if self._interrupts(line.text):
                 self._lines.remove(line)
                 return line
-        return "", None
+        return None
 
     def _interrupts(self, text: str) -> bool:
         grammar = self._grammar
