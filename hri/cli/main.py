@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import importlib
 import sys
 from collections.abc import Sequence
@@ -71,7 +72,8 @@ def _run(name: str, words: Sequence[str]) -> int:
     module = importlib.import_module(COMMANDS[name][0])
     parser = OptionParser(prog=f"hri {name}", description=COMMANDS[name][1])
     module.add_arguments(parser)
-    return int(module.run(parser.parse_args(words)))
+    told = argparse.Namespace(command=["hri", name, *words])
+    return int(module.run(parser.parse_args(words, told)))
 
 
 def _overview() -> str:

@@ -74,6 +74,44 @@ def write_bytes(path: Path, data: bytes, mode: int | None = None) -> os.stat_res
             return os.fstat(handle)
 
 
+def write_new_text(path: Path, text: str, mode: int = PRIVATE) -> bool:
+    """Write a file that is not there yet; False, and nothing is changed, where something is.
+
+    Of two programs that write the same file, one succeeds; no one sees half of it. Raises
+    NotWritten.
+    """
+    with _refusing(path):
+        target = _resolved(path.parent) / path.name
+        handle, new = _made_locked(target, mode, SUFFIX)
+        try:
+            write_all(handle, text.encode("utf-8"))
+            os.fsync(handle)
+            is_new = _linked(new, target)
+        finally:
+            new.unlink(missing_ok=True)
+            os.close(handle)
+        _flush(target.parent)
+        return is_new
+
+
+def _linked(new: Path, target: Path) -> bool:
+    """Give a whole file its name, unless that is taken."""
+    try:
+        os.link(new, target, follow_symlinks=False)
+    except FileExistsError:
+        return False
+    except OSError:  # a file system without links, where a file may be seen before it is whole
+        try:
+            handle = os.open(target, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, PRIVATE)
+        except FileExistsError:
+            return False
+        try:
+            write_all(handle, new.read_bytes())
+        finally:
+            os.close(handle)
+    return True
+
+
 def append_line(path: Path, line: str, mode: int = PRIVATE) -> None:
     """Add a line to the end of a file, whole or not at all; a new file has these permissions.
 

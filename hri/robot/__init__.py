@@ -8,6 +8,7 @@ with Robot() as robot:
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import replace
@@ -30,12 +31,14 @@ from hri.core.latest import Board
 from hri.core.registry import canonical
 from hri.core.signals import Event
 from hri.drive.behaviors import CommandGate
+from hri.emotion.behaviors import EmotionModel
 from hri.hal.choices import apply_choices, load_choices
 from hri.hal.configuration import Configuration, load_configuration
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.robot.app import App, load_app
 from hri.robot.blocking_verbs import BlockingVerbs
+from hri.robot.provenance import RunRecord, Setup, authored, version
 from hri.robot.recording import Recording
 from hri.simulation.visitor import Visitor
 from hri.simulation.world import SimulatedWorld
@@ -73,19 +76,21 @@ class Robot(BlockingVerbs):
         `devices` replace those of the configuration with the same id. `parameters` overrides
         parameters of behaviors by their id. `notice` gets a line for each stand-in, for each
         trusted name that fits no port, and one when a recording begins. `record` is a folder for a
-        recording; words that were rejected are written there only with `record_rejected`. `doors`
-        says what may come in over the network, beside what the app and the configuration say.
+        recording; where it holds one, another folder beside it is taken. Words that were rejected
+        are written there only with `record_rejected`. `doors` says what may come in over the
+        network, beside what the app and the configuration say.
         Raises HriError or AuthoringError.
         """
         self.app = load_app(app)
         self.clock = clock or RealClock()
-        authored = _find_configuration(config)
+        self._config = paths.find("config", config)
+        asked = load_configuration(self._config)
         # Also what the command line replaces is checked: a mistake must not wait for its day.
-        ResourceManager(authored.devices, self.clock).check()
+        ResourceManager(asked.devices, self.clock).check()
         if not self.clock.is_fake:  # runs that repeat know nothing of this user's devices
-            present = apply_choices(authored.devices, load_choices())
-            authored = replace(authored, devices=present)
-        configuration = _with_devices(authored, devices)
+            present = apply_choices(asked.devices, load_choices())
+            asked = replace(asked, devices=present)
+        configuration = _with_devices(asked, devices)
         self.configuration = _with_seed(configuration, seed)
         self.resources = ResourceManager(
             self.configuration.devices,
@@ -116,7 +121,12 @@ class Robot(BlockingVerbs):
             raise HriError("an empty name of a folder for the recording - name one, or write None")
         self.record = None if record is None else Path(record)
         """Folder for a recording; may be set until the robot lives."""
+        self.command: Sequence[str] = sys.orig_argv
+        """The command line that a recording names; may be set until the robot lives."""
+        self.sources: Sequence[Path] = ()
+        """Files of input, such as sounds, whose contents a recording identifies; likewise."""
         self._record_rejected = record_rejected
+        self._seed = seed
         self._notice = notice
         self.recording: Recording | None = None
         self.runners: list[Runner] = []
@@ -124,6 +134,8 @@ class Robot(BlockingVerbs):
         self.lived = 0.0
         """Seconds of the clock at which the robot ended."""
         self._finished = trio.Event()
+        self._why = "closed"
+        """Why it ended, or will if no one says why."""
         self._ready: Callable[[], None] = lambda: None
 
     # --- the loop ---
@@ -136,13 +148,7 @@ class Robot(BlockingVerbs):
         """
         try:
             if self.record is not None:
-                self.recording = Recording(
-                    self.record,
-                    self.events,
-                    self.resources,
-                    self._notice,
-                    with_rejected=self._record_rejected,
-                )
+                self.recording = self._begun(self.record)
             self.runners = [self.networks.start(network) for network in self._authored]
             self.events.subscribe("speech.heard", self._obey_stop)
             async with trio.open_nursery() as nursery:
@@ -158,10 +164,39 @@ class Robot(BlockingVerbs):
                 await self._finished.wait()
                 self.lived = self.clock.now()
                 if self.recording is not None:
-                    self.recording.stop()
+                    self.recording.stop(self._why)
                 nursery.cancel_scope.cancel()
+        except BaseException as error:
+            self._why = f"failed: {_cause(error)}"
+            raise
         finally:
             self.close()
+
+    def _begun(self, folder: Path) -> Recording:
+        """The recording of this robot, begun. Raises HriError where it cannot be written."""
+        emotion = next(
+            (b for b in self.context.behaviors.values() if isinstance(b, EmotionModel)), None
+        )
+        setup = Setup(
+            version(),
+            self._seed,
+            self.app.name,
+            None if emotion is None else str(emotion.personality),
+            self._config.stem,
+        )
+        own = [file for app in self.app.line() for file in authored(app.folder)]
+        sources = (*own, *self.app.networks, self._config, *self.sources)
+        feelings = None if emotion is None or not emotion.memory else paths.expanded(emotion.memory)
+        record = RunRecord(setup, self.clock, self.command, sources, feelings)
+        return Recording(
+            folder,
+            setup,
+            record,
+            self.events,
+            self.resources,
+            self._notice,
+            with_rejected=self._record_rejected,
+        )
 
     def live_until_over(self, *jobs: Job) -> None:
         """`live` for code that is not async; an error of ours comes out alone, in no group."""
@@ -182,8 +217,10 @@ class Robot(BlockingVerbs):
                 if isinstance(behavior, CommandGate):
                     behavior.halt()
 
-    def finish(self) -> None:
-        """End `live`; a second call does nothing."""
+    def finish(self, why: str = "finished") -> None:
+        """End `live`; a second call does nothing. `why` is for the record of a recording."""
+        if not self._finished.is_set():
+            self._why = why
         self._finished.set()
 
     def close(self) -> None:
@@ -191,7 +228,7 @@ class Robot(BlockingVerbs):
         with ExitStack() as stack:  # the next one is closed also when one raises
             stack.callback(self.resources.close)
             if self.recording is not None:
-                stack.callback(self.recording.stop)
+                stack.callback(self.recording.stop, self._why)
             stack.callback(self.networks.close)
 
     # --- blocking use ---
@@ -218,8 +255,9 @@ class Robot(BlockingVerbs):
         thread = self.tasks.thread
         assert thread is not None
         script.leave(self.tasks)
+        why = "the script ended" if kind is None else f"the script failed: {kind.__name__}"
         with suppress(RuntimeError):  # it may have ended by itself
-            thread.call(self.finish)
+            thread.call(partial(self.finish, why))
         thread.join()
         self.tasks.thread = None
         if self.recording is not None:
@@ -245,8 +283,11 @@ class Robot(BlockingVerbs):
         return self.tasks.run(job, *arguments)
 
 
-def _find_configuration(name: str) -> Configuration:
-    return load_configuration(paths.find("config", name))
+def _cause(error: BaseException) -> str:
+    """The first exception of a group, in words."""
+    while isinstance(error, BaseExceptionGroup):
+        error = error.exceptions[0]
+    return f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
 
 
 def _with_devices(configuration: Configuration, devices: Sequence[Description]) -> Configuration:

@@ -26,6 +26,7 @@ from hri.core.whereabouts import noted, tidy
 from hri.core.writing import PRIVATE, delete, leftovers, write_text
 from hri.emotion import persistence
 from hri.hal import choices
+from hri.robot.provenance import read_record
 from hri.speech.pronunciation.guesses import GUESSES
 from hri.speech.pronunciation.lexicon import user_lexicon
 from hri.vision.color.color_model import own_color_files
@@ -245,7 +246,16 @@ class Recordings(Kept):
         return [folder for folder in dict.fromkeys((*noted("recording"), *here)) if parts(folder)]
 
     def concerns(self, place: Path, person: str) -> bool:
-        return any(_mentions(file, person) for file in parts(place) if file.suffix == ".jsonl")
+        logs = [file for file in parts(place) if file.suffix == ".jsonl"]
+        return any(_mentions(log, person) for log in logs) or self._began_with(place, person)
+
+    @staticmethod
+    def _began_with(place: Path, person: str) -> bool:
+        """Whether the robot had feelings about a person when a recording began."""
+        with suppress(HriError):
+            feelings = read_record(place).get("feelings")
+            return any(is_named(person, text) for text in _texts_in(feelings))
+        return False
 
     def needs_yes(self, person: str | None) -> bool:
         return True

@@ -1,8 +1,9 @@
 """What a visit leaves behind: `events.jsonl`, `face.mp4`, `robot.wav` and `timeline.png`.
 
-`feelings.svg` is there from the first second on and shows the last ten minutes. Only the owner can
-read it, and people are informed: in the terminal, by a mark on the face, and aloud where a
-microphone hears them. Speech to others, which was rejected, is left out.
+`recording.json` says what was run, and how to repeat it (`hri.robot.provenance`). `feelings.svg` is
+there from the first second on and shows the last ten minutes. Only the owner can read it, and
+people are informed: in the terminal, by a mark on the face, and aloud where a microphone hears
+them. Speech to others, which was rejected, is left out.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import contextlib
 import logging
 from collections import deque
 from collections.abc import Callable, Collection, Mapping
+from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 
@@ -18,11 +20,10 @@ from hri.core.clock import Worker
 from hri.core.errors import HriError
 from hri.core.event_bus import EventBus
 from hri.core.event_log import NOTHING, EventLog, read_events
-from hri.core.privacy import PRIVATE_FOLDER, close_to_others, private_file
-from hri.core.recorded import EVENTS, FACE, SOUND, STARTED, STREAMS, parts
+from hri.core.privacy import close_to_others, private_file
+from hri.core.recorded import EVENTS, FACE, SOUND, STARTED, STREAMS, claim, parts
 from hri.core.signals import Event
 from hri.core.whereabouts import note
-from hri.core.writing import make_folder
 from hri.emotion.behaviors import EmotionModel
 from hri.hal.drivers.wav_file import WavSpeaker
 from hri.hal.resource import Description
@@ -31,6 +32,7 @@ from hri.hal.screen import Screen
 from hri.hal.speaker import Speaker
 from hri.hal.tee import TeeScreen, TeeSpeaker
 from hri.robot.feeling_plot import SPAN_S, Moment, write_feeling_plot
+from hri.robot.provenance import RunRecord, Setup
 from hri.speech.behaviors import Voice
 from hri.speech.tasks import hears_people, say
 from hri.task.context import TaskContext
@@ -58,18 +60,23 @@ class Recording:
 
     def __init__(
         self,
-        folder: Path,
+        asked: Path,
+        setup: Setup,
+        record: RunRecord,
         events: EventBus,
         resources: ResourceManager,
         notice: Callable[[str], object] = print,
         *,
         with_rejected: bool = False,
     ) -> None:
-        """`notice` gets the line that announces it; `with_rejected` writes rejected words, too.
+        """Where `asked` holds a recording, this one goes into another folder beside it.
 
-        Raises HriError when the folder cannot be written.
+        `notice` gets the line that announces it; `with_rejected` writes rejected words, too. Raises
+        HriError when the folder cannot be written.
         """
-        self.folder = folder
+        self.folder = folder = claim(asked, record.text)
+        self.asked = asked
+        self._record = record
         self._notice = notice
         self._make_private()
         note("recording", folder)
@@ -80,19 +87,25 @@ class Recording:
             "face": round(self._record_screen(resources), 4),
             "sound": round(self._record_speaker(resources), 4),
         }
-        self._log.write(Event(STARTED, resources.clock.now(), origins))
+        self._log.write(Event(STARTED, resources.clock.now(), {**origins, **asdict(setup)}))
 
     def _make_private(self) -> None:
         """Close the folder to others, unless it holds anything but a recording, and the files."""
-        make_folder(self.folder, PRIVATE_FOLDER)
         if {*self.folder.iterdir()} <= {*parts(self.folder)}:
             close_to_others(self.folder)
         for name in STREAMS:
             private_file(self.folder / name)
 
+    @property
+    def where(self) -> str:
+        """The folder, in words that say why it is not the one that was asked for."""
+        if self.folder == self.asked:
+            return f"{self.folder}/"
+        return f"{self.folder}/ ({self.asked}/ holds an earlier recording)"
+
     async def announce(self, context: TaskContext) -> None:
         """Say that it records: in the terminal, and aloud where a real microphone hears people."""
-        self._notice(f"recording to {self.folder}/, which only you can read")
+        self._notice(f"recording to {self.where}, which only you can read")
         if hears_people(context) and context.find_behavior(Voice) is not None:
             await say(context, ALOUD)
 
@@ -148,9 +161,12 @@ class Recording:
             with contextlib.suppress(HriError):  # a full disk was reported when it filled up
                 write_feeling_plot(moments, path)
 
-    def stop(self) -> None:
-        """End the log; sound and video end when the resources are closed."""
+    def stop(self, why: str = "closed") -> None:
+        """End the log; sound and video end when the resources are closed. A second call does
+        nothing.
+        """
         self._log.close()
+        self._record.complete(why)
 
     def plot(self) -> None:
         """Draw `timeline.png` from the log; where that cannot be done, one line says so."""

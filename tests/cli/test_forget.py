@@ -15,6 +15,7 @@ from hri.core import paths
 from hri.core.clock import FakeClock
 from hri.core.event_bus import EventBus
 from hri.core.event_log import EventLog
+from hri.core.recorded import ABOUT
 from hri.core.whereabouts import note, noted, whereabouts_file
 from hri.emotion.model_spec import load_emotions
 from hri.emotion.persistence import Memory, keep, memory_file, recall
@@ -174,6 +175,16 @@ def test_a_recording_is_deleted_after_a_yes(home, capsys, monkeypatch, answer, s
     assert str(out) in asked[0]
     assert out.exists() == stays
     assert other.exists()
+
+
+def test_a_recording_that_began_with_feelings_about_someone_goes_too(home):
+    out = a_recording(home / "out")
+    told = {"feelings": {"relations": {ANNA: 0.5}}, "cwd": f"/home/{BEN}"}
+    (out / ABOUT).write_text(json.dumps(told))
+    assert forget(BEN, "--yes") == 0
+    assert out.exists()
+    assert forget(ANNA, "--yes") == 0
+    assert not out.exists()
 
 
 def test_of_a_folder_with_other_files_only_the_recording_is_deleted(home):

@@ -1,18 +1,26 @@
 """A recording is announced, only its owner can read it, and rejected words are left out."""
 
+import io
+import json
+import platform
 import stat
+from contextlib import ExitStack
+from datetime import datetime
+from importlib.metadata import version
 
 import cv2
 import pytest
 
 from hri import Robot
+from hri.cli.run.narrator import Narrator
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.core.event_log import read_events
 from hri.core.growing import GrowingFile
-from hri.core.recorded import FILES, STARTED
+from hri.core.recorded import ABOUT, FILES, STARTED
 from hri.hal.drivers.wav_file import read_wav
-from hri.robot.recording import ALOUD
+from hri.robot.provenance import utc_now
+from hri.robot.recording import ALOUD, Recording
 from tests.devices import live_microphone
 from tests.disk import full_disk
 
@@ -72,14 +80,22 @@ def test_a_recording_is_its_owners_alone(record, tmp_path):
     assert mode(out) == 0o700
 
 
-def test_a_recording_over_an_older_one_closes_it_to_others(record, tmp_path):
-    out = tmp_path / "out"
-    out.mkdir(mode=0o755)
-    for name in FILES:
-        (out / name).touch(mode=0o644)
+def contents(folder):
+    return {file.name: (file.read_bytes(), file.stat().st_mtime_ns) for file in folder.iterdir()}
+
+
+def test_a_second_recording_gets_a_folder_of_its_own_and_says_so(record, tmp_path):
     record()
-    assert {mode(file) for file in out.iterdir()} == {0o600}
-    assert mode(out) == 0o700
+    before = contents(tmp_path / "out")
+    robot = record()
+    assert contents(tmp_path / "out") == before
+    assert robot.recording.folder == tmp_path / "out-2"
+    assert {file.name for file in (tmp_path / "out-2").iterdir()} == set(FILES)
+    why = f"({tmp_path / 'out'}/ holds an earlier recording)"
+    assert robot.told[-1].startswith(f"recording to {tmp_path / 'out-2'}/ {why}, which only")
+    out = io.StringIO()
+    Narrator(robot, out).summary()
+    assert f"recorded in {tmp_path / 'out-2'}/ {why}: events.jsonl" in out.getvalue()
 
 
 def test_a_folder_with_other_files_keeps_its_permissions_the_recording_in_it_is_private(
@@ -163,19 +179,89 @@ def test_two_robots_do_not_record_into_one_folder(record, tmp_path):
     (tmp_path / "out").mkdir()
     other = GrowingFile(tmp_path / "out" / "events.jsonl")
     other.append(b"{}\n")
-    with pytest.raises(HriError, match=r"events.jsonl: another program is writing it - choose"):
-        record()
+    robot = record()
     assert (tmp_path / "out" / "events.jsonl").read_bytes() == b"{}\n"
+    assert robot.recording.folder == tmp_path / "out-2"
 
 
 def test_the_log_says_when_film_and_sound_begin(record, tmp_path):
     robot = record(lambda robot: robot.clock.advance(2.5))
     out = tmp_path / "out"
     first = read_events(out / "events.jsonl")[0]
-    assert first == {"t": 2.5, "event": STARTED, "face": 2.5, "sound": 2.5}
+    assert {**first, "t": 2.5, "event": STARTED, "face": 2.5, "sound": 2.5} == first
     sound, rate = read_wav(out / "robot.wav")
     film = cv2.VideoCapture(str(out / "face.mp4"))
     pictures = film.get(cv2.CAP_PROP_FRAME_COUNT)
     film.release()
     assert len(sound) / rate == pytest.approx(robot.lived - 2.5, abs=0.1)
     assert pictures / 30 == pytest.approx(len(sound) / rate, abs=0.1)
+
+
+SETUP = {"seed": 3, "app": "APP", "personality": "neutral", "config": "simulated"}
+
+
+def test_the_first_event_says_what_was_run_and_is_the_same_for_equal_runs(record, tmp_path):
+    for _ in range(2):
+        record(seed=3)
+    first, second = (
+        (tmp_path / name / "events.jsonl").read_text().splitlines()[0] for name in ("out", "out-2")
+    )
+    assert first == second
+    told = json.loads(first)
+    assert {**told, **SETUP, "app": tmp_path.name, "version": version("hri")} == told
+
+
+def test_the_record_says_when_and_on_what_and_how_it_ended(record, tmp_path):
+    before = utc_now()
+    robot = record(lambda robot: robot.clock.advance(2.5), seed=3)
+    told = json.loads((tmp_path / "out" / ABOUT).read_text())
+    assert {**told, **SETUP, "app": tmp_path.name, "version": version("hri")} == told
+    began, zero, ended = (
+        datetime.fromisoformat(told[name].replace("Z", "+00:00"))
+        for name in ("began", "zero", "ended")
+    )
+    assert before <= began <= ended <= utc_now()
+    assert (began - zero).total_seconds() == pytest.approx(told["began_at"], abs=1e-3)
+    assert (told["began_at"], told["ended_at"]) == (2.5, robot.lived)
+    assert told["why"] == "the script ended"
+    assert told["folder"] == str(tmp_path / "out")
+    assert told["clock"] == "fake"
+    assert told["python"] == platform.python_version()
+    assert told["packages"]["numpy"] == version("numpy")
+    assert str(tmp_path / "face.xml") in told["sources"]
+
+
+def test_a_run_that_fails_says_so_in_its_record(record, tmp_path):
+    def fail(robot):
+        robot.wait = None  # what the script calls next
+
+    with pytest.raises(TypeError):
+        record(fail)
+    told = json.loads((tmp_path / "out" / ABOUT).read_text())
+    assert told["why"] == "the script failed: TypeError"
+
+
+def test_a_robot_that_fails_says_so_in_its_record(record, tmp_path, monkeypatch):
+    async def fail(self, context):
+        raise HriError("no more - rest")
+
+    monkeypatch.setattr(Recording, "announce", fail)
+    robot = Robot(
+        str(tmp_path), "simulated", clock=FakeClock(), record=tmp_path / "out", notice=print
+    )
+    with pytest.raises(HriError, match="no more"):
+        robot.live_until_over()
+    told = json.loads((tmp_path / "out" / ABOUT).read_text())
+    assert told["why"] == "failed: HriError: no more - rest"
+
+
+def test_a_record_that_cannot_be_completed_is_as_it_began(record, tmp_path, caplog):
+    def fill(robot):
+        robot.clock.call_at(1.9, lambda: disk.enter_context(full_disk(after=400)))
+
+    with ExitStack() as disk:
+        record(fill)
+    told = json.loads((tmp_path / "out" / ABOUT).read_text())
+    assert "began" in told
+    assert "ended" not in told
+    assert any(f"{ABOUT}: cannot be written: File too large" in line for line in caplog.messages)

@@ -5,9 +5,8 @@ from __future__ import annotations
 import argparse
 import logging
 import math
-from contextlib import suppress
+import sys
 from functools import partial
-from itertools import chain, count
 from pathlib import Path
 
 from hri.cli.door_options import add_door_options, doors_of
@@ -20,10 +19,8 @@ from hri.cli.terminal.messages import LineFormatter, Within
 from hri.cli.terminal.streams import unfailing_output
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
-from hri.core.privacy import PRIVATE_FOLDER
 from hri.core.realtime import become_realtime
 from hri.core.recorded import RECORDINGS
-from hri.core.writing import make_folder
 from hri.drive.behaviors import CommandGate
 from hri.emotion.persistence import memory_file
 from hri.emotion.personality import load_personality
@@ -56,6 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """The options of every app."""
+    parser.set_defaults(command=sys.orig_argv)
     add = parser.add_argument
     add("--config", default="resource-config", metavar="FILE", help="the devices (%(default)s)")
     add("--audio", type=Path, metavar="FILE", help="hear this sound file instead of a microphone")
@@ -119,6 +117,7 @@ def _run(options: argparse.Namespace, ending: Ending) -> int:
         doors=doors_of(options),
     )
     robot.resources.is_to_repeat |= is_to_repeat(options)
+    robot.command, robot.sources = options.command, inputs(options)
     tasks = robot.app.load_tasks()
     studio = studio_of(robot, options) if options.studio else None
     narrator = Narrator(robot)
@@ -127,7 +126,7 @@ def _run(options: argparse.Namespace, ending: Ending) -> int:
     try:
         is_unseen = {"microphone", "camera", "screen"} <= open_senses(robot)
         if robot.record is None and is_unseen and not options.headless and not options.fast:
-            robot.record = recordings_folder(robot)
+            robot.record = Path(RECORDINGS) / f"{robot.clock.wall():%Y-%m-%d-%H-%M-%S}"
         if studio is not None:
             studio.start()
             show_address(studio, options, narrator.tell)
@@ -153,21 +152,6 @@ def open_senses(robot: Robot) -> set[str]:
     return {id for id in present if robot.resources.stand_in_of(id) is not None}
 
 
-def recordings_folder(robot: Robot) -> Path:
-    """A new folder below the current one, named by date and time, and numbered where need be.
-
-    Raises HriError or OSError when it cannot be created.
-    """
-    folder = Path(RECORDINGS) / f"{robot.clock.wall():%Y-%m-%d-%H-%M-%S}"
-    make_folder(folder.parent)
-    numbered = (folder.with_name(f"{folder.name}-{number}") for number in count(2))
-    for free in chain([folder], numbered):
-        with suppress(FileExistsError):  # another robot began in this second
-            free.mkdir(PRIVATE_FOLDER)
-            break
-    return free
-
-
 def check_files(options: argparse.Namespace) -> None:
     """Refuse bad files and conflicting options before anything starts. Raises HriError."""
     if options.demo and options.keep:
@@ -180,6 +164,12 @@ def check_files(options: argparse.Namespace) -> None:
         check_video(Path(options.camera))
     load_face(options.face)
     load_personality(options.personality)
+
+
+def inputs(options: argparse.Namespace) -> list[Path]:
+    """The files that are heard and seen."""
+    named = (options.audio, options.camera if options.camera != "none" else None)
+    return [Path(name) for name in named if name is not None]
 
 
 def memory_of(options: argparse.Namespace) -> str:
@@ -279,7 +269,7 @@ class Session:
         started by commands or events, such as a timer, may finish.
         """
         clock = context.clock
-        end = self._end_time()
+        end, why = self._end_time()
         calm_since = spent_since = clock.now()
         while clock.now() < end:
             await clock.sleep(min(0.1, end - clock.now()))
@@ -290,13 +280,17 @@ class Session:
             if waits or not self._is_calm(context):
                 calm_since = clock.now()
             elif clock.now() - calm_since >= CALM_SECONDS:
+                why = "the input ended"
                 break
-        self.robot.finish()
+        self.robot.finish(why)
 
-    def _end_time(self) -> float:
+    def _end_time(self) -> tuple[float, str]:
+        """When it ends, in seconds of the clock, and why."""
         if self.options.duration is not None:
-            return float(self.options.duration)
-        return self.visit.duration if self.visit is not None else math.inf
+            return float(self.options.duration), "the duration was over"
+        if self.visit is not None:
+            return self.visit.duration, "the visit was over"
+        return math.inf, ""
 
     def _is_spent(self) -> bool:
         """Whether the input is files or typed lines, and has ended."""
@@ -319,8 +313,8 @@ class Session:
     async def watch_window(self, context: TaskContext) -> None:
         """End when the window is closed."""
         await context.wait_for("window.closed")
-        self.robot.finish()
+        self.robot.finish("the window was closed")
 
     async def watch_signals(self, context: TaskContext) -> None:
         """End cleanly on Ctrl-C, or when the system or the terminal asks."""
-        await self.ending.wait(self.robot.finish)
+        await self.ending.wait(partial(self.robot.finish, "asked to end by a signal"))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections import Counter
-from pathlib import Path
 from typing import TextIO
 
 from hri.behavior.tick_statistics import Statistics
@@ -78,7 +77,7 @@ class Narrator:
         except BrokenPipeError:
             self._is_unread = True
             let_go(self.out)  # Python's flush at exit must not complain either
-            self.robot.finish()
+            self.robot.finish("nobody reads its output")
 
     async def greet(self, context: TaskContext) -> None:
         """Once the face is visible, print how to talk to the robot and how to end it."""
@@ -131,9 +130,8 @@ class Narrator:
             if runner.statistics.missed:
                 self.tell(missed_ticks(runner.network.name, runner.statistics))
         if self.robot.recording is not None:
-            folder: Path = self.robot.recording.folder
-            files = "events.jsonl, face.mp4, robot.wav, timeline.png, feelings.svg"
-            self.tell(f"recorded in {folder}/: {files}")
+            files = "events.jsonl, face.mp4, robot.wav, timeline.png, feelings.svg, recording.json"
+            self.tell(f"recorded in {self.robot.recording.where}: {files}")
 
 
 def _error(event: Event) -> str:

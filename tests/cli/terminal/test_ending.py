@@ -12,11 +12,8 @@ import cv2
 import pytest
 import trio
 
-from hri import Robot
-from hri.cli.run import recordings_folder
 from hri.cli.terminal.ending import Ending
 from hri.cli.terminal.streams import unfailing_output
-from hri.core.clock import FakeClock
 from hri.core.event_log import read_events
 from hri.hal.drivers.wav_file import read_wav
 
@@ -167,14 +164,3 @@ def test_a_reader_that_has_gone_is_still_told(monkeypatch):
             print("words", flush=True)
         with suppress(BrokenPipeError):
             out.close()
-
-
-def test_robots_that_begin_in_one_second_record_into_folders_of_their_own(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "app.toml").write_text(APP)
-    (tmp_path / "face.xml").write_text(FACE)
-    robot = Robot(str(tmp_path), "simulated", clock=FakeClock())
-    folders = [recordings_folder(robot) for _ in range(3)]
-    assert len({*folders}) == 3
-    assert all(folder.parent.name == "recordings" and folder.is_dir() for folder in folders)
-    robot.close()
