@@ -300,3 +300,11 @@ def test_the_tags_of_a_sentence_as_json():
     assert answer["accepted"] is True
     assert answer["rule"] == "move"
     assert answer["tags"]["distance"] == 10
+
+
+@SLOW
+def test_a_demo_is_repeated_from_its_record_byte_for_byte(demos, tmp_path):
+    run = hri("companion", "--repeat", demos[0], "--record", "again", folder=tmp_path)
+    assert run.returncode == 0, run.stderr
+    assert "differ" not in run.stdout
+    require_equal(demos[0], tmp_path / "again")

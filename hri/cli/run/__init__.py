@@ -13,6 +13,7 @@ from hri.cli.door_options import add_door_options, doors_of
 from hri.cli.run.browser import forget_page
 from hri.cli.run.changes import announce_changes
 from hri.cli.run.narrator import Narrator
+from hri.cli.run.repeating import repeated
 from hri.cli.run.studio_options import add_studio_options, show_address, studio_of
 from hri.cli.terminal.ending import Ending
 from hri.cli.terminal.messages import LineFormatter, Within
@@ -47,7 +48,7 @@ LONGEST_TASK = 600.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("app", help="name of an app in apps/, or a path")
+    parser.add_argument("app", nargs="?", default="", help="name of an app in apps/, or a path")
     add_options(parser)
 
 
@@ -64,6 +65,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="write events, video, sound, plot in there",
     )
+    about = "run again what was recorded there; with --fast it gives the same, byte for byte"
+    add("--repeat", type=Path, metavar="DIR", help=about)
     add("--record-rejected", action="store_true", help="also write rejected words there")
     add("--keep", action="store_true", help="start from saved feelings, and save them")
     add("--headless", action="store_true", help="draw the face without a window")
@@ -84,9 +87,14 @@ def run(options: argparse.Namespace) -> int:
     """Check all files, then run until the end. Output that cannot be written does not stop the
     robot.
     """
+    if not (options.app or options.repeat):
+        raise HriError("no app - name one, such as companion")
     ending = Ending()
     with unfailing_output(), ending.kept_for_later():
-        return _run(options, ending)
+        if options.repeat is None:
+            return _run(options, ending)
+        with repeated(options, add_options, print) as recorded:
+            return _run(recorded, ending)
 
 
 def _run(options: argparse.Namespace, ending: Ending) -> int:
@@ -173,8 +181,8 @@ def inputs(options: argparse.Namespace) -> list[Path]:
 
 
 def memory_of(options: argparse.Namespace) -> str:
-    """The file of saved feelings; None unless requested."""
-    return str(memory_file()) if options.keep else ""
+    """The file of saved feelings, or those of the run that is repeated; None unless requested."""
+    return getattr(options, "memory", str(memory_file())) if options.keep else ""
 
 
 def mention_kept(options: argparse.Namespace, narrator: Narrator) -> None:
