@@ -15,6 +15,7 @@ from hri.core.errors import HriError
 from hri.core.event_bus import check_from_outside
 from hri.core.quoting import escaped
 from hri.core.signals import Event
+from hri.net.receipts import RECEIVED
 from hri.net.values import unquoted
 from hri.task.context import TaskContext
 from hri.task.events import parse_query, write_event
@@ -40,8 +41,8 @@ class EventServer(Primitive):
         self._subscription.cancel()
 
     def _tell(self, event: Event) -> None:
-        # Those who sent an event know of it.
-        if event.name != self._raising:
+        # Those who sent an event know of it, and that they did.
+        if event.name not in (self._raising, RECEIVED):
             self.inject("server", "event_id", event.name)
 
     def _raise(self, text: str, now: float) -> None:

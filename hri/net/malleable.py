@@ -21,6 +21,7 @@ from hri.net.inbox import Inbox
 from hri.net.loopback import is_loopback
 from hri.net.malleable_protocol import LONGEST, Item, Message, Sender, checked_name, split
 from hri.net.port_pool import borrow, give_back
+from hri.net.receipts import Receipts
 from hri.net.server import Server
 from hri.net.tcp_port import TcpPort
 
@@ -76,6 +77,7 @@ class MalleableBehavior(Behavior):
         self._clock = context.clock
         self._inbox = Inbox({name: port.datatype for name, port in self.outputs.items()})
         self._events = context.events
+        self._receipts = Receipts(self.tag_name, context.events)
         # The other end may be a robot, to which this program proves the token.
         self.may_do = ANYTHING if self.tcp_host else NOTHING
         self._door = Door(self, self.tag_name, context)
@@ -117,7 +119,9 @@ class MalleableBehavior(Behavior):
             self._is_told_to_stop = False
             with caused_by(BRIDGE):
                 self._events.raise_event("drive.halt", because="I was told to over the network")
-        for name, (value, spoken) in self._inbox.take(self._door.admits).items():
+        taken = self._inbox.take(self._door.admits)
+        self._receipts.take({name: value for name, (value, _) in taken.items()}, dt)
+        for name, (value, spoken) in taken.items():
             is_bare = self.keep_quotes or not isinstance(value, str)
             self.output_port(name).send(value if is_bare else values.unquoted(value), spoken)
 

@@ -8,6 +8,7 @@ from hri.behavior.doors import Doors
 from hri.core import paths
 from hri.net.connection import Connection
 from hri.net.event_server import EventServer
+from hri.net.receipts import RECEIVED
 from hri.task.task import find_task, task
 from tests.net.conftest import WITHIN, Taken
 from tests.task.stage import Stage
@@ -171,7 +172,7 @@ FORGED = [
 def raised(lines, token=None, events=()):
     stage = Stage()
     stage.context.networks.context.doors = Doors().with_more(events=events)
-    return stage.run(door, lines, token)
+    return [event for event in stage.run(door, lines, token) if event.name != RECEIVED]
 
 
 @pytest.mark.parametrize("events", [(), ("*",), ("speech.*",)])
