@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import json
+import logging
 import math
 from collections.abc import Collection, Mapping
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+import numpy as np
+
 from hri.core.errors import AuthoringError, Place
 from hri.core.event_bus import EventBus
 from hri.core.growing import GrowingFile
 from hri.core.reading import parse_json, read_lines
 from hri.core.signals import Event
+
+log = logging.getLogger("hri.recording")
 
 NOTHING: Mapping[str, Collection[str]] = MappingProxyType({})
 
@@ -27,7 +32,8 @@ _REMEDY = "delete this line, or record again"
 class EventLog:
     """Writes every event to a file: `t` in seconds, `event`, and the event's properties.
 
-    An event that was caused from outside has an `origin`, one that another program raised also
+    What JSON does not have is written as text; of an event beyond LONGEST_LINE, `omitted` has the
+    characters that were left out. An event that was caused from outside has an `origin`, one that another program raised also
     `"outside": true`.
     """
 
@@ -50,7 +56,11 @@ class EventLog:
             own["outside"] = True
         if event.origin:
             own["origin"] = event.origin
-        if not self._file.append(f"{_line({**own, **told, **own})}\n".encode()):
+        line = _line({**own, **told, **own})
+        if len(line) >= LONGEST_LINE - 1:  # no reader would take the log any more
+            log.warning("%s of %d characters is recorded without properties", event.name, len(line))
+            line = _line({**own, "omitted": len(line)})
+        if not self._file.append(f"{line}\n".encode()):
             self._subscription.cancel()
 
     def close(self) -> None:
@@ -103,11 +113,13 @@ def _is_text(line: str) -> bool:
 
 
 def _plain(value: Any) -> Any:
-    """JSON knows no infinity and no tuples of ours."""
+    """JSON knows no infinity, no tuples of ours, and nothing of an app's."""
     if isinstance(value, float) and not math.isfinite(value):
         return None
     if isinstance(value, dict):
         return {str(key): _plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
         return [_plain(item) for item in value]
-    return value
+    if isinstance(value, np.generic):
+        return _plain(value.item())
+    return value if value is None or isinstance(value, (str, int, float)) else str(value)

@@ -16,15 +16,14 @@ from typing import Any
 
 from hri.cli.drive.plan import Moment, Point, Run
 from hri.core.errors import HriError
-from hri.core.event_log import LARGEST_LOG
-from hri.core.reading import parse_json, read_text
+from hri.core.event_log import LARGEST_LOG, LONGEST_LINE
+from hri.core.reading import parse_json, read_lines
+from hri.core.recorded import EVENTS
 from hri.core.signals import Pose2D
 from hri.simulation.seeded_rooms import furnished
 from hri.simulation.trips import Journey
 from hri.simulation.world_file import load_layout
 
-EVENTS = "events.jsonl"
-"""The file in a robot's recording."""
 MOST_ROOMS = 100_000
 FARTHEST = 1e4
 """Meters from the origin; farther positions are errors."""
@@ -63,16 +62,20 @@ def _driven(number: int, policy: str) -> Run:
 
 
 def _lines(path: Path) -> Iterator[Mapping[str, Any]]:
-    text = read_text(path, "run, or number of a room", LARGEST_LOG)
-    *rows, last = text.split("\n")
-    for number, row in enumerate([*rows, last] if last else rows, 1):
-        try:
-            line = parse_json(row)
-        except ValueError as error:
-            raise HriError(f"{path}:{number}: not JSON: {error} - give a file of a run") from error
-        if not isinstance(line, dict):
-            raise HriError(f"{path}:{number}: not a JSON object - give a file of a run")
-        yield line
+    what = "run, or number of a room"
+    # A last line may have been cut off, also in the middle of a letter.
+    with read_lines(path, what, LARGEST_LOG, LONGEST_LINE, errors="surrogateescape") as rows:
+        for number, row in enumerate(rows, 1):
+            try:
+                line = parse_json(row)
+            except ValueError as error:
+                if number > 1 and not row.endswith("\n"):
+                    return
+                why = f"not JSON: {error} - give a file of a run"
+                raise HriError(f"{path}:{number}: {why}") from error
+            if not isinstance(line, dict):
+                raise HriError(f"{path}:{number}: not a JSON object - give a file of a run")
+            yield line
 
 
 def _of_events(path: Path, lines: list[Mapping[str, Any]]) -> Run:

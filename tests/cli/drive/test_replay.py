@@ -101,6 +101,14 @@ def test_a_recording_of_a_robot_is_drawn_by_its_odometry(tmp_path: Path) -> None
     assert Plan(run).whole().ndim == 3
 
 
+def test_a_recording_is_drawn_up_to_where_its_program_was_killed(tmp_path: Path) -> None:
+    whole = b'{"t": %d, "event": "odometry", "x_cm": 10, "y_cm": 0, "heading_rad": 0}\n'
+    said = '{"t": 2, "event": "speech.said", "text": "é"}\n'.encode()
+    for cut in range(len(said)):
+        (tmp_path / "events.jsonl").write_bytes(whole % 0 + whole % 1 + said[:cut])
+        assert len(read_run(str(tmp_path), "full").moments) == 2
+
+
 @pytest.mark.parametrize(
     ("text", "what"),
     [
