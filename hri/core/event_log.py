@@ -33,8 +33,8 @@ class EventLog:
     """Writes every event to a file: `t` in seconds, `event`, and the event's properties.
 
     What JSON does not have is written as text; of an event beyond LONGEST_LINE, `omitted` has the
-    characters that were left out. An event that was caused from outside has an `origin`, one that another program raised also
-    `"outside": true`.
+    characters that were left out. An event that was caused from outside has an `origin`, one that
+    another program raised also `"outside": true`.
     """
 
     def __init__(

@@ -32,10 +32,14 @@ from hri.speech.pronunciation.lexicon import user_lexicon
 from hri.vision.color.color_model import own_colors
 from hri.vision.objects.model_file import own_models
 
+CODE = Path(__file__).parents[1]
+"""The folder of hri itself: between two versions, it changes as well."""
 KINDS = ("apps", "config", "emotions", "faces", "grammars")
 """What is looked for in the search folders."""
 AUTHORED = frozenset((".color", ".jsgf", ".mdl", ".py", ".svg", ".toml", ".txt", ".xml"))
 """Suffixes of the files that count in a folder."""
+PASSED_OVER = ("node_modules", "recordings")
+"""Folders that do not, besides those whose names begin with a point or a line."""
 OTHER_VARIABLES = ("EVOLUTION_CONFIG_PATH", "XDG_CONFIG_HOME", "XDG_DATA_HOME")
 """Environment variables that decide a run, besides our own."""
 LARGEST = 2_000_000
@@ -89,7 +93,7 @@ class RunRecord:
             "platform": platform.platform(),
             "packages": _packages(),
             "environment": environment(),
-            "sources": digests((*_search_folders(), *_own_files(), *sources)),
+            "sources": digests((CODE, *_search_folders(), *_own_files(), *sources)),
             "models": sorted(path.name for path in _models()),
             "feelings": _feelings(feelings),
         }
@@ -215,11 +219,18 @@ def _digest(source: Path) -> str | None:
             return _sha256(source)
         if not source.is_dir():
             return None
-        files = sorted(path for path in source.rglob("*") if _counts(path))
+        files = sorted(path for path in _below(source) if _counts(path))
         lines = [f"{path.relative_to(source)} {_sha256(path)}\n" for path in files]
     except OSError:
         return None
     return hashlib.sha256(os.fsencode("".join(lines))).hexdigest()
+
+
+def _below(folder: Path) -> Iterator[Path]:
+    """The files of a folder and of those in it, except for what is fetched or made."""
+    for root, folders, names in os.walk(folder):
+        folders[:] = [name for name in folders if name[0] not in "._" and name not in PASSED_OVER]
+        yield from (Path(root, name) for name in names)
 
 
 def _sha256(file: Path) -> str:

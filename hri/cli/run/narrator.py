@@ -8,6 +8,7 @@ from typing import TextIO
 
 from hri.behavior.tick_statistics import Statistics
 from hri.cli.terminal.streams import let_go
+from hri.core.origin import KEYBOARD
 from hri.core.quoting import message_line
 from hri.core.signals import Event
 from hri.face.behaviors import FaceRenderer
@@ -108,6 +109,8 @@ class Narrator:
         if template is None:
             return
         text = template.format_map(_Known(event.properties, why=_why(event), error=_error(event)))
+        if event.origin not in ("", KEYBOARD):  # who types knows
+            text = f"{text} ({event.origin})"
         # Unknown without odometry in a network.
         where = "" if self._pose is None else "x {:5.2f} m  y {:5.2f} m".format(*self._pose)
         line = f"{event.time:7.1f} s  {text:<58}  {self._label:<12} {where}".rstrip()

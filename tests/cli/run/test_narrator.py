@@ -7,6 +7,7 @@ import pytest
 from hri.behavior.tick_statistics import Statistics
 from hri.cli.run.narrator import Narrator, missed_ticks
 from hri.core.clock import FakeClock
+from hri.core.origin import KEYBOARD, STUDIO, caused_by
 from hri.robot import Robot
 
 
@@ -58,3 +59,11 @@ def test_of_several_mistakes_the_first_is_printed(told):
     assert told("replies.refused", error=error, file="replies.toml").endswith(
         "refused replies.toml:1:1: one (and 2 more)"
     )
+
+
+def test_who_has_it_say_something_is_told_unless_they_type_there(told):
+    with caused_by(STUDIO):
+        assert told("speech.said", text="Wait.").endswith("said Wait. (studio)")
+    with caused_by(KEYBOARD):
+        assert told("speech.heard", text="hello").endswith("heard hello")
+    assert told("speech.said", text="Hello.").endswith("said Hello.")
