@@ -38,8 +38,9 @@ from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.robot.app import App, load_app
 from hri.robot.blocking_verbs import BlockingVerbs
-from hri.robot.provenance import RunRecord, Setup, authored, version
+from hri.robot.provenance import RunRecord, Setup, version
 from hri.robot.recording import Recording
+from hri.robot.sources import authored
 from hri.simulation.visitor import Visitor
 from hri.simulation.world import SimulatedWorld
 from hri.task import script
@@ -217,7 +218,7 @@ class Robot(BlockingVerbs):
                 if isinstance(behavior, CommandGate):
                     behavior.halt()
 
-    def finish(self, why: str = "finished") -> None:
+    def finish(self, *, why: str = "finished") -> None:
         """End `live`; a second call does nothing. `why` is for the record of a recording."""
         if not self._finished.is_set():
             self._why = why
@@ -257,7 +258,7 @@ class Robot(BlockingVerbs):
         script.leave(self.tasks)
         why = "the script ended" if kind is None else f"the script failed: {kind.__name__}"
         with suppress(RuntimeError):  # it may have ended by itself
-            thread.call(partial(self.finish, why))
+            thread.call(partial(self.finish, why=why))
         thread.join()
         self.tasks.thread = None
         if self.recording is not None:

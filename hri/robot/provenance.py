@@ -6,13 +6,12 @@ between them stands in `recording.json`: the command, when it ran, on what, and 
 
 from __future__ import annotations
 
-import hashlib
 import json
 import logging
 import os
 import platform
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
@@ -23,26 +22,15 @@ from typing import Any
 from hri.core import paths
 from hri.core.clock import Clock, RealClock
 from hri.core.errors import HriError
-from hri.core.growing import is_growing
 from hri.core.models import models_folder
 from hri.core.reading import parse_json, read_text
-from hri.core.recorded import ABOUT, EVENTS, FILES
+from hri.core.recorded import ABOUT, EVENTS
 from hri.core.writing import PRIVATE, write_text
-from hri.speech.pronunciation.lexicon import user_lexicon
-from hri.vision.color.color_model import own_colors
-from hri.vision.objects.model_file import own_models
+from hri.robot.sources import digests, of_every_run
 
-CODE = Path(__file__).parents[1]
-"""The folder of hri itself: between two versions, it changes as well."""
-KINDS = ("apps", "config", "emotions", "faces", "grammars")
-"""What is looked for in the search folders."""
-AUTHORED = frozenset((".color", ".jsgf", ".mdl", ".py", ".svg", ".toml", ".txt", ".xml"))
-"""Suffixes of the files that count in a folder."""
-PASSED_OVER = ("node_modules", "recordings")
-"""Folders that do not, besides those whose names begin with a point or a line."""
 OTHER_VARIABLES = ("EVOLUTION_CONFIG_PATH", "XDG_CONFIG_HOME", "XDG_DATA_HOME")
 """Environment variables that decide a run, besides our own."""
-LARGEST = 2_000_000
+LARGEST = 20_000_000
 """Bytes of a `recording.json` that is read."""
 SECRET = re.compile(r"token|secret|passw|code|credential|auth|api.?key", re.IGNORECASE)
 """What is in the name of an option, or of a part of an address, with a secret behind it."""
@@ -93,7 +81,7 @@ class RunRecord:
             "platform": platform.platform(),
             "packages": _packages(),
             "environment": environment(),
-            "sources": digests((CODE, *_search_folders(), *_own_files(), *sources)),
+            "sources": digests((*of_every_run(), *sources)),
             "models": sorted(path.name for path in _models()),
             "feelings": _feelings(feelings),
         }
@@ -137,13 +125,6 @@ def read_record(folder: Path) -> dict[str, Any]:
     return told
 
 
-def state_of(folder: Path, told: Mapping[str, Any]) -> str:
-    """Whether a recording has ended, in words."""
-    if why := told.get("why"):
-        return str(why)
-    return "still recorded" if is_growing(folder / EVENTS) else "killed"
-
-
 def environment() -> dict[str, str]:
     """The environment variables that decide a run; a token is not among them."""
     return {
@@ -151,19 +132,6 @@ def environment() -> dict[str, str]:
         for name, value in sorted(os.environ.items())
         if (name.startswith("HRI_") or name in OTHER_VARIABLES) and not SECRET.search(name)
     }
-
-
-def digests(sources: Iterable[Path]) -> dict[str, str | None]:
-    """SHA-256 of files, and of the authored files of folders, by their absolute paths; None for
-    what is not there, or cannot be read.
-    """
-    return {str(source): _digest(source) for source in dict.fromkeys(map(Path.resolve, sources))}
-
-
-def changed(sources: Mapping[str, str | None]) -> list[str]:
-    """The paths of what is no longer as it was, sorted."""
-    now = digests([Path(path) for path in sources])
-    return sorted(path for path in sources if now.get(path) != sources[path])
 
 
 def without_secrets(command: Sequence[str]) -> list[str]:
@@ -187,55 +155,6 @@ def _address_without(word: str) -> str:
     word = re.sub(r"(://[^/@:]*:)[^/@]*@", rf"\1{_HIDDEN}@", word)
     hidden = rf"([?&#][^=&#]*(?:{SECRET.pattern})[^=&#]*=)[^&#]*"
     return re.sub(hidden, rf"\1{_HIDDEN}", word, flags=re.IGNORECASE)
-
-
-def _search_folders() -> Iterator[Path]:
-    for folder in paths.search_folders():
-        yield from (folder / kind for kind in KINDS)
-
-
-def _own_files() -> Iterator[Path]:
-    """What the user taught the robot, and the words of the user's lexicon."""
-    yield user_lexicon()
-    yield own_colors()
-    yield own_models()
-
-
-def authored(folder: Path) -> list[Path]:
-    """The authored files right in a folder, sorted; none in one that cannot be read."""
-    try:
-        return sorted(path for path in folder.iterdir() if _counts(path))
-    except OSError:
-        return []
-
-
-def _counts(path: Path) -> bool:
-    return path.suffix in AUTHORED and path.name not in FILES and path.is_file()
-
-
-def _digest(source: Path) -> str | None:
-    try:
-        if source.is_file():
-            return _sha256(source)
-        if not source.is_dir():
-            return None
-        files = sorted(path for path in _below(source) if _counts(path))
-        lines = [f"{path.relative_to(source)} {_sha256(path)}\n" for path in files]
-    except OSError:
-        return None
-    return hashlib.sha256(os.fsencode("".join(lines))).hexdigest()
-
-
-def _below(folder: Path) -> Iterator[Path]:
-    """The files of a folder and of those in it, except for what is fetched or made."""
-    for root, folders, names in os.walk(folder):
-        folders[:] = [name for name in folders if name[0] not in "._" and name not in PASSED_OVER]
-        yield from (Path(root, name) for name in names)
-
-
-def _sha256(file: Path) -> str:
-    with file.open("rb") as opened:
-        return hashlib.file_digest(opened, "sha256").hexdigest()
 
 
 def _models() -> list[Path]:

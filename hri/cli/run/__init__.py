@@ -290,7 +290,7 @@ class Session:
             elif clock.now() - calm_since >= CALM_SECONDS:
                 why = "the input ended"
                 break
-        self.robot.finish(why)
+        self.robot.finish(why=why)
 
     def _end_time(self) -> tuple[float, str]:
         """When it ends, in seconds of the clock, and why."""
@@ -321,8 +321,8 @@ class Session:
     async def watch_window(self, context: TaskContext) -> None:
         """End when the window is closed."""
         await context.wait_for("window.closed")
-        self.robot.finish("the window was closed")
+        self.robot.finish(why="the window was closed")
 
     async def watch_signals(self, context: TaskContext) -> None:
         """End cleanly on Ctrl-C, or when the system or the terminal asks."""
-        await self.ending.wait(partial(self.robot.finish, "asked to end by a signal"))
+        await self.ending.wait(partial(self.robot.finish, why="asked to end by a signal"))

@@ -78,7 +78,7 @@ class Narrator:
         except BrokenPipeError:
             self._is_unread = True
             let_go(self.out)  # Python's flush at exit must not complain either
-            self.robot.finish("nobody reads its output")
+            self.robot.finish(why="nobody reads its output")
 
     async def greet(self, context: TaskContext) -> None:
         """Once the face is visible, print how to talk to the robot and how to end it."""

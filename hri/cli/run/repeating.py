@@ -15,7 +15,8 @@ from hri.cli.terminal.messages import OptionParser
 from hri.core.errors import HriError
 from hri.core.recorded import ABOUT
 from hri.core.writing import PRIVATE, write_text
-from hri.robot.provenance import changed, environment, read_record, version
+from hri.robot.provenance import environment, read_record, version
+from hri.robot.sources import changed
 
 OWN = frozenset((
     "allow_remote", "app", "command", "headless", "open", "port", "record", "repeat", "studio",
