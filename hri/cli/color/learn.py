@@ -61,9 +61,10 @@ def run(options: argparse.Namespace) -> int:
     pictures = list(_pictures(options))
     model = learn_color(options.name, pictures, date.today().isoformat())
     path = options.out or own_colors() / f"{options.name}{SUFFIX}"
+    replaced = ", which replaces the earlier one" if path.exists() else ""
     save_color(path, model)
     count = len(pictures)
-    print(f'learned "{options.name}" from {count} picture{"s" * (count != 1)}: {path}')
+    print(f'learned "{options.name}" from {count} picture{"s" * (count != 1)}: {path}{replaced}')
     return 0
 
 

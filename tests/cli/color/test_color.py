@@ -55,7 +55,11 @@ def test_without_a_box_the_middle_is_learned(home, capsys):
     cv2.imwrite(str(path), drawn((BLUE, (160, 120), 50))[..., ::-1])
     assert hri_color("learn", "cube", "--images", path) == 0
     assert hri_color("test", path, "--colors", "cube") == 0
-    assert "cube at (160, 120)" in capsys.readouterr().out
+    told = capsys.readouterr().out
+    assert "cube at (160, 120)" in told
+    assert "replaces" not in told
+    assert hri_color("learn", "cube", "--images", path) == 0
+    assert capsys.readouterr().out.endswith("cube.color, which replaces the earlier one\n")
 
 
 def test_colors_are_listed_shown_checked_and_removed(home, balls, capsys):
