@@ -11,6 +11,7 @@ from typing import Any, Generic, TypeVar, overload
 from hri.core import signals
 from hri.core.errors import did_you_mean
 from hri.core.expression import evaluate
+from hri.core.origin import OUTSIDE
 
 T = TypeVar("T")
 
@@ -112,6 +113,11 @@ class InputPort(Generic[T]):
         See `OutputPort.spoken`.
         """
         return None if (source := self.source) is None else source.spoken
+
+    @property
+    def origin(self) -> str:
+        """Who causes what `value` leads to, as `hri.core.origin` has it; empty: this network."""
+        return "" if self.spoken is None else OUTSIDE
 
     @property
     def rank(self) -> str:

@@ -18,6 +18,8 @@ KEYBOARD = "keyboard"
 """Someone who types, or presses keys of the window."""
 BRIDGE = "bridge"
 """Another program, over TCP."""
+OUTSIDE = "outside"
+"""A value that a network passes on from outside of it: of another program, or of a joystick."""
 
 _origin: ContextVar[str] = ContextVar("origin", default="")
 

@@ -10,6 +10,7 @@ from hri.behavior.drive_command import counts_until
 from hri.behavior.effects import NOTHING
 from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
 from hri.core.event_bus import EventBus
+from hri.core.origin import caused_by
 from hri.core.signals import RangeReading, Twist
 from hri.drive.gate import ANGULAR_FACTOR, VelocityGate
 from hri.drive.oncoming_watch import OncomingWatch, stopping_time
@@ -79,6 +80,8 @@ class CommandGate(Behavior):
         self._taken: tuple[Twist, float] | None = None
         self._asker = ""
         """The rank of whoever asked last; an empty one is that of the network."""
+        self._origin = ""
+        """Of the last command."""
         self._was_bumped = False
         self._must_let_go = False
         self._subscription = context.events.subscribe("drive.halt", lambda event: self.halt())
@@ -98,7 +101,8 @@ class CommandGate(Behavior):
         else:
             self.velocity.send(self._passed(now))
             self.velocity.rank = self._rank(now)
-        self._reporter.report(self._gate, now)
+        with caused_by(self._origin):
+            self._reporter.report(self._gate, now)
 
     def stop(self) -> None:
         self._subscription.cancel()
@@ -140,12 +144,14 @@ class CommandGate(Behavior):
             if not self._must_let_go:
                 self._gate.command(twist, now)
                 self._asker = ""
+                self._origin = self.twist.origin
             return
         command, time = self._slot.get()
         if command is not None and (command, time) != self._taken:
             self._taken = (command, time)
             self._gate.command(command, time)
             self._asker = Rank.TASKS
+            self._origin = ""
 
     def _rank(self, now: float) -> str:
         """Of who asks; a network that asks for rest asks, too, and a task that does has ended."""
@@ -247,7 +253,8 @@ class MotionReporter:
                 )
         elif not gate.is_moving and self._reported != REST:
             self._reported = REST
-            self._events.raise_event("drive.stopped", reason=gate.reason)
+            with caused_by(""):  # also an obstacle, or the end of its patience, may be why
+                self._events.raise_event("drive.stopped", reason=gate.reason)
 
     def _is_news(self, target: Twist, now: float) -> bool:
         if self._reported == REST:

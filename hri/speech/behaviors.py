@@ -5,6 +5,7 @@ from __future__ import annotations
 from hri.behavior.behavior import Context
 from hri.behavior.effects import Effect
 from hri.behavior.ports import Input, Param
+from hri.core.origin import caused_by
 from hri.speech.listener import Listener
 from hri.speech.voice import Saying, Voice
 
@@ -25,6 +26,7 @@ class SpeakOn(Voice):
     def compute(self, now: float, dt: float) -> None:
         is_true = bool(self.trigger.value)
         if is_true and not self._was_true:
-            self.say(self.text)
+            with caused_by(self.trigger.origin):
+                self.say(self.text)
         self._was_true = is_true
         super().compute(now, dt)
