@@ -1,32 +1,30 @@
-"""Networks as files: where they are, which may be written, and drafts of what is not saved.
+"""Networks as files: where they are, which may be written, and what is open with its drafts.
 
 The file on the disk is the only truth. It is replaced whole or not at all, and only while it is
-still what the page believes it to be. A draft lies beside its file, or in the user's folder where
-nothing may be written there.
+still what the page believes it to be.
 """
 
 from __future__ import annotations
 
-import hashlib
-import json
 import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from hri.core import paths
 from hri.core.errors import HriError
-from hri.core.privacy import private_folder
-from hri.core.reading import parse_json, read_bytes
-from hri.core.writing import PRIVATE, NotWritten, delete, make_folder, write_bytes
+from hri.core.reading import read_bytes
+from hri.core.writing import NotWritten, make_folder, write_bytes
 from hri.robot.app import load_app
+from hri.studio.composer import drafts
+from hri.studio.composer.drafts import Draft, mark_of
 
 LARGEST = 1_000_000
 """Bytes of a network."""
 MOST_LISTED = 1000
-SUFFIX = ".draft"
 _FOLDERS = {"config/networks": "network", "networks": "network", "config/primitive": "primitive"}
 _ROOT = b"<BehaviorNetwork"
 _LONGEST_HEAD = 4096
@@ -67,12 +65,15 @@ class Library:
     def listed(self) -> Json:
         """All that are known, apps first, each once."""
         found: dict[str, Json] = {}
-        for path, kind, app in (*self._of_apps(), *self._of_folders(), *self._drafted()):
+        names = cache(drafts.names_in)
+        known = (*self._of_apps(), *self._of_folders())
+        folders = {self.home, drafts.user_folder(), *(path.parent for path, _, _ in known)}
+        for path, kind, app in (*known, *self._drafted(sorted(folders), names)):
             if len(found) < MOST_LISTED:
-                found.setdefault(str(path), self._row(path, kind, app))
+                found.setdefault(str(path), self._row(path, kind, app, names))
         return {"networks": list(found.values()), "home": str(self.home)}
 
-    def _row(self, path: Path, kind: str, app: str | None) -> Json:
+    def _row(self, path: Path, kind: str, app: str | None, names: drafts.Names) -> Json:
         return {
             "path": str(path),
             "name": path.stem,
@@ -80,7 +81,7 @@ class Library:
             "app": app,
             "kind": kind,
             "is_writable": not why_not(path),
-            "has_draft": _draft_of(path).is_file(),
+            "has_draft": any(drafts.files_of(path, names)),
         }
 
     def _of_apps(self) -> Iterator[tuple[Path, str, str | None]]:
@@ -112,12 +113,14 @@ class Library:
             for below, kind in _FOLDERS.items():
                 yield from ((path, kind, None) for path in _networks_in(root / below, "**/*.xml"))
 
-    def _drafted(self) -> Iterator[tuple[Path, str, str | None]]:
+    def _drafted(
+        self, folders: Sequence[Path], names: drafts.Names
+    ) -> Iterator[tuple[Path, str, str | None]]:
         """Networks that were never saved."""
-        for folder in (self.home, _drafts()):
-            for file in sorted(folder.glob(f".*{SUFFIX}")):
-                with suppress(HriError, KeyError, TypeError):
-                    path = Path(_read_draft(file)["path"])
+        for folder in folders:
+            for name in sorted(names(folder)):
+                with suppress(HriError):
+                    path = Path(drafts.read(folder / name).path)
                     if self.may_see(path):
                         yield path, "network", None
 
@@ -134,7 +137,8 @@ class Library:
         """The path that the page names. Raises HriError for one that is not its business."""
         try:
             path = Path(os.path.normpath(text))
-            is_seen = bool(text) and "\0" not in text and self.may_see(path)
+            is_short = len(os.fsencode(path.name)) <= drafts.LONGEST_NAME
+            is_seen = bool(text) and "\0" not in text and is_short and self.may_see(path)
         except (OSError, ValueError):
             is_seen = False
         if not is_seen:
@@ -142,26 +146,62 @@ class Library:
             raise HriError(f"{what} - name an .xml file in {self.home}, or set HRI_PATH")
         return path
 
-    def open(self, text: str) -> Json:
-        """A network and its draft, if there is one. Raises HriError, NoFile."""
+    def new(self, text: str) -> Json:
+        """The path of a network that can begin there. Raises HriError."""
+        if not Path(text).name.removesuffix(".xml") or text.endswith("/"):
+            raise HriError(f'"{text[:200]}" has no name - add one, such as follow_me.xml')
         path = self.path_of(text)
-        draft = _draft_of(path)
-        kept = _read_draft(draft) if paths.is_file(draft) else None
-        if not paths.is_file(path) and kept is None:
-            raise NoFile(f"{path}: there is no such network - it may have been moved")
+        if path.name.startswith("."):
+            raise HriError(f'"{path.name}" is a hidden file - begin the name with a letter')
+        if "~" in path.parts:
+            raise HriError(f'"{text[:200]}" has a folder "~" - write the path of your folder out')
+        if paths.exists(path) or any(drafts.files_of(path)):
+            raise HriError(f"{path}: is there already - open it, or take another name")
+        if why := why_not(path):
+            raise HriError(f"{path}: {why} - choose another folder, such as {self.home}")
+        return {"path": str(path)}
+
+    def open(self, text: str) -> Json:
+        """A network and the drafts of it, newest first. Raises HriError, NoFile."""
+        path = self.path_of(text)
         content, mark = _content(path)
+        found, damaged = self._left(path, content if mark else None)
+        if mark is None and not found:
+            if damaged:
+                raise HriError(damaged[0])
+            raise NoFile(f"{path}: there is no such network - it may have been moved")
+        rows = [
+            {"page": one.page, "text": one.text, "mark": one.mark, "time": one.time}
+            | {"seen": one.seen}
+            for one in found
+        ]
         return {
             "path": str(path),
             "text": content,
             "mark": mark,
             "is_writable": not why_not(path),
             "why": why_not(path),
-            "draft": kept and {key: kept.get(key) for key in ("text", "mark", "time")},
+            "draft": {key: rows[0][key] for key in ("text", "mark", "time")} if rows else None,
+            "drafts": rows,
+            "damaged": damaged,
         }
 
-    def save(self, text: str, content: str, mark: str | None) -> Json:
-        """Replace a file that is as `mark` says, and forget its draft. Raises HriError, Changed."""
-        path = self.path_of(text)
+    def _left(self, path: Path, content: str | None) -> tuple[list[Draft], list[str]]:
+        """The drafts of a network; those that the file has word by word are dropped."""
+        found, damaged = drafts.drafts_of(path)
+        for one in found:
+            if one.text == content:
+                drafts.drop(path, one.page, seen=one.seen)
+        return [one for one in found if one.text != content], damaged
+
+    def save(
+        self, text: str, content: str, mark: str | None, page: str = "", count: str = ""
+    ) -> Json:
+        """Replace a file that is as `mark` says; the draft of this page goes, unless its text is
+        later than `count`. Raises HriError, Changed.
+        """
+        path, until = self.path_of(text), _number(count)
+        drafts.check_page(page)
         if why := why_not(path):
             raise HriError(f"{path}: {why} - save it as another file")
         here, now = _content(path)
@@ -171,31 +211,36 @@ class Library:
         data = _encoded(content)
         make_folder(path.parent)
         write_bytes(path, data)
-        delete(_draft_of(path))
-        return {"mark": _mark(data)}
+        with suppress(HriError):  # it is saved, whatever becomes of the draft
+            drafts.drop(path, page, until)
+        return {"mark": mark_of(data)}
 
-    def keep_draft(self, text: str, content: str, mark: str | None) -> Json:
-        """Keep what is not saved. Raises HriError."""
+    def keep_draft(
+        self, text: str, content: str, mark: str | None, page: str = "", count: str = ""
+    ) -> Json:
+        """Keep what a page has not saved. Raises HriError."""
         path = self.path_of(text)
         _encoded(content)
-        draft = _draft_of(path)
-        kept = {"path": str(path), "text": content, "mark": mark, "time": self.now()}
-        if draft.parent == _drafts():
-            private_folder(draft.parent)
-        else:
-            make_folder(draft.parent)
-        write_bytes(draft, json.dumps(kept, ensure_ascii=False).encode("utf-8"), PRIVATE)
+        draft = Draft(str(path), page, content, mark, self.now(), _number(count) or 0)
+        drafts.keep(draft, _content(path)[0], _is_open(path))
         return {}
 
-    def drop_draft(self, text: str) -> Json:
-        """Forget a draft, if there is one."""
-        delete(_draft_of(self.path_of(text)))
+    def drop_draft(self, text: str, page: str = "", seen: str = "") -> Json:
+        """Forget a draft, if there is one; with `seen` only if that is still its text."""
+        drafts.drop(self.path_of(text), page, seen=seen)
         return {}
 
-    def watch(self, text: str, mark: str) -> Json:
-        """Whether the file is still as `mark` says; its text where it is not."""
-        content, now = _content(self.path_of(text))
-        return {"mark": now} if (now or "") == mark else {"mark": now, "text": content}
+    def watch(self, text: str, mark: str, page: str = "") -> Json:
+        """Whether the file is still as `mark` says; its text where it is not; with a page whether
+        its draft is there.
+        """
+        path = self.path_of(text)
+        content, now = _content(path)
+        found: Json = {"mark": now} if (now or "") == mark else {"mark": now, "text": content}
+        if page:
+            files = (drafts.file_of(path, page, is_beside) for is_beside in (True, False))
+            found["has_draft"] = any(paths.is_file(file) for file in files)
+        return found
 
 
 def why_not(path: Path) -> str:
@@ -225,26 +270,16 @@ def _networks_in(folder: Path, pattern: str) -> Iterator[Path]:
                         yield path
 
 
-def _drafts() -> Path:
-    return paths.data_folder() / "drafts"
+def _is_open(path: Path) -> bool:
+    """Whether a draft can lie beside a network."""
+    is_ours = not _is_installed(path) and path.parent.is_dir()
+    return is_ours and os.access(path.parent, os.W_OK)
 
 
-def _draft_of(path: Path) -> Path:
-    beside = path.parent / f".{path.name}{SUFFIX}"
-    if not _is_installed(path) and path.parent.is_dir() and os.access(path.parent, os.W_OK):
-        return beside
-    return _drafts() / f".{_mark(str(path).encode('utf-8', 'surrogateescape'))[:32]}{SUFFIX}"
-
-
-def _read_draft(file: Path) -> Json:
-    """Raises HriError for one that is damaged."""
-    try:
-        kept = parse_json(read_bytes(file, "draft", 4 * LARGEST))
-    except ValueError as error:
-        raise HriError(f"{file}: the draft is damaged - delete it") from error
-    if not isinstance(kept, dict) or not isinstance(kept.get("text"), str):
-        raise HriError(f"{file}: the draft is damaged - delete it")
-    return kept
+def _number(digits: str) -> int | None:
+    if digits and not (digits.isascii() and digits.isdigit() and len(digits) < 16):
+        raise HriError(f'"{digits[:50]}" is not a count - write digits')
+    return int(digits) if digits else None
 
 
 def _content(path: Path) -> tuple[str, str | None]:
@@ -253,7 +288,7 @@ def _content(path: Path) -> tuple[str, str | None]:
         return "", None
     data = read_bytes(path, "network", LARGEST)
     try:
-        return data.decode("utf-8"), _mark(data)
+        return data.decode("utf-8"), mark_of(data)
     except UnicodeDecodeError as error:
         raise HriError(f"{path}: not UTF-8 text - save it as UTF-8") from error
 
@@ -266,7 +301,3 @@ def _encoded(content: str) -> bytes:
     if len(data) > LARGEST:
         raise NotWritten(f"a network of {len(data)} bytes - at most {LARGEST} are kept")
     return data
-
-
-def _mark(data: bytes) -> str:
-    return hashlib.sha256(data).hexdigest()

@@ -40,33 +40,55 @@ class Route:
     """In the address of a GET or DELETE, else in the body."""
 
 
+_OF_PAGE = {
+    "page": "who edits: up to 32 small letters and digits; empty for a script",
+    "count": "digits that rise with each text of a page: no text replaces or drops a later draft",
+}
 ROUTES = (
     Route("", "GET", "the networks that can be opened, and `home`, where new ones go", {}),
     Route(
         "/file",
         "GET",
-        "a network: its text, and the SHA-256 of its bytes as `mark`; with the draft of what was "
-        "not saved",
+        "a network: its text, and the SHA-256 of its bytes as `mark`; with the drafts of what was "
+        "not saved, newest first",
         {"path": "its file"},
     ),
     Route(
         "/file",
         "PUT",
         "save a network; 409 with the text that is there now, where that is not as `mark` says",
-        {"path": "its file", "text": "all of it", "mark": "of what it replaces; null for none"},
+        {"path": "its file", "text": "all of it", "mark": "of what it replaces; null for none"}
+        | _OF_PAGE,
     ),
     Route(
         "/draft",
         "PUT",
-        "keep what is not saved yet",
-        {"path": "its file", "text": "all of it", "mark": "of the file that it began from"},
+        "keep what is not saved yet, a draft for each page",
+        {"path": "its file", "text": "all of it", "mark": "of the file that it began from"}
+        | _OF_PAGE,
     ),
-    Route("/draft", "DELETE", "forget the draft", {"path": "its file"}),
+    Route(
+        "/draft",
+        "DELETE",
+        "forget a draft",
+        {
+            "path": "its file",
+            "page": "whose draft; empty for that of an older version",
+            "seen": "the draft goes only if this is its `seen`; empty for whatever it has",
+        },
+    ),
+    Route(
+        "/new",
+        "GET",
+        "the path of a network that can begin there; 409 with the reason where it cannot",
+        {"path": "its file"},
+    ),
     Route(
         "/watch",
         "GET",
-        "whether the file is still as `mark` says; its text where it is not",
-        {"path": "its file", "mark": "as it was, empty for none"},
+        "whether the file is still as `mark` says; its text where it is not; whether a page's "
+        "draft is there",
+        {"path": "its file", "mark": "as it was, empty for none", "page": "whose draft"},
     ),
     Route(
         "/check",
@@ -97,14 +119,19 @@ class NetworkRoutes:
         answers: dict[tuple[str, str], Callable[..., Awaitable[Json]]] = {
             ("", "GET"): lambda: self._from_disk(library.listed),
             ("/file", "GET"): lambda path: self._from_disk(library.open, path),
-            ("/file", "PUT"): lambda path, text, mark: self._from_disk(
-                library.save, path, text, mark
+            ("/file", "PUT"): lambda path, text, mark, page, count: self._from_disk(
+                library.save, path, text, mark, page, count
             ),
-            ("/draft", "PUT"): lambda path, text, mark: self._from_disk(
-                library.keep_draft, path, text, mark
+            ("/draft", "PUT"): lambda path, text, mark, page, count: self._from_disk(
+                library.keep_draft, path, text, mark, page, count
             ),
-            ("/draft", "DELETE"): lambda path: self._from_disk(library.drop_draft, path),
-            ("/watch", "GET"): lambda path, mark: self._from_disk(library.watch, path, mark),
+            ("/draft", "DELETE"): lambda path, page, seen: self._from_disk(
+                library.drop_draft, path, page, seen
+            ),
+            ("/new", "GET"): lambda path: self._from_disk(library.new, path),
+            ("/watch", "GET"): lambda path, mark, page: self._from_disk(
+                library.watch, path, mark, page
+            ),
             ("/check", "POST"): lambda path, text: self._workshop.ask("check", text, path),
             ("/palette", "GET"): self._palette,
             ("/schema", "GET"): lambda type: self._workshop.ask("schema", type),

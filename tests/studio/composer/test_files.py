@@ -8,7 +8,7 @@ from hypothesis import given, strategies as st
 
 from hri.core import paths
 from hri.core.errors import HriError
-from hri.studio.composer import files
+from hri.studio.composer import drafts, files
 from hri.studio.composer.files import LARGEST, Changed, Library, NoFile
 
 SHIPPED = sorted(
@@ -65,6 +65,8 @@ def test_a_new_network_is_saved_where_there_is_none(library, path):
         "is_writable": True,
         "why": "",
         "draft": None,
+        "drafts": [],
+        "damaged": [],
     }
 
 
@@ -147,11 +149,137 @@ def test_a_draft_goes_to_the_users_folder_where_nothing_may_be_written(library, 
     library.drop_draft(shipped)
 
 
-def test_a_damaged_draft_is_named(library, path):
-    library.save(path, NETWORK, None)
+def test_a_damaged_draft_is_named_and_hides_nothing(library, path):
     (library.start / ".one.xml.draft").write_text('{"text": 3')
     with pytest.raises(HriError, match="the draft is damaged - delete it"):
         library.open(path)
+    library.save(path, NETWORK, None, "a")
+    library.keep_draft(path, "<b/>", None, "b")
+    opened = library.open(path)
+    assert (opened["text"], texts_of(opened)) == (NETWORK, ["<b/>"])
+    assert opened["damaged"] == [
+        f"{library.start / '.one.xml.draft'}: the draft is damaged - delete it"
+    ]
+
+
+def texts_of(opened):
+    return [one["text"] for one in opened["drafts"]]
+
+
+def test_each_page_has_a_draft_that_no_other_replaces_or_deletes(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+    times = iter(range(100))
+    library = Library(lambda: float(next(times)), start=tmp_path)
+    path = str(tmp_path / "one.xml")
+    mark = library.save(path, NETWORK, None)["mark"]
+    for page in ("", "a", "b"):
+        library.keep_draft(path, f"<of{page}/>", mark, page)
+    names = {file.name for file in tmp_path.glob(".*.draft")}
+    assert names == {".one.xml.draft", ".one.xml.a.draft", ".one.xml.b.draft"}
+    assert all(file.stat().st_mode & 0o077 == 0 for file in tmp_path.glob(".*.draft"))
+    assert texts_of(library.open(path)) == ["<ofb/>", "<ofa/>", "<of/>"]
+    assert library.open(path)["draft"]["text"] == "<ofb/>"
+    mark = library.save(path, "<ofa/>", mark, "a")["mark"]
+    assert texts_of(library.open(path)) == ["<ofb/>", "<of/>"]
+    library.save(path, NETWORK, mark)
+    assert texts_of(library.open(path)) == ["<ofb/>"]
+    library.keep_draft(str(tmp_path / "one.xml.xml"), "<other/>", None, "b")
+    assert texts_of(library.open(path)) == ["<ofb/>"]
+
+
+def test_a_text_of_a_page_that_comes_late_replaces_no_later_one(library, path):
+    mark = library.save(path, NETWORK, None)["mark"]
+    library.keep_draft(path, "<later/>", mark, "a", "7")
+    library.keep_draft(path, "<earlier/>", mark, "a", "6")
+    assert texts_of(library.open(path)) == ["<later/>"]
+    library.save(path, "<earlier/>", mark, "a", "6")
+    assert texts_of(library.open(path)) == ["<later/>"]
+    with pytest.raises(HriError, match="write digits"):
+        library.keep_draft(path, "<x/>", mark, "a", "-1")
+
+
+def test_a_draft_is_discarded_only_as_it_was_seen(library, path):
+    library.keep_draft(path, "<seen/>", None, "a", "1")
+    (row,) = library.open(path)["drafts"]
+    library.keep_draft(path, "<more/>", None, "a", "2")
+    library.drop_draft(path, "a", row["seen"])
+    (row,) = library.open(path)["drafts"]
+    assert row["text"] == "<more/>"
+    assert library.watch(path, "", "a") == {"mark": None, "has_draft": True}
+    library.drop_draft(path, "a", row["seen"])
+    assert library.watch(path, "", "a") == {"mark": None, "has_draft": False}
+
+
+def test_a_draft_that_the_file_has_word_by_word_is_gone(library, path):
+    mark = library.save(path, NETWORK, None)["mark"]
+    library.keep_draft(path, NETWORK, mark, "a")
+    assert library.open(path)["drafts"] == []
+    assert list(library.start.glob(".*.draft")) == []
+
+
+def test_of_too_many_drafts_only_what_is_elsewhere_too_is_dropped(library, path):
+    mark = library.save(path, NETWORK, None)["mark"]
+    for number in range(drafts.MOST - 2):
+        library.keep_draft(path, f"<n{number}/>", mark, f"p{number}")
+    library.keep_draft(path, "<n0/>", mark, "same")
+    library.keep_draft(path, NETWORK, mark, "file")
+    library.keep_draft(path, "<new/>", mark, "new")
+    library.keep_draft(path, "<newer/>", mark, "newer")
+    with pytest.raises(HriError, match="open it in another tab and discard one"):
+        library.keep_draft(path, "<newest/>", mark, "newest")
+    library.keep_draft(path, "<newer2/>", mark, "newer")
+    library.keep_draft(path, "<n1/>", mark, "continues")
+    found = texts_of(library.open(path))
+    assert len(found) == drafts.MOST
+    kept = {f"<n{number}/>" for number in range(drafts.MOST - 2)} | {"<new/>", "<newer2/>"}
+    assert set(found) == kept
+
+
+def test_drafts_are_found_wherever_they_could_be_kept(library, path, monkeypatch):
+    mark = library.save(path, NETWORK, None)["mark"]
+    library.keep_draft(path, "<beside/>", mark, "a")
+    monkeypatch.setattr(files, "_is_open", lambda path: False)
+    library.keep_draft(path, "<apart/>", mark, "b")
+    assert set(texts_of(library.open(path))) == {"<beside/>", "<apart/>"}
+    long = str(library.start / ("x" * 240 + ".xml"))
+    library.keep_draft(long, "<long/>", None, "a")
+    assert texts_of(library.open(long)) == ["<long/>"]
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("{start}/.xml", "has no name"),
+        ("{start}/sub/", "has no name"),
+        ("{start}/.xml.xml", "is a hidden file"),
+        ("{start}/../one.xml", "is not in a folder of networks"),
+        ("{start}/a/../../one.xml", "is not in a folder of networks"),
+        ("/etc/one.xml", "is not in a folder of networks"),
+        ("{start}/~/one.xml", "write the path of your folder out"),
+        ("{start}/there.xml", "is there already"),
+        ("{start}/drafted.xml", "is there already"),
+        ("{start}/closed/one.xml", "choose another folder"),
+    ],
+)
+def test_a_network_begins_only_where_it_can_be_saved(library, monkeypatch, name, why):
+    monkeypatch.setattr(
+        files, "why_not", lambda path: "write-protected" if "closed" in str(path) else ""
+    )
+    (library.start / "there.xml").write_text(NETWORK)
+    library.keep_draft(str(library.start / "drafted.xml"), NETWORK, None, "a")
+    with pytest.raises(HriError, match=why):
+        library.new(name.format(start=library.start))
+    good = f"{library.start}/sub/../two.xml"
+    assert library.new(good) == {"path": str(library.start / "two.xml")}
+
+
+def test_a_page_has_a_short_plain_name(library, path):
+    library.save(path, NETWORK, None)
+    for page in ("../x", "A", "a.b", "x" * 33, "ä"):
+        for work in (library.keep_draft, library.save):
+            with pytest.raises(HriError, match="names no page"):
+                work(path, "<gone/>", None, page)
+    assert library.open(path)["text"] == NETWORK
 
 
 @pytest.mark.parametrize(
@@ -213,3 +341,10 @@ def test_drafts_that_come_all_at_once_leave_a_whole_one(library, path):
     with ThreadPoolExecutor(8) as pool:
         list(pool.map(lambda text: library.keep_draft(path, text, None), texts))
     assert library.open(path)["draft"]["text"] in texts
+
+
+def test_drafts_of_many_pages_that_come_all_at_once_are_all_there(library, path):
+    pages = [f"p{number}" for number in range(drafts.MOST)]
+    with ThreadPoolExecutor(8) as pool:
+        list(pool.map(lambda page: library.keep_draft(path, f"<{page}/>", None, page), pages))
+    assert set(texts_of(library.open(path))) == {f"<{page}/>" for page in pages}
