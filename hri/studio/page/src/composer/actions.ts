@@ -1,9 +1,10 @@
 // What a person can do to a network: one table behind toolbar, keys, and the list of keys.
 
 import { arrangedParts, type Mode } from "./canvas";
+import { copyByButton, deleteChosen, pasteByButton } from "./clipboard";
 import type { Composition } from "./composition";
 import type { ComposerDocument } from "./document";
-import { addBehavior, copy, freeId, idFor, move, paste, remove } from "./edits";
+import { addBehavior, freeId, idFor, move } from "./edits";
 import type { Box } from "./network";
 
 export interface Action {
@@ -12,6 +13,8 @@ export interface Action {
   about: string;
   /** As KeyboardEvent.key has it, with "Ctrl+" and "Shift+" before; Cmd counts as Ctrl. */
   keys: string[];
+  /** The browser knows the keys, and brings or takes the clipboard with them. */
+  isOfClipboard?: true;
   /** Of the toolbar; without one it has a key alone. */
   group?: "file" | "edit" | "look";
   isPossible?(): boolean;
@@ -35,32 +38,19 @@ export interface Desk {
   fit(): void;
 }
 
-/** Between a copy and what it is of. */
-const BESIDE: Box = { x: 30, y: 30 };
 /** Between a new behavior and the lowest one. */
 const BELOW = 40;
-let clipboard = "";
 
 export function actionsOf(desk: Desk): Action[] {
   const { doc } = desk;
   const { history } = doc;
   const chosen = () => [...doc.selection.value.ids];
-  const chosenLinks = () => doc.network.links.filter((one) => doc.selection.value.links.has(`${one.from} -> ${one.to}`));
-  const isAny = () => chosen().length + chosenLinks().length > 0;
+  const isAny = () => chosen().length + doc.selection.value.links.size > 0;
   const isReadable = () => history.error === null;
-  const drop = () => {
-    doc.apply(remove(doc.network, chosen(), chosenLinks()), chosen().length === 1 ? `delete ${chosen()[0]}` : "delete what was selected");
-    doc.select([]);
-  };
   const align = (side: "x" | "y") => {
     const places = new Map(chosen().map((id) => [id, desk.places().get(id)!]));
     const edge = Math.min(...[...places.values()].map((one) => one[side]));
     doc.apply(move(doc.network, new Map([...places].map(([id, box]) => [id, { ...box, [side]: edge }]))), "align");
-  };
-  const take = () => {
-    clipboard = copy(doc.network, chosen());
-    void navigator.clipboard?.writeText(clipboard).catch(() => {});
-    doc.notice.set(`copied ${chosen().length}`);
   };
   return [
     { id: "new", label: "New", about: "begin a new network", keys: [], group: "file", run: () => desk.ask("new") },
@@ -69,17 +59,10 @@ export function actionsOf(desk: Desk): Action[] {
     { id: "save-as", label: "Save as", about: "save it as another file", keys: ["Ctrl+Shift+S"], group: "file", isPossible: () => doc.path.value !== "", run: () => desk.ask("save as") },
     { id: "undo", label: "Undo", about: "undo the last change", keys: ["Ctrl+z"], group: "edit", isPossible: () => history.undoLabel !== null, run: () => doc.undo() },
     { id: "redo", label: "Redo", about: "do again what was undone", keys: ["Ctrl+Shift+Z", "Ctrl+y"], group: "edit", isPossible: () => history.redoLabel !== null, run: () => doc.redo() },
-    { id: "copy", label: "Copy", about: "copy what is selected", keys: ["Ctrl+c"], group: "edit", isPossible: () => isReadable() && chosen().length > 0, run: take },
-    { id: "cut", label: "Cut", about: "cut what is selected out", keys: ["Ctrl+x"], isPossible: () => isReadable() && chosen().length > 0, run: () => { take(); drop(); } },
-    {
-      id: "paste", label: "Paste", about: "paste what was copied", keys: ["Ctrl+v"], group: "edit", isPossible: () => isReadable() && clipboard !== "",
-      run: () => {
-        const { splices, ids } = paste(doc.network, clipboard, BESIDE);
-        doc.apply(splices, ids.length === 1 ? `paste ${ids[0]}` : `paste ${ids.length} behaviors`);
-        doc.select(ids);
-      },
-    },
-    { id: "delete", label: "Delete", about: "delete what is selected", keys: ["Delete", "Backspace"], group: "edit", isPossible: () => isReadable() && isAny(), run: drop },
+    { id: "copy", label: "Copy", about: "copy what is selected", keys: ["Ctrl+c"], isOfClipboard: true, group: "edit", isPossible: () => isReadable() && chosen().length > 0, run: () => void copyByButton(doc) },
+    { id: "cut", label: "Cut", about: "cut what is selected out", keys: ["Ctrl+x"], isOfClipboard: true, isPossible: () => isReadable() && chosen().length > 0, run: () => { void copyByButton(doc); deleteChosen(doc); } },
+    { id: "paste", label: "Paste", about: "paste what was copied, here or elsewhere", keys: ["Ctrl+v"], isOfClipboard: true, group: "edit", isPossible: () => isReadable() && doc.path.value !== "", run: () => void pasteByButton(doc) },
+    { id: "delete", label: "Delete", about: "delete what is selected", keys: ["Delete", "Backspace"], group: "edit", isPossible: () => isReadable() && isAny(), run: () => deleteChosen(doc) },
     { id: "select-all", label: "Select all", about: "select all behaviors", keys: ["Ctrl+a"], run: () => doc.select(doc.network.behaviors.map((one) => one.id)) },
     {
       id: "arrange", label: "Arrange", about: "place all parts from left to right", keys: ["a"], group: "look", isPossible: isReadable,

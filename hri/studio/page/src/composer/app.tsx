@@ -4,6 +4,7 @@ import { ReactFlowProvider, useReactFlow } from "@xyflow/react";
 import { lazy, Suspense, useCallback, useEffect, useMemo, useRef, useState, type MouseEvent } from "react";
 import { actionsOf, addOne, keysOf, type Action, type Desk } from "./actions";
 import { Canvas, type Mode } from "./canvas";
+import { copyChosen, deleteChosen, pasteText } from "./clipboard";
 import { compose, settled, together, type Composition } from "./composition";
 import { BreakDialog, NameDialog, OpenDialog, QuestionDialog, TextDialog } from "./dialogs";
 import type { ComposerDocument } from "./document";
@@ -97,6 +98,13 @@ function Desktop({ doc, live, ask, open, want }: ComposerProps) {
   const actions = actionsOf(desk);
   const place = useRef<HTMLDivElement>(null);
   useKeys(actions, place);
+  useClipboard(doc, place);
+  const focusOnSearch = useFocusBack(asked !== null || question !== null, place);
+  const isShown = useRef(isTextShown);
+  useEffect(() => {
+    if (isShown.current !== isTextShown) desk.fit(); // the graph has another width
+    isShown.current = isTextShown;
+  });
 
   const add = (type: string, at?: Box) => addOne(desk, type, at);
   const showSchema = useCallback(
@@ -120,6 +128,12 @@ function Desktop({ doc, live, ask, open, want }: ComposerProps) {
     setMenu({ id, x: event.clientX, y: event.clientY });
   }, [doc]);
   const hover = useCallback((port: string, at: { x: number; y: number } | null) => setPointed(at === null ? null : { port, ...at }), []);
+  const begin = async (name: string) => {
+    const { path } = await server.begin(name);
+    doc.create(path);
+    open(path);
+    focusOnSearch(); // what comes next is to add a behavior
+  };
   const breakAt = (port: string) => setAsked({ kind: "break", port });
 
   return (
@@ -140,14 +154,16 @@ function Desktop({ doc, live, ask, open, want }: ComposerProps) {
       {pointed && isLive ? <Probe doc={doc} live={live} pointed={pointed} /> : null}
       {menu ? <Menu {...menu} doc={doc} actions={actions} showSchema={showSchema} /> : null}
       {asked?.kind === "open" ? <OpenDialog doc={doc} open={open} close={() => setAsked(null)} /> : null}
-      {asked?.kind === "new" ? <NameDialog doc={doc} title="New network" remark="It is written when you save it." take={(name) => { doc.create(name); open(name); }} close={() => setAsked(null)} /> : null}
-      {asked?.kind === "save as" ? <NameDialog doc={doc} title="Save as" remark={doc.why || "Another file, which is open then."} take={(name) => void doc.saveAs(name).then((isSaved) => isSaved && open(name))} close={() => setAsked(null)} /> : null}
+      {asked?.kind === "new" ? <NameDialog doc={doc} title="New network" remark="It is written when you save it." take={begin} close={() => setAsked(null)} /> : null}
+      {asked?.kind === "save as" ? <NameDialog doc={doc} title="Save as" remark={doc.why || "Another file, which is open then."} take={async (name) => open(await doc.saveAs(name))} close={() => setAsked(null)} /> : null}
       {asked?.kind === "schema" ? <TextDialog title={asked.title} text={asked.text} close={() => setAsked(null)} /> : null}
       {asked?.kind === "break" ? (
         <BreakDialog
           port={asked.port}
           condition={running?.breakpoint?.port === asked.port ? running.breakpoint.condition : ""}
-          take={(condition) => void ask("network_break", { name: running?.name ?? "", port: asked.port, condition })}
+          take={async (condition) => {
+            if (!(await ask("network_break", { name: running?.name ?? "", port: asked.port, condition }))) throw new Error(doc.notice.value);
+          }}
           close={() => setAsked(null)}
         />
       ) : null}
@@ -186,6 +202,7 @@ function StatusBar({ doc }: { doc: ComposerDocument }) {
   const path = useStore(doc.path);
   const notice = useStore(doc.notice);
   const draft = useStore(doc.autosave.state);
+  const left = useStore(doc.autosave.left);
   const problems = useStore(doc.problems);
   const errors = problems.filter((one) => one.grave === "error").length;
   const counts = [errors ? `${errors} ${errors === 1 ? "error" : "errors"}` : "", problems.length > errors ? `${problems.length - errors} ${problems.length - errors === 1 ? "warning" : "warnings"}` : ""].filter(Boolean);
@@ -193,6 +210,7 @@ function StatusBar({ doc }: { doc: ComposerDocument }) {
     <footer className="status">
       <span className="path" title={path}>{path.split("/").pop()}{doc.history.isDirty ? " •" : ""}</span>
       <span>{doc.history.isDirty ? draft || "not saved" : path ? "saved" : ""}</span>
+      {left ? <span className="wrong">{left}</span> : null}
       <button type="button" className={errors ? "wrong" : ""} onClick={() => doc.select([])}>{counts.length ? counts.join(", ") : path ? "no problems" : ""}</button>
       <span role="status" className="notice">{notice}</span>
     </footer>
@@ -229,19 +247,26 @@ function Menu({ id, x, y, doc, actions, showSchema }: MenuProps) {
   );
 }
 
+/** Whether an event is for the composer: it is shown, and no dialog is open. */
+function isForUs(place: HTMLElement | null): boolean {
+  return place !== null && !place.closest("[hidden]") && !document.querySelector("dialog[open]");
+}
+
+function isTyped(event: Event): boolean {
+  const target = event.composedPath()[0] as HTMLElement;
+  return target.matches?.("input, select, textarea, [contenteditable=true], [contenteditable=true] *") ?? false;
+}
+
 /** Keys work wherever no one types; with Ctrl also beside the fields of the properties. */
 function useKeys(actions: Action[], place: { current: HTMLElement | null }): void {
   const newest = useRef(actions);
   newest.current = actions;
   useEffect(() => {
     const pressed = (event: KeyboardEvent) => {
-      if (!place.current || place.current.closest("[hidden]") || document.querySelector("dialog[open]")) return;
-      const target = event.composedPath()[0] as HTMLElement;
-      const isTyping = target.matches?.("input, select, textarea, [contenteditable=true], [contenteditable=true] *") ?? false;
+      if (!isForUs(place.current)) return;
       const keys = keysOf(event);
       const action = newest.current.find((one) => one.keys.includes(keys));
-      if (!action || (isTyping && !["save", "save-as", "open"].includes(action.id))) return;
-      if (action.id === "copy" && String(getSelection()) !== "") return;
+      if (!action || action.isOfClipboard || (isTyped(event) && !["save", "save-as", "open"].includes(action.id))) return;
       event.preventDefault();
       event.stopPropagation();
       if (action.isPossible?.() ?? true) action.run();
@@ -249,6 +274,54 @@ function useKeys(actions: Action[], place: { current: HTMLElement | null }): voi
     addEventListener("keydown", pressed, true);
     return () => removeEventListener("keydown", pressed, true);
   }, [place]);
+}
+
+/** What the keys of the clipboard do: the browser hands it over, also from other tabs and programs. */
+function useClipboard(doc: ComposerDocument, place: { current: HTMLElement | null }): void {
+  useEffect(() => {
+    const taken = (event: ClipboardEvent) => {
+      if (!isForUs(place.current) || isTyped(event) || doc.path.value === "") return;
+      if (event.type === "paste") {
+        pasteText(doc, event.clipboardData?.getData("text/plain") ?? "");
+      } else {
+        if (String(getSelection()) !== "" || doc.history.error !== null || doc.selection.value.ids.size === 0) return;
+        event.clipboardData?.setData("text/plain", copyChosen(doc));
+        if (event.type === "cut") deleteChosen(doc);
+      }
+      event.preventDefault();
+    };
+    const types = ["copy", "cut", "paste"] as const;
+    for (const type of types) document.addEventListener(type, taken);
+    return () => {
+      for (const type of types) document.removeEventListener(type, taken);
+    };
+  }, [doc, place]);
+}
+
+/** When a dialog closes, the keyboard goes on where it was, or in the search for behaviors, as it is told. */
+function useFocusBack(isOpen: boolean, place: { current: HTMLElement | null }): () => void {
+  const before = useRef<Element | null>(null);
+  useEffect(() => {
+    const focused = (event: FocusEvent) => {
+      if (!(event.target as Element).closest("dialog")) before.current = event.target as Element;
+    };
+    document.addEventListener("focusin", focused);
+    return () => document.removeEventListener("focusin", focused);
+  }, []);
+  useEffect(() => {
+    if (!isOpen) return;
+    return () => {
+      requestAnimationFrame(() => {
+        if (document.activeElement !== document.body || document.querySelector("dialog[open]")) return;
+        const last = before.current as HTMLElement | null;
+        const isThere = last?.isConnected && place.current?.contains(last) && last.matches("input, button, [tabindex]") && !last.matches(":disabled");
+        (isThere ? last : document.getElementById("palette-search"))?.focus();
+      });
+    };
+  }, [isOpen, place]);
+  return () => {
+    before.current = null;
+  };
 }
 
 /** The other networks of an app, by name, while they are shown. */

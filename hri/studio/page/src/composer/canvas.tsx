@@ -29,6 +29,8 @@ export const BEHAVIOR_TYPE = "application/x-hri-behavior";
 
 const NODES = { part: PartView };
 const EDGES = { wire: WireView };
+/** So far out that a chain of 1,000 behaviors is shown whole. */
+const MIN_ZOOM = 0.003;
 /** Pixels. */
 const MAP_SIZE = { width: 130, height: 90 };
 
@@ -240,7 +242,7 @@ export function Canvas({ doc, composition, mode, isWhole, isLive, add, openOther
           multiSelectionKeyCode={["Shift", "Control", "Meta"]}
           zoomOnDoubleClick={false}
           connectionRadius={24}
-          minZoom={0.05}
+          minZoom={MIN_ZOOM}
           maxZoom={2}
           colorMode="system"
           onlyRenderVisibleElements={nodes.length > 150}

@@ -2,7 +2,7 @@
 
 import { useEffect, useMemo, useRef, useState, type FormEvent, type ReactNode } from "react";
 import { compare, type Difference } from "./difference";
-import type { ComposerDocument, Question } from "./document";
+import { reasonOf, type ComposerDocument, type Offer, type Question } from "./document";
 import { EMPTY, readNetwork } from "./network";
 import type { NetworkFile } from "./server";
 import { useStore } from "./store";
@@ -69,56 +69,92 @@ interface NameProps {
   doc: ComposerDocument;
   title: string;
   remark: string;
-  /** Why a path cannot be taken; empty when it can. */
-  take(path: string): void;
+  /** Raises Error with the reason why a path cannot be taken. */
+  take(path: string): Promise<void>;
   close(): void;
 }
 
-/** Asks for the path of a file that is not there yet. */
+/** Asks for the path of a file that is not there yet; stays open while it is refused. */
 export function NameDialog({ doc, title, remark, take, close }: NameProps) {
-  const { home, networks } = useStore(doc.files);
+  const { home } = useStore(doc.files);
   const [text, setText] = useState("");
+  const { refusal, attempt, forget } = useRefusal(close);
   const file = text.trim() === "" ? "" : text.trim().endsWith(".xml") ? text.trim() : `${text.trim()}.xml`;
   const path = file.startsWith("/") || file === "" ? file : `${home}/${file}`;
-  const isThere = networks.some((one) => one.path === path);
   const submit = (event: FormEvent) => {
     event.preventDefault();
-    if (path === "" || isThere) return;
-    take(path);
-    close();
+    if (path !== "") void attempt(() => take(path));
   };
   return (
     <Dialog title={title} close={close}>
       <form onSubmit={submit}>
         <label htmlFor="network-name">Name or path</label>
-        <input id="network-name" value={text} autoFocus autoComplete="off" spellCheck={false} placeholder="follow_me" onChange={(event) => setText(event.target.value)} />
-        <p className={isThere ? "wrong" : "quiet"}>{isThere ? "There is one of this name - open it, or choose another" : path || remark}</p>
-        <p className="row"><button type="submit" disabled={path === "" || isThere}>OK</button><button type="button" onClick={close}>Cancel</button></p>
+        <input id="network-name" value={text} autoFocus autoComplete="off" spellCheck={false} placeholder="follow_me" aria-describedby="network-name-remark" onChange={(event) => { setText(event.target.value); forget(); }} />
+        <p id="network-name-remark" role="status" className={refusal ? "wrong" : "quiet"}>{refusal || path || remark}</p>
+        <p className="row"><button type="submit" disabled={path === ""}>OK</button><button type="button" onClick={close}>Cancel</button></p>
       </form>
     </Dialog>
   );
 }
 
+/** Work that closes a dialog when it is done, and leaves it with the reason when it is refused. */
+function useRefusal(close: () => void) {
+  const [refusal, setRefusal] = useState("");
+  const attempt = (work: () => Promise<void>) => work().then(close, (error: Error) => setRefusal(reasonOf(error)));
+  return { refusal, attempt, forget: () => setRefusal("") };
+}
+
 export function QuestionDialog({ doc, question }: { doc: ComposerDocument; question: Question }) {
-  const isDraft = question.kind === "draft";
-  const [mine, other] = isDraft ? [question.text, question.draft.text] : [doc.history.text, question.text];
-  const difference = useMemo(() => differenceOf(mine, other), [mine, other]);
-  const isGone = !isDraft && question.mark === null;
+  if (question.kind === "drafts") return <DraftsDialog doc={doc} drafts={question.drafts} />;
+  if (question.kind === "changed") return <ChangedDialog doc={doc} text={question.text} isGone={question.mark === null} />;
   return (
-    <Dialog title={isDraft ? "There is a draft that was not saved" : isGone ? "The file was removed" : "The file changed while you edited it"} close={() => void doc.choose(false)}>
-      <p>
-        {isDraft
-          ? `The draft is from ${new Date(question.draft.time * 1000).toLocaleString()}. Beside the file, the draft has:`
-          : isGone ? "Saving writes it again." : "Beside what you have here, the file now has:"}
-      </p>
-      {isGone ? null : <DifferenceList difference={difference} />}
+    <Dialog title="Save what cannot be read?" close={() => doc.decideLater()}>
+      <p>The XML cannot be read: {question.why}. The file on the disk can.</p>
       <p className="row">
-        <button type="button" autoFocus onClick={() => void doc.choose(isDraft)}>{isDraft ? "Continue the draft" : "Keep what I have"}</button>
-        {isGone ? null : <button type="button" onClick={() => void doc.choose(!isDraft)}>{isDraft ? "Discard the draft" : "Take the file"}</button>}
+        <button type="button" autoFocus onClick={() => doc.decideLater()}>Go on editing</button>
+        <button type="button" onClick={() => { doc.decideLater(); void doc.save(true); }}>Save it anyway</button>
       </p>
-      {isDraft ? null : <p className="quiet">Either can be undone.</p>}
     </Dialog>
   );
+}
+
+/** What was not saved, newest first; none goes unless a person discards it. */
+function DraftsDialog({ doc, drafts }: { doc: ComposerDocument; drafts: Offer[] }) {
+  const isOne = drafts.length === 1;
+  return (
+    <Dialog title={isOne ? "There is a draft that was not saved" : `There are ${drafts.length} drafts that were not saved`} close={() => doc.decideLater()}>
+      {drafts.map((draft, number) => (
+        <section key={draft.page} className="draft">
+          <p>{isOne ? "The draft" : number === 0 ? "The newest" : "One"} is from {new Date(draft.time * 1000).toLocaleString()}{draft.unkept ? ", in this browser alone" : ""}. Beside the file, it has:</p>
+          <DifferenceOf old={doc.history.text} next={draft.text} />
+          <p className="row">
+            <button type="button" autoFocus={number === 0} onClick={() => doc.continueDraft(draft)}>Continue the draft</button>
+            <button type="button" onClick={() => void doc.discardDraft(draft)}>Discard the draft</button>
+          </p>
+        </section>
+      ))}
+      <p className="row"><button type="button" onClick={() => doc.decideLater()}>Decide later</button></p>
+      <p className="quiet">A draft may be of another tab that is open. What you do not discard is offered again.</p>
+    </Dialog>
+  );
+}
+
+function ChangedDialog({ doc, text, isGone }: { doc: ComposerDocument; text: string; isGone: boolean }) {
+  return (
+    <Dialog title={isGone ? "The file was removed" : "The file changed while you edited it"} close={() => doc.chooseText(false)}>
+      <p>{isGone ? "Saving writes it again." : "Beside what you have here, the file now has:"}</p>
+      {isGone ? null : <DifferenceOf old={doc.history.text} next={text} />}
+      <p className="row">
+        <button type="button" autoFocus onClick={() => doc.chooseText(false)}>Keep what I have</button>
+        {isGone ? null : <button type="button" onClick={() => doc.chooseText(true)}>Take the file</button>}
+      </p>
+      <p className="quiet">Either can be undone.</p>
+    </Dialog>
+  );
+}
+
+function DifferenceOf({ old, next }: { old: string; next: string }) {
+  return <DifferenceList difference={useMemo(() => differenceOf(old, next), [old, next])} />;
 }
 
 function differenceOf(old: string, next: string): Difference | string {
@@ -155,24 +191,26 @@ export function TextDialog({ title, text, close }: { title: string; text: string
 interface BreakProps {
   port: string;
   condition: string;
-  take(condition: string): void;
+  /** Raises Error with the reason why a condition cannot be taken. */
+  take(condition: string): Promise<void>;
   close(): void;
 }
 
 export function BreakDialog({ port, condition, take, close }: BreakProps) {
   const [text, setText] = useState(condition);
+  const { refusal, attempt, forget } = useRefusal(close);
   const submit = (event: FormEvent) => {
     event.preventDefault();
-    take(text.trim());
-    close();
+    void attempt(() => take(text.trim()));
   };
   return (
     <Dialog title={`Pause when ${port} …`} close={close}>
       <form onSubmit={submit}>
         <label htmlFor="condition">Condition</label>
-        <input id="condition" value={text} autoFocus autoComplete="off" spellCheck={false} placeholder="< 30" onChange={(event) => setText(event.target.value)} />
+        <input id="condition" value={text} autoFocus autoComplete="off" spellCheck={false} placeholder="< 30" aria-invalid={refusal !== ""} aria-describedby="condition-refusal" onChange={(event) => { setText(event.target.value); forget(); }} />
+        <p id="condition-refusal" role="status" className="wrong">{refusal}</p>
         <p className="quiet">&lt; 30, &gt;= 0.5, == true, == hello, changes, or sent. The network pauses after the tick in which it holds; its drive gets zero.</p>
-        <p className="row"><button type="submit">Set</button><button type="button" onClick={() => { take(""); close(); }}>Remove</button><button type="button" onClick={close}>Cancel</button></p>
+        <p className="row"><button type="submit">Set</button><button type="button" onClick={() => void attempt(() => take(""))}>Remove</button><button type="button" onClick={close}>Cancel</button></p>
       </form>
     </Dialog>
   );

@@ -1,12 +1,13 @@
 // The network that is open: its text and history, what is wrong with it, what is selected.
 
-import { Autosave } from "./autosave";
+import { Autosave, type Open } from "./autosave";
 import { History } from "./history";
-import { EMPTY, type Link, type Network } from "./network";
+import { EMPTY, readNetwork, type Link, type Network } from "./network";
 import type { Splice } from "./edits";
 import * as server from "./server";
 import { Refusal, type Draft, type NetworkFile, type Problem } from "./server";
 import { Store } from "./store";
+import type { Unsaved } from "./unkept";
 import type { Palette } from "./wiring";
 
 const CHECK_AFTER_MS = 250;
@@ -20,10 +21,17 @@ export interface Selection {
   links: ReadonlySet<string>;
 }
 
+/** A draft that a person may continue: of the server, or what only this browser has. */
+export type Offer = Draft & { unkept?: Unsaved };
+
 /** What a person has to decide. */
 export type Question =
-  | { kind: "draft"; draft: Draft; text: string }
-  | { kind: "changed"; text: string; mark: string | null };
+  | { kind: "drafts"; drafts: Offer[] }
+  | { kind: "changed"; text: string; mark: string | null }
+  | { kind: "unreadable"; why: string };
+
+/** Networks that were left unsaved, of which undo is remembered. */
+const MOST_LEFT = 10;
 
 const NOTHING: Selection = { ids: new Set(), links: new Set() };
 
@@ -48,18 +56,21 @@ export class ComposerDocument {
   /** Why it cannot be saved here; empty when it can. */
   why = "";
   private mark: string | null = null;
+  /** Names this opening of the network: each has a draft of its own. */
+  private page = newPage();
+  /** Counts what was asked to be opened: the last is shown, whichever answer comes last. */
+  private asked = 0;
+  /** What was left with unsaved changes, by path. */
+  private readonly left = new Map<string, History>();
   /** What was sent to be saved while no answer has come: the file may have it, or not. */
   private readonly unanswered = new Set<string>();
+  private isAskingPalette = false;
   private checking: ReturnType<typeof setTimeout> | undefined;
   private watching: ReturnType<typeof setInterval> | undefined;
   private unfollow: () => void = () => {};
 
   constructor() {
-    this.autosave = new Autosave(() =>
-      this.path.value && this.history.isDirty && this.question.value?.kind !== "draft"
-        ? { path: this.path.value, text: this.history.text, mark: this.mark }
-        : null,
-    );
+    this.autosave = new Autosave(() => this.unsaved);
     this.follow();
   }
 
@@ -87,28 +98,39 @@ export class ComposerDocument {
     this.watching = undefined;
   }
 
-  async open(path: string): Promise<void> {
-    await this.attempt(async () => {
-      const file = await server.open(path);
+  /** Show a network, unless another is asked for meanwhile. Whether it, or that, is shown. */
+  async open(path: string): Promise<boolean> {
+    const asked = ++this.asked;
+    if (path === this.path.value) return true;
+    const isOpen = await this.attempt(async () => {
+      await this.autosave.again();
+      const file = await server.open(path).catch((error: unknown) => {
+        if (asked === this.asked) throw error;
+      });
+      if (file === undefined || asked !== this.asked) return;
       this.take(path, file.text, file.mark, file.is_writable ? "" : file.why);
-      if (file.draft !== null && file.draft.text !== file.text)
-        this.question.set({ kind: "draft", draft: file.draft, text: file.text });
+      if (file.damaged.length > 0) this.notice.set(file.damaged.join(", "));
+      this.offer(file.drafts);
     });
+    return isOpen;
   }
 
   /** A network that has no file yet: it is kept as a draft until it is saved. */
   create(path: string, text = EMPTY): void {
+    this.asked++;
     this.take(path, text, null, "");
   }
 
   private take(path: string, text: string, mark: string | null, why: string): void {
+    this.leave();
     this.unfollow();
     this.history = new History(text);
+    this.page = newPage();
     this.mark = mark;
     this.unanswered.clear();
     this.why = why;
     this.question.set(null);
-    this.autosave.forget();
+    this.autosave.state.set("");
     this.selection.set(NOTHING);
     this.problems.set([]);
     this.path.set(path);
@@ -117,13 +139,37 @@ export class ComposerDocument {
     this.changed();
   }
 
+  /** Keep what is open: another takes its place. */
+  private leave(): void {
+    this.autosave.keep();
+    const path = this.path.value;
+    this.left.delete(path);
+    if (this.history.isDirty) this.left.set(path, this.history);
+    if (this.left.size > MOST_LEFT) this.left.delete(this.left.keys().next().value!);
+  }
+
+  /** Ask for each draft of what is open whether to go on with it. */
+  private offer(drafts: Draft[]): void {
+    const unkept = this.autosave.unkeptOf(this.path.value).map((one): Offer => ({ ...one, seen: "", unkept: one }));
+    const kept = drafts.filter((one) => !unkept.some(({ page }) => page === one.page));
+    const found = [...unkept, ...kept].filter((one) => one.text !== this.history.text).sort((a, b) => b.time - a.time);
+    if (found.length > 0) this.question.set({ kind: "drafts", drafts: found });
+  }
+
+  /** What the autosave keeps. */
+  private get unsaved(): Open | null {
+    if (!this.path.value || this.question.value?.kind === "drafts") return null;
+    const { page, mark, history } = this;
+    return { page, path: this.path.value, text: history.isDirty ? history.text : null, mark, count: this.revision.value };
+  }
+
   private follow(): void {
     this.unfollow = this.history.subscribe(() => this.changed());
   }
 
   private changed(): void {
     this.revision.set(this.revision.value + 1);
-    if (this.history.isDirty) this.autosave.changed();
+    this.autosave.changed();
     clearTimeout(this.checking);
     if (this.history.error !== null) {
       const { line, column, message } = this.history.error;
@@ -167,29 +213,38 @@ export class ComposerDocument {
     if (!isSame(next.ids, had) || !isSame(next.links, hadLinks)) this.selection.set(next);
   }
 
-  /** Whether it is saved now. */
-  async save(): Promise<boolean> {
+  /** Save it, and ask first where what cannot be read would replace what can. */
+  async save(isSure = false): Promise<boolean> {
     if (this.why) {
       this.notice.set(`${this.why} - save it as another file`);
       return false;
     }
-    const { text } = this.history;
+    const { error, savedText } = this.history;
+    if (!isSure && error !== null && this.mark !== null && isReadable(savedText)) {
+      this.question.set({ kind: "unreadable", why: error.message });
+      return false;
+    }
+    const { page, history, mark } = this;
+    const { text } = history;
+    const path = this.path.value;
+    const count = this.revision.value;
     return this.attempt(async () => {
       this.unanswered.add(text);
       try {
-        this.known(text, (await server.save(this.path.value, text, this.mark)).mark);
+        const saved = await server.save(path, text, mark, page, count);
+        history.markSaved(text);
+        this.autosave.saved(page, text, count);
+        if (page === this.page) this.known(text, saved.mark);
       } catch (error) {
-        if (!(error instanceof Refusal)) throw error;
+        if (!(error instanceof Refusal) || page !== this.page) throw error;
         this.unanswered.delete(text);
         if (typeof error.answer.text !== "string") throw error;
-        if (this.isOurs(error.answer.text, error.answer.mark as string | null)) {
-          await this.save();
-          return;
-        }
-        this.question.set({ kind: "changed", text: error.answer.text, mark: error.answer.mark as string | null });
+        const [there, mark] = [error.answer.text, error.answer.mark as string | null];
+        if (!this.isOurs(there, mark)) this.question.set({ kind: "changed", text: there, mark });
+        else if (this.history.isDirty) await this.save(true);
         return;
       }
-      this.notice.set(`saved ${this.path.value}`);
+      this.notice.set(`saved ${path}`);
       void this.refreshFiles();
     });
   }
@@ -199,58 +254,99 @@ export class ComposerDocument {
     this.mark = mark;
     this.unanswered.clear();
     this.history.markSaved(text);
-    if (!this.history.isDirty) this.autosave.forget();
     this.revision.set(this.revision.value + 1);
+    this.autosave.changed();
   }
 
-  /** Whether a file that changed has what was saved here when the server ended: then it is known. */
+  /** Whether a file that changed has what is here, or what was sent to be saved when the server ended. */
   private isOurs(text: string, mark: string | null): boolean {
-    if (!this.unanswered.has(text)) return false;
+    if (mark === null || (text !== this.history.text && !this.unanswered.has(text))) return false;
     this.known(text, mark);
     return true;
   }
 
-  async saveAs(path: string): Promise<boolean> {
-    const { text } = this.history;
+  /** Raises Refusal. What is typed meanwhile is not saved, and stays. */
+  async saveAs(to: string): Promise<string> {
+    const { page, history } = this;
+    const { text } = history;
+    const count = this.revision.value;
+    const { path } = await server.begin(to);
+    const { mark } = await server.save(path, text, null, page, count);
+    void this.refreshFiles();
+    if (page !== this.page) return path;
     const before = this.path.value;
-    return this.attempt(async () => {
-      const { mark } = await server.save(path, text, null);
-      if (before && this.history.isDirty) await server.dropDraft(before).catch(() => {});
-      this.take(path, text, mark, "");
-      this.notice.set(`saved ${path}`);
-      void this.refreshFiles();
+    this.asked++;
+    this.page = newPage();
+    this.path.set(path);
+    this.why = "";
+    this.autosave.saved(page, text, count);
+    this.known(text, mark);
+    this.notice.set(`saved ${path}`);
+    await server.dropDraft(before, page).catch(() => {});
+    return path;
+  }
+
+  /** Go on with a draft. It is dropped when what is open has a draft with its text. */
+  continueDraft(draft: Offer): void {
+    const rest = this.otherDrafts(draft);
+    this.question.set(null);
+    const left = this.left.get(this.path.value);
+    if (left?.text === draft.text && left.savedText === this.history.text) {
+      this.unfollow();
+      this.history = left;
+      this.follow();
+      this.changed();
+    } else {
+      this.history.reset(draft.text, "continue the draft");
+    }
+    if (rest.length > 0) this.notice.set(`${rest.length === 1 ? "another draft is" : `${rest.length} other drafts are`} left, for the next time`);
+    this.autosave.replaces(this.page, { ...draft, path: this.path.value });
+  }
+
+  async discardDraft(draft: Offer): Promise<void> {
+    await this.attempt(async () => {
+      await server.dropDraft(this.path.value, draft.page, draft.seen);
+      if (draft.unkept) this.autosave.forget(draft.unkept);
+      const rest = this.otherDrafts(draft);
+      this.question.set(rest.length > 0 ? { kind: "drafts", drafts: rest } : null);
     });
   }
 
-  /** Answer a question: go on with the text that is here, or take the other. */
-  async choose(isOther: boolean): Promise<void> {
+  private otherDrafts(draft: Offer): Offer[] {
     const question = this.question.value;
-    if (question === null) return;
+    return question?.kind === "drafts" ? question.drafts.filter((one) => one.page !== draft.page) : [];
+  }
+
+  /** Leave what is asked as it is: drafts stay, an unreadable text is not saved. */
+  decideLater(): void {
     this.question.set(null);
-    if (question.kind === "draft") {
-      if (isOther) this.history.reset(question.draft.text, "continue the draft");
-      else await this.attempt(() => this.autosave.drop(this.path.value));
-      return;
-    }
+  }
+
+  /** Of a file that changed: go on with the text that is here, or take the other. Both can be undone. */
+  chooseText(isOther: boolean): void {
+    const question = this.question.value;
+    if (question?.kind !== "changed") return;
+    this.question.set(null);
     this.mark = question.mark;
     if (isOther) {
       this.history.reset(question.text, "take the file as it is now");
       this.history.markSaved();
-      await this.attempt(() => this.autosave.drop(this.path.value));
     } else {
-      this.autosave.changed();
+      this.history.markSaved(question.text);
     }
     this.revision.set(this.revision.value + 1);
+    this.autosave.changed();
   }
 
   /** Whether the file was changed by someone else. */
   private async look(): Promise<void> {
-    if (!this.path.value || this.question.value || document.hidden || this.mark === null) return;
-    const path = this.path.value;
-    const found = await server.watch(path, this.mark).catch(() => null);
-    if (found === null || found.text === undefined || path !== this.path.value || found.mark === this.mark) return;
-    if (this.isOurs(found.text, found.mark)) return;
-    if (this.history.isDirty) {
+    if (!this.path.value || this.question.value || (document.hidden && !this.history.isDirty)) return;
+    const { page } = this;
+    const found = await server.watch(this.path.value, this.mark, page).catch(() => null);
+    if (found === null || page !== this.page || this.question.value) return;
+    if (!found.has_draft) this.autosave.isMissing(page);
+    if (found.text === undefined || found.mark === this.mark || this.isOurs(found.text, found.mark)) return;
+    if (this.history.isDirty || found.mark === null) {
       this.question.set({ kind: "changed", text: found.text, mark: found.mark });
       return;
     }
@@ -267,11 +363,14 @@ export class ComposerDocument {
   }
 
   private async refreshPalette(): Promise<void> {
-    const found = await server.palette(this.palette.value.mark).catch(() => null);
+    if (this.isAskingPalette) return;
+    this.isAskingPalette = true;
+    const { mark } = this.palette.value;
+    const found = await server.palette(mark).catch(() => null);
+    this.isAskingPalette = false;
     if (found === null) return;
-    const isFirst = this.palette.value.mark === "";
     this.palette.set(found);
-    if (!isFirst) this.notice.set("the behaviors on the configuration path changed");
+    if (mark !== "") this.notice.set("the behaviors on the configuration path changed");
     if (this.history.error === null) void this.check();
   }
 
@@ -281,8 +380,26 @@ export class ComposerDocument {
       await work();
       return true;
     } catch (error) {
-      this.notice.set(error instanceof TypeError ? "no link to the robot" : (error as Error).message);
+      this.notice.set(reasonOf(error as Error));
       return false;
     }
+  }
+}
+
+/** Why something was not done, for a person. */
+export function reasonOf(error: Error): string {
+  return error instanceof TypeError ? "no link to the robot" : error.message;
+}
+
+function newPage(): string {
+  return [...crypto.getRandomValues(new Uint8Array(8))].map((one) => one.toString(16).padStart(2, "0")).join("");
+}
+
+function isReadable(text: string): boolean {
+  try {
+    readNetwork(text);
+    return true;
+  } catch {
+    return false;
   }
 }

@@ -87,6 +87,11 @@ export class History {
     return this.text !== this.saved;
   }
 
+  /** What the file has. */
+  get savedText(): string {
+    return this.saved;
+  }
+
   subscribe(follower: () => void): () => void {
     this.followers.add(follower);
     return () => this.followers.delete(follower);

@@ -162,24 +162,31 @@ function Ends({ title, doc, id, ports, isInput, isLive, why, breakAt }: EndsProp
   );
 }
 
+/** A choice is linked by the button or by Enter: arrow keys go through a list without doing anything. */
 function Wiring({ doc, text, isInput }: { doc: ComposerDocument; text: string; isInput: boolean }) {
   const [isOpen, setIsOpen] = useState(false);
-  const label = `Link ${text} ${isInput ? "from" : "to"}`;
+  const [choice, setChoice] = useState("");
   const choices = isOpen ? choicesFor(doc, text, isInput) : [];
+  const chosen = choices.includes(choice) ? choice : "";
+  const link = () => {
+    if (chosen === "") return;
+    const [from, to] = isInput ? [chosen, text] : [text, chosen];
+    doc.apply(addLink(doc.network, from, to), `link ${from} to ${to}`);
+    setChoice("");
+  };
+  const key = (event: KeyboardEvent) => {
+    if (event.key !== "Enter") return;
+    event.preventDefault();
+    link();
+  };
   return (
-    <select
-      aria-label={label}
-      value=""
-      onFocus={() => setIsOpen(true)}
-      onPointerDown={() => setIsOpen(true)}
-      onChange={(event) => {
-        const [from, to] = isInput ? [event.target.value, text] : [text, event.target.value];
-        doc.apply(addLink(doc.network, from, to), `link ${from} to ${to}`);
-      }}
-    >
-      <option value="">{isInput ? "link from…" : "link to…"}</option>
-      {choices.map((one) => <option key={one}>{one}</option>)}
-    </select>
+    <p className="row wiring-choice">
+      <select aria-label={`Link ${text} ${isInput ? "from" : "to"}`} value={chosen} onFocus={() => setIsOpen(true)} onPointerDown={() => setIsOpen(true)} onChange={(event) => setChoice(event.target.value)} onKeyDown={key}>
+        <option value="">{isInput ? "link from…" : "link to…"}</option>
+        {choices.map((one) => <option key={one}>{one}</option>)}
+      </select>
+      <button type="button" aria-label={chosen ? `Link ${text} ${isInput ? "from" : "to"} ${chosen}` : `Link ${text}: choose first`} disabled={chosen === ""} onClick={link}>Link</button>
+    </p>
   );
 }
 

@@ -4,7 +4,8 @@ import type { ComposerDocument } from "./document";
 import type { LiveValues, RunningNetwork } from "./live_values";
 import { useStore } from "./store";
 
-export type Ask = (command: string, given: Record<string, unknown>) => Promise<void>;
+/** Whether it was done; the reason of a refusal is in the notice. */
+export type Ask = (command: string, given: Record<string, unknown>) => Promise<boolean>;
 
 interface RunBarProps {
   doc: ComposerDocument;

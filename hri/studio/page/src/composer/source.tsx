@@ -30,6 +30,13 @@ const THEME = EditorView.theme({
   ".cm-activeLine, .cm-activeLineGutter": { backgroundColor: "var(--mark)" },
   ".cm-cursor": { borderLeftColor: "var(--text)" },
   ".cm-content": { caretColor: "var(--text)" },
+  // The marks that come with the editor are images in style sheets, which the page forbids.
+  ".cm-lint-marker": { width: "0.8em", height: "0.8em", margin: "0.2em auto 0" },
+  ".cm-lint-marker-error": { content: "normal", backgroundColor: "var(--wrong)", borderRadius: "50%" },
+  ".cm-lint-marker-warning": { content: "normal", backgroundColor: "var(--doubt)", clipPath: "polygon(50% 0, 100% 100%, 0 100%)" },
+  ".cm-lintRange": { backgroundImage: "none", textDecorationLine: "underline", textDecorationStyle: "wavy", textDecorationSkipInk: "none" },
+  ".cm-lintRange-error": { backgroundImage: "none", textDecorationColor: "var(--wrong)" },
+  ".cm-lintRange-warning": { backgroundImage: "none", textDecorationColor: "var(--doubt)" },
 });
 
 export function Source({ doc }: { doc: ComposerDocument }) {
@@ -53,6 +60,7 @@ export function Source({ doc }: { doc: ComposerDocument }) {
           lintGutter(),
           drawSelection(),
           highlightActiveLine(),
+          EditorView.lineWrapping,
           highlightSelectionMatches(),
           indentUnit.of("  "),
           xml(),

@@ -2,13 +2,14 @@
 
 import { createRoot, type Root } from "react-dom/client";
 import type { Values } from "../topics";
+import { viewOf } from "../views";
 import { Composer } from "./app";
 import { ComposerDocument } from "./document";
 import { LiveValues } from "./live_values";
 import type { Ask } from "./run_bar";
 
 export interface Host {
-  ask: Ask;
+  ask(command: string, given: Record<string, unknown>): Promise<void>;
   want(networks: string[], thumbnails: string[]): void;
   /** The address of the view of a network, for the page's history. */
   hashOf(path: string): string;
@@ -24,7 +25,12 @@ export class ComposerView {
     private readonly place: HTMLElement,
     private readonly host: Host,
   ) {
-    this.ask = (command, given) => this.doc.attempt(() => host.ask(command, given)).then(() => {});
+    this.ask = async (command, given) => {
+      const isDone = await this.doc.attempt(() => host.ask(command, given));
+      if (isDone) this.doc.notice.set(""); // why something was refused before
+      return isDone;
+    };
+    this.doc.autosave.follow(window);
     const sheet = document.createElement("link");
     sheet.rel = "stylesheet";
     sheet.href = "/composer.css";
@@ -43,7 +49,10 @@ export class ComposerView {
       this.root.render(<Composer doc={this.doc} live={this.live} ask={this.ask} open={open} want={want} />);
     }
     this.doc.begin();
-    if (path && path !== this.doc.path.value) await this.doc.open(path);
+    if (!path || (await this.doc.open(path))) return;
+    const { name, path: address } = viewOf(location.hash);
+    const shown = this.doc.path.value;
+    if (name === "networks" && address === path && shown) history.replaceState(null, "", this.host.hashOf(shown));
   }
 
   close(): void {
