@@ -8,8 +8,6 @@ import { readNetwork, type Box } from "./network";
 const BESIDE: Box = { x: 30, y: 30 };
 /** Letters. */
 const LONGEST = 1_000_000;
-const WHOLE = /<BehaviorNetwork\b[^>]*\/>|<BehaviorNetwork\b[\s\S]*<\/BehaviorNetwork\s*>/;
-const PARTS = /<(Behavior|Link)\b[\s\S]*(\/>|<\/(Behavior|Link|Layout)\s*>)/;
 
 /** What was copied here last, for a browser whose clipboard a button may not read. */
 let copied = "";
@@ -60,11 +58,18 @@ export function fragmentOf(text: string): string | null {
   if (text.length > LONGEST) return null;
   const plain = text.replaceAll("\u00a0", " ").replace(/\r\n?/g, "\n");
   for (const one of [plain, plain.replace(/^(> ?)+/gm, "")]) {
-    const whole = WHOLE.exec(one)?.[0];
-    const parts = PARTS.exec(one)?.[0];
-    for (const found of [whole, parts && `<BehaviorNetwork>${parts}</BehaviorNetwork>`]) if (found && isPasted(found)) return found;
+    const whole = between(one, /<BehaviorNetwork\b/, ["</BehaviorNetwork>"]);
+    const parts = between(one, /<(Behavior|Link)\b/, ["/>", "</Behavior>", "</Link>", "</Layout>"]);
+    for (const found of [whole, `<BehaviorNetwork>${parts}</BehaviorNetwork>`]) if (isPasted(found)) return found;
   }
   return null;
+}
+
+/** From the first beginning to the last of the ends. */
+function between(text: string, begin: RegExp, ends: readonly string[]): string {
+  const from = text.search(begin);
+  const to = Math.max(...ends.map((one) => text.lastIndexOf(one) + one.length));
+  return from < 0 ? "" : text.slice(from, to);
 }
 
 /** Whether it can be read, and has behaviors. */
