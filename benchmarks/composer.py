@@ -66,8 +66,8 @@ def network_text(count: int) -> str:
 def large(quick: bool) -> Iterator[Row]:
     """A large network: shown, dragged, undone."""
     count = QUICK_NODES if quick else NODES
-    with _home() as home, alive() as (_, studio), shown_page(studio) as page:
-        path = home / "large.xml"
+    with home() as folder, alive() as (_, studio), shown_page(studio) as page:
+        path = folder / "large.xml"
         path.write_text(network_text(count))
         page.evaluate("location.hash = '#networks'")
         page.locator(".palette .behavior").first.wait_for()
@@ -122,8 +122,8 @@ def drafts(quick: bool) -> Iterator[Row]:
     total = KILLS // 10 if quick else KILLS
     lost: list[float] = []
     wrong: list[str] = []
-    with _home() as home, alive() as (_, studio), launcher() as launch:
-        path = home / "edited.xml"
+    with home() as folder, alive() as (_, studio), launcher() as launch:
+        path = folder / "edited.xml"
         path.write_text(network_text(20))
         hand = _Hand(path, dice)
         hand.take(opened(launch(), studio))
@@ -168,7 +168,7 @@ class _Hand:
         kept = _kept(self._path)
         offer = page.get_by_role("button", name="Continue the draft")
         with suppress(Exception):
-            offer.click(timeout=700)
+            offer.first.click(timeout=700)
         page.locator(".react-flow__node").first.click(position={"x": 10, "y": 4})
         shown = self._field().input_value() or "1"
         if int(shown) != kept:
@@ -208,14 +208,15 @@ def _kept(path: Path) -> int:
     half written.
     """
     texts = [path.read_text()]
-    with suppress(FileNotFoundError):
-        texts.append(json.loads((path.parent / f".{path.name}.draft").read_text())["text"])
+    for draft in path.parent.glob(f".{path.name}.*draft"):
+        with suppress(FileNotFoundError):  # dropped meanwhile
+            texts.append(json.loads(draft.read_text())["text"])
     factors: list[float] = [vars(read_network(text, path)["b0"])["factor"] for text in texts]
     return max(map(round, factors))
 
 
 @contextmanager
-def _home() -> Iterator[Path]:
+def home() -> Iterator[Path]:
     """The folder where new networks go: the studio is started in it."""
     start = Path.cwd()
     with tempfile.TemporaryDirectory() as folder:

@@ -17,6 +17,7 @@ BENCHES: dict[str, tuple[str, ...]] = {
     "behavior": ("seconds",),
     "companion": ("seconds",),
     "drive": ("quick", "only"),
+    "edits": ("tries", "seed"),
     "emotion": (),
     "face": ("quick",),
     "inputs": ("tries", "seed", "keep", "only", "jobs"),
@@ -29,7 +30,7 @@ BENCHES: dict[str, tuple[str, ...]] = {
     "writes": ("quick",),
 }
 """Each is a module with `measure(...) -> dict`; the options that it takes."""
-RESEARCH = ("inputs", "offline", "people", "studio", "writes")
+RESEARCH = ("edits", "inputs", "offline", "people", "studio", "writes")
 """Those of the folder `benchmarks`; the others are of `hri.bench`."""
 
 
@@ -49,9 +50,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--recordings", type=Path, metavar="DIR", help=about)
     about = "seed of the babble of the same people, a number (speech)"
     parser.add_argument("--draw", type=Within(int, 0, 999_999), metavar="N", help=about)
-    about = "number of inputs for all readers together, 100000 by default (inputs)"
+    about = "number of inputs for all readers together, 100000 by default (inputs); how often the"
+    about += " browser is killed, 200 by default (edits)"
     parser.add_argument("--tries", type=Within(int, 1, 999_999_999), metavar="N", help=about)
-    about = "seed of the random inputs, a number (inputs)"
+    about = "seed of the random inputs, a number (inputs); the first try, each has its own (edits)"
     parser.add_argument("--seed", type=Within(int, 0, 999_999), metavar="N", help=about)
     about = "keep what failed in this folder; the same command continues there (inputs)"
     parser.add_argument("--keep", type=Path, metavar="DIR", help=about)
