@@ -245,7 +245,9 @@ class Session:
             jobs.append(self.run_ahead)
         if self.robot.clock.is_fake:
             return jobs
-        saved = partial(announce_changes, self.robot.app, self.narrator.tell)
+        saved = partial(
+            announce_changes, self.robot.app, self.narrator.tell, bool(self.options.studio)
+        )
         return [*jobs, self.narrator.greet, saved]
 
     async def run_ahead(self, context: TaskContext) -> None:

@@ -16,16 +16,20 @@ Marks = dict[Path, tuple[int, int]]
 """What identifies a version of a file: its time of writing (nanoseconds) and its size in bytes."""
 
 
-async def announce_changes(app: App, tell: Callable[[str], object], context: TaskContext) -> None:
+async def announce_changes(
+    app: App, tell: Callable[[str], object], has_studio: bool, context: TaskContext
+) -> None:
     """Report each saved file that needs a restart, in one line, once per file. These are
-    `app.toml`, Python files and networks; grammars, replies and emotions are reloaded.
+    `app.toml`, Python files and networks; grammars, replies and emotions are reloaded. A network
+    that is the whole app is started again by the studio's page, too.
     """
+    load = "press Start again on the page" if has_studio and app.is_network else "restart the robot"
     before, told = marks(app), set[Path]()
     while True:
         await context.clock.sleep(LOOK_EVERY)
         changed = {path for path, mark in marks(app).items() if before.get(path) != mark}
         for path in sorted(changed - told):
-            tell(f"{path} was saved - restart the robot to load it")
+            tell(f"{path} was saved - {load} to load it")
         told |= changed
 
 

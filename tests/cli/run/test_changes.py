@@ -19,12 +19,12 @@ def app(tmp_path):
     return load_app(str(folder))
 
 
-def told_of(app, *deeds):
+def told_of(app, *deeds, has_studio=False):
     """The lines that are told while these things are done, two seconds apart."""
     lines = []
 
     async def job(context: TaskContext) -> None:
-        context.manager.install(partial(announce_changes, app, lines.append))
+        context.manager.install(partial(announce_changes, app, lines.append, has_studio))
         for deed in deeds:
             await context.clock.sleep(2.0)
             deed()
@@ -58,3 +58,17 @@ def test_a_folder_that_goes_away_is_no_change(app) -> None:
         app.folder.rmdir()
 
     assert told_of(app, take_away) == []
+
+
+def test_a_network_alone_is_started_again_on_the_page(tmp_path) -> None:
+    file = tmp_path / "alone.xml"
+    file.write_text('<BehaviorNetwork><Behavior id="a" type="Hri.Constant"/></BehaviorNetwork>')
+    app = load_app(str(file))
+
+    def save():
+        file.write_text(file.read_text() + "\n")
+
+    (line,) = told_of(app, save, has_studio=True)
+    assert line.endswith("was saved - press Start again on the page to load it")
+    (line,) = told_of(app, save)
+    assert line.endswith("was saved - restart the robot to load it")
