@@ -156,7 +156,7 @@ class Library:
         if "~" in path.parts:
             raise HriError(f'"{text[:200]}" has a folder "~" - write the path of your folder out')
         if paths.exists(path) or any(drafts.files_of(path)):
-            raise HriError(f"{path}: is there already - open it, or take another name")
+            raise HriError(f"{path}: already exists - open it, or take another name")
         if why := why_not(path):
             raise HriError(f"{path}: {why} - choose another folder, such as {self.home}")
         return {"path": str(path)}

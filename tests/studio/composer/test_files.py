@@ -256,8 +256,8 @@ def test_drafts_are_found_wherever_they_could_be_kept(library, path, monkeypatch
         ("{start}/a/../../one.xml", "is not in a folder of networks"),
         ("/etc/one.xml", "is not in a folder of networks"),
         ("{start}/~/one.xml", "write the path of your folder out"),
-        ("{start}/there.xml", "is there already"),
-        ("{start}/drafted.xml", "is there already"),
+        ("{start}/there.xml", "already exists"),
+        ("{start}/drafted.xml", "already exists"),
         ("{start}/closed/one.xml", "choose another folder"),
     ],
 )

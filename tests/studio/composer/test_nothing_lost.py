@@ -375,3 +375,16 @@ def test_all_of_a_long_chain_is_shown(page, file):
             const box = one.getBoundingClientRect();
             return box.left >= all.left && box.right <= all.right; }); }""",
     )
+
+
+def test_of_two_networks_asked_for_while_the_composer_loads_the_last_is_shown(page, file, other):
+    held = []
+    page.route(re.compile(r"/view-.*\.js"), lambda route: held.append(route))
+    with page.expect_request(re.compile(r"/view-.*\.js")):
+        page.evaluate("(path) => location.hash = '#networks/' + path", str(file))
+    page.evaluate("(path) => location.hash = '#networks/' + path", str(other))
+    asked = []
+    page.on("request", lambda one: asked.append(one.url) if "/networks/file" in one.url else None)
+    held[0].continue_()
+    expect(page.locator(".status .path")).to_have_text(other.name)
+    assert asked[-1].endswith(other.name)

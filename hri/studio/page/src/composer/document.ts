@@ -64,7 +64,7 @@ export class ComposerDocument {
   private readonly left = new Map<string, History>();
   /** What was sent to be saved while no answer has come: the file may have it, or not. */
   private readonly unanswered = new Set<string>();
-  private isAskingPalette = false;
+  private isAskingWorkshop = false;
   private checking: ReturnType<typeof setTimeout> | undefined;
   private watching: ReturnType<typeof setInterval> | undefined;
   private unfollow: () => void = () => {};
@@ -175,7 +175,7 @@ export class ComposerDocument {
       const { line, column, message } = this.history.error;
       this.problems.set([{ line, column, what: message, remedy: "fix the XML here", grave: "error", behavior: null, parameter: null, link: null }]);
     } else {
-      this.checking = setTimeout(() => void this.check(), CHECK_AFTER_MS);
+      this.checkSoon();
     }
   }
 
@@ -183,12 +183,31 @@ export class ComposerDocument {
     const { revision } = this;
     const asked = revision.value;
     if (!this.path.value) return;
-    await this.attempt(async () => {
-      const checked = await server.check(this.path.value, this.history.text);
-      if (asked !== revision.value) return;
-      this.problems.set(checked.problems);
-      this.order.set(checked.order);
-    });
+    if (this.isAskingWorkshop) return this.checkSoon();
+    await this.askWorkshop(() =>
+      this.attempt(async () => {
+        const checked = await server.check(this.path.value, this.history.text);
+        if (asked !== revision.value) return;
+        this.problems.set(checked.problems);
+        this.order.set(checked.order);
+      }),
+    );
+    if (asked !== revision.value && this.history.error === null) this.checkSoon();
+  }
+
+  private checkSoon(): void {
+    clearTimeout(this.checking);
+    this.checking = setTimeout(() => void this.check(), CHECK_AFTER_MS);
+  }
+
+  /** One question at a time: a browser has six connections, and drafts must not wait for slow checks. */
+  private async askWorkshop<T>(question: () => Promise<T>): Promise<T> {
+    this.isAskingWorkshop = true;
+    try {
+      return await question();
+    } finally {
+      this.isAskingWorkshop = false;
+    }
   }
 
   /** One command: a change of the text that can be undone. */
@@ -363,11 +382,9 @@ export class ComposerDocument {
   }
 
   private async refreshPalette(): Promise<void> {
-    if (this.isAskingPalette) return;
-    this.isAskingPalette = true;
+    if (this.isAskingWorkshop) return;
     const { mark } = this.palette.value;
-    const found = await server.palette(mark).catch(() => null);
-    this.isAskingPalette = false;
+    const found = await this.askWorkshop(() => server.palette(mark).catch(() => null));
     if (found === null) return;
     this.palette.set(found);
     if (mark !== "") this.notice.set("the behaviors on the configuration path changed");

@@ -49,10 +49,11 @@ export class ComposerView {
       this.root.render(<Composer doc={this.doc} live={this.live} ask={this.ask} open={open} want={want} />);
     }
     this.doc.begin();
-    if (!path || (await this.doc.open(path))) return;
-    const { name, path: address } = viewOf(location.hash);
+    // While this code is loaded, two calls may come in the wrong order: the address knows the last.
+    const wanted = addressed() || path;
+    if (!wanted || (await this.doc.open(wanted))) return;
     const shown = this.doc.path.value;
-    if (name === "networks" && address === path && shown) history.replaceState(null, "", this.host.hashOf(shown));
+    if (addressed() === wanted && shown) history.replaceState(null, "", this.host.hashOf(shown));
   }
 
   close(): void {
@@ -64,4 +65,10 @@ export class ComposerView {
   take({ networks, ports, thumbnails }: Values): void {
     this.live.take(networks ?? [], ports, thumbnails);
   }
+}
+
+/** The network that the address names; empty for none. */
+function addressed(): string {
+  const { name, path } = viewOf(location.hash);
+  return name === "networks" ? path : "";
 }
