@@ -52,7 +52,8 @@ class Composer:
 
     def new(self, name):
         self.page.evaluate("location.hash = '#networks'")
-        expect(self.page.locator(".composer .palette .behavior").first).to_be_visible()
+        palette = self.page.locator(".composer .palette .behavior")
+        expect(palette.first).to_be_visible(timeout=20_000)  # it imports all behaviors at first
         self.do("new")
         self.page.fill("#network-name", name)
         self.key("Enter")

@@ -51,7 +51,7 @@ function Desktop({ doc, live, ask, open, want }: ComposerProps) {
   const palette = useStore(doc.palette);
   const problems = useStore(doc.problems);
   const question = useStore(doc.question);
-  const { networks: files } = useStore(doc.files);
+  const { networks: files, home } = useStore(doc.files);
   const networks = useStore(live.networks);
   useStore(doc.selection);
   const [mode, setMode] = useState<Mode>("edit");
@@ -128,11 +128,16 @@ function Desktop({ doc, live, ask, open, want }: ComposerProps) {
     setMenu({ id, x: event.clientX, y: event.clientY });
   }, [doc]);
   const hover = useCallback((port: string, at: { x: number; y: number } | null) => setPointed(at === null ? null : { port, ...at }), []);
-  const begin = async (name: string) => {
-    const { path } = await server.begin(name);
+  const create = (path: string) => {
     doc.create(path);
     open(path);
     focusOnSearch(); // what comes next is to add a behavior
+  };
+  /** A plain new name in the folder of new networks is taken at once; the server knows about others. */
+  const begin = (path: string) => {
+    const isPlain = path.startsWith(`${home}/`) && /^[^./~][^/]*$/.test(path.slice(home.length + 1));
+    if (isPlain && !files.some((one) => one.path === path)) return create(path);
+    return server.begin(path).then((found) => create(found.path));
   };
   const breakAt = (port: string) => setAsked({ kind: "break", port });
 

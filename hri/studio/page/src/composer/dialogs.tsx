@@ -69,8 +69,8 @@ interface NameProps {
   doc: ComposerDocument;
   title: string;
   remark: string;
-  /** Raises Error with the reason why a path cannot be taken. */
-  take(path: string): Promise<void>;
+  /** Raises Error with the reason why a path cannot be taken; returns nothing where that is known. */
+  take(path: string): Promise<void> | void;
   close(): void;
 }
 
@@ -78,18 +78,18 @@ interface NameProps {
 export function NameDialog({ doc, title, remark, take, close }: NameProps) {
   const { home } = useStore(doc.files);
   const [text, setText] = useState("");
-  const { refusal, attempt, forget } = useRefusal(close);
+  const { refusal, isBusy, attempt, forget } = useRefusal(close);
   const file = text.trim() === "" ? "" : text.trim().endsWith(".xml") ? text.trim() : `${text.trim()}.xml`;
   const path = file.startsWith("/") || file === "" ? file : `${home}/${file}`;
   const submit = (event: FormEvent) => {
     event.preventDefault();
-    if (path !== "") void attempt(() => take(path));
+    if (path !== "") attempt(() => take(path));
   };
   return (
     <Dialog title={title} close={close}>
       <form onSubmit={submit}>
         <label htmlFor="network-name">Name or path</label>
-        <input id="network-name" value={text} autoFocus autoComplete="off" spellCheck={false} placeholder="follow_me" aria-describedby="network-name-remark" onChange={(event) => { setText(event.target.value); forget(); }} />
+        <input id="network-name" value={text} readOnly={isBusy} autoFocus autoComplete="off" spellCheck={false} placeholder="follow_me" aria-describedby="network-name-remark" onChange={(event) => { setText(event.target.value); forget(); }} />
         <p id="network-name-remark" role="status" className={refusal ? "wrong" : "quiet"}>{refusal || path || remark}</p>
         <p className="row"><button type="submit" disabled={path === ""}>OK</button><button type="button" onClick={close}>Cancel</button></p>
       </form>
@@ -100,8 +100,19 @@ export function NameDialog({ doc, title, remark, take, close }: NameProps) {
 /** Work that closes a dialog when it is done, and leaves it with the reason when it is refused. */
 function useRefusal(close: () => void) {
   const [refusal, setRefusal] = useState("");
-  const attempt = (work: () => Promise<void>) => work().then(close, (error: Error) => setRefusal(reasonOf(error)));
-  return { refusal, attempt, forget: () => setRefusal("") };
+  const [isBusy, setBusy] = useState(false);
+  const refused = (error: Error) => {
+    setBusy(false);
+    setRefusal(reasonOf(error));
+  };
+  const attempt = (work: () => Promise<void> | void) => {
+    if (isBusy) return;
+    const done = work();
+    if (done === undefined) return close();
+    setBusy(true);
+    void done.then(close, refused);
+  };
+  return { refusal, isBusy, attempt, forget: () => setRefusal("") };
 }
 
 export function QuestionDialog({ doc, question }: { doc: ComposerDocument; question: Question }) {
@@ -198,19 +209,19 @@ interface BreakProps {
 
 export function BreakDialog({ port, condition, take, close }: BreakProps) {
   const [text, setText] = useState(condition);
-  const { refusal, attempt, forget } = useRefusal(close);
+  const { refusal, isBusy, attempt, forget } = useRefusal(close);
   const submit = (event: FormEvent) => {
     event.preventDefault();
-    void attempt(() => take(text.trim()));
+    attempt(() => take(text.trim()));
   };
   return (
     <Dialog title={`Pause when ${port} …`} close={close}>
       <form onSubmit={submit}>
         <label htmlFor="condition">Condition</label>
-        <input id="condition" value={text} autoFocus autoComplete="off" spellCheck={false} placeholder="< 30" aria-invalid={refusal !== ""} aria-describedby="condition-refusal" onChange={(event) => { setText(event.target.value); forget(); }} />
+        <input id="condition" value={text} readOnly={isBusy} autoFocus autoComplete="off" spellCheck={false} placeholder="< 30" aria-invalid={refusal !== ""} aria-describedby="condition-refusal" onChange={(event) => { setText(event.target.value); forget(); }} />
         <p id="condition-refusal" role="status" className="wrong">{refusal}</p>
         <p className="quiet">&lt; 30, &gt;= 0.5, == true, == hello, changes, or sent. The network pauses after the tick in which it holds; its drive gets zero.</p>
-        <p className="row"><button type="submit">Set</button><button type="button" onClick={() => void attempt(() => take(""))}>Remove</button><button type="button" onClick={close}>Cancel</button></p>
+        <p className="row"><button type="submit">Set</button><button type="button" onClick={() => attempt(() => take(""))}>Remove</button><button type="button" onClick={close}>Cancel</button></p>
       </form>
     </Dialog>
   );
