@@ -20,19 +20,35 @@ MOST_CODES = 20
 class Codes:
     """Codes that each work once."""
 
-    def __init__(self) -> None:
+    def __init__(self, secret: str) -> None:
+        """`secret` signs them, so that `is_signed_code` knows guesses without asking here."""
+        self._secret = secret
         self._open: list[str] = []
 
     def new(self) -> str:
         """Another code."""
-        self._open = [*self._open, secrets.token_urlsafe(16)][-MOST_CODES:]
-        return self._open[-1]
+        told = secrets.token_urlsafe(16)
+        code = f"{told}.{_code_signature(self._secret, told)}"
+        self._open = [*self._open, code][-MOST_CODES:]
+        return code
 
     def redeem(self, code: str) -> bool:
         """Whether a code is good; it works no more from now on."""
         found = [one for one in self._open if hmac.compare_digest(one.encode(), code.encode())]
         self._open = [one for one in self._open if one not in found]
         return bool(found)
+
+
+def is_signed_code(secret: str, code: str) -> bool:
+    """Whether `Codes` of this secret made a code, which may have been used since."""
+    told, _, signature = code.rpartition(".")
+    expected = _code_signature(secret, told)
+    return hmac.compare_digest(expected.encode(), signature.encode())
+
+
+def _code_signature(secret: str, told: str) -> str:
+    """Not that of a cookie, whatever was told."""
+    return hmac.new(secret.encode(), f"code {told}".encode(), "sha256").hexdigest()[:16]
 
 
 class Cookies:

@@ -15,7 +15,7 @@ from hri.simulation.visitor import Visitor
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Listener, Voice
 from hri.studio.commands import checked
-from hri.studio.link import STOP
+from hri.studio.request_queue import STOP
 from hri.studio.running import RunningNetworks
 from hri.task.context import TaskContext
 
@@ -53,10 +53,12 @@ class Asked:
 
 
 def _stop(asked: Asked) -> None:
-    asked.robot.tasks.take_away("drive")
-    asked.context.events.raise_event("drive.halt", because=BECAUSE)
-    for base in asked.context.resources.opened(EmergencyStop):
-        base.stop_latched(BECAUSE)
+    try:
+        asked.robot.tasks.take_away("drive")
+        asked.context.events.raise_event("drive.halt", because=BECAUSE)
+    finally:  # whoever follows the event may fail, the base must not
+        for base in asked.context.resources.opened(EmergencyStop):
+            base.stop_latched(BECAUSE)
 
 
 def _release(asked: Asked) -> None:

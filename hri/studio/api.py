@@ -17,7 +17,10 @@ _ANSWERS = {
     "200": {"description": "done"},
     "400": {"description": "the arguments are wrong; `error` says how"},
     "401": {"description": "no cookie and no token"},
-    "409": {"description": "the robot refuses; `error` says why"},
+    "409": {
+        "description": "the robot refuses, or has not answered yet; `error` says why. Where "
+        "`will_be_done` is true, as for a stop, it is done as soon as the robot's loop goes on."
+    },
 }
 _FOLDER = {"folder": "its folder, as /recordings names it, or a path"}
 _RECORDINGS: dict[str, tuple[str, dict[str, str]]] = {
@@ -54,7 +57,9 @@ def openapi() -> dict[str, Any]:
         "for the camera), the time (big-endian double, seconds), and a JPEG. It takes "
         '{"pictures": ["face", "camera"], "networks": ["moving"], "thumbnails": '
         '["seeing/camera.image"]}: the pictures, the networks whose values, and the outputs whose '
-        "small pictures are wanted.",
+        "small pictures are wanted. It also takes "
+        '{"command": "stop", "number": 1}, which needs no further connection; the Answer has the '
+        "number.",
     )
     paths |= {f"/api/v1/recordings{name}": _reading(name) for name in _RECORDINGS}
     for route in ROUTES:

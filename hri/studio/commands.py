@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from hri.core.errors import HriError, did_you_mean
-from hri.studio.link import STOP
+from hri.studio.request_queue import STOP
 
 LONGEST_TEXT = 500
 """Letters."""

@@ -15,7 +15,6 @@ import threading
 from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -23,9 +22,9 @@ import cv2
 
 from hri.core.errors import HriError
 from hri.core.signals import Image
+from hri.studio.event_memory import EventMemory
+from hri.studio.request_queue import MOST_REQUESTS, MOST_STOPS, Request, RequestQueue
 
-STOP = "stop"
-"""The command that stops the robot."""
 TEXT, FACE, CAMERA = 1, 2, 3
 """Kinds of messages: JSON, and pictures as JPEG behind their time."""
 PICTURES = {"face": FACE, "camera": CAMERA}
@@ -33,10 +32,8 @@ NETWORK, THUMBNAIL = "network:", "thumbnail:"
 """What begins the name of a network whose values are wanted, and of an output whose picture is."""
 LARGEST = 4_000_000
 """Bytes of a message."""
-MOST_EVENTS = 500
-"""Events that wait for the server."""
-MOST_REQUESTS = 100
-"""Requests that wait for the robot."""
+MOST_ANSWERS = 2 * (MOST_REQUESTS + MOST_STOPS)
+"""Answers that wait for the server: more than requests can wait."""
 QUALITY = 80
 """Of pictures, as JPEG has it."""
 _HEAD, _TIME = struct.Struct(">BI"), struct.Struct(">d")
@@ -93,16 +90,6 @@ class Unpacker:
             yield kind, content
 
 
-@dataclass(frozen=True, slots=True)
-class Request:
-    """What someone asks of the robot through the server."""
-
-    number: int
-    """By which the server knows the answer."""
-    command: str
-    arguments: dict[str, Any]
-
-
 class RobotEnd:
     """The robot's end. `put`, `put_picture` and `add_event` are quick and may come from any thread;
     pictures are compressed in the thread that writes.
@@ -115,11 +102,14 @@ class RobotEnd:
         self._fresh: dict[str, None] = {}
         """Topics that the server does not have yet, in order."""
         self._pictures: dict[str, tuple[Image, float]] = {}
-        self._events: deque[dict[str, Any]] = deque(maxlen=MOST_EVENTS)
-        self._answers: deque[dict[str, Any]] = deque(maxlen=MOST_REQUESTS)
+        self._memory: EventMemory[dict[str, Any]] = EventMemory(most_flood=0)
+        """The last events, for every server that comes."""
+        self._events: EventMemory[dict[str, Any]] = EventMemory()
+        """Events that the server does not have yet."""
+        self._answers: deque[dict[str, Any]] = deque(maxlen=MOST_ANSWERS)
         self._socket: socket.socket | None = None
         self._is_closed = False
-        self.requests: deque[Request] = deque(maxlen=MOST_REQUESTS)
+        self.requests = RequestQueue()
         self.wanted: frozenset[str] = frozenset()
         """Pictures that someone looks at, and with `NETWORK` and `THUMBNAIL` before, values."""
         self.reader: threading.Thread | None = None
@@ -153,7 +143,8 @@ class RobotEnd:
     def add_event(self, event: dict[str, Any]) -> None:
         """An event; when too many wait the oldest is forgotten."""
         with self._changed:
-            self._events.append(event)
+            self._memory.add(event, event)
+            self._events.add(event, event)
             self._changed.notify()
 
     def answer(self, number: int, error: str | None = None, result: Any = None) -> None:
@@ -163,10 +154,13 @@ class RobotEnd:
             self._changed.notify()
 
     def attach(self, server: socket.socket) -> None:
-        """Serve another server: it gets the newest of everything."""
+        """Serve another server: it gets the newest of everything, and the last events."""
         with self._changed:
             self._socket, self.wanted = server, frozenset()
             self._fresh = dict.fromkeys(self._values)
+            self._events.take()
+            self._events.extend(self._memory)
+            self._answers.clear()
             self._changed.notify()
         self.reader = threading.Thread(
             target=self._read, args=(server,), name="studio", daemon=True
@@ -201,10 +195,8 @@ class RobotEnd:
             self.wanted = frozenset(message["wanted"])
             return
         request = Request(message["number"], message["command"], message["with"])
-        if request.command == STOP:
-            self.requests.appendleft(request)  # before all others, and never forgotten for them
-        else:
-            self.requests.append(request)
+        for number, why in self.requests.put(request):
+            self.answer(number, error=why)
 
     def _write(self) -> None:
         while not self._is_closed:
@@ -229,9 +221,9 @@ class RobotEnd:
             return []
         answers = [packed_json(answer) for answer in self._answers]
         values = [_packed_value(name, self._values[name]) for name in self._fresh]
-        events = [packed_json({"event": event}) for event in self._events]
+        events = [packed_json({"event": event}) for event in self._events.take()]
         pictures = [partial(_compressed, name, *one) for name, one in self._pictures.items()]
-        for waiting in (self._answers, self._fresh, self._events, self._pictures):
+        for waiting in (self._answers, self._fresh, self._pictures):
             waiting.clear()
         return [*answers, *values, *events, *pictures]
 

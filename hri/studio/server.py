@@ -9,24 +9,21 @@ from __future__ import annotations
 import itertools
 import json
 import logging
+import math
 import os
+import secrets
 import socket
 import sys
 from collections import deque
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from contextlib import aclosing, asynccontextmanager, suppress
 from dataclasses import dataclass, field
 from functools import partial
 from importlib import resources
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import trio
-from hypercorn.config import Config
-from hypercorn.trio.tcp_server import TCPServer
-from hypercorn.trio.worker_context import WorkerContext
-from hypercorn.typing import ConnectionState, LifespanState
-from hypercorn.utils import wrap_app
 from starlette.applications import Starlette
 from starlette.requests import HTTPConnection, Request
 from starlette.responses import JSONResponse, RedirectResponse, Response
@@ -38,7 +35,13 @@ from hri.core.clock import RealClock
 from hri.core.errors import HriError
 from hri.core.paths import is_file
 from hri.core.token import is_token
-from hri.studio.access import Cookies, is_loopback, is_own_host, is_own_origin
+from hri.studio.access import (
+    Cookies,
+    is_loopback,
+    is_own_host,
+    is_own_origin,
+    is_signed_code,
+)
 from hri.studio.api import openapi
 from hri.studio.commands import COMMANDS, checked
 from hri.studio.composer.files import Library
@@ -47,16 +50,21 @@ from hri.studio.composer.routes import (
     ROOT as NETWORKS,
     NetworkRoutes,
 )
+from hri.studio.connections import BACKLOG, SEAT, Connections, Seat, know
+from hri.studio.event_memory import EventMemory
 from hri.studio.json_body import read_body
 from hri.studio.link import NETWORK, PICTURES, TEXT, THUMBNAIL, LinkError, Unpacker, packed_json
 from hri.studio.recording_routes import Answer, RecordingRoutes
+from hri.studio.request_queue import MOST_REQUESTS, MOST_STOPS, STOP
 
-MOST_PAGES = 32
-"""Pages that look at once."""
-MOST_CONNECTIONS = 256
-"""At once; a further one is closed."""
-MOST_EVENTS = 300
-"""Events that a page gets when it comes, and that wait for one that reads slowly."""
+MOST_PAGES, MOST_PAGES_EACH = 32, 16
+"""Pages that look at once, of all and with the same cookie or token."""
+BEHIND_S = 1.0
+"""Seconds for which a page that reads nothing keeps its place when another wants it."""
+MESSAGE_EVERY = 0.02
+"""Seconds between two messages of a page."""
+MOST_SPENT = 1000
+"""Codes that the robot was asked about, and need not be asked about again."""
 MOST_NETWORKS, MOST_THUMBNAILS = 4, 4
 """Whose values, and whose pictures, a page may want."""
 LONGEST_NAME = 300
@@ -114,9 +122,16 @@ class Settings:
 class Page:
     """One page that looks, and what it does not have yet."""
 
+    proof: str = ""
+    """Why it may look: its cookie, or its token."""
+    seat: Seat | None = None
+    """Of its connection."""
     values: dict[str, str] = field(default_factory=dict)
     pictures: dict[int, bytes] = field(default_factory=dict)
-    events: deque[str] = field(default_factory=lambda: deque(maxlen=MOST_EVENTS))
+    answers: list[str] = field(default_factory=list)
+    events: EventMemory[str] = field(default_factory=EventMemory)
+    sending_since: float = math.inf
+    """Since when it has not read what is sent."""
     wanted: frozenset[str] = frozenset()
     news: trio.Event = field(default_factory=trio.Event)
 
@@ -127,12 +142,16 @@ class Page:
 
     def take(self) -> list[str | bytes]:
         """All that is new; the page has it from now on."""
-        found: list[str | bytes] = [*self.values.values(), *self.events]
+        found: list[str | bytes] = [*self.answers, *self.values.values(), *self.events.take()]
         found += self.pictures.values()
-        for waiting in (self.values, self.events, self.pictures):
+        for waiting in (self.answers, self.values, self.pictures):
             waiting.clear()
         self.news = trio.Event()
         return found
+
+
+Question = tuple[int, trio.MemoryReceiveChannel[dict[str, Any]]]
+"""The number of what the robot was asked, and where the answer comes."""
 
 
 class Hub:
@@ -140,11 +159,14 @@ class Hub:
 
     def __init__(self, link: trio.SocketStream) -> None:
         self._link = link
-        self._sending = trio.Lock()
-        self._numbers = itertools.count(1)
+        self._outbox: deque[bytes] = deque()
+        self._is_sending = False
+        # The answers that the robot owes another server, which was killed, are not for this one.
+        self._numbers = itertools.count(secrets.randbits(48))
         self._answers: dict[int, trio.MemorySendChannel[dict[str, Any]]] = {}
+        self._wanted: list[str] = []
         self.values: dict[str, Any] = {}
-        self._events: deque[str] = deque(maxlen=MOST_EVENTS)
+        self._events: EventMemory[str] = EventMemory(most_flood=0)
         self.pages: set[Page] = set()
 
     async def follow(self) -> None:
@@ -166,14 +188,14 @@ class Hub:
         if "topic" in message:
             self.values[message["topic"]] = message["value"]
         else:
-            self._events.append(text)
+            self._events.add(message["event"], text)
         for page in self.pages:
             if message.get("topic") in VALUES and not page.wants_values:
                 continue
             if "topic" in message:
                 page.values[message["topic"]] = text
             else:
-                page.events.append(text)
+                page.events.add(message["event"], text)
             page.news.set()
 
     def _show(self, kind: int, content: bytes) -> None:
@@ -200,39 +222,80 @@ class Hub:
 
     async def want(self) -> None:
         """Tell the robot which pictures someone looks at."""
-        wanted = frozenset[str]().union(*(page.wanted for page in self.pages))
-        await self._send({"wanted": sorted(wanted)})
+        wanted = sorted(frozenset[str]().union(*(page.wanted for page in self.pages)))
+        if wanted != self._wanted:
+            await self._send({"wanted": wanted})
+            self._wanted = wanted
 
     async def ask(self, command: str, arguments: dict[str, Any], patience: float = PATIENCE) -> Any:
-        """The robot's answer. Raises HriError for a refusal, or where none comes."""
+        """The robot's answer. Raises HriError for a refusal, Waiting where none comes in time."""
+        return await self.answer(await self.begin(command, arguments), command, patience)
+
+    async def begin(self, command: str, arguments: dict[str, Any]) -> Question:
+        """Ask, and do not wait for the answer. Raises HriError."""
         number = next(self._numbers)
         sender, receiver = trio.open_memory_channel[dict[str, Any]](1)
         self._answers[number] = sender
         try:
-            await self._send({"number": number, "command": command, "with": arguments})
+            message = {"number": number, "command": command, "with": arguments}
+            await self._send(message, most=MOST_STOPS if command == STOP else MOST_REQUESTS)
+        except HriError:
+            del self._answers[number]
+            raise
+        return number, receiver
+
+    async def answer(self, question: Question, command: str, patience: float = PATIENCE) -> Any:
+        """What it answers. Raises HriError for a refusal, Waiting where no answer comes in time."""
+        number, receiver = question
+        try:
             with trio.fail_after(patience):
                 answer = await receiver.receive()
         except trio.TooSlowError:
-            raise HriError("the robot does not answer - it may be busy, or has ended") from None
+            raise Waiting(command) from None
         finally:
             self._answers.pop(number, None)
         if answer["error"] is not None:
             raise HriError(answer["error"])
         return answer["result"]
 
-    async def _send(self, message: dict[str, Any]) -> None:
-        async with self._sending:
-            try:
-                await self._link.send_all(packed_json(message))
-            except trio.BrokenResourceError:
-                raise HriError("the robot has ended") from None
+    async def _send(self, message: dict[str, Any], most: int = MOST_REQUESTS) -> None:
+        """Whoever sends already sends this as well: no one else waits for a robot that reads
+        nothing. Raises HriError when it has ended, or when `most` wait.
+        """
+        if len(self._outbox) >= most:  # of stops more may wait, so one waits behind all else
+            raise HriError("the robot reads nothing - its process may be held up, or has ended")
+        self._outbox.append(packed_json(message))
+        if self._is_sending:
+            return
+        self._is_sending = True
+        try:
+            with trio.CancelScope(shield=True):  # a part of a message would make junk of the rest
+                while self._outbox:
+                    await self._link.send_all(self._outbox.popleft())
+        except trio.BrokenResourceError:
+            raise HriError("the robot has ended") from None
+        finally:
+            self._is_sending = False
+
+
+class Waiting(HriError):
+    """The robot has not answered yet."""
+
+    def __init__(self, command: str) -> None:
+        stops = "it stops as soon as its loop goes on, unless it has ended"
+        remedy = stops if command == STOP else "it may be busy, or has ended"
+        super().__init__(f"the robot does not answer - {remedy}")
+        self.is_certain = command == STOP
+        """Whether it will be done."""
 
 
 class Guard:
     """Refuses hosts and pages that are not ours, and bodies that are too long; adds headers."""
 
-    def __init__(self, app: ASGIApp, settings: Settings) -> None:
-        self._app, self._settings = app, settings
+    def __init__(
+        self, app: ASGIApp, settings: Settings, is_known: Callable[[HTTPConnection], bool]
+    ) -> None:
+        self._app, self._settings, self._is_known = app, settings, is_known
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] not in ("http", "websocket"):
@@ -248,6 +311,8 @@ class Guard:
         elif not _is_short(asked.headers.get("content-length", "0"), most := _most(scope["path"])):
             why = f"at most {most} bytes are taken"
         if not why:
+            if self._is_known(asked):
+                know(scope)
             await self._app(scope, receive, partial(_send_with_headers, send))
         elif scope["type"] == "http":
             await JSONResponse({"error": why}, 403, HEADERS)(scope, receive, send)
@@ -278,6 +343,7 @@ class Studio:
     def __init__(self, hub: Hub, settings: Settings) -> None:
         self._hub, self._settings = hub, settings
         self._cookies = Cookies(settings.secret)
+        self._spent: deque[str] = deque(maxlen=MOST_SPENT)
         self.recordings = RecordingRoutes()
         library = Library(_now, running=tuple(map(Path, settings.networks)))
         self.networks = NetworkRoutes(library, settings.devices, _body)
@@ -305,7 +371,8 @@ class Studio:
                 for path, method, answer in self.networks.answers
             ),
         ]
-        return Guard(Starlette(routes=routes, lifespan=self._living), self._settings)
+        app = Starlette(routes=routes, lifespan=self._living)
+        return Guard(app, self._settings, self._is_known)
 
     @asynccontextmanager
     async def _living(self, app: Starlette) -> AsyncIterator[None]:
@@ -320,10 +387,24 @@ class Studio:
         if code is None:
             return _file("index.html")
         response = RedirectResponse("/", 303)
-        if await self._hub.ask("redeem", {"code": code}):
+        try:
+            is_good = await self._is_good(code)
+        except HriError as error:
+            return JSONResponse({"error": str(error)}, 409)
+        if is_good:
             cookie = self._cookies.new(_now())
             response.set_cookie(self._settings.cookie, cookie, httponly=True, samesite="strict")
         return response
+
+    async def _is_good(self, code: str) -> bool:
+        """Whether a code was good until now. The robot is asked once about each that it has made,
+        and never about a guess. Raises HriError.
+        """
+        if code in self._spent or not is_signed_code(self._settings.secret, code):
+            return False
+        is_good = bool(await self._hub.ask("redeem", {"code": code}))
+        self._spent.append(code)
+        return is_good
 
     async def _file(self, request: Request) -> Response:
         return _file(f"{request.path_params['name']}.{request.path_params['suffix']}")
@@ -363,6 +444,8 @@ class Studio:
         try:
             patience = START_PATIENCE if command == START else PATIENCE
             return JSONResponse({"result": await self._hub.ask(command, arguments, patience)})
+        except Waiting as error:
+            return JSONResponse({"error": str(error), "will_be_done": error.is_certain}, 409)
         except HriError as error:
             return JSONResponse({"error": str(error)}, 409)
 
@@ -370,46 +453,87 @@ class Studio:
         if not self._is_known(websocket):
             await websocket.close(1008)
             return
-        if len(self._hub.pages) >= MOST_PAGES:
+        page = Page(self._proof(websocket), websocket.scope.get(SEAT))
+        if not self._has_room(page):
             await websocket.close(1013)
             return
         await websocket.accept()
-        page = Page()
+        if page.seat is not None:
+            page.seat.is_page = True
         await self._hub.add(page)
         try:
             async with trio.open_nursery() as nursery:
                 nursery.start_soon(_send_news, websocket, page)
-                await self._listen(websocket, page)
+                await self._listen(websocket, page, nursery)
                 nursery.cancel_scope.cancel()
         except* (WebSocketDisconnect, RuntimeError, OSError):
             pass  # it has gone
         finally:
-            with trio.CancelScope(shield=True):
+            with trio.CancelScope(shield=True), suppress(HriError):
                 await self._hub.remove(page)
 
-    async def _listen(self, websocket: WebSocket, page: Page) -> None:
-        """Which pictures it wants, until it goes."""
+    def _has_room(self, page: Page) -> bool:
+        """Whether one more page may look; one that reads nothing is sent away for it."""
+        pages = self._hub.pages
+        if sum(one.proof == page.proof for one in pages) >= MOST_PAGES_EACH:
+            return False
+        if len(pages) < MOST_PAGES:
+            return True
+        slowest = min(pages, key=lambda one: one.sending_since)
+        if slowest.seat is None or slowest.sending_since > trio.current_time() - BEHIND_S:
+            return False
+        pages.discard(slowest)
+        slowest.seat.close()
+        return True
+
+    async def _listen(self, websocket: WebSocket, page: Page, nursery: trio.Nursery) -> None:
+        """What a page says, until it goes: which pictures it wants, and stop."""
         while True:
             message = await websocket.receive()
             if message["type"] == "websocket.disconnect":
                 return
             try:
-                page.wanted = _wanted(json.loads(message.get("text") or "{}"))
+                said = json.loads(message.get("text") or "{}")
+                if "command" in said:
+                    await self._stop(page, _stop_number(said), nursery)
+                else:
+                    page.wanted = _wanted(said)
+                    await self._hub.want()
             except (ValueError, KeyError, TypeError, RecursionError):
                 await websocket.close(1003)
                 return
-            await self._hub.want()
+            except HriError as error:
+                log.debug("a page was not heard: %s", error)
+            await trio.sleep(MESSAGE_EVERY)  # no page keeps the others waiting
+
+    async def _stop(self, page: Page, number: int, nursery: trio.Nursery) -> None:
+        """Stop the robot, also for a page that has gone meanwhile. Raises HriError."""
+        question = await self._hub.begin(STOP, {})
+
+        async def tell() -> None:
+            failed: str | None = None
+            try:
+                await self._hub.answer(question, STOP)
+            except HriError as error:
+                failed = str(error)
+            page.answers.append(json.dumps({"answer": number, "error": failed}))
+            page.news.set()
+
+        nursery.start_soon(tell)
 
     def _is_known(self, asked: HTTPConnection) -> bool:
         """Whether it has the cookie, or shows the token."""
+        return bool(self._proof(asked))
+
+    def _proof(self, asked: HTTPConnection) -> str:
+        """The cookie or the token by which it is known; empty for a stranger."""
         cookie = asked.cookies.get(self._settings.cookie, "")
         if self._cookies.is_good(cookie, _now()):
-            return True
+            return cookie
         kind, _, token = asked.headers.get("authorization", "").partition(" ")
-        try:
-            return kind.lower() == "bearer" and is_token(token)
-        except HriError:
-            return False
+        with suppress(HriError):
+            return token if kind.lower() == "bearer" and is_token(token) else ""
+        return ""
 
 
 def _wanted(message: dict[str, list[str]]) -> frozenset[str]:
@@ -424,6 +548,15 @@ def _wanted(message: dict[str, list[str]]) -> frozenset[str]:
     return pictures | frozenset(networks) | frozenset(thumbnails)
 
 
+def _stop_number(message: dict[str, Any]) -> int:
+    """By which a page knows the answer to its stop, the one command that it may send here. Raises
+    ValueError for any other.
+    """
+    if message["command"] != STOP or type(number := message["number"]) is not int:
+        raise ValueError("a page sends other commands as requests")
+    return number
+
+
 def _now() -> float:
     """Seconds since 1970: a cookie outlives the server."""
     return RealClock().wall().timestamp()
@@ -433,10 +566,12 @@ async def _send_news(websocket: WebSocket, page: Page) -> None:
     while True:
         await page.news.wait()
         for message in page.take():
+            page.sending_since = trio.current_time()
             if isinstance(message, bytes):
                 await websocket.send_bytes(message)
             else:
                 await websocket.send_text(message)
+            page.sending_since = math.inf
 
 
 async def _body(request: Request, most: int = LONGEST_BODY) -> bytes:
@@ -468,42 +603,17 @@ async def serve(listening: int, link: int, settings: Settings) -> None:
     """Serve on an open socket until the link to the robot has ended."""
     hub = Hub(trio.SocketStream(trio.socket.from_stdlib_socket(socket.socket(fileno=link))))
     studio = Studio(hub, settings)
-    listener = trio.SocketListener(trio.socket.from_stdlib_socket(socket.socket(fileno=listening)))
+    open_socket = socket.socket(fileno=listening)
+    open_socket.listen(BACKLOG)
+    listener = trio.SocketListener(trio.socket.from_stdlib_socket(open_socket))
+    connections = Connections(studio.app())
     async with trio.open_nursery() as nursery:
-        nursery.start_soon(trio.serve_listeners, Connections(studio.app()).take, [listener])
+        nursery.start_soon(trio.serve_listeners, connections.take, [listener])
+        nursery.start_soon(connections.close_overdue)
         nursery.start_soon(studio.recordings.close_unused)
         with suppress(OSError, trio.BrokenResourceError, LinkError):
             await hub.follow()
         nursery.cancel_scope.cancel()
-
-
-class Connections:
-    """Lets Hypercorn speak HTTP on each connection. Its own loop over them would end with the first
-    that fails.
-    """
-
-    def __init__(self, app: ASGIApp) -> None:
-        self._config = Config()
-        self._config.errorlog = None
-        self._config.websocket_max_message_size = LONGEST_BODY
-        self._config.h11_max_incomplete_size = LONGEST_BODY
-        self._app = wrap_app(cast(Any, app), LONGEST_BODY, "asgi")
-        self._context = WorkerContext(None)
-        self._count = 0
-
-    async def take(self, stream: trio.SocketStream) -> None:
-        """Serve a connection to its end, whatever that is."""
-        if self._count >= MOST_CONNECTIONS:
-            await stream.aclose()
-            return
-        self._count += 1
-        try:
-            state = ConnectionState(LifespanState({}))
-            await TCPServer(self._app, self._config, self._context, state, cast(Any, stream)).run()
-        except* Exception as failures:  # a peer that breaks off at a bad moment
-            log.debug("a connection failed: %s", failures.exceptions[0])
-        finally:
-            self._count -= 1
 
 
 def main() -> int:

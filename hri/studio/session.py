@@ -9,7 +9,7 @@ import socket
 import subprocess
 import threading
 from collections.abc import Awaitable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 import trio
 
@@ -19,10 +19,11 @@ from hri.robot import Job, Robot
 from hri.studio.access import Codes
 from hri.studio.actions import Asked, obey
 from hri.studio.body import devices_of
-from hri.studio.link import Request, RobotEnd
+from hri.studio.link import RobotEnd
 from hri.studio.live import Live
 from hri.studio.network_watch import NetworkWatch
 from hri.studio.port import SERVER, listening
+from hri.studio.request_queue import STOP, Request
 from hri.studio.running import RunningNetworks
 from hri.task.context import TaskContext
 
@@ -48,7 +49,8 @@ class StudioSession:
         self._robot = robot
         self._socket = listening(port, allows_remote)
         self.port: int = self._socket.getsockname()[1]
-        self._codes = Codes()
+        secret = secrets.token_urlsafe(32)
+        self._codes = Codes(secret)
         self._link = RobotEnd()
         self._networks = RunningNetworks(robot.networks, robot.app.is_network)
         self._watch = NetworkWatch(robot.networks, self._link, self._networks.has_breakpoint)
@@ -56,7 +58,7 @@ class StudioSession:
         self._is_closed = threading.Event()
         self._config = {
             "port": self.port,
-            "secret": secrets.token_urlsafe(32),
+            "secret": secret,
             "allows_remote": allows_remote,
             "networks": [str(path.resolve()) for path in robot.app.networks],
             "devices": devices_of(robot.resources),
@@ -80,16 +82,42 @@ class StudioSession:
 
     def jobs(self) -> list[Job]:
         """The tasks that run beside the robot's own."""
-        return [self._live.watch, self._watch.watch, self._obey]
+        return [self._stop_when_asked, self._live.watch, self._watch.watch, self._obey]
+
+    async def _stop_when_asked(self, context: TaskContext) -> None:
+        """Stop the robot as soon as its loop goes on: a loop that was held up has many timers that
+        are due, for which a stop does not wait.
+        """
+        asked = Asked(self._robot, context, self._networks)
+        token = trio.lowlevel.current_trio_token()
+        wanted = trio.Event()
+
+        def wake() -> None:
+            with suppress(trio.RunFinishedError):
+                token.run_sync_soon(lambda: wanted.set(), idempotent=True)
+
+        while True:
+            self._link.requests.call_on_stop(wake)
+            await wanted.wait()
+            wanted = trio.Event()
+            self._stop(asked)
+
+    def _stop(self, asked: Asked) -> None:
+        """Stop the robot if someone asked for it."""
+        if (numbers := self._link.requests.take_stop()) is not None:
+            with self._refusing(STOP, *numbers):
+                obey(asked, STOP, {})
+                for number in numbers:
+                    self._link.answer(number)
 
     async def _obey(self, context: TaskContext) -> None:
         """Do what the page asks, in the robot's loop."""
         asked = Asked(self._robot, context, self._networks)
         async with trio.open_nursery() as nursery:
             while True:
-                while self._link.requests:
-                    request = self._link.requests.popleft()
-                    with self._refusing(request):
+                while (request := self._link.requests.take()) is not None:
+                    self._stop(asked)  # what was asked for since the one before
+                    with self._refusing(request.command, request.number):
                         if (takes_a_while := self._begun(asked, request)) is not None:
                             nursery.start_soon(self._finish, request, takes_a_while)
                 await context.clock.sleep(LOOK_EVERY)
@@ -107,21 +135,24 @@ class StudioSession:
         return None
 
     async def _finish(self, request: Request, doing: Awaitable[None]) -> None:
-        with self._refusing(request):
+        with self._refusing(request.command, request.number):
             await doing
             self._link.answer(request.number)
 
     @contextmanager
-    def _refusing(self, request: Request) -> Iterator[None]:
+    def _refusing(self, command: str, *numbers: int) -> Iterator[None]:
         """Whatever goes wrong is an answer; a mistake of ours must not end the robot's loop."""
         try:
             yield
         except HriError as error:
-            self._link.answer(request.number, error=str(error))
+            failed = str(error)
         except Exception as error:
-            log.error("%s failed: %s", request.command, error, exc_info=error)
-            failed = f"{request.command} failed: {error!r} - the robot goes on; see its log"
-            self._link.answer(request.number, error=failed)
+            log.error("%s failed: %s", command, error, exc_info=error)
+            failed = f"{command} failed: {error!r} - the robot goes on; see its log"
+        else:
+            return
+        for number in numbers:
+            self._link.answer(number, error=failed)
 
     def _keep_server(self) -> None:
         """Start the server, and again when it has ended. The port stays ours meanwhile: a page that

@@ -228,6 +228,13 @@ class RobotEvent(TypedDict):
     event: str
 
 
+class Answer(TypedDict):
+    """What became of a stop that was sent over the WebSocket, by its number."""
+
+    answer: int
+    error: str | None
+
+
 TOPICS: Mapping[str, Any] = {
     "about": About,
     "speech": Speech,

@@ -37,8 +37,9 @@ def schemas() -> dict[str, Any]:
         for name, type in TOPICS.items()
     ]
     event = _object({"event": schema_of(RobotEvent)})
+    answer = {"$ref": "#/components/schemas/Answer"}
     state = {**_object({name: schema_of(type) for name, type in TOPICS.items()}), "required": []}
-    return {**found, "State": state, "LiveMessage": {"oneOf": [*topics, event]}}
+    return {**found, "State": state, "LiveMessage": {"oneOf": [*topics, event, answer]}}
 
 
 def schema_of(type: Any) -> dict[str, Any]:

@@ -11,11 +11,12 @@ from hri.studio.access import (
     is_loopback,
     is_own_host,
     is_own_origin,
+    is_signed_code,
 )
 
 
 def test_a_code_works_once():
-    codes = Codes()
+    codes = Codes("secret")
     first, second = codes.new(), codes.new()
     assert first != second
     assert codes.redeem(first)
@@ -24,16 +25,25 @@ def test_a_code_works_once():
 
 
 def test_too_many_codes_make_the_oldest_worthless():
-    codes = Codes()
+    codes = Codes("secret")
     made = [codes.new() for _ in range(MOST_CODES + 1)]
     assert [codes.redeem(code) for code in made] == [False] + [True] * MOST_CODES
 
 
 @given(st.text())
 def test_no_other_text_is_a_code(text):
-    codes = Codes()
+    codes = Codes("secret")
     good = codes.new()
     assert codes.redeem(text) == (text == good)
+
+
+@given(st.text())
+def test_a_guess_is_known_without_asking_who_made_the_codes(guess):
+    code = Codes("secret").new()
+    assert is_signed_code("secret", code)
+    assert not is_signed_code("another", code)
+    assert not is_signed_code("secret", guess)
+    assert not is_signed_code("secret", f"{guess}.{code.rpartition('.')[2]}")
 
 
 def test_a_cookie_is_good_for_its_secret_and_its_time():

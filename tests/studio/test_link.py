@@ -11,12 +11,10 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
+from hri.studio.event_memory import MOST_OTHERS
 from hri.studio.link import (
     FACE,
     LARGEST,
-    MOST_EVENTS,
-    MOST_REQUESTS,
-    STOP,
     TEXT,
     LinkError,
     RobotEnd,
@@ -25,6 +23,7 @@ from hri.studio.link import (
     packed,
     packed_json,
 )
+from hri.studio.request_queue import MOST_OF_A_KIND, MOST_REQUESTS, STOP
 
 
 @pytest.fixture
@@ -116,15 +115,22 @@ def test_what_is_costly_to_write_is_written_by_the_thread_that_sends_it(link, se
     assert writers == ["studio link"]
 
 
-def test_without_a_server_old_events_are_forgotten(link):
-    for number in range(3 * MOST_EVENTS):
+def test_every_server_gets_the_last_events_and_no_flood_pushes_out_what_was_said(link):
+    said = {"event": "speech.said", "t": 0, "text": "hello"}
+    link.add_event(said)
+    for number in range(3 * MOST_OTHERS):
         link.add_event({"event": "x", "t": number})
-    ours, theirs = socket.socketpair()
-    theirs.settimeout(10)
-    link.attach(ours)
-    found = received(theirs, MOST_EVENTS)
-    assert [one["event"]["t"] for one in found] == list(range(2 * MOST_EVENTS, 3 * MOST_EVENTS))
-    theirs.close()
+        for _ in range(3):
+            link.add_event({"event": "odometry", "t": number})
+    for _ in range(2):
+        ours, theirs = socket.socketpair()
+        theirs.settimeout(10)
+        link.attach(ours)
+        found = [one["event"] for one in received(theirs, 1 + MOST_OTHERS)]
+        assert found[0] == said
+        assert [one["t"] for one in found[1:]] == list(range(2 * MOST_OTHERS, 3 * MOST_OTHERS))
+        link.detach()
+        theirs.close()
 
 
 def test_a_server_that_never_reads_does_not_hold_up_the_robot(link, server):
@@ -147,15 +153,61 @@ def test_pictures_come_as_jpeg_with_their_time(link, server):
     assert np.abs(shown.astype(int) - image).max() < 12
 
 
-def test_a_stop_goes_before_all_other_requests_and_is_never_forgotten(link, server):
+def asked(server, number, command):
+    server.sendall(packed_json({"number": number, "command": command, "with": {}}))
+
+
+@pytest.mark.parametrize("is_first", [True, False])
+def test_no_flood_pushes_out_a_stop(link, server, is_first):
+    if is_first:
+        asked(server, 7, STOP)
     for number in range(2 * MOST_REQUESTS):
-        server.sendall(packed_json({"number": number, "command": "say", "with": {}}))
-    server.sendall(packed_json({"number": 7, "command": STOP, "with": {}}))
-    server.sendall(packed_json({"wanted": ["face"]}))
+        asked(server, 1000 + number, f"command{number % 50}")
+    if not is_first:
+        asked(server, 7, STOP)
     server.shutdown(socket.SHUT_WR)
     link.reader.join(10)
-    assert link.requests[0].command == STOP
-    assert len(link.requests) == MOST_REQUESTS
+    assert link.requests.take_stop() == [7]
+    assert link.requests.take_stop() is None
+
+
+def test_a_request_that_finds_no_room_is_refused_with_what_to_do(link, server):
+    count = 3 * MOST_OF_A_KIND
+    for number in range(count):
+        asked(server, number, "redeem")
+    asked(server, count, "say")
+    refused = received(server, count - MOST_OF_A_KIND)
+    assert [one["answer"] for one in refused] == list(range(MOST_OF_A_KIND, count))
+    why = "20 redeem requests wait for the robot already - ask again when it goes on"
+    assert {one["error"] for one in refused} == {why}
+    server.shutdown(socket.SHUT_WR)
+    link.reader.join(10)
+    waiting = [link.requests.take().command for _ in range(MOST_OF_A_KIND + 1)]
+    assert waiting == MOST_OF_A_KIND * ["redeem"] + ["say"]
+    assert link.requests.take() is None
+
+
+def test_a_release_that_waited_does_not_undo_a_later_stop(link, server):
+    for number, command in enumerate(["release", STOP, STOP, "release"]):
+        asked(server, number, command)
+    (refused,) = received(server, 1)
+    assert refused["answer"] == 0
+    assert refused["error"] == "a stop came after it - release the robot again"
+    server.shutdown(socket.SHUT_WR)
+    link.reader.join(10)
+    assert link.requests.take_stop() == [1, 2]
+    assert link.requests.take().number == 3
+
+
+def test_whoever_waits_for_a_stop_hears_of_each_and_of_one_that_waits(link, server):
+    heard = []
+    link.requests.call_on_stop(lambda: heard.append("a"))
+    asked(server, 1, STOP)
+    asked(server, 2, STOP)
+    server.shutdown(socket.SHUT_WR)
+    link.reader.join(10)
+    link.requests.call_on_stop(lambda: heard.append("b"))
+    assert heard == ["a", "a", "b"]
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 import json
 import struct
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 
 import httpx2 as httpx
 import pytest
@@ -12,14 +12,28 @@ from hypothesis import given, settings, strategies as st
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
+from hri.core.errors import HriError
 from hri.core.token import own_token
+from hri.studio.access import Codes, Cookies
 from hri.studio.commands import COMMANDS, LONGEST_TEXT
+from hri.studio.event_memory import MOST_FLOOD, MOST_LINES, MOST_OTHERS
 from hri.studio.link import CAMERA, FACE, Unpacker, packed, packed_json
-from hri.studio.server import LONGEST_BODY, MOST_EVENTS, MOST_PAGES, Hub, Settings, Studio
+from hri.studio.request_queue import MOST_REQUESTS, MOST_STOPS
+from hri.studio.server import (
+    LONGEST_BODY,
+    MOST_PAGES,
+    MOST_PAGES_EACH,
+    Hub,
+    Page,
+    Settings,
+    Studio,
+    _now,
+)
 
 HOST = "http://127.0.0.1:8311"
 LIVE = "ws://127.0.0.1:8311/api/v1/live"
 OPEN = {name for name, command in COMMANDS.items() if command.is_open}
+GOOD, USED = (Codes("secret").new() for _ in range(2))
 GIVEN = {str: "hello", float: 1.0, bool: True}
 
 
@@ -34,7 +48,7 @@ class Robot:
         message = json.loads(content)
         self.asked.append(message)
         if "number" in message:
-            is_code = message["with"].get("code") == "good"
+            is_code = message["with"].get("code") == GOOD
             result = is_code if message["command"] == "redeem" else None
             answer = {"answer": message["number"], "error": self.refuses, "result": result}
             self.tell(answer)
@@ -79,7 +93,7 @@ def stranger(app):
 @pytest.fixture
 def person(app):
     with client(app) as made:
-        assert made.get("/?code=good").status_code == 200
+        assert made.get(f"/?code={GOOD}").status_code == 200
         yield made
 
 
@@ -119,10 +133,13 @@ def test_a_script_shows_the_token(stranger, robot):
     assert robot.obeyed == ["say"]
 
 
-def test_a_wrong_code_gives_no_cookie(stranger):
-    assert stranger.get("/?code=bad").status_code == 200
+def test_a_wrong_code_gives_no_cookie_and_costs_the_robot_nothing(stranger, robot):
+    for code in ("bad", "", USED, USED, f"x{GOOD}", GOOD[:-1]):
+        assert stranger.get(f"/?code={code}").status_code == 200
     assert not stranger.cookies
     assert stranger.get("/api/v1/state").status_code == 401
+    asked = [one["with"]["code"] for one in robot.asked]
+    assert asked == [USED]  # once, and about no guess at all
 
 
 @pytest.mark.parametrize("origin", ["http://evil.example", "null", "http://127.0.0.1:9999"])
@@ -266,33 +283,117 @@ def test_a_page_that_talks_nonsense_is_sent_away(person, text):
             page.receive_json()
 
 
-def test_pages_are_counted(person):
-    pages = [person.websocket_connect(LIVE) for _ in range(MOST_PAGES)]
-    for page in pages:
-        page.__enter__()
-    with pytest.raises(WebSocketDisconnect), person.websocket_connect(LIVE):
-        pass
-    for page in pages:
-        page.__exit__(None, None, None)
+def test_pages_are_counted_and_one_cookie_does_not_take_them_all(app):
+    def cookie():
+        return {"cookie": f"hri_studio_8311={Cookies('secret').new(_now())}"}
+
+    first, second, third = (cookie() for _ in range(3))
+    with client(app) as made, ExitStack() as pages:
+
+        def look(proof):
+            return made.websocket_connect(LIVE, headers=proof)
+
+        for proof in (first, second):
+            for _ in range(MOST_PAGES_EACH):
+                pages.enter_context(look(proof))
+            with pytest.raises(WebSocketDisconnect), look(proof):
+                pass
+        assert 2 * MOST_PAGES_EACH == MOST_PAGES
+        with pytest.raises(WebSocketDisconnect), look(third):
+            pass
+
+
+def test_a_page_stops_the_robot_over_its_open_link_and_does_nothing_else_there(person, robot):
+    with person.websocket_connect(LIVE) as page:
+        page.send_json({"command": "stop", "number": 5})
+        assert page.receive_json() == {"answer": 5, "error": None}
+        robot.refuses = "it has no base"
+        page.send_json({"command": "stop", "number": 6})
+        assert page.receive_json() == {"answer": 6, "error": "it has no base"}
+    assert robot.obeyed == ["stop", "stop"]
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        {"command": "release", "number": 1},
+        {"command": "stop"},
+        {"command": "stop", "number": "1"},
+        {"command": ["stop"], "number": 1},
+    ],
+)
+def test_another_command_over_the_link_of_a_page_is_nonsense(person, robot, message):
+    with person.websocket_connect(LIVE) as page:
+        page.send_json(message)
+        with pytest.raises(WebSocketDisconnect):
+            page.receive_json()
+    assert robot.obeyed == []
 
 
 def test_a_page_that_reads_slowly_gets_the_newest_and_fills_nothing(robot):
     async def run():
-        from hri.studio.server import Page
-
         page = Page(wanted=frozenset({"face"}))
         await robot.hub.add(page)
-        for number in range(5 * MOST_EVENTS):
+        count = 5 * MOST_OTHERS
+        for number in range(count):
             robot.tell({"topic": "base", "value": number})
-            robot.tell({"event": {"t": number, "event": "x"}})
+            for name in ("x", "odometry", "speech.heard"):
+                robot.tell({"event": {"t": number, "event": name}})
             robot.hub._show(FACE, struct.pack(">d", number) + b"jpeg")
             robot.hub._show(CAMERA, struct.pack(">d", number) + b"jpeg")
         found = page.take()
-        assert len(found) == 1 + MOST_EVENTS + 1
-        assert json.loads(found[0]) == {"topic": "base", "value": 5 * MOST_EVENTS - 1}
-        assert found[-1] == bytes((FACE,)) + struct.pack(">d", 5 * MOST_EVENTS - 1) + b"jpeg"
+        assert len(found) == 1 + MOST_OTHERS + MOST_FLOOD + MOST_LINES + 1
+        assert json.loads(found[0]) == {"topic": "base", "value": count - 1}
+        assert found[-1] == bytes((FACE,)) + struct.pack(">d", count - 1) + b"jpeg"
 
     trio.run(run)
+
+
+def test_a_page_that_comes_later_sees_the_conversation_as_the_first_does(person, robot):
+    said = [{"t": t, "event": "speech.said", "text": str(t)} for t in range(MOST_LINES)]
+    for event in said:
+        robot.tell({"event": event})
+        for _ in range(10):
+            robot.tell({"event": {"t": event["t"], "event": "odometry"}})
+            robot.tell({"event": {"t": event["t"], "event": "x"}})
+    with person.websocket_connect(LIVE) as page:
+        found = [page.receive_json()["event"] for _ in range(MOST_LINES + MOST_OTHERS)]
+    assert [one for one in found if one["event"] == "speech.said"] == said
+    assert found == sorted(found, key=lambda one: one["t"])
+    assert "odometry" not in {one["event"] for one in found}
+
+
+class Frozen:
+    """A robot whose process is held up, so that nothing is read of what is sent to it."""
+
+    def __init__(self):
+        self.goes_on, self.read = trio.Event(), []
+
+    async def send_all(self, data):
+        await self.goes_on.wait()
+        self.read += [json.loads(content)["command"] for _, content in Unpacker().feed(data)]
+
+
+def test_a_stop_reaches_a_robot_that_was_held_up_though_others_fill_the_way(autojump_clock):
+    async def ask(hub, command):
+        with suppress(HriError):
+            await hub.ask(command, {})
+
+    async def run():
+        robot = Frozen()
+        hub = Hub(robot)
+        async with trio.open_nursery() as nursery:
+            for _ in range(2 * MOST_REQUESTS):
+                nursery.start_soon(ask, hub, "say")
+            await trio.testing.wait_all_tasks_blocked()
+            for _ in range(2 * MOST_STOPS):
+                nursery.start_soon(ask, hub, "stop")
+            await trio.sleep(60)
+            robot.goes_on.set()
+        assert len(robot.read) <= MOST_STOPS + 1
+        assert "stop" in robot.read
+
+    trio.run(run, clock=autojump_clock)
 
 
 def test_a_robot_that_does_not_answer_is_an_error_and_not_a_wait(app, robot, autojump_clock):
@@ -305,7 +406,11 @@ def test_a_robot_that_does_not_answer_is_an_error_and_not_a_wait(app, robot, aut
 
     answer = trio.run(run, clock=autojump_clock)
     assert answer.status_code == 409
-    assert answer.json()["error"].startswith("the robot does not answer")
+    assert answer.json() == {
+        "error": "the robot does not answer - "
+        "it stops as soon as its loop goes on, unless it has ended",
+        "will_be_done": True,
+    }
 
 
 def test_the_stream_of_the_robot_is_followed_to_its_end(robot):

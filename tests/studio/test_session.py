@@ -7,6 +7,7 @@ import signal
 import socket
 import subprocess
 import sys
+import threading
 
 import httpx2 as httpx
 import jsonschema
@@ -20,7 +21,7 @@ from hri.hal.emergency_stop import EmergencyStop
 from hri.robot import Robot
 from hri.studio.actions import ACTIONS, BECAUSE
 from hri.studio.commands import COMMANDS
-from hri.studio.link import STOP
+from hri.studio.request_queue import MOST_REQUESTS, STOP
 from hri.studio.session import StudioSession
 from tests.studio.living import LONGEST, known, living, told
 
@@ -103,6 +104,43 @@ def test_stop_needs_no_code_and_latches_until_it_is_released(studio, client, rob
     told(client, "base", lambda base: abs(base["velocity"][0]) < 0.01)
     assert client.post("/api/v1/release").status_code == 200
     told(client, "base", lambda base: not base["is_stopped"])
+
+
+def test_a_loop_that_was_held_up_stops_before_anything_else_whatever_else_was_asked(
+    studio, client, robot
+):
+    is_held, goes_on, order = threading.Event(), threading.Event(), []
+
+    def hold():
+        is_held.set()
+        goes_on.wait()
+
+    halted = robot.events.subscribe("drive.halt", lambda event: order.append("stop"))
+    robot.clock.soon(hold)
+    is_held.wait()
+    try:
+        robot.clock.soon(lambda: order.append("what was due"))
+        with httpx.Client(base_url=studio.address().partition("?")[0]) as stranger:
+            for number in range(2 * MOST_REQUESTS):
+                assert stranger.get(f"/?code=x{number}").status_code == 303
+            answer = stranger.post("/api/v1/stop")
+            for number in range(2 * MOST_REQUESTS):
+                assert stranger.get(f"/?code=y{number}").status_code == 303
+        assert (answer.status_code, answer.json()["will_be_done"]) == (409, True)
+    finally:
+        goes_on.set()
+    told(client, "base", lambda base: base["is_stopped"])
+    assert order == ["stop", "what was due"]
+    halted.cancel()
+    assert client.post("/api/v1/release").status_code == 200
+
+
+def test_the_base_stops_though_whoever_follows_its_events_fails(client, robot):
+    broken = robot.events.subscribe("drive.halt", lambda event: 1 / 0)
+    client.post("/api/v1/stop")
+    broken.cancel()
+    assert [base.is_latched for base in robot.resources.opened(EmergencyStop)] == [True]
+    assert client.post("/api/v1/release").status_code == 200
 
 
 def test_the_simulated_person_and_things_obey(client):

@@ -186,6 +186,12 @@ export interface RobotEvent {
   [key: string]: unknown;
 }
 
+/** What became of a stop that was sent over the WebSocket, by its number. */
+export interface Answer {
+  answer: number;
+  error: string | null;
+}
+
 export interface Values {
   about?: About;
   speech?: Speech;
