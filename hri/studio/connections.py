@@ -124,7 +124,7 @@ def _oldest(seats: Iterable[Seat]) -> Seat:
 
 
 def know(scope: Scope) -> None:
-    """Whoever sent this request showed the cookie or the token: the connection is known from now on."""
+    """Whoever sent this request showed the cookie or the token: its connection is known now."""
     seat = scope.get(SEAT)
     if seat is not None and not seat.is_known:
         seat.is_known, seat.since = True, trio.current_time()

@@ -1,5 +1,6 @@
 // The link to the server: messages come over a WebSocket, which is opened again when it ends;
-// commands go as single requests, so that a stop needs no open link.
+// commands go as single requests. A stop goes by both ways: it needs no open link, and no further
+// connection.
 
 export type Picture = "face" | "camera";
 const PICTURES: Record<number, Picture> = { 2: "face", 3: "camera" };
@@ -15,6 +16,9 @@ export class Connection {
   private socket: WebSocket | null = null;
   private wanted = { pictures: [] as Picture[], networks: [] as string[], thumbnails: [] as string[] };
   private wait = 250;
+  private stops = 0;
+  /** What to tell those who stopped the robot over the link, by number. */
+  private readonly stopped = new Map<number, (error: Error | null) => void>();
 
   constructor(private readonly listener: Listener) {}
 
@@ -31,6 +35,7 @@ export class Connection {
     socket.onmessage = (event) => this.take(event.data as string | ArrayBuffer);
     socket.onclose = () => {
       this.socket = null;
+      for (const tell of [...this.stopped.values()]) tell(new TypeError("the link has ended"));
       void this.explain(wasOpen);
       setTimeout(() => this.open(), this.wait);
       this.wait = Math.min(1000, this.wait * 2);
@@ -61,13 +66,34 @@ export class Connection {
     return answer.result;
   }
 
+  /** Stop the robot by every way at once; the first that succeeds counts, and twice is once. */
+  async stop(): Promise<void> {
+    const ways = [this.ask("stop"), this.stopOverLink()];
+    await Promise.any(ways).catch((failed: AggregateError) => Promise.reject(failed.errors[0]));
+  }
+
+  private stopOverLink(): Promise<void> {
+    return new Promise((done, fail) => {
+      if (this.socket?.readyState !== WebSocket.OPEN) return fail(new TypeError("no link"));
+      const number = ++this.stops;
+      this.stopped.set(number, (error) => {
+        this.stopped.delete(number);
+        if (error === null) done();
+        else fail(error);
+      });
+      this.socket.send(JSON.stringify({ command: "stop", number }));
+    });
+  }
+
   private tellWanted(): void {
     if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(this.wanted));
   }
 
   private take(data: string | ArrayBuffer): void {
     if (typeof data === "string") {
-      this.listener.message(JSON.parse(data));
+      const message = JSON.parse(data) as { answer?: number; error?: string | null };
+      if (message.answer === undefined) this.listener.message(message);
+      else this.stopped.get(message.answer)?.(message.error ? new Error(message.error) : null);
       return;
     }
     const head = new DataView(data);

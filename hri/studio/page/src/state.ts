@@ -23,6 +23,12 @@ export function empty(): State {
   return { values: {}, lines: [], events: [] };
 }
 
+/** The server tells the last events to each page that comes, also to one that comes back. */
+export function forgetEvents(state: State): void {
+  state.lines = [];
+  state.events = [];
+}
+
 /** Take a message of the robot. */
 export function take(state: State, message: unknown): void {
   const told = message as { topic?: keyof Values; value?: unknown; event?: RobotEvent };
@@ -47,12 +53,17 @@ export function lineOf(event: RobotEvent): Line | null {
     case "speech.heard":
       return { time: event.t, who: "person", text, detail: sure };
     case "speech.rejected":
-      return { time: event.t, who: "ignored", text: "ignored", detail: String(event.reason ?? "") };
+      return { time: event.t, who: "ignored", text: event.typed === true ? text : "ignored", detail: whyIgnored(event) };
     case "speech.said":
       return { time: event.t, who: "robot", text, detail: "" };
     default:
       return null;
   }
+}
+
+/** Why a sentence does not count; of one that was typed also what could have followed, and what is near. */
+function whyIgnored(event: RobotEvent): string {
+  return [event.reason, event.typed === true ? event.detail : ""].filter(Boolean).join(": ");
 }
 
 /** The properties of an event in one line. */
@@ -63,7 +74,11 @@ export function summary(event: RobotEvent): string {
     .join(", ");
 }
 
-/** The bounds of a room with a margin: left, bottom, width, height in meters. */
+/** Meters from the walls at which something still belongs to the room. */
+const NEAR = 3;
+
+/** What the map shows, with a margin: left, bottom, width, height in meters. It is the room, the robot,
+ * and what is in the room or near it: nothing far away makes it small. */
 export function bounds(world: World | null | undefined, base: Base | undefined): [number, number, number, number] {
   const xs: number[] = [];
   const ys: number[] = [];
@@ -71,7 +86,10 @@ export function bounds(world: World | null | undefined, base: Base | undefined):
     xs.push(x1!, x2!);
     ys.push(y1!, y2!);
   }
-  const middles = [base?.pose ?? [0, 0], ...[...(world?.people ?? []), ...(world?.things ?? []), ...(world?.obstacles ?? [])].map((one) => one.at)];
+  const all = [...(world?.people ?? []), ...(world?.things ?? []), ...(world?.obstacles ?? [])];
+  const isNear = ([x, y]: number[]): boolean => xs.length === 0 || (isWithin(x!, xs) && isWithin(y!, ys));
+  const near = all.map((one) => one.at).filter(isNear);
+  const middles = [base?.pose ?? [0, 0], ...near];
   for (const [x, y] of middles) {
     xs.push(x! - 1, x! + 1);
     ys.push(y! - 1, y! + 1);
@@ -79,6 +97,10 @@ export function bounds(world: World | null | undefined, base: Base | undefined):
   const left = Math.min(...xs) - 0.3;
   const low = Math.min(...ys) - 0.3;
   return [left, low, Math.max(...xs) + 0.3 - left, Math.max(...ys) + 0.3 - low];
+}
+
+function isWithin(place: number, walls: number[]): boolean {
+  return place >= Math.min(...walls) - NEAR && place <= Math.max(...walls) + NEAR;
 }
 
 /** Something in the simulated room that can be put elsewhere. */

@@ -3,6 +3,7 @@
 
 import { bindKeys, type Action } from "./commands";
 import { Connection, type Picture } from "./connection";
+import { settle, show } from "./dialog";
 import { element, list, Parts, replace } from "./dom";
 import { Hold } from "./hold";
 import { Map } from "./map";
@@ -10,7 +11,7 @@ import { MoodCurve } from "./mood";
 import { LivePicture } from "./picture";
 import { RoomForm } from "./room";
 import { KEYS, RecordingsView } from "./recordings_view";
-import { empty, putCommand, summary, take, type Device, type SeenPerson, type State, type Values } from "./state";
+import { empty, forgetEvents, putCommand, summary, take, type Device, type SeenPerson, type State, type Values } from "./state";
 import { hashOf, viewOf, VIEWS } from "./views";
 import type { ComposerView } from "./composer/view";
 
@@ -54,6 +55,7 @@ const connection = new Connection({
     void pictures[which].show(jpeg);
   },
   linked(isLinked, isKnown) {
+    if (isLinked) forgetEvents(state); // the last ones come again
     const why = isKnown ? "no link to the robot - it comes back by itself" : "open the address that hri studio printed: this browser is not known yet";
     element("link").textContent = isLinked ? "linked" : "no link";
     document.body.classList.toggle("unlinked", !isLinked);
@@ -61,9 +63,18 @@ const connection = new Connection({
   },
 });
 
-async function ask(command: string, given: Record<string, unknown> = {}): Promise<void> {
+function ask(command: string, given: Record<string, unknown> = {}): Promise<void> {
+  return told(connection.ask(command, given));
+}
+
+function stop(): void {
+  void told(connection.stop());
+}
+
+/** Say what goes wrong. */
+async function told(doing: Promise<unknown>): Promise<void> {
   try {
-    await connection.ask(command, given);
+    await doing;
     say("");
   } catch (error) {
     say(error instanceof TypeError ? "no link to the robot" : (error as Error).message);
@@ -230,8 +241,12 @@ function send(field: string, command: string): void {
   else void ask(command, { text });
 }
 
+function showKeys(): void {
+  show(element<HTMLDialogElement>("help"));
+}
+
 const actions: Action[] = [
-  { about: "stop the base at once", key: "Escape", always: true, run: () => void ask("stop") },
+  { about: "stop the base at once", key: "Escape", always: true, run: stop },
   { about: "let the base move again", key: "r", run: () => void ask("release") },
   { about: "write a sentence to the robot", key: "/", run: () => element("text").focus() },
   { about: "hold to talk to it", key: "t", run: () => talk.begin(), end: () => talk.end() },
@@ -239,17 +254,17 @@ const actions: Action[] = [
   { about: "make it deaf, or let it hear", key: "m", run: () => toggle("mute", "mute") },
   { about: "switch the camera", key: "c", run: () => toggle("watch", "watch") },
   ...VISITOR.map(([command, words, key]) => ({ about: `simulated person: ${words.toLowerCase()}`, key, run: () => askPerson(command) })),
-  { about: "show the keys", key: "?", run: () => element<HTMLDialogElement>("help").showModal() },
+  { about: "show the keys", key: "?", run: showKeys },
 ];
 
 function bind(): void {
   const clicks: Record<string, () => void> = {
-    stop: () => void ask("stop"),
+    stop,
     release: () => void ask("release"),
     mute: () => toggle("mute", "mute"),
     watch: () => toggle("watch", "watch"),
     speak: () => send("text", "say"),
-    keys: () => element<HTMLDialogElement>("help").showModal(),
+    keys: showKeys,
   };
   for (const [id, run] of Object.entries(clicks)) element(id).addEventListener("click", run);
   const forms: Record<string, () => void> = {
@@ -287,6 +302,7 @@ function showView(): void {
     if (name === view.name) element(`to-${name}`).setAttribute("aria-current", "page");
     else element(`to-${name}`).removeAttribute("aria-current");
   }
+  settle();
   wantPictures();
   if (view.name !== "recordings") recordings.close();
   if (view.name !== "networks") composer?.close();
@@ -325,6 +341,12 @@ async function compose(path: string): Promise<void> {
 function wantPictures(): void {
   connection.want(document.hidden || element("live").hidden ? [] : ["face", "camera"]);
 }
+
+/** Dialogs begin below the header, which has Stop. */
+new ResizeObserver(([header]) => {
+  const height = header!.target.getBoundingClientRect().height;
+  document.documentElement.style.setProperty("--header", `${height}px`);
+}).observe(document.querySelector("header")!);
 
 bind();
 connection.open();

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { MOST_EVENTS, ago, bounds, empty, freeName, lineOf, movables, putCommand, summary, take } from "../src/state";
+import { MOST_EVENTS, ago, bounds, empty, forgetEvents, freeName, lineOf, movables, putCommand, summary, take } from "../src/state";
 
 const feeling = { label: "joy", words: "happy", why: "", pleasure: 0.5, arousal: 0, dominance: 0, emotions: {}, drives: {}, causes: [] };
 
@@ -41,6 +41,20 @@ test("rejected words are not shown", () => {
   assert.equal(lineOf({ t: 0, event: "speech.rejected", text: "a secret", reason: "not now" })!.text, "ignored");
 });
 
+test("a typed sentence that is ignored is shown with the reason", () => {
+  const event = { t: 0, event: "speech.rejected", text: "turn arround", typed: true, reason: "not in grammar", detail: 'did you mean "around"?' };
+  assert.deepEqual(lineOf(event), { time: 0, who: "ignored", text: "turn arround", detail: 'not in grammar: did you mean "around"?' });
+});
+
+test("a page that comes back begins its lines anew", () => {
+  const state = empty();
+  take(state, { topic: "feeling", value: feeling });
+  take(state, { event: { t: 1, event: "speech.said", text: "hello" } });
+  forgetEvents(state);
+  take(state, { event: { t: 1, event: "speech.said", text: "hello" } });
+  assert.deepEqual([state.lines.length, state.events.length, state.values.feeling], [1, 1, feeling]);
+});
+
 test("a robot that talks for days does not fill the page", () => {
   const state = empty();
   for (let step = 0; step < 2 * MOST_EVENTS; step++) take(state, { event: { t: step, event: "person.seen" } });
@@ -56,4 +70,6 @@ test("the room's bounds hold the walls, the robot and the people", () => {
   const world = { walls: [[0, 0, 4, 0]], circles: [], things: [], obstacles: [], people: [{ name: "", at: [5, 3], is_present: true }] };
   const [left, low, width, height] = bounds(world, undefined);
   assert.ok(left < -1 && low < -1 && left + width > 6 && low + height > 4);
+  const far = { ...world, obstacles: [{ name: "rock", at: [100, 100], radius: 0.15 }] };
+  assert.deepEqual(bounds(far, undefined), [left, low, width, height]);
 });

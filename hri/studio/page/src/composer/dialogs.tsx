@@ -1,6 +1,7 @@
 // What has to be asked: which file, which text to go on with, what a schema says.
 
-import { useEffect, useMemo, useRef, useState, type FormEvent, type ReactNode } from "react";
+import { useEffect, useLayoutEffect, useMemo, useRef, useState, type FormEvent, type ReactNode } from "react";
+import { show } from "../dialog";
 import { compare, type Difference } from "./difference";
 import { reasonOf, type ComposerDocument, type Offer, type Question } from "./document";
 import { EMPTY, readNetwork } from "./network";
@@ -15,11 +16,7 @@ interface DialogProps {
 
 export function Dialog({ title, close, children }: DialogProps) {
   const place = useRef<HTMLDialogElement>(null);
-  useEffect(() => {
-    const dialog = place.current!;
-    dialog.showModal();
-    return () => dialog.close();
-  }, []);
+  useLayoutEffect(() => show(place.current!), []);
   return (
     <dialog ref={place} className="composer-dialog" aria-label={title} onCancel={(event) => { event.preventDefault(); close(); }}>
       <h2>{title}</h2>
