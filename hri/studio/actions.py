@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -11,6 +12,7 @@ from hri.core.origin import STUDIO, caused_by
 from hri.hal.camera import Camera
 from hri.hal.emergency_stop import EmergencyStop
 from hri.robot import Robot
+from hri.simulation.room import Wall
 from hri.simulation.visitor import Visitor
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Listener, Voice
@@ -50,6 +52,37 @@ class Asked:
     def visitor(self, name: str) -> Visitor:
         """A simulated person, or the first. Raises HriError where there is none."""
         return Visitor(self.world, self.context.clock, name)
+
+
+def _inside(world: SimulatedWorld, x: float, y: float) -> None:
+    """Raises HriError for a place outside of the walls."""
+    walls = [one for one in world.room.obstacles if isinstance(one, Wall)]
+    if not walls:
+        return
+    xs = [end for wall in walls for end in (wall.x1, wall.x2)]
+    ys = [end for wall in walls for end in (wall.y1, wall.y2)]
+    if not (min(xs) < x < max(xs) and min(ys) < y < max(ys)):
+        inside = f"x from {min(xs):g} to {max(xs):g} and y from {min(ys):g} to {max(ys):g}"
+        raise HriError(f"({x:g}, {y:g}) is outside of the room's walls - choose {inside}")
+
+
+def _place(asked: Asked, name: str, x: float, y: float) -> None:
+    _inside(asked.world, x, y)
+    asked.world.advance(asked.now)
+    pose, radius = asked.world.base.pose, asked.world.base.limits.radius
+    if math.dist((pose.x, pose.y), (x, y)) <= radius:
+        raise HriError(f"the robot stands there - choose a place {radius:.1f} m away from it")
+    asked.world.place(name, x, y)
+
+
+def _obstacle(asked: Asked, name: str, x: float, y: float) -> None:
+    _inside(asked.world, x, y)
+    asked.world.put_obstacle(name, x, y, asked.now)
+
+
+def _visitor_go(asked: Asked, x: float, y: float, who: str = "") -> None:
+    _inside(asked.world, x, y)
+    asked.visitor(who).go(x, y)
 
 
 def _stop(asked: Asked) -> None:
@@ -107,12 +140,12 @@ ACTIONS: Mapping[str, Callable[..., object]] = {
     "visitor_say": lambda asked, text, who="": asked.visitor(who).say(text),
     "visitor_nod": lambda asked, who="": asked.visitor(who).nod(),
     "visitor_shake": lambda asked, who="": asked.visitor(who).shake(),
-    "visitor_go": lambda asked, x, y, who="": asked.visitor(who).go(x, y),
+    "visitor_go": _visitor_go,
     "visitor_enter": lambda asked, who="": asked.visitor(who).enter(),
     "visitor_leave": lambda asked, who="": asked.visitor(who).leave(),
     "bump": lambda asked: asked.visitor("").bump(),
-    "place": lambda asked, name, x, y: asked.world.place(name, x, y),
-    "obstacle": lambda asked, name, x, y: asked.world.put_obstacle(name, x, y, asked.now),
+    "place": _place,
+    "obstacle": _obstacle,
     "remove": lambda asked, name: asked.world.take_away(name),
     "network_start": lambda asked, path, text="": asked.networks.start(asked.context, path, text),
     "network_stop": lambda asked, name: asked.networks.stop(name),

@@ -19,6 +19,8 @@ MOST_POINTS = 400
 """Points of the path, `STRIDE` meters apart."""
 STRIDE = 0.05
 MOST_STOPS = 20
+MOST_TYPED = 20
+"""Sentences that wait to be understood."""
 MOST_LINES = 200
 """Lines of the log."""
 LONGEST_LINE = 500
@@ -95,6 +97,28 @@ class Troubles:
     def of(self, id: str) -> str:
         """What is wrong with a device, and what to do; empty when nothing is."""
         return self._problems.get(id, "")
+
+
+class TypedSentences:
+    """What was typed into the page and waits to be understood: words that a rejection may show."""
+
+    def __init__(self) -> None:
+        self._waiting: deque[str] = deque(maxlen=MOST_TYPED)
+
+    def add(self, text: str) -> None:
+        """Someone typed this."""
+        self._waiting.append(text)
+
+    def take(self, heard: str) -> str | None:
+        """A sentence as it was typed, if these are its words; it waits no longer."""
+        found = next((one for one in self._waiting if _words(one) == _words(heard)), None)
+        if found is not None:
+            self._waiting.remove(found)
+        return found
+
+
+def _words(text: str) -> list[str]:
+    return text.casefold().split()
 
 
 class LogLines(logging.Handler):

@@ -29,7 +29,7 @@ from hri.simulation.room import Box, Circle, Room, Wall
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Listener, Voice
 from hri.studio import topics
-from hri.studio.history import LogLines, MoodHistory, Trail, Troubles
+from hri.studio.history import LogLines, MoodHistory, Trail, Troubles, TypedSentences
 from hri.studio.link import RobotEnd
 from hri.studio.running import RunningNetworks
 from hri.task.context import TaskContext
@@ -46,6 +46,8 @@ DONE = "done"
 """Why the base stops whenever it was asked to."""
 ROUTE_AGE = 0.5
 """Seconds for which a planned way counts."""
+UNDERSTOOD = ("speech.heard", "speech.rejected")
+"""Events that say what became of a sentence."""
 BREATH = 0.005
 """Seconds between two looks: the loop has other things to do in between."""
 
@@ -62,6 +64,7 @@ class Live:
         self._pictures = _Pictures(link)
         self._moods, self._trail, self._troubles = MoodHistory(), Trail(), Troubles()
         self._log = LogLines(robot.clock.now)
+        self.typed = TypedSentences()
         self._looks: Mapping[str, tuple[float, Callable[[TaskContext, float], Any]]] = {
             # topic: seconds between two looks, and the look
             "about": (1.0, self._about),
@@ -125,9 +128,13 @@ class Live:
 
     def _tell(self, event: Event) -> None:
         # Words that were rejected were said to someone else: the page gets them no more than a
-        # recording does.
+        # recording does, unless they were typed there.
         withheld = REJECTED.get(event.name, ())
         told = {key: value for key, value in event.properties.items() if key not in withheld}
+        if event.name in UNDERSTOOD:
+            typed = self.typed.take(str(event.properties.get("text", "")))
+            if typed is not None and event.name == "speech.rejected":
+                told |= {"text": typed, "detail": event.properties.get("detail", ""), "typed": True}
         self._link.add_event({**told, "t": round(event.time, 3), "event": event.name})
 
     def _note_stop(self, event: Event) -> None:

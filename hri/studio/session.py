@@ -35,6 +35,8 @@ AGAIN_AFTER = 0.2
 """Seconds until a server that has ended is started again."""
 PATIENCE = 3.0
 """Seconds that a server has to end."""
+HEAR = "hear"
+"""The request to hear a typed sentence."""
 CODE = "code"
 """The request for another code."""
 
@@ -125,6 +127,8 @@ class StudioSession:
     def _begun(self, asked: Asked, request: Request) -> Awaitable[None] | None:
         """What to await before the answer; None where it is done and answered."""
         result: object = None
+        if request.command == HEAR:
+            self._live.typed.add(str(request.arguments.get("text", "")))
         if request.command == CODE:
             result = self.address()
         elif request.command == "redeem":

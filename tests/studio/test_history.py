@@ -13,11 +13,13 @@ from hri.studio.history import (
     MOST_POINTS,
     MOST_REASONS,
     MOST_STOPS,
+    MOST_TYPED,
     STRIDE,
     LogLines,
     MoodHistory,
     Trail,
     Troubles,
+    TypedSentences,
 )
 
 
@@ -89,3 +91,11 @@ def test_the_log_keeps_its_last_lines_and_survives_bad_ones():
         log.warning("x" * 10_000)
     assert len(lines.told()) == MOST_LINES
     assert {len(line["text"]) for line in lines.told()} == {LONGEST_LINE}
+
+
+def test_a_typed_sentence_is_known_again_once_whatever_its_case_and_blanks():
+    typed = TypedSentences()
+    for number in range(MOST_TYPED + 1):
+        typed.add(f"Turn  {number}")
+    assert typed.take("turn 0") is None  # forgotten
+    assert [typed.take("turn 1"), typed.take("turn 1")] == ["Turn  1", None]

@@ -25,6 +25,8 @@ from hri.studio.request_queue import MOST_REQUESTS, STOP
 from hri.studio.session import StudioSession
 from tests.studio.living import LONGEST, known, living, told
 
+REJECTION = {"reason": "not in grammar", "detail": "near: a secret", "text": "a secret"}
+
 
 def test_there_is_an_action_for_each_command():
     assert ACTIONS.keys() == COMMANDS.keys()
@@ -157,6 +159,41 @@ def test_the_simulated_person_and_things_obey(client):
     told(client, "world", lambda w: not w["obstacles"] and "cup" not in str(w["things"]))
     refused = client.post("/api/v1/visitor_nod", json={"who": "Nobody"})
     assert 'nobody in this world is named "Nobody"' in refused.json()["error"]
+
+
+@pytest.mark.parametrize("command", ["place", "obstacle", "visitor_go"])
+@pytest.mark.parametrize("place", [(100, 100), (-2.6, 0), (0, 3.1), (12.5, 0)])
+def test_nothing_is_put_outside_of_the_walls(client, command, place):
+    named = {} if command == "visitor_go" else {"name": "far"}
+    answer = client.post(f"/api/v1/{command}", json={"x": place[0], "y": place[1], **named})
+    assert answer.status_code == 409
+    walls = "choose x from -2.5 to 12.5 and y from -2.5 to 3"
+    where = f"({place[0]:g}, {place[1]:g})"
+    assert answer.json()["error"] == f"{where} is outside of the room's walls - {walls}"
+
+
+@pytest.mark.parametrize("command", ["place", "obstacle"])
+def test_nothing_is_put_onto_the_robot(client, command):
+    x, y, _ = told(client, "base", lambda base: base["pose"])["pose"]
+    answer = client.post(f"/api/v1/{command}", json={"name": "it", "x": x, "y": y})
+    assert answer.status_code == 409
+    assert answer.json()["error"].startswith("the robot stands there - choose a place")
+
+
+def test_only_of_what_was_typed_the_words_of_a_rejection_are_told(studio, client, robot):
+    events = []
+    studio._link.add_event, tell = events.append, studio._link.add_event
+    try:
+        robot.clock.soon(lambda: robot.events.raise_event("speech.rejected", **REJECTION))
+        client.post("/api/v1/hear", json={"text": "Turn  arround"})
+        while len(found := [one for one in events if one["event"] == "speech.rejected"]) < 2:
+            told(client, "base", lambda base: True)
+    finally:
+        studio._link.add_event = tell
+    said, typed = found
+    assert said.keys() & {"text", "detail", "typed"} == set()
+    assert (typed["text"], typed["typed"]) == ("Turn  arround", True)
+    assert typed["detail"] == 'after "turn": around, left, right - did you mean "around"?'
 
 
 def test_where_it_was_and_means_to_go_is_shown_in_the_room(client, robot):

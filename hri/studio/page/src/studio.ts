@@ -11,7 +11,7 @@ import { MoodCurve } from "./mood";
 import { LivePicture } from "./picture";
 import { RoomForm } from "./room";
 import { KEYS, RecordingsView } from "./recordings_view";
-import { empty, forgetEvents, putCommand, summary, take, type Device, type SeenPerson, type State, type Values } from "./state";
+import { empty, forgetEvents, putCommand, summary, take, type Device, type RobotEvent, type SeenPerson, type State, type Values } from "./state";
 import { hashOf, viewOf, VIEWS } from "./views";
 import type { ComposerView } from "./composer/view";
 
@@ -47,6 +47,7 @@ const pictures: Record<Picture, LivePicture> = {
 const connection = new Connection({
   message(message) {
     take(state, message);
+    giveBack(message);
     showNetworkAlone();
     if (!element("networks").hidden) composer?.take(state.values);
     drawSoon();
@@ -228,6 +229,20 @@ function drawPeople(persons: SeenPerson[], isOn: boolean): void {
   }));
 }
 
+/** The sentence that was sent last. */
+let sent = "";
+
+/** A typed sentence that is not understood comes back into its field, to be corrected. */
+function giveBack(message: unknown): void {
+  const { event } = message as { event?: RobotEvent };
+  const input = element<HTMLInputElement>("text");
+  if (sent === "" || event?.typed !== true || event.text !== sent) return;
+  sent = "";
+  if (input.value !== "") return;
+  input.value = String(event.text);
+  if (document.activeElement === input) input.select();
+}
+
 function toggle(id: string, command: string): void {
   void ask(command, { on: element(id).getAttribute("aria-pressed") !== "true" });
 }
@@ -238,7 +253,10 @@ function send(field: string, command: string): void {
   if (text === "") return;
   input.value = "";
   if (command === "visitor_say") askPerson(command, { text });
-  else void ask(command, { text });
+  else {
+    if (command === "hear") sent = text;
+    void ask(command, { text });
+  }
 }
 
 function showKeys(): void {
