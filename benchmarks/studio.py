@@ -26,7 +26,7 @@ from typing import Any
 import numpy as np
 import psutil
 
-from benchmarks import composer
+from benchmarks import composer, studio_stop
 from benchmarks.studio_robot import (
     DEVICES,
     WINDOW,
@@ -415,6 +415,7 @@ def _memory(process: psutil.Process) -> float:
 
 PARTS: Parts = {
     "page": _seen,
+    "stop": studio_stop.stops,
     "cost": _cost,
     "ports": _watched,
     "large": composer.large,

@@ -29,6 +29,8 @@ def living(robot: Robot, run: Callable[..., object], *jobs: Any) -> Iterator[Stu
     with closing(robot), closing(studio):
         studio.start()
         thread.start()
+        while not studio.server:  # it starts in a thread
+            threading.Event().wait(0.01)
         try:
             yield studio
         finally:
@@ -77,9 +79,9 @@ def shown_page(studio: StudioSession) -> Iterator[Any]:
         yield opened(browser, studio)
 
 
-def opened(browser: Any, studio: StudioSession) -> Any:
+def opened(browser: Any, studio: StudioSession, **more: Any) -> Any:
     """The page in a browser, once it is linked."""
-    page = browser.new_page(viewport=WINDOW)
+    page = browser.new_page(viewport=WINDOW, **more)
     page.goto(studio.address())
     linked(page)
     return page

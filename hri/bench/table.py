@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import traceback
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -77,6 +78,9 @@ def attempted(what: str, measure: Callable[[], Iterator[Row]]) -> Iterator[Row]:
         yield skipped(what, str(why))
     except HriError as why:
         yield {"what": what, "failed": str(why), "passed": False}
+    except Exception as why:  # a mistake in one part must not lose the figures of the others
+        traceback.print_exc()
+        yield {"what": what, "failed": f"{type(why).__name__}: {why}", "passed": False}
 
 
 def report(bench: str, rows: Sequence[Row], quick: bool) -> dict[str, Any]:

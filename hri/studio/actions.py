@@ -85,7 +85,7 @@ def _visitor_go(asked: Asked, x: float, y: float, who: str = "") -> None:
     asked.visitor(who).go(x, y)
 
 
-def _stop(asked: Asked) -> None:
+def _stop(asked: Asked, press: str = "") -> None:
     try:
         asked.robot.tasks.take_away("drive")
         asked.context.events.raise_event("drive.halt", because=BECAUSE)

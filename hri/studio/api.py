@@ -58,8 +58,8 @@ def openapi() -> dict[str, Any]:
         '{"pictures": ["face", "camera"], "networks": ["moving"], "thumbnails": '
         '["seeing/camera.image"]}: the pictures, the networks whose values, and the outputs whose '
         "small pictures are wanted. It also takes "
-        '{"command": "stop", "number": 1}, which needs no further connection; the Answer has the '
-        "number.",
+        '{"command": "stop", "number": 1, "press": "a"}, which needs no further connection; the '
+        "Answer has the number.",
     )
     paths |= {f"/api/v1/recordings{name}": _reading(name) for name in _RECORDINGS}
     for route in ROUTES:

@@ -12,6 +12,8 @@ from typing import Any
 from hri.core.errors import HriError, did_you_mean
 from hri.studio.request_queue import STOP
 
+PRESS = "press"
+"""The argument that names a stop."""
 LONGEST_TEXT = 500
 """Letters."""
 LONGEST_NETWORK = 1_000_000
@@ -52,7 +54,11 @@ _PLACE = {
 }
 _ON = {"on": Argument(bool, "whether it is")}
 COMMANDS: Mapping[str, Command] = {
-    STOP: Command("stop the base at once, until it is released", is_open=True),
+    STOP: Command(
+        "stop the base at once, until it is released",
+        {PRESS: Argument(str, "its name: the same that comes by another way is done once", True)},
+        is_open=True,
+    ),
     "release": Command("let the base move again"),
     "hear": Command("hear a typed sentence as if it had been said", _TEXT),
     "say": Command("say a text", _TEXT),

@@ -22,6 +22,7 @@ from functools import partial
 from importlib import resources
 from pathlib import Path
 from typing import Any
+from weakref import WeakValueDictionary
 
 import trio
 from starlette.applications import Starlette
@@ -43,7 +44,7 @@ from hri.studio.access import (
     is_signed_code,
 )
 from hri.studio.api import openapi
-from hri.studio.commands import COMMANDS, checked
+from hri.studio.commands import COMMANDS, PRESS, checked
 from hri.studio.composer.files import Library
 from hri.studio.composer.routes import (
     LONGEST_BODY as LONGEST_NETWORK,
@@ -63,6 +64,8 @@ BEHIND_S = 1.0
 """Seconds for which a page that reads nothing keeps its place when another wants it."""
 MESSAGE_EVERY = 0.02
 """Seconds between two messages of a page."""
+MOST_PRESSES = 100
+"""Stops that are known again when they come by another way."""
 MOST_SPENT = 1000
 """Codes that the robot was asked about, and need not be asked about again."""
 MOST_NETWORKS, MOST_THUMBNAILS = 4, 4
@@ -150,8 +153,13 @@ class Page:
         return found
 
 
-Question = tuple[int, trio.MemoryReceiveChannel[dict[str, Any]]]
-"""The number of what the robot was asked, and where the answer comes."""
+@dataclass(eq=False)
+class Question:
+    """What the robot was asked, for all who wait for the answer."""
+
+    command: str
+    is_answered: trio.Event = field(default_factory=trio.Event)
+    answer: dict[str, Any] = field(default_factory=dict)
 
 
 class Hub:
@@ -163,7 +171,10 @@ class Hub:
         self._is_sending = False
         # The answers that the robot owes another server, which was killed, are not for this one.
         self._numbers = itertools.count(secrets.randbits(48))
-        self._answers: dict[int, trio.MemorySendChannel[dict[str, Any]]] = {}
+        # Without those for whose answer no one waits any more.
+        self._questions: WeakValueDictionary[int, Question] = WeakValueDictionary()
+        self._presses: dict[str, Question] = {}
+        """The last stops that have a name."""
         self._wanted: list[str] = []
         self.values: dict[str, Any] = {}
         self._events: EventMemory[str] = EventMemory(most_flood=0)
@@ -181,9 +192,10 @@ class Hub:
 
     def _take(self, message: dict[str, Any], text: str) -> None:
         if "answer" in message:
-            channel = self._answers.pop(message["answer"], None)
-            if channel is not None:
-                channel.send_nowait(message)
+            question = self._questions.pop(message["answer"], None)
+            if question is not None:
+                question.answer = message
+                question.is_answered.set()
             return
         if "topic" in message:
             self.values[message["topic"]] = message["value"]
@@ -229,34 +241,34 @@ class Hub:
 
     async def ask(self, command: str, arguments: dict[str, Any], patience: float = PATIENCE) -> Any:
         """The robot's answer. Raises HriError for a refusal, Waiting where none comes in time."""
-        return await self.answer(await self.begin(command, arguments), command, patience)
+        return await self.answer(await self.begin(command, arguments), patience)
 
     async def begin(self, command: str, arguments: dict[str, Any]) -> Question:
-        """Ask, and do not wait for the answer. Raises HriError."""
-        number = next(self._numbers)
-        sender, receiver = trio.open_memory_channel[dict[str, Any]](1)
-        self._answers[number] = sender
-        try:
-            message = {"number": number, "command": command, "with": arguments}
-            await self._send(message, most=MOST_STOPS if command == STOP else MOST_REQUESTS)
-        except HriError:
-            del self._answers[number]
-            raise
-        return number, receiver
+        """Ask, and do not wait for the answer. The same press of Stop that comes by another way is
+        the question that was asked already. Raises HriError.
+        """
+        press = arguments.get(PRESS, "") if command == STOP else ""
+        if press in self._presses:
+            return self._presses[press]
+        question, number = Question(command), next(self._numbers)
+        self._questions[number] = question
+        message = {"number": number, "command": command, "with": arguments}
+        await self._send(message, most=MOST_STOPS if command == STOP else MOST_REQUESTS)
+        if press:
+            self._presses[press] = question
+            while len(self._presses) > MOST_PRESSES:
+                del self._presses[next(iter(self._presses))]
+        return question
 
-    async def answer(self, question: Question, command: str, patience: float = PATIENCE) -> Any:
+    async def answer(self, question: Question, patience: float = PATIENCE) -> Any:
         """What it answers. Raises HriError for a refusal, Waiting where no answer comes in time."""
-        number, receiver = question
-        try:
-            with trio.fail_after(patience):
-                answer = await receiver.receive()
-        except trio.TooSlowError:
-            raise Waiting(command) from None
-        finally:
-            self._answers.pop(number, None)
-        if answer["error"] is not None:
-            raise HriError(answer["error"])
-        return answer["result"]
+        with trio.move_on_after(patience):
+            await question.is_answered.wait()
+        if not question.answer:
+            raise Waiting(question.command)
+        if question.answer["error"] is not None:
+            raise HriError(question.answer["error"])
+        return question.answer["result"]
 
     async def _send(self, message: dict[str, Any], most: int = MOST_REQUESTS) -> None:
         """Whoever sends already sends this as well: no one else waits for a robot that reads
@@ -494,8 +506,10 @@ class Studio:
                 return
             try:
                 said = json.loads(message.get("text") or "{}")
+                if not isinstance(said, dict):
+                    raise TypeError("a page sends objects")
                 if "command" in said:
-                    await self._stop(page, _stop_number(said), nursery)
+                    await self._stop(page, said, nursery)
                 else:
                     page.wanted = _wanted(said)
                     await self._hub.want()
@@ -506,14 +520,23 @@ class Studio:
                 log.debug("a page was not heard: %s", error)
             await trio.sleep(MESSAGE_EVERY)  # no page keeps the others waiting
 
-    async def _stop(self, page: Page, number: int, nursery: trio.Nursery) -> None:
-        """Stop the robot, also for a page that has gone meanwhile. Raises HriError."""
-        question = await self._hub.begin(STOP, {})
+    async def _stop(self, page: Page, message: dict[str, Any], nursery: trio.Nursery) -> None:
+        """Stop the robot, also for a page that has gone meanwhile. It is the one command that a
+        page may send here. Raises ValueError for any other, HriError.
+        """
+        number = message.pop("number", None)
+        if message.pop("command") != STOP or type(number) is not int:
+            raise ValueError("a page sends other commands as requests")
+        try:
+            arguments = checked(STOP, message)
+        except HriError as error:
+            raise ValueError(str(error)) from error
+        question = await self._hub.begin(STOP, arguments)
 
         async def tell() -> None:
             failed: str | None = None
             try:
-                await self._hub.answer(question, STOP)
+                await self._hub.answer(question)
             except HriError as error:
                 failed = str(error)
             page.answers.append(json.dumps({"answer": number, "error": failed}))
@@ -546,15 +569,6 @@ def _wanted(message: dict[str, list[str]]) -> frozenset[str]:
     if any(len(one) > LONGEST_NAME for one in networks + thumbnails):
         raise ValueError("a name is too long")
     return pictures | frozenset(networks) | frozenset(thumbnails)
-
-
-def _stop_number(message: dict[str, Any]) -> int:
-    """By which a page knows the answer to its stop, the one command that it may send here. Raises
-    ValueError for any other.
-    """
-    if message["command"] != STOP or type(number := message["number"]) is not int:
-        raise ValueError("a page sends other commands as requests")
-    return number
 
 
 def _now() -> float:

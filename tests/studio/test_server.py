@@ -274,7 +274,7 @@ def test_strangers_see_nothing(stranger):
 
 
 @pytest.mark.parametrize(
-    "text", ["", "{", "[]", '{"pictures": 5}', '{"pictures": [[]]}', "x" * 999]
+    "text", ["", "{", "[]", '"command"', '{"pictures": 5}', '{"pictures": [[]]}', "x" * 999]
 )
 def test_a_page_that_talks_nonsense_is_sent_away(person, text):
     with person.websocket_connect(LIVE) as page:
@@ -313,9 +313,21 @@ def test_a_page_stops_the_robot_over_its_open_link_and_does_nothing_else_there(p
     assert robot.obeyed == ["stop", "stop"]
 
 
+def test_the_same_press_by_two_ways_stops_the_robot_once(person, robot):
+    with person.websocket_connect(LIVE) as page:
+        page.send_json({"command": "stop", "number": 1, "press": "a"})
+        assert page.receive_json() == {"answer": 1, "error": None}
+        person.post("/api/v1/release")  # before the slower way
+        assert person.post("/api/v1/stop", json={"press": "a"}).json() == {"result": None}
+        assert person.post("/api/v1/stop", json={"press": "b"}).json() == {"result": None}
+    assert robot.obeyed == ["stop", "release", "stop"]
+
+
 @pytest.mark.parametrize(
     "message",
     [
+        {"command": "stop", "number": 1, "press": 5},
+        {"command": "stop", "number": 1, "speed": "x"},
         {"command": "release", "number": 1},
         {"command": "stop"},
         {"command": "stop", "number": "1"},

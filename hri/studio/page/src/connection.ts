@@ -66,13 +66,15 @@ export class Connection {
     return answer.result;
   }
 
-  /** Stop the robot by every way at once; the first that succeeds counts, and twice is once. */
+  /** Stop the robot by every way at once; the first that succeeds counts. The press has a name, so that
+   * the slower way does not stop it again when it was released meanwhile. */
   async stop(): Promise<void> {
-    const ways = [this.ask("stop"), this.stopOverLink()];
+    const press = `${Date.now()} ${Math.random()}`;
+    const ways = [this.ask("stop", { press }), this.stopOverLink(press)];
     await Promise.any(ways).catch((failed: AggregateError) => Promise.reject(failed.errors[0]));
   }
 
-  private stopOverLink(): Promise<void> {
+  private stopOverLink(press: string): Promise<void> {
     return new Promise((done, fail) => {
       if (this.socket?.readyState !== WebSocket.OPEN) return fail(new TypeError("no link"));
       const number = ++this.stops;
@@ -81,7 +83,7 @@ export class Connection {
         if (error === null) done();
         else fail(error);
       });
-      this.socket.send(JSON.stringify({ command: "stop", number }));
+      this.socket.send(JSON.stringify({ command: "stop", number, press }));
     });
   }
 
