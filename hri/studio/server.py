@@ -11,6 +11,7 @@ import json
 import logging
 import math
 import os
+import re
 import secrets
 import socket
 import sys
@@ -51,7 +52,7 @@ from hri.studio.composer.routes import (
     ROOT as NETWORKS,
     NetworkRoutes,
 )
-from hri.studio.connections import BACKLOG, SEAT, Connections, Seat, know
+from hri.studio.connections import SEAT, Connections, Seat, know
 from hri.studio.event_memory import EventMemory
 from hri.studio.json_body import read_body
 from hri.studio.link import NETWORK, PICTURES, TEXT, THUMBNAIL, LinkError, Unpacker, packed_json
@@ -91,6 +92,10 @@ START = "network_start"
 """The command that takes a whole network."""
 START_PATIENCE = 20.0
 """Seconds that the robot has to read one and to open its devices."""
+_STOPS = "POST /api/v1/stop HTTP/1"
+_CODE = re.compile(r"GET /\?code=(\S+)")
+_BEARER = re.compile(r"^authorization: *bearer (\S+)", re.IGNORECASE | re.MULTILINE)
+_LENGTH = re.compile(r"^content-length: *(\d{1,9})\s*$", re.IGNORECASE | re.MULTILINE)
 log = logging.getLogger("hri.studio")
 HEADERS = {
     "content-security-policy": "default-src 'self'; img-src 'self' blob:; object-src 'none'; "
@@ -360,6 +365,22 @@ class Studio:
         library = Library(_now, running=tuple(map(Path, settings.networks)))
         self.networks = NetworkRoutes(library, settings.devices, _body)
 
+    def goes_first(self, said: bytes) -> bool:
+        """Whether the first bytes of a connection are a whole stop, or show what is known here."""
+        head, end, body = said.decode("latin-1").partition("\r\n\r\n")
+        if head.startswith(_STOPS) and end:
+            length = _LENGTH.search(head)
+            return length is None or len(body) >= int(length[1])
+        code, cookie, bearer = (
+            (found[1] if (found := pattern.search(head)) else "")
+            for pattern in (_CODE, re.compile(f"\\b{self._settings.cookie}=([^;\\s]*)"), _BEARER)
+        )
+        return (
+            self._cookies.is_good(cookie, _now())
+            or is_signed_code(self._settings.secret, code)
+            or (bool(bearer) and _is_token(bearer))
+        )
+
     def app(self) -> ASGIApp:
         """All of it, behind the guard."""
         commands = [
@@ -469,11 +490,11 @@ class Studio:
         if not self._has_room(page):
             await websocket.close(1013)
             return
-        await websocket.accept()
+        await self._hub.add(page)  # before anything else, so that it counts
         if page.seat is not None:
-            page.seat.is_page = True
-        await self._hub.add(page)
+            page.seat.kind = "page"
         try:
+            await websocket.accept()
             async with trio.open_nursery() as nursery:
                 nursery.start_soon(_send_news, websocket, page)
                 await self._listen(websocket, page, nursery)
@@ -554,9 +575,7 @@ class Studio:
         if self._cookies.is_good(cookie, _now()):
             return cookie
         kind, _, token = asked.headers.get("authorization", "").partition(" ")
-        with suppress(HriError):
-            return token if kind.lower() == "bearer" and is_token(token) else ""
-        return ""
+        return token if kind.lower() == "bearer" and _is_token(token) else ""
 
 
 def _wanted(message: dict[str, list[str]]) -> frozenset[str]:
@@ -569,6 +588,13 @@ def _wanted(message: dict[str, list[str]]) -> frozenset[str]:
     if any(len(one) > LONGEST_NAME for one in networks + thumbnails):
         raise ValueError("a name is too long")
     return pictures | frozenset(networks) | frozenset(thumbnails)
+
+
+def _is_token(token: str) -> bool:
+    try:
+        return is_token(token)
+    except HriError:
+        return False
 
 
 def _now() -> float:
@@ -617,13 +643,9 @@ async def serve(listening: int, link: int, settings: Settings) -> None:
     """Serve on an open socket until the link to the robot has ended."""
     hub = Hub(trio.SocketStream(trio.socket.from_stdlib_socket(socket.socket(fileno=link))))
     studio = Studio(hub, settings)
-    open_socket = socket.socket(fileno=listening)
-    open_socket.listen(BACKLOG)
-    listener = trio.SocketListener(trio.socket.from_stdlib_socket(open_socket))
-    connections = Connections(studio.app())
+    connections = Connections(studio.app(), studio.goes_first)
     async with trio.open_nursery() as nursery:
-        nursery.start_soon(trio.serve_listeners, connections.take, [listener])
-        nursery.start_soon(connections.close_overdue)
+        nursery.start_soon(connections.serve, socket.socket(fileno=listening))
         nursery.start_soon(studio.recordings.close_unused)
         with suppress(OSError, trio.BrokenResourceError, LinkError):
             await hub.follow()

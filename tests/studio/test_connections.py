@@ -1,22 +1,23 @@
 """Strangers never keep out those who may use the studio: real sockets, on a loopback of our own."""
 
 import re
+import socket
 from contextlib import asynccontextmanager, suppress
 
 import pytest
 import trio
 import trio.testing
 
+from hri.core.token import own_token
 from hri.studio.access import Cookies
 from hri.studio.connections import (
-    MOST_KNOWN,
-    MOST_STRANGERS,
+    MOST,
     STRANGER_S,
     Connections,
     Seat,
 )
 from hri.studio.server import MOST_PAGES_EACH, Hub, Settings, Studio, _now
-from tests.studio.test_server import Robot
+from tests.studio.test_server import GOOD, Robot
 
 PORT = 8311
 COOKIE = f"Cookie: hri_studio_{PORT}={Cookies('secret').new(_now())}\r\n"
@@ -40,10 +41,10 @@ STRANGERS = {
 class Served:
     """A studio on a socket of its own, with a robot that answers everything."""
 
-    def __init__(self, listener, robot, connections):
+    def __init__(self, address, robot, connections):
         self.robot, self.connections = robot, connections
         self.streams = []
-        self._address = listener.socket.getsockname()
+        self._address = address
 
     async def say(self, words):
         """Another connection, on which this was said."""
@@ -74,12 +75,12 @@ class Served:
 async def served():
     robot = Robot()
     robot.hub = Hub(robot)
-    connections = Connections(Studio(robot.hub, Settings(PORT, "secret", False)).app())
-    (listener,) = await trio.open_tcp_listeners(0, host="127.0.0.1")
+    made = Studio(robot.hub, Settings(PORT, "secret", False))
+    connections = Connections(made.app(), made.goes_first)
+    listening = socket.create_server(("127.0.0.1", 0))
     async with trio.open_nursery() as nursery:
-        nursery.start_soon(trio.serve_listeners, connections.take, [listener])
-        nursery.start_soon(connections.close_overdue)
-        studio = Served(listener, robot, connections)
+        nursery.start_soon(connections.serve, listening)
+        studio = Served(listening.getsockname(), robot, connections)
         yield studio
         nursery.cancel_scope.cancel()
     for stream in studio.streams:
@@ -99,13 +100,13 @@ def test_no_crowd_of_strangers_keeps_out_a_stop_or_whoever_is_known(kind):
         async with served() as studio:
             own = await studio.say("")
             assert await studio.answer(STATE, own) == 200
-            for _ in range(MOST_STRANGERS + 50):
+            for _ in range(MOST["stranger"] + 50):
                 await studio.say(STRANGERS[kind])
             assert await studio.answer(STATE, own) == 200  # the connection that was there
             assert await studio.answer(STATE) == 200  # another one
             assert await studio.answer(f"{STOP}\r\n") == 200  # a stranger
             assert studio.robot.obeyed == ["stop"]
-            assert count(studio, is_known=False) <= MOST_STRANGERS
+            assert count(studio, kind="stranger") <= MOST["stranger"]
 
     trio.run(run, clock=trio.testing.MockClock())  # no time passes, however slow the machine is
 
@@ -131,13 +132,44 @@ def test_a_stranger_who_says_nothing_whole_is_sent_away_soon_and_a_known_one_is_
 def test_pages_leave_room_for_other_requests_of_the_same_cookie():
     async def run():
         async with served() as studio:
-            pages = [await studio.answer(LIVE) for _ in range(MOST_PAGES_EACH + MOST_KNOWN + 50)]
+            pages = []
+
+            async def look():
+                pages.append(await studio.answer(LIVE))
+
+            async with trio.open_nursery() as nursery:
+                for _ in range(MOST["known"]):  # at once
+                    nursery.start_soon(look)
             assert pages.count(101) == MOST_PAGES_EACH
             assert await studio.answer(STATE) == 200
-            assert count(studio, is_page=True) == MOST_PAGES_EACH
-            assert count(studio, is_known=True, is_page=False) <= MOST_KNOWN + 1
+            assert count(studio, kind="page") == MOST_PAGES_EACH
+            assert count(studio, kind="known") <= MOST["known"] + 1
 
     trio.run(run)
+
+
+@pytest.mark.parametrize(
+    ("said", "goes_first"),
+    [
+        (f"{STOP}\r\n", True),
+        (f"{STOP}Content-Length: 2\r\n\r\n{{}}", True),
+        (f"{STOP}Content-Length: 3\r\n\r\n{{}}", False),
+        (f"{STOP}", False),
+        (STATE, True),
+        (STATE.replace("secret", "x").replace(COOKIE, "Cookie: a=1\r\n"), False),
+        (LIVE, True),
+        (f"GET /?code={GOOD} HTTP/1.1\r\n", True),
+        (f"GET /?code=x{GOOD} HTTP/1.1\r\n", False),
+        ("GET / HTTP/1.1\r\nAuthorization: Bearer TOKEN\r\n\r\n", True),
+        ("GET / HTTP/1.1\r\nAuthorization: Bearer xTOKEN\r\n\r\n", False),
+        ("", False),
+        ("\xff\x00" * 2000, False),
+    ],
+)
+def test_a_whole_stop_and_every_proof_goes_first(said, goes_first):
+    studio = Studio(Hub(None), Settings(PORT, "secret", False))
+    said = said.replace("TOKEN", own_token()).encode("latin-1")
+    assert studio.goes_first(said) == goes_first
 
 
 class Silent:
@@ -152,9 +184,9 @@ class Silent:
 
 
 def test_whoever_has_most_connections_makes_room_for_a_newcomer():
-    connections = Connections(None)
+    connections = Connections(None, None)
     few = [Seat(Silent(), "192.168.1.5", now) for now in range(2)]
-    crowd = [Seat(Silent(), "192.168.1.66", 5 + now) for now in range(MOST_STRANGERS)]
+    crowd = [Seat(Silent(), "192.168.1.66", 5 + now) for now in range(MOST["stranger"])]
     connections._seats |= {*few, *crowd}
     connections._make_room()
     assert [seat for seat in (*few, *crowd) if seat._stream.is_closed] == [crowd[0]]
