@@ -68,13 +68,13 @@ class Connections:
     that fails.
     """
 
-    def __init__(self, app: ASGIApp, goes_first: Callable[[bytes], bool]) -> None:
-        """`goes_first` tells by the first bytes whether someone may be served before others."""
+    def __init__(self, app: ASGIApp, kind_of: Callable[[bytes], Kind]) -> None:
+        """`kind_of` says by the first bytes whose a connection is."""
         self._config = Config()
         self._config.errorlog = None
         self._config.websocket_max_message_size = LONGEST_MESSAGE
         self._config.h11_max_incomplete_size = LONGEST_MESSAGE
-        self._app, self._goes_first = app, goes_first
+        self._app, self._kind_of = app, kind_of
         self._others = trio.Lock()
         self._context = WorkerContext(None)
         self._seats: set[Seat] = set()
@@ -103,9 +103,8 @@ class Connections:
         app = wrap_app(cast(Any, partial(self._serve, seat)), LONGEST_MESSAGE, "asgi")
         try:
             await trio.lowlevel.wait_readable(stream.socket)
-            if self._goes_first(await stream.socket.recv(FIRST_LOOK, socket.MSG_PEEK)):
-                seat.kind = "first"
-            else:
+            seat.kind = self._kind_of(await stream.socket.recv(FIRST_LOOK, socket.MSG_PEEK))
+            if seat.kind == "stranger":
                 async with self._others:
                     await trio.lowlevel.checkpoint()
             state = ConnectionState(LifespanState({}))

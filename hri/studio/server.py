@@ -52,7 +52,7 @@ from hri.studio.composer.routes import (
     ROOT as NETWORKS,
     NetworkRoutes,
 )
-from hri.studio.connections import SEAT, Connections, Seat, know
+from hri.studio.connections import SEAT, Connections, Kind, Seat, know
 from hri.studio.event_memory import EventMemory
 from hri.studio.json_body import read_body
 from hri.studio.link import NETWORK, PICTURES, TEXT, THUMBNAIL, LinkError, Unpacker, packed_json
@@ -360,26 +360,23 @@ class Studio:
     def __init__(self, hub: Hub, settings: Settings) -> None:
         self._hub, self._settings = hub, settings
         self._cookies = Cookies(settings.secret)
+        self._cookie = re.compile(f"\\b{settings.cookie}=([^;\\s]*)")
         self._spent: deque[str] = deque(maxlen=MOST_SPENT)
         self.recordings = RecordingRoutes()
         library = Library(_now, running=tuple(map(Path, settings.networks)))
         self.networks = NetworkRoutes(library, settings.devices, _body)
 
-    def goes_first(self, said: bytes) -> bool:
-        """Whether the first bytes of a connection are a whole stop, or show what is known here."""
+    def kind_of(self, said: bytes) -> Kind:
+        """Whose a connection is, by its first bytes: a whole stop and codes of our own go first."""
         head, end, body = said.decode("latin-1").partition("\r\n\r\n")
-        if head.startswith(_STOPS) and end:
-            length = _LENGTH.search(head)
-            return length is None or len(body) >= int(length[1])
-        code, cookie, bearer = (
+        cookie, bearer, code, length = (
             (found[1] if (found := pattern.search(head)) else "")
-            for pattern in (_CODE, re.compile(f"\\b{self._settings.cookie}=([^;\\s]*)"), _BEARER)
+            for pattern in (self._cookie, _BEARER, _CODE, _LENGTH)
         )
-        return (
-            self._cookies.is_good(cookie, _now())
-            or is_signed_code(self._settings.secret, code)
-            or (bool(bearer) and _is_token(bearer))
-        )
+        if self._cookies.is_good(cookie, _now()) or (bearer and _is_token(bearer)):
+            return "known"
+        is_stop = bool(end) and head.startswith(_STOPS) and len(body) >= int(length or 0)
+        return "first" if is_stop or is_signed_code(self._settings.secret, code) else "stranger"
 
     def app(self) -> ASGIApp:
         """All of it, behind the guard."""
@@ -643,7 +640,7 @@ async def serve(listening: int, link: int, settings: Settings) -> None:
     """Serve on an open socket until the link to the robot has ended."""
     hub = Hub(trio.SocketStream(trio.socket.from_stdlib_socket(socket.socket(fileno=link))))
     studio = Studio(hub, settings)
-    connections = Connections(studio.app(), studio.goes_first)
+    connections = Connections(studio.app(), studio.kind_of)
     async with trio.open_nursery() as nursery:
         nursery.start_soon(connections.serve, socket.socket(fileno=listening))
         nursery.start_soon(studio.recordings.close_unused)

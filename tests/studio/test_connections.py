@@ -76,7 +76,7 @@ async def served():
     robot = Robot()
     robot.hub = Hub(robot)
     made = Studio(robot.hub, Settings(PORT, "secret", False))
-    connections = Connections(made.app(), made.goes_first)
+    connections = Connections(made.app(), made.kind_of)
     listening = socket.create_server(("127.0.0.1", 0))
     async with trio.open_nursery() as nursery:
         nursery.start_soon(connections.serve, listening)
@@ -138,7 +138,7 @@ def test_pages_leave_room_for_other_requests_of_the_same_cookie():
                 pages.append(await studio.answer(LIVE))
 
             async with trio.open_nursery() as nursery:
-                for _ in range(MOST["known"]):  # at once
+                for _ in range(4 * MOST_PAGES_EACH):  # at once
                     nursery.start_soon(look)
             assert pages.count(101) == MOST_PAGES_EACH
             assert await studio.answer(STATE) == 200
@@ -149,27 +149,27 @@ def test_pages_leave_room_for_other_requests_of_the_same_cookie():
 
 
 @pytest.mark.parametrize(
-    ("said", "goes_first"),
+    ("said", "kind"),
     [
-        (f"{STOP}\r\n", True),
-        (f"{STOP}Content-Length: 2\r\n\r\n{{}}", True),
-        (f"{STOP}Content-Length: 3\r\n\r\n{{}}", False),
-        (f"{STOP}", False),
-        (STATE, True),
-        (STATE.replace("secret", "x").replace(COOKIE, "Cookie: a=1\r\n"), False),
-        (LIVE, True),
-        (f"GET /?code={GOOD} HTTP/1.1\r\n", True),
-        (f"GET /?code=x{GOOD} HTTP/1.1\r\n", False),
-        ("GET / HTTP/1.1\r\nAuthorization: Bearer TOKEN\r\n\r\n", True),
-        ("GET / HTTP/1.1\r\nAuthorization: Bearer xTOKEN\r\n\r\n", False),
-        ("", False),
-        ("\xff\x00" * 2000, False),
+        (f"{STOP}\r\n", "first"),
+        (f"{STOP}Content-Length: 2\r\n\r\n{{}}", "first"),
+        (f"{STOP}Content-Length: 3\r\n\r\n{{}}", "stranger"),
+        (f"{STOP}", "stranger"),
+        (STATE, "known"),
+        (STATE.replace("secret", "x").replace(COOKIE, "Cookie: a=1\r\n"), "stranger"),
+        (LIVE, "known"),
+        (f"GET /?code={GOOD} HTTP/1.1\r\n", "first"),
+        (f"GET /?code=x{GOOD} HTTP/1.1\r\n", "stranger"),
+        ("GET / HTTP/1.1\r\nAuthorization: Bearer TOKEN\r\n\r\n", "known"),
+        ("GET / HTTP/1.1\r\nAuthorization: Bearer xTOKEN\r\n\r\n", "stranger"),
+        ("", "stranger"),
+        ("\xff\x00" * 2000, "stranger"),
     ],
 )
-def test_a_whole_stop_and_every_proof_goes_first(said, goes_first):
+def test_a_whole_stop_and_every_proof_goes_first(said, kind):
     studio = Studio(Hub(None), Settings(PORT, "secret", False))
     said = said.replace("TOKEN", own_token()).encode("latin-1")
-    assert studio.goes_first(said) == goes_first
+    assert studio.kind_of(said) == kind
 
 
 class Silent:
