@@ -3,7 +3,7 @@
 A connection is a stranger's until a request on it shows the cookie or the token. Strangers have a
 short time for each request, and a newcomer always finds a place: that of the oldest stranger of the
 address that has most. What a newcomer says first is looked at before anything is done with it:
-whoever shows a proof, or stops the robot, goes first, and others begin one after another.
+those who stop the robot, those who show a proof, and strangers each begin one after another.
 """
 
 from __future__ import annotations
@@ -75,7 +75,8 @@ class Connections:
         self._config.websocket_max_message_size = LONGEST_MESSAGE
         self._config.h11_max_incomplete_size = LONGEST_MESSAGE
         self._app, self._kind_of = app, kind_of
-        self._others = trio.Lock()
+        self._turns = {kind: trio.Lock() for kind in MOST}
+        """One of each kind begins at a time, so that no crowd keeps those waiting who are there."""
         self._context = WorkerContext(None)
         self._seats: set[Seat] = set()
 
@@ -104,9 +105,8 @@ class Connections:
         try:
             await trio.lowlevel.wait_readable(stream.socket)
             seat.kind = self._kind_of(await stream.socket.recv(FIRST_LOOK, socket.MSG_PEEK))
-            if seat.kind == "stranger":
-                async with self._others:
-                    await trio.lowlevel.checkpoint()
+            async with self._turns[seat.kind]:
+                await trio.lowlevel.checkpoint()
             state = ConnectionState(LifespanState({}))
             await TCPServer(app, self._config, self._context, state, cast(Any, stream)).run()
         except* Exception as failures:  # a peer that breaks off at a bad moment
