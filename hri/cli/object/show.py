@@ -10,6 +10,7 @@ import numpy as np
 
 from hri.cli.object.options import add_set, loaded, object_of
 from hri.core.picture_writer import write_picture
+from hri.core.quoting import escaped
 from hri.core.signals import Image
 from hri.core.writing import PRIVATE
 from hri.vision.objects.object_model import View
@@ -38,7 +39,7 @@ def run(options: argparse.Namespace) -> int:
     write_picture(options.out, np.vstack(rows), mode=PRIVATE)
     for number, view in enumerate(model.views, 1):
         size = f", {100 * view.scale * np.ptp(view.outline[:, 0]):.1f} cm wide" * (view.scale > 0)
-        print(f"view {number}: {len(view.features)} features{size}, from {view.source}")
+        print(f"view {number}: {len(view.features)} features{size}, from {escaped(view.source)}")
     print(f"wrote {options.out}")
     return 0
 

@@ -2,33 +2,28 @@
 
 from __future__ import annotations
 
-import errno
 import hashlib
 import os
 import shutil
 import stat
-import struct
 import zipfile
-import zlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from hri.core.errors import HriError
 from hri.core.writing import new_folder
+from hri.core.zip_archive import opened_archive
 
 MOST_FILES = 1_000
 LARGEST_UNPACKED = 8_000_000_000
 """Bytes; no model is larger."""
 LARGEST_GROWTH = 50
 """Times that unpacking may swell an archive: models of numbers hardly pack at all."""
-BROKEN = (
-    zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError,
-    ValueError, IndexError, struct.error,
-)  # fmt: skip
-"""What a damaged archive may raise, besides OSError."""
 LONGEST_NAME = 255
 """Bytes of the name of a file or folder, as file systems have it."""
+LONGEST_DIRECTORY = MOST_FILES * 1000
+"""Bytes of the directory of an archive."""
 _BLOCK = 1 << 18
 _REMEDY = "take the one that `hri models list` names"
 
@@ -54,7 +49,11 @@ def unpack(archive: Path, target: Path, parts: Sequence[Part] = ()) -> None:
     broken, leads out of its folder, would fill the disk, or is not what its parts should be.
     """
     try:
-        with zipfile.ZipFile(archive) as opened, new_folder(target) as folder:
+        with (
+            archive.open("rb") as raw,
+            opened_archive(raw, LONGEST_DIRECTORY) as opened,
+            new_folder(target) as folder,
+        ):
             members = [member for member in opened.infolist() if not member.is_dir()]
             chosen = _chosen(archive, members, parts)
             _check(archive, [member for member, _ in chosen])
@@ -64,11 +63,7 @@ def unpack(archive: Path, target: Path, parts: Sequence[Part] = ()) -> None:
                 with opened.open(member) as packed, place.open("xb") as file:
                     shutil.copyfileobj(packed, file, _BLOCK)
             check_parts(folder, parts)
-    except BROKEN as error:
-        raise HriError(f"{archive}: cannot be unpacked: {error} - fetch it again") from error
-    except OSError as error:
-        if error.errno not in (None, errno.EINVAL):  # of bzip2, of a place before the beginning
-            raise
+    except ValueError as error:
         raise HriError(f"{archive}: cannot be unpacked: {error} - fetch it again") from error
 
 
@@ -101,13 +96,6 @@ def _chosen(
     ]
 
 
-def check_members(archive: zipfile.ZipFile, largest: int) -> None:
-    """Raises ValueError when what is in an archive has more than `largest` bytes unpacked."""
-    size = sum(member.file_size for member in archive.infolist())
-    if size > largest:
-        raise ValueError(f"it swells to {size} bytes")
-
-
 def _check(archive: Path, members: list[zipfile.ZipInfo]) -> None:
     """Refuse what would leave the folder, or fill the disk."""
     remedy = "take it from its maker"
@@ -119,8 +107,6 @@ def _check(archive: Path, members: list[zipfile.ZipInfo]) -> None:
             raise HriError(
                 f'{archive}: "{member.filename}" cannot be the name of a file - {remedy}'
             )
-        if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-            raise HriError(f'{archive}: "{path}" is packed in an unusual way - {remedy}')
         is_link = stat.S_ISLNK(member.external_attr >> 16)
         if path.is_absolute() or ".." in path.parts or "\\" in member.filename or is_link:
             raise HriError(f'{archive}: "{member.filename[:60]}" leads elsewhere - {remedy}')

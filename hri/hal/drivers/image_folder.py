@@ -52,8 +52,8 @@ class ImageFolderCamera(Camera):
 
     def _load(self, path: Path) -> Image | None:
         try:
-            picture_size(path)  # raises before a giant is decoded
-            picture = cv2.imread(str(path), cv2.IMREAD_COLOR)
+            size = picture_size(path)  # raises before a giant is decoded
+            picture = cv2.imread(str(path), cv2.IMREAD_COLOR) if size is not None else None
         except (HriError, cv2.error) as error:
             self._refuse(f"{path.name}: {error}")
             return None

@@ -1,10 +1,12 @@
 """Model sets as files: `NAME.mdl`, and lists of names.
 
-The container is a ZIP archive that is stored without compression. `model_set.json` in it has the
+The container is a ZIP archive that is stored without compression; one that another tool deflated
+is read, too. `model_set.json` in it has the
 keys `format` (1), `method` and `objects`; an object has `name`, `learned` and `views`; a view has
 `picture`, `points` and `descriptors` (names of entries of the archive), `outline` (pairs of
 pixels), `scale` (meters to a pixel) and `source`. A picture is a JPEG; points are rows of two
-float32, descriptors rows of uint8, both without any header.
+float32, descriptors rows of uint8, both without any header. All of it, each entry as often as it is
+named and each picture as it is decoded, has at most `LARGEST` bytes.
 
 A file of text is a list of names instead, one a line, with comments from "#": its objects have the
 labels of these names (`printed_label`), which things of the simulated room bear.
@@ -14,6 +16,7 @@ from __future__ import annotations
 
 import io
 import json
+import os
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -22,14 +25,17 @@ from typing import Any
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image as PillowImage
 
 from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.privacy import folder_for
-from hri.core.reading import opened, read_text
+from hri.core.reading import opened, parse_json, read_text
 from hri.core.signals import Image
 from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE, write_bytes
+from hri.core.zip_archive import opened_archive, unpacked_size
+from hri.hal.drivers.image_size import count_scans, read_header
 from hri.vision.objects.cutout import whole
 from hri.vision.objects.learning import MOST_VIEWS, view_of
 from hri.vision.objects.local_features import METHODS, SIFT, Features
@@ -43,12 +49,22 @@ MANIFEST = "model_set.json"
 FORMAT = 1
 MOST_OBJECTS = 1000
 LONGEST_NAME = 60
-LARGEST_FILE = 2_000_000_000
-"""Bytes of a set."""
-LARGEST_MANIFEST = 32_000_000
+MOST_NAMES = 150
+"""Of a list of names: the features of a label take some time to find."""
+LARGEST = 150_000_000
+"""Bytes of a set in memory and as a file; sixty objects that were shown from eight sides."""
+LARGEST_GROWTH = 5
+"""Times that unpacking may swell a set: pictures and descriptors hardly pack at all."""
+LONGEST_DIRECTORY = 4_000_000
+"""Bytes of the directory of an archive."""
+LARGEST_MANIFEST = 4_000_000
 LARGEST_ENTRY = 4_000_000
 LARGEST_SIDE = 2000
 """Pixels of a picture."""
+MOST_SCANS = 20
+"""Of a JPEG: each goes over the whole picture, however short it is."""
+FORMATS, MODES = ("JPEG", "PNG"), ("L", "RGB")
+"""Of pictures: what is written, and gray or color of 8 bits from elsewhere."""
 MOST_FEATURES = 10_000
 """Of a view."""
 MOST_CORNERS = 1000
@@ -74,14 +90,14 @@ def own_models() -> Path:
 
 def load_models(path: Path, method: str = SIFT) -> ModelSet:
     """Read a set; a list of names gets features of `method`. Raises HriError with what is wrong."""
-    with opened(path, "model set", LARGEST_FILE) as file:
+    with opened(path, "model set", LARGEST) as file:
         if file.read(4) != b"PK\x03\x04":
             return _of_names(path, method)
         file.seek(0)
         try:
-            with zipfile.ZipFile(file) as archive:
-                return _Reader(path, archive).read()
-        except (zipfile.BadZipFile, EOFError, NotImplementedError, RuntimeError) as error:
+            with opened_archive(file, LONGEST_DIRECTORY) as archive:
+                return _Reader(path, archive, os.fstat(file.fileno()).st_size).read()
+        except ValueError as error:
             raise HriError(f"{path}: this model set is damaged: {error} - {REMEDY}") from error
 
 
@@ -96,8 +112,7 @@ def save_models(path: Path, models: ModelSet) -> None:
     Raises HriError.
     """
     if len(models.objects) > MOST_OBJECTS:
-        remedy = "split it: hri object split"
-        raise HriError(f"{path}: a set holds at most {MOST_OBJECTS} objects - {remedy}")
+        raise _too_large(path, f"{MOST_OBJECTS} objects")
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_STORED) as archive:
         objects = []
@@ -108,10 +123,18 @@ def save_models(path: Path, models: ModelSet) -> None:
             ]
             objects.append({"name": model.name, "learned": model.learned, "views": views})
         manifest = {"format": FORMAT, "method": models.method, "objects": objects}
-        _put(archive, MANIFEST, json.dumps(manifest, indent=1, ensure_ascii=False).encode())
+        text = json.dumps(manifest, ensure_ascii=False).encode(errors="replace")
+        _put(archive, MANIFEST, text)
+    decoded = sum(view.picture.nbytes for model in models.objects for view in model.views)
+    if buffer.tell() + decoded > LARGEST or len(text) > LARGEST_MANIFEST:
+        raise _too_large(path, f"{LARGEST:,} bytes")
     folder_for(path)
     write_bytes(path, buffer.getvalue(), PRIVATE)
     note("objects", path)
+
+
+def _too_large(path: Path, most: str) -> HriError:
+    return HriError(f"{path}: a set holds at most {most} - split it: hri object split")
 
 
 def _write_view(archive: zipfile.ZipFile, stem: str, view: View) -> dict[str, object]:
@@ -137,8 +160,8 @@ def _put(archive: zipfile.ZipFile, name: str, data: bytes) -> None:
 def _of_names(path: Path, method: str) -> ModelSet:
     lines = read_text(path, "model set").splitlines()
     names = [name for line in lines if (name := line.partition("#")[0].strip())]
-    if len(names) > MOST_OBJECTS:
-        raise HriError(f"{path}: more than {MOST_OBJECTS} names - split the list")
+    if len(names) > MOST_NAMES:
+        raise HriError(f"{path}: more than {MOST_NAMES} names - split the list")
     for number, name in enumerate(names, 1):
         if not is_name(name):
             what = f'name {number} is "{name[:LONGEST_NAME]}"'
@@ -164,19 +187,26 @@ def is_name(name: object) -> bool:
 class _Reader:
     """Reads the entries of an archive, and believes none of them."""
 
-    def __init__(self, path: Path, archive: zipfile.ZipFile) -> None:
+    def __init__(self, path: Path, archive: zipfile.ZipFile, size: int) -> None:
+        """`size` is that of the file in bytes."""
         self._path, self._archive = path, archive
+        self._left = LARGEST
+        """Bytes that may still be read, or be decoded."""
+        swollen = unpacked_size(archive)
+        self._require(swollen <= LARGEST_GROWTH * size, f"it swells to {swollen} bytes")
+        self._left_of_file = LARGEST_GROWTH * size
 
     def read(self) -> ModelSet:
         try:
-            manifest = json.loads(self._entry(MANIFEST, LARGEST_MANIFEST))
-        except (ValueError, RecursionError) as error:
+            manifest = parse_json(self._entry(MANIFEST, LARGEST_MANIFEST))
+        except ValueError as error:
             raise self._error(f"{MANIFEST} is not JSON: {error}") from error
         self._require(isinstance(manifest, dict), f"{MANIFEST} is not an object")
         version = manifest.get("format")
-        self._require(version == FORMAT, f"its format is {version!r:.20}, not {FORMAT}")
+        self._require(version == FORMAT, f"its format is {_brief(version)}, not {FORMAT}")
         method = manifest.get("method")
-        self._require(isinstance(method, str) and method in METHODS, f"method {method!r:.20}")
+        is_known = isinstance(method, str) and method in METHODS
+        self._require(is_known, f"method {_brief(method)}")
         objects = manifest.get("objects")
         self._require(isinstance(objects, list) and len(objects) <= MOST_OBJECTS, "objects")
         self._width = METHODS[method].width
@@ -188,8 +218,9 @@ class _Reader:
     def _object(self, data: Any) -> ObjectModel:
         self._require(isinstance(data, dict), "an object is not a table")
         name, learned, views = data.get("name"), data.get("learned"), data.get("views")
-        self._require(is_name(name), f"an object is named {name!r:.80}")
-        self._require(isinstance(learned, str) and len(learned) <= LONGEST_NAME, f"{name}: learned")
+        self._require(is_name(name), f"an object is named {_brief(name)}")
+        is_day = isinstance(learned, str) and len(learned) <= LONGEST_NAME
+        self._require(is_day and learned.isprintable(), f"{name}: learned")
         is_list = isinstance(views, list) and 0 < len(views) <= MOST_VIEWS
         self._require(is_list, f"{name}: views")
         return ObjectModel(name, tuple(self._view(name, each) for each in views), learned)
@@ -211,11 +242,19 @@ class _Reader:
         return View(picture, self._outline(name, data), features, float(scale), source)
 
     def _picture(self, name: str, data: Mapping[str, Any]) -> Image:
-        raw = np.frombuffer(self._named(name, data, "picture"), np.uint8)
-        decoded = cv2.imdecode(raw, cv2.IMREAD_COLOR) if raw.size else None
-        if decoded is None or max(decoded.shape) > LARGEST_SIDE:
-            raise self._error(f"{name}: a picture cannot be read")
-        return np.ascontiguousarray(decoded[..., ::-1])
+        raw = self._named(name, data, "picture")
+        header = read_header(io.BytesIO(raw))
+        is_usual = header is not None and header.format in FORMATS and header.mode in MODES
+        if header is None or not is_usual or count_scans(io.BytesIO(raw)) > MOST_SCANS:
+            raise self._error(f"{name}: a picture is not a usual JPEG or PNG")
+        width, height = header.size
+        self._require(max(width, height) <= LARGEST_SIDE, f"{name}: a picture is too large")
+        self._spend(3 * width * height)
+        try:
+            with PillowImage.open(io.BytesIO(raw), formats=FORMATS) as stored:
+                return np.asarray(stored.convert("RGB"), np.uint8)
+        except Exception as error:  # of what Pillow raises for broken files there is no list
+            raise self._error(f"{name}: a picture cannot be read") from error
 
     def _array(self, name: str, data: Mapping[str, Any], key: str, row: int) -> NDArray[np.uint8]:
         raw = self._named(name, data, key)
@@ -223,14 +262,14 @@ class _Reader:
         return np.frombuffer(raw, np.uint8)
 
     def _outline(self, name: str, data: Mapping[str, Any]) -> NDArray[np.float32]:
-        try:
-            outline = np.array(data.get("outline"), np.float32)
-        except (TypeError, ValueError, OverflowError):
-            outline = np.zeros((0, 0), np.float32)
-        is_polygon = outline.ndim == 2 and outline.shape[1] == 2
-        is_polygon = is_polygon and 3 <= len(outline) <= MOST_CORNERS
-        self._require(is_polygon and bool((np.abs(outline) < FARTHEST).all()), f"{name}: outline")
-        return outline
+        outline = data.get("outline")
+        if (
+            not isinstance(outline, list)
+            or not 3 <= len(outline) <= MOST_CORNERS
+            or not all(map(_is_corner, outline))
+        ):
+            raise self._error(f"{name}: outline")
+        return np.array(outline, np.float32)
 
     def _named(self, name: str, data: Mapping[str, Any], key: str) -> bytes:
         entry = data.get(key)
@@ -244,11 +283,14 @@ class _Reader:
         except KeyError as error:
             raise self._error(f"{name!r:.80} is missing") from error
         self._require(info.file_size <= largest, f"{name} is larger than {largest} bytes")
-        try:
-            with self._archive.open(info) as file:
-                return file.read(largest)
-        except (zipfile.BadZipFile, OSError, ValueError) as error:
-            raise self._error(f"{name} cannot be read: {error}") from error
+        self._left_of_file -= info.file_size
+        self._require(self._left_of_file >= 0, "its parts are named again and again")
+        self._spend(info.file_size)
+        return self._archive.read(info)
+
+    def _spend(self, size: int) -> None:
+        self._left -= size
+        self._require(self._left >= 0, f"it holds more than {LARGEST} bytes")
 
     def _require(self, holds: bool, what: str) -> None:
         if not holds:
@@ -256,3 +298,18 @@ class _Reader:
 
     def _error(self, what: str) -> HriError:
         return HriError(f"{self._path}: this model set is damaged: {what} - {REMEDY}")
+
+
+def _brief(value: object) -> str:
+    """A value of a manifest for a message."""
+    is_plain = value is None or isinstance(value, (str, int, float))
+    return f"{value!r:.80}" if is_plain else f"a {type(value).__name__}"
+
+
+def _is_corner(corner: object) -> bool:
+    """Whether it is a pair of numbers near a picture."""
+    return (
+        isinstance(corner, list)
+        and len(corner) == 2
+        and all(isinstance(part, (int, float)) and abs(part) < FARTHEST for part in corner)
+    )

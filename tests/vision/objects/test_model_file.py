@@ -3,8 +3,11 @@
 import json
 import os
 import stat
+import struct
 import zipfile
+import zlib
 
+import cv2
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
@@ -13,6 +16,7 @@ from hri.core.errors import HriError
 from hri.vision.objects.local_features import METHODS, SIFT
 from hri.vision.objects.model_file import (
     MANIFEST,
+    MOST_NAMES,
     MOST_OBJECTS,
     find_models,
     is_name,
@@ -140,7 +144,10 @@ DAMAGE = {
     "a name of two lines": (lambda m: m["objects"][0].update(name="a\nb"), "an object is named"),
     "no views": (lambda m: m["objects"][0].update(views=[]), "cup: views"),
     "a missing picture": (everywhere("picture", "none.jpg"), "'none.jpg' is missing"),
-    "a picture that is none": (everywhere("picture", "0000-00.points"), "cannot be read"),
+    "a picture that is none": (
+        everywhere("picture", "0000-00.points"),
+        "is not a usual JPEG or PNG",
+    ),
     "points of another view": (everywhere("points", "0000-00.jpg"), "cup:"),
     "descriptors for points": (everywhere("descriptors", "0000-00.points"), "cup:"),
     "an outline of a point": (everywhere("outline", [[0, 0]]), "cup: outline"),
@@ -163,7 +170,144 @@ def test_a_bomb_is_not_unpacked(tmp_path):
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr(MANIFEST, b" " * 40_000_000)
     assert path.stat().st_size < 100_000
-    with pytest.raises(HriError, match="is larger than"):
+    with pytest.raises(HriError, match="it swells to 40000000 bytes"):
+        load_models(path)
+
+
+def with_pictures(written, path, picture, method=zipfile.ZIP_STORED):
+    """The set with another file for each picture."""
+    with zipfile.ZipFile(written) as old, zipfile.ZipFile(path, "w", method) as new:
+        for name in old.namelist():
+            new.writestr(name, picture if name.endswith(".jpg") else old.read(name))
+    return path
+
+
+def png(width, height, depth=8, color=2, data=b""):
+    """A PNG of one color, with the header that it is given."""
+    head = struct.pack(">IIBBBBB", width, height, depth, color, 0, 0, 0)
+    parts = ((b"IHDR", head), (b"IDAT", data), (b"IEND", b""))
+    chunks = (
+        struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+        for kind, body in parts
+    )
+    return b"\x89PNG\r\n\x1a\n" + b"".join(chunks)
+
+
+def jpeg(shape=(64, 64, 3)):
+    return cv2.imencode(".jpg", np.full(shape, 99, np.uint8))[1].tobytes()
+
+
+def scanned_again(times):
+    """A JPEG whose only scan comes again and again."""
+    whole = jpeg()
+    start, end = whole.index(b"\xff\xda"), whole.rindex(b"\xff\xd9")
+    return whole[:start] + whole[start:end] * times + whole[end:]
+
+
+REFUSED = {
+    "1 bit for each of a billion pixels": (png(32_000, 32_000, 1, 0), "usual|too large"),
+    "a giant": (png(8000, 8000), "a picture is too large"),
+    "a side over the limit": (png(2001, 10), "a picture is too large"),
+    "16 bits": (png(10, 10, 16, 0), "usual"),
+    "a palette": (png(10, 10, 8, 3), "usual"),
+    "transparent": (png(10, 10, 8, 6), "usual"),
+    "without pixels": (png(10, 10), "cannot be read"),
+    "a GIF": (b"GIF89a\x01\x00\x01\x00\x00\x00\x00;", "usual"),
+    "a WebP": (cv2.imencode(".webp", np.zeros((9, 9, 3), np.uint8))[1].tobytes(), "usual"),
+    "a JPEG of many scans": (scanned_again(500), "usual"),
+    "nothing": (b"", "usual"),
+}
+
+
+@pytest.mark.parametrize("what", REFUSED)
+def test_a_picture_is_looked_at_before_it_is_decoded(written, tmp_path, what):
+    picture, reason = REFUSED[what]
+    for method in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+        path = with_pictures(written, tmp_path / "odd.mdl", picture, method)
+        with pytest.raises(HriError, match=rf"damaged: .*{reason}"):
+            load_models(path)
+
+
+def test_gray_pictures_and_png_are_read(written, tmp_path):
+    for picture in (jpeg((40, 30)), cv2.imencode(".png", np.zeros((40, 30, 3), "u1"))[1].tobytes()):
+        models = load_models(with_pictures(written, tmp_path / "other.mdl", picture))
+        assert models.objects[0].views[0].picture.shape == (40, 30, 3)
+
+
+def test_a_set_that_another_tool_deflated_is_read(written, tmp_path):
+    with zipfile.ZipFile(written) as old:
+        path = with_pictures(written, tmp_path / "a.mdl", jpeg(), zipfile.ZIP_DEFLATED)
+        assert path.stat().st_size < sum(entry.file_size for entry in old.infolist())
+    assert [model.name for model in load_models(path).objects] == ["cup", "key"]
+
+
+@pytest.mark.parametrize("method", [zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
+def test_only_stored_and_deflated_entries_are_taken(written, tmp_path, method):
+    path = with_pictures(written, tmp_path / "packed.mdl", jpeg(), method)
+    with pytest.raises(HriError, match="packed in an unusual way"):
+        load_models(path)
+
+
+def test_entries_that_are_named_again_count_again(written, tmp_path):
+    def multiply(manifest):
+        view = manifest["objects"][0]["views"][0]
+        manifest["objects"] = [
+            {"name": f"thing {n}", "learned": "", "views": [view] * 12} for n in range(1000)
+        ]
+
+    with pytest.raises(HriError, match="named again and again"):
+        load_models(changed(written, tmp_path, multiply))
+
+
+def test_all_pictures_together_are_bounded(written, tmp_path):
+    """Each is small in the file and large in memory."""
+    large = jpeg((2000, 2000, 3))
+    path = tmp_path / "many.mdl"
+    with zipfile.ZipFile(written) as old, zipfile.ZipFile(path, "w") as new:
+        manifest = json.loads(old.read(MANIFEST))
+        view = manifest["objects"][0]["views"][0]
+        for number in range(20):
+            new.writestr(f"{number}.jpg", large)
+        views = [view | {"picture": f"{number}.jpg"} for number in range(20)]
+        manifest["objects"] = [
+            {"name": "one", "learned": "", "views": views[:10]},
+            {"name": "two", "learned": "", "views": views[10:]},
+        ]
+        for name in old.namelist():
+            new.writestr(name, json.dumps(manifest) if name == MANIFEST else old.read(name))
+    with pytest.raises(HriError, match="it holds more than 150000000 bytes"):
+        load_models(path)
+
+
+def test_a_directory_that_is_longer_than_any_set_needs_is_not_read(tmp_path):
+    path = tmp_path / "many.mdl"
+    entry = b"PK\x01\x02" + bytes(42)
+    count = 200_000
+    end = struct.pack("<4s4H2IH", b"PK\x05\x06", 0, 0, 65535, 65535, 46 * count, 4, 0)
+    path.write_bytes(b"PK\x03\x04" + entry * count + end)
+    with pytest.raises(HriError, match="its directory has more than 4000000 bytes"):
+        load_models(path)
+
+
+def test_damage_of_the_packed_data_is_one_line(written, tmp_path):
+    path = with_pictures(written, tmp_path / "deflated.mdl", jpeg(), zipfile.ZIP_DEFLATED)
+    raw = bytearray(path.read_bytes())
+    for at in range(60, len(raw), 97):
+        broken = bytearray(raw)
+        broken[at : at + 9] = b"\xff" * 9
+        path.write_bytes(broken)
+        assert_read_or_refused(path)
+
+
+def test_an_encrypted_set_is_refused(written, tmp_path):
+    raw = bytearray(written.read_bytes())
+    for signature, flags in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
+        at = -1
+        while (at := raw.find(signature, at + 1)) >= 0:
+            raw[at + flags] |= 1
+    path = tmp_path / "secret.mdl"
+    path.write_bytes(raw)
+    with pytest.raises(HriError, match=r"damaged: .*password"):
         load_models(path)
 
 
@@ -180,9 +324,18 @@ def test_more_objects_than_a_set_holds_are_refused(tmp_path):
     path = tmp_path / "many.mdl"
     with pytest.raises(HriError, match="at most 1000 objects - split it"):
         save_models(path, ModelSet(SIFT, (one,) * (MOST_OBJECTS + 1)))
-    path.write_text("\n".join(f"thing {n}" for n in range(MOST_OBJECTS + 1)))
-    with pytest.raises(HriError, match="more than 1000 names"):
+    path.write_text("\n".join(f"thing {n}" for n in range(MOST_NAMES + 1)))
+    with pytest.raises(HriError, match="more than 150 names"):
         load_models(path)
+
+
+def test_a_set_that_could_not_be_read_again_is_not_written(tmp_path, monkeypatch):
+    monkeypatch.setattr("hri.vision.objects.model_file.LARGEST", 200_000)
+    path = tmp_path / "large.mdl"
+    save_models(path, learned("cup"))
+    assert load_models(path).objects[0].name == "cup"
+    with pytest.raises(HriError, match="at most 200,000 bytes - split it"):
+        save_models(path, learned("cup", "key", "box"))
 
 
 def test_a_failed_write_leaves_the_old_set(written, tmp_path):

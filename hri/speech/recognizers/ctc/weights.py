@@ -5,20 +5,23 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hri.core import paths
 from hri.core.errors import HriError, NotAvailable
-from hri.core.fetch.archive import BROKEN, check_members
 from hri.core.reading import opened
+from hri.core.zip_archive import BROKEN, opened_archive, unpacked_size
 
 FILE = Path(__file__).with_name("network.npz")
 VARIABLE = "HRI_CTC_WEIGHTS"
 """Environment variable that names a weight file elsewhere."""
 LARGEST = 64_000_000
 """Bytes of a weight file, and of all that is packed in it."""
+LONGEST_DIRECTORY = 100_000
+"""Bytes of the directory of its tensors."""
 
 Tensor = NDArray[np.float32]
 
@@ -43,9 +46,13 @@ def read_tensors(file: Path) -> Mapping[str, Tensor]:
     Raises NotAvailable when it cannot be read, or is not such a file.
     """
     try:
-        with opened(file, "weight file", LARGEST) as raw, np.load(raw) as stored:
-            check_members(stored.zip, LARGEST)
-            tensors = {name: stored[name].astype(np.float32) for name in stored.files}
+        with opened(file, "weight file", LARGEST) as raw:
+            with opened_archive(raw, LONGEST_DIRECTORY) as archive:
+                if unpacked_size(archive) > LARGEST:
+                    raise ValueError("it swells")
+            raw.seek(0)
+            with np.load(raw) as stored:
+                tensors = {name: _tensor(stored[name]) for name in stored.files}
     except HriError as error:
         raise NotAvailable(str(error)) from error
     except (OSError, TypeError, AttributeError, MemoryError, *BROKEN) as error:
@@ -54,6 +61,12 @@ def read_tensors(file: Path) -> Mapping[str, Tensor]:
         if not np.isfinite(tensor).all():
             raise NotAvailable(f"{file}: {name} is not finite - reinstall hri")
     return tensors
+
+
+def _tensor(stored: NDArray[Any]) -> Tensor:
+    if stored.dtype.kind != "f":  # a byte would grow to four
+        raise ValueError(f"a tensor of {stored.dtype}")
+    return stored.astype(np.float32)
 
 
 def take(tensors: Mapping[str, Tensor], name: str, *shape: int) -> Tensor:
