@@ -18,7 +18,7 @@ from typing import TypeVar
 import numpy as np
 
 from hri.core.errors import AuthoringError, Place, did_you_mean
-from hri.core.signals import Prosody, Speech
+from hri.core.signals import Phoneme, Prosody, Samples, Span, Speech
 from hri.core.xml import Element, parse_xml
 from hri.hal.drivers.resampling import resample
 from hri.hal.synthesizer import Synthesizer
@@ -32,9 +32,16 @@ LONGEST = 100_000
 """Characters of markup."""
 LONGEST_BREAK = 10.0
 """Seconds."""
+MOST_SILENCE = 300.0
+"""Seconds of all breaks together."""
+MOST_SAID = 5000
+"""Characters that are said, and sounds of phonemes, of a whole document."""
 
 PLAIN_RATE = 24000
-"""Samples a second of a break at the begin."""
+"""Samples a second of a document that was cut before its first word."""
+GROWTH = 1.25
+"""A document in the making is handed over each time it is longer by this factor: whoever plays it
+converts all of it anew."""
 ENDS = tuple(".!?\N{HORIZONTAL ELLIPSIS}:;,")
 JOINT = 0.02
 """Seconds of a pause that are left within a sentence."""
@@ -69,6 +76,7 @@ MONTHS = (
 )  # fmt: skip
 
 _NO_SPACE_BEFORE = re.compile(r"[.,;:!?)]")
+_WORD = re.compile(r"\w(.*\w)?")
 _TIME = re.compile(r"\+?(\d{0,6}\.?\d{1,6})(ms|s)")
 _CHANGE = re.compile(r"([+-]?)(\d{0,4}\.?\d{1,4})(%|st|dB)")
 
@@ -98,6 +106,8 @@ class Mark:
 
 
 Piece = Passage | Break | Mark
+Placed = tuple[Element, Piece]
+"""A piece, and the element that says it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +127,7 @@ class Ssml:
         root = parse_xml(source.encode("utf-8", "replace"), SOURCE)
         if root.tag != "speak":
             raise root.error(f"<{root.tag}> is not a text to speak", "write <speak>...</speak>")
-        pieces = tuple(_joined(_pieces(root, Prosody())))
+        pieces = tuple(_joined(_bounded(_pieces(root, Prosody()))))
         texts = [piece.text for piece in pieces if isinstance(piece, Passage)]
         if not texts:
             raise root.error("it says nothing", "put words between <speak> and </speak>")
@@ -150,23 +160,23 @@ def spoken(
     Positions of words count in `document.text`. Where a passage ends within a sentence, the pause
     of its end is cut.
     """
-    whole: Speech | None = None
-    position, marks = 0, []
+    track = _Track(document.text)
+    position, handed_over = 0, 0.0
     for piece in document.pieces:
-        at = 0.0 if whole is None else whole.duration
         if isinstance(piece, Mark):
-            marks.append((piece.name, at))
+            track.mark(piece.name)
         elif isinstance(piece, Break):
-            whole = _after(whole, _silence(piece.seconds, whole), document.text, position)
+            track.pause(piece.seconds)
         elif is_wanted():
             position = document.text.index(piece.text, position)
             said = voice.stream(piece.text, combined(prosody, piece.prosody), _ignore, is_wanted)
-            whole = _after(whole, _flowing(said), document.text, position)
+            track.append(_flowing(said), position)
             position += len(piece.text)
-        if whole is not None:
-            whole = replace(whole, marks=tuple(marks))
-            take(whole)
-    assert whole is not None, "a document says something"
+            if track.duration >= GROWTH * handed_over:
+                handed_over = track.duration
+                take(track.speech())
+    whole = track.speech()
+    take(whole)
     return whole
 
 
@@ -174,17 +184,81 @@ def _ignore(speech: Speech) -> None:
     """The parts of a passage are handed over when it is whole."""
 
 
-def _after(whole: Speech | None, part: Speech, text: str, position: int) -> Speech:
-    before = whole or Speech(text, np.zeros(0, np.int16), part.rate)
-    if part.rate != before.rate:
-        samples = resample(part.samples, part.rate, before.rate)
-        part = replace(part, samples=samples, rate=before.rate)
-    return before.then(part, position)
+class _Track:
+    """A speech that grows; what it is so far takes no copy of its sound."""
 
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self._rate = 0
+        """Samples a second, of the first part; 0 before it."""
+        self._sound: Samples = np.zeros(0, np.int16)
+        self._count = 0
+        """Samples that are filled."""
+        self._silence = 0.0
+        """Seconds of breaks after them."""
+        self._phonemes: list[Phoneme] = []
+        self._words: list[Span] = []
+        self._sentences: list[Span] = []
+        self._marks: list[tuple[str, float]] = []
 
-def _silence(seconds: float, before: Speech | None) -> Speech:
-    rate = PLAIN_RATE if before is None else before.rate
-    return Speech("", np.zeros(round(seconds * rate), np.int16), rate)
+    @property
+    def duration(self) -> float:
+        """Seconds."""
+        return self._silence + (self._count / self._rate if self._rate else 0.0)
+
+    def mark(self, name: str) -> None:
+        self._marks.append((name, self.duration))
+
+    def pause(self, seconds: float) -> None:
+        self._silence += seconds
+
+    def append(self, part: Speech, position: int) -> None:
+        """Go on with a part whose text stands at a place of the whole."""
+        self._rate = self._rate or part.rate
+        samples = part.samples
+        if part.rate != self._rate:
+            samples = resample(samples, part.rate, self._rate)
+        self._fill()
+        begun = self.duration
+
+        def moved(span: Span) -> Span:
+            place, start, end = span.position + position, span.start + begun, span.end + begun
+            return Span(span.text, place, start, end)
+
+        self._phonemes += (
+            Phoneme(p.name, p.start + begun, p.duration, p.stressed) for p in part.phonemes
+        )
+        self._words += map(moved, part.words)
+        self._sentences += map(moved, part.sentences)
+        self._extend(samples)
+
+    def speech(self) -> Speech:
+        """All of it so far."""
+        self._rate = self._rate or PLAIN_RATE
+        self._fill()
+        return Speech(
+            self._text,
+            self._sound[: self._count],
+            self._rate,
+            tuple(self._phonemes),
+            tuple(self._words),
+            tuple(self._sentences),
+            tuple(self._marks),
+        )
+
+    def _fill(self) -> None:
+        """Make samples of the breaks."""
+        self._extend(np.zeros(round(self._silence * self._rate), np.int16))
+        self._silence = 0.0
+
+    def _extend(self, samples: Samples) -> None:
+        count = self._count + len(samples)
+        if count > len(self._sound):  # a new place: what was handed over stays as it is
+            larger = np.zeros(2 * count, np.int16)
+            larger[: self._count] = self._sound[: self._count]
+            self._sound = larger
+        self._sound[self._count : count] = samples
+        self._count = count
 
 
 def _flowing(speech: Speech) -> Speech:
@@ -196,17 +270,34 @@ def _flowing(speech: Speech) -> Speech:
     return replace(speech, samples=speech.samples[:end], phonemes=speech.phonemes[:-1])
 
 
-def _pieces(element: Element, prosody: Prosody) -> Iterator[Piece]:
+def _pieces(element: Element, prosody: Prosody) -> Iterator[Placed]:
     """What an element says, in order."""
     for part in element.content():
         if isinstance(part, str):
             if words := " ".join(part.split()):
-                yield Passage(words, prosody)
+                yield element, Passage(words, prosody)
         elif part.tag not in _ELEMENTS:
             what = f"<{part.tag}> is not a part of SSML that is understood"
             raise part.error(what, did_you_mean(part.tag, _ELEMENTS))
         else:
             yield from _ELEMENTS[part.tag](part, prosody)
+
+
+def _bounded(pieces: Iterator[Placed]) -> Iterator[Piece]:
+    """The pieces alone. Raises AuthoringError at the one that makes the document too long."""
+    silence, said = 0.0, 0
+    for element, piece in pieces:
+        if isinstance(piece, Break):
+            silence += piece.seconds
+            if silence > MOST_SILENCE:
+                what = f"the breaks take more than {MOST_SILENCE:g} s together"
+                raise element.error(what, "say it in parts")
+        elif isinstance(piece, Passage):
+            said += len(piece.text) + sum(len(phones) for _, phones in piece.prosody.sounds)
+            if said > MOST_SAID:
+                what = f"it says more than {MOST_SAID} characters"
+                raise element.error(what, "say it in parts")
+        yield piece
 
 
 def _joined(pieces: Iterator[Piece]) -> Iterator[Piece]:
@@ -235,14 +326,14 @@ def _is_alike(one: Passage, other: Passage) -> bool:
     return replace(one.prosody, sounds=()) == replace(other.prosody, sounds=())
 
 
-def _part(element: Element, prosody: Prosody) -> Iterator[Piece]:
+def _part(element: Element, prosody: Prosody) -> Iterator[Placed]:
     element.check_attributes("xml:lang")
     yield from _pieces(element, prosody)
     if element.tag == "p":
-        yield Break(BREAKS["medium"])
+        yield element, Break(BREAKS["medium"])
 
 
-def _break(element: Element, prosody: Prosody) -> Iterator[Piece]:
+def _break(element: Element, prosody: Prosody) -> Iterator[Placed]:
     element.check((), ("time", "strength"))
     seconds = _named(element, "strength", BREAKS, "medium")
     if time := element.get("time", ""):
@@ -253,15 +344,15 @@ def _break(element: Element, prosody: Prosody) -> Iterator[Piece]:
     if seconds > LONGEST_BREAK:
         raise element.error(f"a break of {seconds:g} s", f"keep to {LONGEST_BREAK:g} s", "time")
     if seconds:
-        yield Break(seconds)
+        yield element, Break(seconds)
 
 
-def _emphasis(element: Element, prosody: Prosody) -> Iterator[Piece]:
+def _emphasis(element: Element, prosody: Prosody) -> Iterator[Placed]:
     element.check_attributes("level")
     yield from _pieces(element, combined(prosody, _named(element, "level", EMPHASES, "moderate")))
 
 
-def _prosody(element: Element, prosody: Prosody) -> Iterator[Piece]:
+def _prosody(element: Element, prosody: Prosody) -> Iterator[Placed]:
     element.check_attributes("rate", "pitch", "range", "volume")
     change = Prosody(
         rate=_factor(element, "rate", RATES),
@@ -272,25 +363,25 @@ def _prosody(element: Element, prosody: Prosody) -> Iterator[Piece]:
     yield from _pieces(element, combined(prosody, change))
 
 
-def _voice(element: Element, prosody: Prosody) -> Iterator[Piece]:
+def _voice(element: Element, prosody: Prosody) -> Iterator[Placed]:
     element.check_attributes("name")
     yield from _pieces(element, replace(prosody, voice=element.get("name")))
 
 
-def _say_as(element: Element, prosody: Prosody) -> Iterator[Piece]:
+def _say_as(element: Element, prosody: Prosody) -> Iterator[Placed]:
     element.check_attributes("interpret-as", "format")
     kind, words = element.get("interpret-as"), _words(element)
     if kind not in _SAID_AS:
         remedy = did_you_mean(kind, _SAID_AS)
         raise element.error(f'interpret-as is "{kind}"', remedy, "interpret-as")
     try:
-        yield Passage(_SAID_AS[kind](words, element.get("format", "")), prosody)
+        yield element, Passage(_SAID_AS[kind](words, element.get("format", "")), prosody)
     except ValueError as error:
         what = f'"{words:.40}" cannot be read as {kind}'
         raise element.error(what, str(error), "interpret-as") from error
 
 
-def _phoneme(element: Element, prosody: Prosody) -> Iterator[Piece]:
+def _phoneme(element: Element, prosody: Prosody) -> Iterator[Placed]:
     element.check_attributes("alphabet", "ph")
     words, alphabet = _words(element).split(), element.get("alphabet", "ipa")
     if len(words) != 1:
@@ -305,15 +396,16 @@ def _phoneme(element: Element, prosody: Prosody) -> Iterator[Piece]:
         raise element.error(what, remedy, "ph") from error
     if not phones:
         raise element.error("ph has no sounds", "write them, or leave out <phoneme>", "ph")
-    word = re.sub(r"^\W+|\W+$", "", words[0]).lower()
-    yield Passage(words[0], replace(prosody, sounds=((word, phones),)))
+    core = _WORD.search(words[0])
+    word = core[0].lower() if core else ""
+    yield element, Passage(words[0], replace(prosody, sounds=((word, phones),)))
 
 
-def _sub(element: Element, prosody: Prosody) -> Iterator[Piece]:
+def _sub(element: Element, prosody: Prosody) -> Iterator[Placed]:
     element.check_attributes("alias")
     _words(element)
     if alias := " ".join(element.get("alias").split()):
-        yield Passage(alias, prosody)
+        yield element, Passage(alias, prosody)
 
 
 def _words(element: Element) -> str:
@@ -323,12 +415,12 @@ def _words(element: Element) -> str:
     return " ".join(element.text.split())
 
 
-def _mark(element: Element, prosody: Prosody) -> Iterator[Piece]:
+def _mark(element: Element, prosody: Prosody) -> Iterator[Placed]:
     element.check((), ("name",))
-    yield Mark(element.get("name"))
+    yield element, Mark(element.get("name"))
 
 
-_ELEMENTS: Mapping[str, Callable[[Element, Prosody], Iterator[Piece]]] = {
+_ELEMENTS: Mapping[str, Callable[[Element, Prosody], Iterator[Placed]]] = {
     "p": _part,
     "s": _part,
     "break": _break,
@@ -370,7 +462,7 @@ def _ordinal(text: str, _: str) -> str:
 def _date(text: str, order: str) -> str:
     numbers = re.findall(r"\d+", text)
     order = order or ("ymd" if numbers and len(numbers[0]) == 4 else "mdy")
-    if order not in DATES or len(numbers) != 3:
+    if order not in DATES or len(numbers) != 3 or max(map(len, numbers)) > 4:
         raise ValueError('write three numbers, and format="mdy", "dmy" or "ymd"')
     found = dict(zip(order, map(int, numbers), strict=True))
     if not (1 <= found["m"] <= 12 and 1 <= found["d"] <= 31):

@@ -123,7 +123,19 @@ def test_a_mark_is_an_event_when_it_is_reached():
         ('<speak><phoneme ph="a">x y</phoneme></speak>', "2 words"),
         ('<speak><say-as interpret-as="dat">x</say-as></speak>', 'did you mean "date"'),
         ('<speak><say-as interpret-as="date">99/99/1</say-as></speak>', "cannot be read as date"),
+        (
+            f'<speak><say-as interpret-as="date">1-2-{"9" * 5000}</say-as></speak>',
+            "cannot be read as date - write three numbers",
+        ),
         ("<speak><sub>x</sub></speak>", 'no "alias"'),
+        (
+            "<speak>a\n" + '<break time="10s"/>' * 31 + "</speak>",
+            "ssml:2:571: the breaks take more than 300 s together - say it in parts",
+        ),
+        ("<speak>" + "a<p>b</p>" * 751 + "</speak>", "the breaks take more than 300 s"),
+        (f"<speak>a\n<s>{'a ' * 2600}</s></speak>", "ssml:2:1: it says more than 5000 characters"),
+        (f'<speak>\n<sub alias="{"a" * 5001}">b</sub></speak>', "ssml:2:1: it says more than 5000"),
+        (f'<speak><phoneme ph="{"æ" * 5000}">b</phoneme></speak>', "it says more than 5000"),
         ("<speak>a", "close <speak>"),
         ("<speak/>", "it says nothing"),
         ("<say>a</say>", "<speak>"),
@@ -138,6 +150,35 @@ def test_a_mistake_is_one_line_with_its_place(markup, message):
     with pytest.raises(AuthoringError, match=message) as raised:
         Ssml.parse(markup)
     assert "\n" not in str(raised.value)
+
+
+def handed_over(markup):
+    """What is given to whoever plays a document, part by part, in samples."""
+    voice = SilentVoice(Description("voice", "a voice"), ResourceManager((), FakeClock()))
+    parts = []
+    spoken(
+        Ssml.parse(markup), voice, PLAIN, lambda speech: parts.append(speech.samples), lambda: True
+    )
+    return parts
+
+
+@pytest.mark.parametrize(
+    "markup",
+    [
+        "<speak>a" + '<break time="60ms"/>' * 4900 + "</speak>",
+        "<speak>a" + '<mark name="m"/>' * 6000 + "</speak>",
+        "<speak>" + "a<emphasis>b</emphasis>" * 2000 + "</speak>",
+        "<speak>" + '<prosody rate="slow">a</prosody> b' * 2000 + "</speak>",
+        "<speak>" + "<s>" * 60 + "a" * 4900 + "</s>" * 60 + "</speak>",
+        f'<speak><phoneme ph="a">a{"!" * 4000}a{"!" * 800}</phoneme></speak>',
+    ],
+)
+def test_the_work_grows_as_the_document_does(markup):
+    """However many parts there are, their sound is copied and handed over a few times."""
+    parts = handed_over(markup)
+    assert len(parts) < 60
+    assert sum(map(len, parts)) <= 6 * len(parts[-1])
+    assert all(np.shares_memory(part, parts[-1]) or len(part) < len(parts[-1]) for part in parts)
 
 
 @given(st.text(alphabet="<>/speakbr=\"'& a1\ud800é", max_size=80))
