@@ -34,6 +34,8 @@ FILLED_IN = ("text", "name", "time", "battery", "why", "why_stopped", "feeling",
 """What may stand in braces, beside the tags of the grammar."""
 HEARD = "text"
 """What a task or an event may take beside the tags: the words that were heard."""
+LONGEST = 5000
+"""Characters of what is said; voices say no more."""
 _EVENT = re.compile(r"[A-Za-z]\w*(\.\w+)+")
 
 
@@ -273,10 +275,17 @@ def _fields(text: str) -> list[str]:
 
 
 def _check_braces(entry: Table, text: str, known: Collection[str], key: str = "say") -> None:
+    if len(text) > LONGEST:
+        raise entry.error(key, f"a text of {len(text)} characters", f"keep it within {LONGEST}")
     try:
-        names = [field for _, field, _, _ in string.Formatter().parse(text) if field is not None]
+        parts = list(string.Formatter().parse(text))
     except ValueError as error:
         raise entry.error(key, f"{error}", "close every {brace}") from error
-    for name in names:
+    for _, name, form, conversion in parts:
+        if name is None:
+            continue
+        if form or conversion:
+            what = f"{{{name}}} has a format, which braces do not take"
+            raise entry.error(key, what, f"write {{{name}}}")
         if name not in known:
             raise entry.error(key, f"nothing fills in {{{name}}}", did_you_mean(name, known))

@@ -11,6 +11,7 @@ watch_keys  space stops it, r releases a base that must be released, m mutes the
 
 from __future__ import annotations
 
+import logging
 import math
 from collections.abc import Sequence
 from dataclasses import replace
@@ -30,6 +31,8 @@ from hri.task.context import TaskContext
 
 from .companion import COMPANY_SECONDS, Companion, authored_replies, vocabulary_of
 from .replies import FILE, Question, Replies, load_replies
+
+log = logging.getLogger("hri.task")
 
 FIRST_QUESTION = 7.0
 """Seconds of calm after a conversation before it asks a question itself."""
@@ -103,6 +106,8 @@ async def converse(context: TaskContext) -> None:
                 companion.reply(heard["rule"], heard["text"], dict(heard["tags"]))
             except (LookupError, ValueError, TypeError) as error:
                 # A reply that cannot be filled in costs this reply, not the companion.
+                why = f"nothing fills in {{{error.args[0]}}}" if type(error) is KeyError else error
+                log.error("the reply to <%s> failed: %s", heard["rule"], why)
                 context.events.raise_event("task.failed", task="converse", error=str(error))
 
 

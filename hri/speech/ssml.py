@@ -40,8 +40,8 @@ MOST_SAID = 5000
 PLAIN_RATE = 24000
 """Samples a second of a document that was cut before its first word."""
 GROWTH = 1.25
-"""A document in the making is handed over each time it is longer by this factor: whoever plays it
-converts all of it anew."""
+"""A document in the making is handed over each time it is longer by this factor: a speaker
+converts all of it each time."""
 ENDS = tuple(".!?\N{HORIZONTAL ELLIPSIS}:;,")
 JOINT = 0.02
 """Seconds of a pause that are left within a sentence."""

@@ -277,6 +277,19 @@ def own_app(tmp_path):
         ('action = "move"', 'action = "moove"', 'action is "moove" - did you mean "move"?'),
         ("at {battery}", "at {batery}", 'nothing fills in {batery} - did you mean "battery"?'),
         ("at {battery}", "at {battery", "close every {brace}"),
+        (
+            "at {battery}",
+            "at {battery:>400000000}",
+            "{battery} has a format, which braces do not take - write {battery}",
+        ),
+        ("at {battery}", "at {battery:d}", "{battery} has a format"),
+        ("at {battery}", "at {battery!r}", "{battery} has a format"),
+        ("at {battery}", "at {battery:{name}}", "{battery} has a format"),
+        ("at {battery}", "at {battery.real}", "nothing fills in {battery.real}"),
+        ("at {battery}", "at {battery[0]}", "nothing fills in {battery[0]}"),
+        ("at {battery}", "at {}", "nothing fills in {}"),
+        ('learned = "Now', 'learned = "{thing:>9}', "{thing} has a format"),
+        ("at {battery}", f"at {'a' * 5000}", "characters - keep it within 5000"),
         ("intensity = 0.6", "intensity = 6", "intensity is 6 - write a number from 0 to 1"),
     ],
 )
@@ -368,7 +381,7 @@ def test_every_app_loads_with_its_networks_and_tasks():
         assert app.load_tasks()
 
 
-def test_a_job_that_fails_costs_that_job_only(own_app):
+def test_a_job_that_fails_costs_that_job_only_and_is_told(own_app, caplog):
     replies = own_app / "replies.toml"
     replies.write_text(replies.read_text().replace('say = "It is {time}."', 'say = "{distance}"'))
     robot = Robot(
@@ -379,6 +392,7 @@ def test_a_job_that_fails_costs_that_job_only(own_app):
     world.say("what is your name", at=4.0)
     events = live_for(robot, 8, *robot.app.load_tasks())
     assert [event.name for event in events if event.name == "task.failed"] == ["task.failed"]
+    assert caplog.messages == ["the reply to <time> failed: nothing fills in {distance}"]
     assert "My name is Robin." in [event.properties.get("text") for event in events]
 
 
