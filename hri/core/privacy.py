@@ -23,8 +23,56 @@ def is_same_name(one: str, other: str) -> bool:
 
 
 def is_named(person: str, text: str) -> bool:
-    """Whether a person is named in a text, as whole words, in capital letters or not."""
-    return re.search(rf"(?<!\w){re.escape(_folded(person))}(?!\w)", _folded(text)) is not None
+    """Whether a person is named in a text, in capital letters or not.
+
+    Names are words of letters, which end at anything else and at a capital: Anna is named in
+    `IMG_anna2.jpg`, in `annaCup`, in "anna's cup" and "Annas cup", and not in Joanna.
+    """
+    words = _in_words(person).split()
+    if not words:
+        return bool(person.strip()) and _folded(person) in _folded(text)
+    plain = _folded(_without_marks(text))
+    if not all(word.replace(JOINT, "") in plain for word in words):
+        return False
+    name = f"[ {JOINT}]?".join(f"{JOINT}?".join(word.replace(JOINT, "")) for word in words)
+    return re.search(rf"[ {JOINT}]{name}(?:[ {JOINT}]|s[ {JOINT}]\w)", _in_words(text)) is not None
+
+
+JOINT = "-"
+"""Between two parts of a word that is written in camel case, or of letters and digits."""
+
+
+def _in_words(text: str) -> str:
+    """The letters and digits of a text, folded: words between blanks, their parts at a JOINT."""
+    made, last = [" "], " "
+    composed = unicodedata.normalize("NFC", _without_marks(text))
+    kinds = [unicodedata.category(character) for character in composed]
+    for character, kind, after in zip(composed, kinds, [*kinds[1:], " "], strict=False):
+        if kind[0] == "M":  # an accent that NFC leaves alone belongs to the letter before it
+            made.append(character)
+            continue
+        if kind[0] not in "LN":
+            character = kind = " "
+        elif last != " " and _is_joint(last, kind, after):
+            made.append(JOINT)
+        if kind != " " or last != " ":
+            made.append(character)
+        last = kind
+    return _folded("".join(made)).rstrip(" ") + " "
+
+
+def _is_joint(before: str, kind: str, after: str) -> bool:
+    """Whether a part of a word begins, by the categories of a character and those beside it."""
+    if before[0] != kind[0]:
+        return True
+    return kind == "Lu" and (before != "Lu" or after == "Ll")
+
+
+def _without_marks(text: str) -> str:
+    """Without invisible characters, such as soft hyphens."""
+    if text.isprintable():
+        return text
+    return "".join(one for one in text if unicodedata.category(one) != "Cf")
 
 
 def _folded(text: str) -> str:

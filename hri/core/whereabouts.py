@@ -1,8 +1,8 @@
 """Notes where data about people is stored outside the robot's own folders.
 
-A recording, a film of the camera, or a file of faces, objects, colors, or feelings, lies where
-someone wanted it. So that all of it can be found and forgotten, its place is noted in the state
-folder, a JSON object a line:
+A recording, a film of the camera, a sound of the microphone, a draft of a network, or a file of
+faces, objects, colors, or feelings, lies where someone wanted it. So that all of it can be found
+and forgotten, its place is noted in the state folder, a JSON object a line:
 `{"kind": "recording", "place": "/home/ann/out"}`.
 """
 
@@ -21,7 +21,9 @@ from hri.core.privacy import private_file, private_folder
 from hri.core.reading import parse_json, read_text
 from hri.core.writing import PRIVATE, append_line, write_text
 
-Kind = Literal["recording", "faces", "feelings", "pictures", "objects", "colors"]
+Kind = Literal[
+    "recording", "faces", "feelings", "pictures", "objects", "colors", "sounds", "drafts"
+]
 
 MOST_BYTES = 50_000_000
 

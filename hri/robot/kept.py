@@ -20,7 +20,7 @@ from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.growing import is_growing
 from hri.core.privacy import is_named, is_same_name
-from hri.core.reading import opened, parse_json
+from hri.core.reading import opened, parse_json, read_bytes
 from hri.core.recorded import BY_DATE, RECORDINGS, parts
 from hri.core.whereabouts import noted, tidy
 from hri.core.writing import PRIVATE, delete, leftovers, write_text
@@ -30,9 +30,14 @@ from hri.robot.provenance import read_record
 from hri.speech.pronunciation.guesses import GUESSES
 from hri.speech.pronunciation.lexicon import user_lexicon
 from hri.vision.color.color_model import own_color_files
-from hri.vision.objects.model_file import load_models, save_models
+from hri.vision.objects.model_file import load_models, own_models, save_models
 from hri.vision.objects.object_model import ObjectModel
 from hri.vision.tracking.face_recognition import Acquaintances
+
+DRAFTS = ".*.draft"
+"""Names of drafts of networks."""
+LONGEST_LINE = 1 << 23
+"""Bytes that are searched for a name at once."""
 
 
 class Kept(ABC):
@@ -196,13 +201,17 @@ class Objects(Kept):
     about = "objects that you taught"
 
     def places(self) -> list[Path]:
-        return noted("objects")
+        return list(dict.fromkeys((*_there(own_models()), *noted("objects"))))
 
     def needs_yes(self, person: str | None) -> bool:
         return person is None
 
     def concerns(self, place: Path, person: str) -> bool:
-        return _mentions(place, person)  # the names stand in the file as they are
+        """As it is loaded: another tool may have packed it so that no name stands in the file."""
+        try:
+            return any(_is_object_of(person, one) for one in load_models(place).objects)
+        except HriError:
+            return _mentions(place, person)
 
     def forget(self, place: Path, person: str) -> None:
         """The objects named so, and those from files named so; all when it cannot be used."""
@@ -273,6 +282,50 @@ class Recordings(Kept):
             place.rmdir()
 
 
+class Drafts(Kept):
+    """Networks that were changed in the studio and not saved."""
+
+    about = "a draft of a network"
+
+    def places(self) -> list[Path]:
+        """In the user's folder, where networks are looked for, and wherever the studio kept one."""
+        own = (paths.data_folder() / name for name in ("drafts", "networks"))
+        folders = [Path(), *own, *noted("drafts")]
+        found = [file for folder in folders for file in sorted(folder.glob(DRAFTS))]
+        for root in paths.search_folders():
+            for name in ("networks", "config", "apps"):
+                found += sorted((root / name).glob(f"**/{DRAFTS}"))
+        return list(dict.fromkeys(file.resolve() for file in found if _is_draft(file)))
+
+    def concerns(self, place: Path, person: str) -> bool:
+        return _mentions(place, person)
+
+    def needs_yes(self, person: str | None) -> bool:
+        return True
+
+    def forget(self, place: Path, person: str) -> None:
+        """A draft goes whole: without a name in it, it would be another network."""
+        self.delete(place)
+
+
+class Sounds(Kept):
+    """Sound files of a microphone that a program asked for; who speaks is not known."""
+
+    about = "a sound of the microphone"
+
+    def places(self) -> list[Path]:
+        return noted("sounds")
+
+    def concerns(self, place: Path, person: str) -> bool:
+        return is_named(person, place.stem)
+
+    def needs_yes(self, person: str | None) -> bool:
+        return True
+
+    def forget(self, place: Path, person: str) -> None:
+        self.delete(place)
+
+
 class Pictures(Kept):
     """Pictures and films of a camera that someone asked for; who is on them is not known."""
 
@@ -282,7 +335,7 @@ class Pictures(Kept):
         return noted("pictures")
 
     def concerns(self, place: Path, person: str) -> bool:
-        return False
+        return is_named(person, place.stem)
 
     def needs_yes(self, person: str | None) -> bool:
         return True
@@ -337,7 +390,7 @@ class Telemetry(Kept):
 
 KEPT: tuple[Kept, ...] = (
     Feelings(), Faces(), LookedUpWords(), OwnWords(), Devices(), Objects(), Colors(), Recordings(),
-    Pictures(), Telemetry(),
+    Pictures(), Sounds(), Drafts(), Telemetry(),
 )  # fmt: skip
 """The one list. What the program begins to keep about people is added here."""
 
@@ -383,12 +436,22 @@ def _there(file: Path) -> list[Path]:
     return [file] if os.path.lexists(file) or leftovers(file) else []
 
 
-def _lines(file: Path) -> list[str]:
-    """The lines of a text, whatever is in it."""
+def _lines(file: Path) -> Iterator[str]:
+    """The lines of a text, whatever is in it; it need not fit into memory."""
     if not file.is_file():
-        return []
+        return
     with opened(file, "text", None) as text:
-        return text.read().decode("utf-8", "replace").splitlines()
+        while line := text.readline(LONGEST_LINE):
+            yield line.decode("utf-8", "replace").rstrip("\r\n")
+
+
+def _is_draft(file: Path) -> bool:
+    """Whether it is a draft of a network; other programs have drafts, too."""
+    try:
+        kept = parse_json(read_bytes(file, "draft"))
+    except (HriError, ValueError):
+        return file.parent == paths.data_folder() / "drafts"
+    return isinstance(kept, dict) and {"path", "text"} <= kept.keys()
 
 
 def _is_of(person: str, line: str) -> bool:

@@ -4,6 +4,8 @@ import io
 import json
 import shutil
 import stat
+import zipfile
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -19,11 +21,17 @@ from hri.core.recorded import ABOUT
 from hri.core.whereabouts import note, noted, whereabouts_file
 from hri.emotion.model_spec import load_emotions
 from hri.emotion.persistence import Memory, keep, memory_file, recall
+from hri.hal.audio_file import AudioFileRecorder
 from hri.hal.choices import choices_file, save_choices
 from hri.hal.drivers.image_size import write_picture
+from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
 from hri.robot import kept
+from hri.studio.composer.files import Library
 from hri.vision.color.color_model import find_color, load_color, own_colors, save_color
+from hri.vision.objects.local_features import SIFT
 from hri.vision.objects.model_file import load_models, own_models, save_models
+from hri.vision.objects.object_model import ModelSet
 from hri.vision.tracking.face_recognition import Acquaintances
 from tests.vision.objects.pictures import learned
 
@@ -151,6 +159,68 @@ def test_nothing_of_who_was_forgotten_is_in_any_file_that_the_program_wrote(
     capsys.readouterr()
     assert forget() == 0
     assert "nothing to forget" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", ["anna_cup", "anna2", "IMG_anna", "Annas cup", "annaCup"])
+def test_an_object_and_a_color_of_hers_are_found_however_they_are_written(home, name):
+    save_models(own_models(), learned(name, "Joannas key"))
+    color = load_color(find_color("red_ball"))
+    for stem in (name, "hannah"):
+        save_color(own_colors() / f"{stem}.color", color)
+    assert forget("Anna") == 0
+    assert [one.name for one in load_models(own_models()).objects] == ["Joannas key"]
+    assert [file.stem for file in own_colors().iterdir()] == ["hannah"]
+
+
+def test_an_object_from_a_picture_of_hers_is_found_in_a_set_that_another_tool_packed(home):
+    (model,) = learned("cup").objects
+    view = replace(model.views[0], source="pictures/anna_01.jpg")
+    save_models(own_models(), ModelSet(SIFT, (replace(model, views=(view,)),)))
+    with zipfile.ZipFile(own_models()) as archive:
+        entries = {name: archive.read(name) for name in archive.namelist()}
+    with zipfile.ZipFile(own_models(), "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in entries.items():
+            archive.writestr(name, data)
+    assert b"anna" not in own_models().read_bytes()
+    whereabouts_file().unlink()
+    assert forget("Anna") == 0
+    assert load_models(own_models()).objects == ()
+
+
+@pytest.mark.parametrize("name", [".wander.xml.draft", ".wander.xml.0f3a.draft"])
+def test_a_draft_of_a_network_is_on_the_list(home, capsys, name):
+    draft = home / name
+    draft.write_text(json.dumps({"path": "wander.xml", "text": f"<!-- for {ANNA} -->"}))
+    (home / ".notes.draft").write_text(f"of another program: {ANNA}")
+    assert forget(BEN) == 0
+    assert "nothing to forget" in capsys.readouterr().out
+    assert forget(ANNA) == 0
+    assert f"{draft}: a draft of a network: {ANNA} - it stays; --yes" in capsys.readouterr().out
+    assert forget("--yes") == 0
+    assert [file.name for file in home.glob(".*.draft")] == [".notes.draft"]
+
+
+def test_a_draft_that_the_studio_kept_is_found_wherever_it_lies(home, monkeypatch):
+    folder = home / "mine"
+    folder.mkdir()
+    Library(lambda: 0.0, start=folder).keep_draft(str(folder / "new.xml"), "<x/>", None)
+    monkeypatch.chdir(home)
+    assert forget("--yes") == 0
+    assert list(folder.iterdir()) == []
+
+
+def test_a_sound_that_a_program_recorded_is_on_the_list(home, capsys):
+    devices = {"microphone": "Hri.MemoryMicrophone", "recorder": "Hri.AudioFileRecorder"}
+    resources = ResourceManager(
+        [Description(id, kind) for id, kind in devices.items()], FakeClock()
+    )
+    recorder = resources.obtain("recorder", AudioFileRecorder)
+    recorder.record(home / "anna.wav", 1.0)
+    resources.close()
+    assert forget("Anna") == 0
+    assert "anna.wav: a sound of the microphone: Anna - it stays" in capsys.readouterr().out
+    assert forget("--yes") == 0
+    assert not (home / "anna.wav").exists()
 
 
 def test_forgetting_in_the_old_words_asks_nobody_and_names_what_stays(home, capsys, monkeypatch):

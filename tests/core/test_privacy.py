@@ -4,8 +4,42 @@ from pathlib import Path
 
 import pytest
 
-from hri.core.privacy import close_to_others, private_file, private_folder
+from hri.core.privacy import close_to_others, is_named, private_file, private_folder
 from hri.core.writing import NotWritten
+
+NAMED = {
+    "Anna": (
+        "anna", "ANNA", "anna-cup", "anna_ball", "anna2.jpg", "2anna3", "IMG_anna.jpg", "Annas cup",
+        "anna's", "Anna\N{RIGHT SINGLE QUOTATION MARK}s cup", "annaCup", "myAnnaCup", "IMGAnna.jpg",
+        "AnnasCup", "an\u00adna", "/home/anna/cup.jpg", "We met Anna.",
+    ),
+    "Anna Lee": ("anna lee", "annaLee2", "anna_lee.jpg", "ANNA  LEE"),
+    "mcdonald": ("McDonaldCup", "McDonald", "mcdonald's"),
+    "O'Brien": ("o_brien", "OBrien"),
+    "José": ("jose\u0301_1", "JOSÉ"),
+    "R2D2": ("my r2d2 box",),
+    "!!": ("a!!b",),
+}  # fmt: skip
+NOT_NAMED = {
+    "Anna": (
+        "Joanna", "Hannah", "annabel", "savannah", "JOANNA2", "Annas", "annals", "an na", "annä",
+        "anna\u0301", "Annass cup", "",
+    ),
+    "Ann": ("Anna", "annCup"[1:]),
+    "Anna Lee": ("Anna", "Lee Anna"),
+    "": ("", "anna"),
+    " ": ("a b",),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("person", NAMED)
+def test_a_person_is_named_where_their_name_stands_as_a_word_of_letters(person: str) -> None:
+    assert [text for text in NAMED[person] if not is_named(person, text)] == []
+
+
+@pytest.mark.parametrize("person", NOT_NAMED)
+def test_a_name_that_is_part_of_another_word_is_not_theirs(person: str) -> None:
+    assert [text for text in NOT_NAMED[person] if is_named(person, text)] == []
 
 
 def mode(path: Path) -> int:

@@ -12,6 +12,7 @@ from hri.cli.object.options import add_set, loaded, object_of
 from hri.core.picture_writer import write_picture
 from hri.core.quoting import escaped
 from hri.core.signals import Image
+from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE
 from hri.vision.objects.object_model import View
 
@@ -37,6 +38,7 @@ def run(options: argparse.Namespace) -> int:
     width = min(COLUMNS, len(tiles))
     rows = [np.hstack(tiles[i : i + width]) for i in range(0, len(tiles), width)]
     write_picture(options.out, np.vstack(rows), mode=PRIVATE)
+    note("pictures", options.out)
     for number, view in enumerate(model.views, 1):
         size = f", {100 * view.scale * np.ptp(view.outline[:, 0]):.1f} cm wide" * (view.scale > 0)
         print(f"view {number}: {len(view.features)} features{size}, from {escaped(view.source)}")

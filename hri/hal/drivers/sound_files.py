@@ -8,6 +8,7 @@ from pathlib import Path
 from hri.core.clock import Timer, Worker
 from hri.core.errors import HriError
 from hri.core.signals import Samples
+from hri.core.whereabouts import note
 from hri.hal.audio_file import LONGEST_RECORDING, AudioFilePlayer, AudioFileRecorder
 from hri.hal.drivers.partner import use_partner
 from hri.hal.drivers.wav_file import GrowingWav, load_sound
@@ -104,6 +105,7 @@ class MicrophoneFileRecorder(AudioFileRecorder):
             raise ValueError(f"{seconds:g} s - record more than 0 and at most 3600 s")
         self.stop()
         file = GrowingWav(Path(path), self._microphone.rate)
+        note("sounds", Path(path))
         self._recording = _Recording(file, self._microphone.listen(), seconds)
         return self._recording.pending
 

@@ -20,6 +20,7 @@ from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.privacy import private_folder
 from hri.core.reading import parse_json, read_bytes
+from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE, NotWritten, delete, make_folder, write_bytes
 
 SUFFIX = ".draft"
@@ -130,6 +131,7 @@ def keep(draft: Draft, content: str, is_beside: bool) -> None:
     else:
         make_folder(file.parent)
     write_bytes(file, json.dumps(vars(draft), ensure_ascii=False).encode("utf-8"), PRIVATE)
+    note("drafts", file.parent)
 
 
 def _make_room(path: Path, drafts: list[Draft], elsewhere: set[str]) -> None:
