@@ -10,7 +10,12 @@ from hri.core.errors import HriError
 from hri.core.signals import FoundObject
 from hri.robot.finding import find_object
 from hri.task.context import TaskContext
-from hri.vision.objects.object_tasks import forget_object, learn_object, objects_of
+from hri.vision.objects.object_tasks import (
+    NothingShown,
+    forget_object,
+    learn_object,
+    objects_of,
+)
 
 if TYPE_CHECKING:
     from .companion import Companion
@@ -21,6 +26,7 @@ AHEAD = math.radians(15)
 """To each side; what is farther aside is on the left or on the right."""
 WORDS: Mapping[str, str] = {
     "learned": "Now I know your {thing}.",
+    "nothing_shown": "I saw no {thing}. Hold it before your face, and say: this is my {thing}.",
     "not_learned": "I could not see enough of your {thing}. Hold it nearer, in more light.",
     "sees": "I see {things}.",
     "sees_nothing": "I see nothing that I know.",
@@ -38,6 +44,8 @@ async def learn(context: TaskContext, companion: Companion, thing: str) -> None:
     """Look at what is held up, and say whether that was enough."""
     try:
         await learn_object(context, thing, LOOKING_S)
+    except NothingShown:
+        companion.tell("nothing_shown", thing=thing)
     except HriError:
         companion.tell("not_learned", thing=thing)
     else:

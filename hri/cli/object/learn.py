@@ -17,7 +17,8 @@ from hri.core.signals import Image
 from hri.hal.drivers.image_folder import pictures_in
 from hri.hal.drivers.still_image import read_still
 from hri.vision.camera_view import CameraView
-from hri.vision.objects.cutout import in_the_middle, opaque, whole
+from hri.vision.objects.cutout import opaque, whole
+from hri.vision.objects.held_up import HeldUp, HeldUpFinder
 from hri.vision.objects.learning import (
     ObjectLearner,
     Shown,
@@ -72,7 +73,11 @@ def run(options: argparse.Namespace) -> int:
     models = load_or_new(path, options.features)
     learner = ObjectLearner(options.name, models)
     shown = _from_files if options.images else _from_camera
-    for image, outline, source, focal_length in shown(options):
+    for image, held_up, source, focal_length in shown(options):
+        if (outline := held_up.outline) is None:
+            learner.refuse(held_up.reason)
+            print(f"{source}: not kept: {held_up.reason}", flush=True)
+            continue
         scale = _scale(options, outline, focal_length)
         _print(learner, learner.show(image, outline, scale, source), source)
     model = learner.model(date.today().isoformat())
@@ -82,8 +87,8 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-Picture = tuple[Image, Outline, str, float]
-"""An image, where the object is in it, where the image is from, and its focal length in pixels."""
+Picture = tuple[Image, HeldUp, str, float]
+"""An image, the object in it, where the image is from, and its focal length in pixels."""
 
 
 def _from_files(options: argparse.Namespace) -> Iterator[Picture]:
@@ -94,7 +99,7 @@ def _from_files(options: argparse.Namespace) -> Iterator[Picture]:
             is_whole = options.whole
             outline = whole(still.image) if is_whole else opaque(still.image, still.alpha)
             size = still.image.shape[1], still.image.shape[0]
-            yield still.image, outline, str(file), view.focal_length(size)
+            yield still.image, HeldUp(outline), str(file), view.focal_length(size)
 
 
 def _from_camera(options: argparse.Namespace) -> Iterator[Picture]:
@@ -103,14 +108,14 @@ def _from_camera(options: argparse.Namespace) -> Iterator[Picture]:
     if is_live and math.isinf(options.seconds):
         options.seconds = SECONDS
         print(f"show it to the camera and turn it slowly for {SECONDS:g} s", flush=True)
-    outline = whole if options.whole else in_the_middle
+    finder = HeldUpFinder(is_whole=options.whole)
     with opened_camera(options, RealClock() if is_live else FakeClock()) as camera:
         view, due = CameraView.of(camera), -math.inf
         for frame in frames_of(camera, options.seconds):
             if frame.time >= due:
                 due = frame.time + EVERY
                 focal_length = view.focal_length((frame.width, frame.height))
-                yield frame.image, outline(frame.image), camera.describe(), focal_length
+                yield frame.image, finder.find(frame.image), camera.describe(), focal_length
 
 
 def _scale(options: argparse.Namespace, outline: Outline, focal_length: float) -> float:

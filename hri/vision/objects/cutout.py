@@ -65,10 +65,10 @@ def before(image: Image, background: Image) -> Outline | None:
     return _largest((np.abs(blurred[0] - blurred[1]).max(axis=2) > DIFFERENT).astype(np.uint8))
 
 
-def in_the_middle(image: Image, faces: Iterable[FaceBox] = ()) -> Outline:
+def in_the_middle(image: Image, faces: Iterable[FaceBox] = ()) -> Outline | None:
     """What is held in the middle of a picture of a room (Rother et al., "GrabCut", 2004).
 
-    A face that looks over it does not belong to it.
+    A face that looks over it does not belong to it. None when nothing stands out.
     """
     scale = COARSE / image.shape[1]
     small = np.asarray(
@@ -86,11 +86,11 @@ def in_the_middle(image: Image, faces: Iterable[FaceBox] = ()) -> Outline:
         )
         mask[down, across] = cv2.GC_BGD
     if not (mask == cv2.GC_PR_FGD).any():
-        return middle(image)
+        return None
     no_box = (0, 0, 0, 0)  # the mask says it all
     cv2.grabCut(small[..., ::-1].copy(), mask, no_box, *models, 3, cv2.GC_INIT_WITH_MASK)
     outline = _largest((mask & 1).astype(np.uint8))
-    return middle(image) if outline is None else np.asarray(outline / scale, np.float32)
+    return None if outline is None else np.asarray(outline / scale, np.float32)
 
 
 def _largest(mask: Mask, *, has_parts: bool = False) -> Outline | None:

@@ -97,6 +97,12 @@ class ObjectLearner:
         self._others = ObjectRecognizer(others.without(name))
         self._views: list[View] = []
         self._known: ObjectRecognizer | None = None
+        self._refused: list[str] = []
+        """Why pictures were not looked at closer."""
+
+    def refuse(self, reason: str) -> None:
+        """Take note of a picture that shows no object."""
+        self._refused.append(reason)
 
     def show(self, image: Image, outline: Outline, scale: float = 0.0, source: str = "") -> Shown:
         """Look at one more picture; its view is kept when it shows something new."""
@@ -121,11 +127,19 @@ class ObjectLearner:
         """How many views there are."""
         return len(self._views)
 
+    @property
+    def was_refused(self) -> bool:
+        """Whether pictures that show no object are why there is no view."""
+        return bool(self._refused) and not self._views
+
     def model(self, day: str) -> ObjectModel:
         """The object. Raises HriError when no picture was good enough."""
         if not self._views:
-            remedy = "show it nearer and in more light"
-            raise HriError(f"{self._name}: no picture shows enough of it - {remedy}")
+            what, remedy = "no picture shows enough of it", "show it nearer and in more light"
+            if self.was_refused:
+                what = f"{what}: {max(self._refused, key=self._refused.count)}"
+                remedy = "hold it before the camera, so that it hides your face"
+            raise HriError(f"{self._name}: {what} - {remedy}")
         return self._model(day)
 
     def _model(self, day: str) -> ObjectModel:

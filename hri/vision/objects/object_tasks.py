@@ -11,11 +11,11 @@ from hri.core.errors import HriError, NotAvailable, did_you_mean
 from hri.core.service import Service
 from hri.core.signals import FaceBox, FoundObject, Image
 from hri.hal.camera import Camera
-from hri.task.context import TaskContext
+from hri.task.context import TaskContext, TaskFailed
 from hri.task.task import task
 from hri.vision.behaviors import PersonTracker
 from hri.vision.camera_view import CameraView
-from hri.vision.objects.cutout import in_the_middle
+from hri.vision.objects.held_up import HeldUpFinder
 from hri.vision.objects.learning import ObjectLearner, scale_from_distance
 from hri.vision.objects.model_file import (
     NAME_REMEDY,
@@ -34,6 +34,10 @@ ARM = 0.35
 """Meters before the face at which someone holds up what they show."""
 THINKING_S = 0.05
 """What looking at a picture takes on a fake clock."""
+
+
+class NothingShown(TaskFailed):
+    """The pictures show no object, but someone's face or the room: nothing of them is kept."""
 
 
 @task("Hri.WaitForObject")
@@ -76,7 +80,8 @@ async def learn_object(
 
     It goes to the own set of the user and replaces one of the same name. Raises `object.learning`
     (`object`, `views`, `is_new`, `reason`, `mistaken`) for each picture that is looked at. Fails
-    when no picture shows enough of it, or the camera gives none.
+    when no picture shows enough of it, or the camera gives none; with NothingShown when pictures
+    show someone's face or the room instead.
     """
     if not is_name(name):
         context.fail(f'"{name}" is not a valid name for an object - {NAME_REMEDY}')
@@ -93,6 +98,8 @@ async def learn_object(
     finally:
         lesson.close()
         context.resources.release(camera)
+    if learned.is_nothing_shown:
+        raise NothingShown(learned.problem)
     if learned.problem:
         context.fail(learned.problem)
     return learned.views
@@ -170,6 +177,7 @@ class _Progress:
     reason: str = ""
     mistaken: str = ""
     problem: str = ""
+    is_nothing_shown: bool = False
 
 
 class _Lesson:
@@ -179,19 +187,24 @@ class _Lesson:
         self._path = own_models()
         self._models = load_or_new(self._path)
         self._learner = ObjectLearner(name, self._models)
+        self._finder = HeldUpFinder()
 
     def __call__(self, question: _Picture | str) -> _Progress:
         if isinstance(question, str):
             return self._save(question)
-        outline = in_the_middle(question.image, question.faces)
-        shown = self._learner.show(question.image, outline, question.scale, "held up")
+        held_up = self._finder.find(question.image, question.faces)
+        if held_up.outline is None:
+            self._learner.refuse(held_up.reason)
+            return _Progress(self._learner.count, reason=held_up.reason)
+        shown = self._learner.show(question.image, held_up.outline, question.scale, "held up")
         return _Progress(self._learner.count, shown.is_new, shown.reason, shown.mistaken)
 
     def _save(self, day: str) -> _Progress:
         try:
             save_models(self._path, self._models.with_object(self._learner.model(day)))
         except HriError as error:
-            return _Progress(self._learner.count, problem=str(error))
+            refused = self._learner.was_refused
+            return _Progress(self._learner.count, problem=str(error), is_nothing_shown=refused)
         return _Progress(self._learner.count)
 
 

@@ -9,6 +9,7 @@ import pytest
 from hri.cli.main import main
 from hri.vision.objects.model_file import load_models, own_models, save_models
 from hri.vision.objects.printed_label import printed_label
+from tests.recorded import picture as recorded
 from tests.vision.objects.pictures import VIEW, learned, room, standing
 
 
@@ -95,6 +96,16 @@ def test_a_video_teaches_views_of_what_is_in_the_middle(home, capsys):
     cut.write_bytes(film.read_bytes()[: film.stat().st_size // 2])
     assert hri_object("learn", "cup", "--video", cut) == 2
     assert "cut.mp4" in capsys.readouterr().err
+
+
+def test_a_film_of_somebody_who_holds_up_nothing_teaches_nothing(home, capsys):
+    face = recorded("obama")
+    film = picture(home / "film.png", face[: face.shape[1] * 3 // 4])
+    assert hri_object("learn", "cup", "--video", film) == 2
+    told = capsys.readouterr()
+    assert "not kept: a face is in it" in told.out
+    assert "cup: no picture shows enough of it: a face is in it - hold it before" in told.err
+    assert not own_models().exists()
 
 
 def test_the_objects_of_a_set_are_listed_shown_and_checked(home, capsys):

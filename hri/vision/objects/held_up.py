@@ -1,0 +1,107 @@
+"""What is held up before a camera; pictures of someone's face and of the room alone teach nothing.
+
+One picture does not show what belongs to a thing and what stands behind it. So whatever is taken
+for the thing must have an edge around it, and no face may be in it or where it is to be held.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from hri.core.signals import FaceBox, Image
+from hri.vision.detectors.detector_choice import load_detectors
+from hri.vision.objects.cutout import in_the_middle, middle, whole
+from hri.vision.objects.object_model import Outline
+
+SURE = 0.66
+"""Score of a face: patterns of things look like fainter ones."""
+COVERED = 0.25
+"""Part of a face that is in what was cut out."""
+EDGED = 0.8
+"""Part of an outline that must be an edge of the picture, too."""
+BESIDE = 0.02
+"""Parts of the picture's width; so far on both sides of an edge the colors are compared."""
+DIFFERENT = 16
+"""Levels of a color by which they differ."""
+WIDTH = 160
+"""Pixels of the picture in which that is looked at."""
+A_FACE, NOTHING = "a face is in it", "nothing is held up"
+"""Why a picture teaches nothing."""
+
+
+@dataclass(frozen=True, slots=True)
+class HeldUp:
+    """The outline of a thing, or why there is none."""
+
+    outline: Outline | None
+    reason: str = ""
+
+
+class HeldUpFinder:
+    """Looks for the thing that is held up in the middle of a picture."""
+
+    def __init__(self, *, is_whole: bool = False) -> None:
+        """`is_whole`: the thing fills the pictures."""
+        self._finder = load_detectors().finder
+        self._is_whole = is_whole
+
+    def find(self, image: Image, faces: Iterable[FaceBox] = ()) -> HeldUp:
+        """`image` is uint8, [height, width, 3], RGB; `faces` are those that are known already."""
+        seen = [face.box for face in self._finder.find(image) if face.score >= SURE]
+        boxes = [*faces, *seen]
+        outline = whole(image) if self._is_whole else in_the_middle(image, boxes)
+        place = middle(image)
+        for box in boxes:
+            if _is_inside(box, place) or _share(image, box, outline) > COVERED:
+                return HeldUp(None, A_FACE)
+        if outline is None or not (self._is_whole or _is_edged(image, outline)):
+            return HeldUp(None, NOTHING)
+        return HeldUp(outline)
+
+
+def _is_inside(box: FaceBox, place: Outline) -> bool:
+    center = box.x + box.width / 2, box.y + box.height / 2
+    return cv2.pointPolygonTest(place, center, False) >= 0
+
+
+def _share(image: Image, box: FaceBox, outline: Outline | None) -> float:
+    """The part of a face that lies within an outline."""
+    if outline is None:
+        return 0.0
+    scale = WIDTH / image.shape[1]
+    mask = np.zeros((max(1, round(image.shape[0] * scale)), WIDTH), np.float32)
+    cv2.fillPoly(mask, [np.rint(outline * scale).astype(np.int32)], 1.0)
+    across, down = (
+        slice(max(0, int(low * scale)), max(0, int(high * scale)) + 1)
+        for low, high in ((box.x, box.x + box.width), (box.y, box.y + box.height))
+    )
+    inside = mask[down, across]
+    return float(inside.mean()) if inside.size else 0.0
+
+
+def _is_edged(image: Image, outline: Outline) -> bool:
+    """Whether colors differ across most of an outline: where the room goes on, they do not."""
+    scale = WIDTH / image.shape[1]
+    small = cv2.resize(image, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
+    soft = cv2.GaussianBlur(small, (0, 0), 0.8).astype(np.int16)
+    corners = outline.astype(np.float64) * scale
+    places, normals = [], []
+    for start, end in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        length = float(np.hypot(*(end - start)))
+        if length == 0:
+            continue
+        steps = (np.arange(max(1, int(length / 2))) + 0.5) / max(1, int(length / 2))
+        places.append(start + (end - start) * steps[:, None])
+        across = np.array([start[1] - end[1], end[0] - start[0]]) / length
+        normals.append(np.repeat(across[None], len(steps), axis=0))
+    if not places:
+        return False
+    at, aside = np.concatenate(places), np.concatenate(normals) * BESIDE * WIDTH
+    last = np.array([soft.shape[1] - 1, soft.shape[0] - 1])
+    one, other = (np.clip(np.rint(at + way), 0, last).astype(int) for way in (aside, -aside))
+    differences = np.abs(soft[one[:, 1], one[:, 0]] - soft[other[:, 1], other[:, 0]])
+    return float((differences.max(axis=1) > DIFFERENT).mean()) >= EDGED
