@@ -2,13 +2,15 @@
 
 Each reader runs in a child process whose time and memory are watched. An input that makes it print
 a traceback, crash, hang, take more than 5 seconds or 300 MB, or leave a part behind is a failure.
-The inputs depend on the seed and their number alone: the same command tries the same ones.
+Each run draws other inputs, unless it is given the seed of an earlier one: they depend on the seed
+and their number alone.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import random
 import selectors
 import subprocess
 import sys
@@ -36,6 +38,8 @@ BATCH = 2000
 """Tries of one child, after which what was found is saved."""
 MOST_KEPT = 20
 """Failures of one reader that are listed."""
+SEEDS = 1_000_000
+"""Seeds that are drawn from."""
 PROGRESS = "progress.json"
 _IN_MEMORY = Path("/dev/shm")
 """Where a file that is written again and again does not wait for a disk."""
@@ -82,16 +86,17 @@ class Tally:
 
 def measure(
     tries: int = 100_000,
-    seed: int = 1,
+    seed: int | None = None,
     keep: Path | None = None,
     only: str | None = None,
     jobs: int | None = None,
 ) -> dict[str, Any]:
     """Try `tries` inputs over all readers, or over one; what happened by reader.
 
-    `jobs` child processes run at once, by default one for each processor. In the folder `keep` are
-    the inputs that failed, and how far it got: the same command goes on there. Raises HriError for
-    an unknown reader or a folder of another seed.
+    Without a seed, that of the folder `keep` is taken, or another one. `jobs` child processes run
+    at once, by default one for each processor. In the folder `keep` are the inputs that failed, and
+    how far it got: the same command goes on there. Raises HriError for an unknown reader or a
+    folder of another seed.
     """
     if only is not None and only not in READERS:
         raise HriError(f'no reader "{only}" - {did_you_mean(only, READERS)}')
@@ -107,16 +112,15 @@ def measure(
             run.has_ended.set()
             pool.shutdown(cancel_futures=True)
             raise
-    return _report({name: run.tallies[name] for name in names}, seed)
+    return _report({name: run.tallies[name] for name in names}, run.seed)
 
 
 class _Run:
     """What became of the inputs so far; its readers are tried side by side."""
 
-    def __init__(self, seed: int, keep: Path | None) -> None:
-        self.seed = seed
+    def __init__(self, seed: int | None, keep: Path | None) -> None:
         self.keep = keep
-        self.tallies = _resumed(keep, seed)
+        self.seed, self.tallies = _resumed(keep, seed)
         self.has_ended = Event()
         self._lock = Lock()
 
@@ -221,20 +225,21 @@ def _keep(keep: Path | None, name: str, seed: int, number: int) -> None:
         write_bytes(keep / f"{plain}-{number}{suffix}", bad_input(name, seed, number))
 
 
-def _resumed(keep: Path | None, seed: int) -> dict[str, Tally]:
-    """How far an earlier run with this folder got."""
+def _resumed(keep: Path | None, seed: int | None) -> tuple[int, dict[str, Tally]]:
+    """The seed, and how far an earlier run with this folder got."""
+    drawn = random.SystemRandom().randrange(SEEDS) if seed is None else seed
     if keep is None:
-        return {}
+        return drawn, {}
     keep.mkdir(parents=True, exist_ok=True)
     file = keep / PROGRESS
     if not file.is_file():
-        return {}
+        return drawn, {}
     known = json.loads(file.read_text())
-    if known["seed"] != seed:
+    if seed not in (None, known["seed"]):
         raise HriError(
             f"{keep} has inputs of seed {known['seed']} - give that seed, or another folder"
         )
-    return {name: Tally(**fields) for name, fields in known["readers"].items()}
+    return known["seed"], {name: Tally(**fields) for name, fields in known["readers"].items()}
 
 
 def _save(keep: Path | None, seed: int, tallies: Mapping[str, Tally]) -> None:

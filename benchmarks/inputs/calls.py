@@ -213,7 +213,15 @@ def replies(path: Path) -> object:
     """The companion's replies, as those of an app that extends it."""
     module, vocabulary = _replies_of_companion()
     app = replace(vocabulary.app, folder=path.parent, base=vocabulary.app)
-    return module.load_replies([path], replace(vocabulary, app=app))
+    found = module.load_replies([path], replace(vocabulary, app=app))
+    return [text.format_map(_Anything()) for reply in found.replies.values() for text in reply.say]
+
+
+class _Anything(dict[str, str]):
+    """What fills in the braces of a reply."""
+
+    def __missing__(self, name: str) -> str:
+        return name
 
 
 @cache
@@ -271,6 +279,117 @@ def scene(path: Path) -> object:
     from hri.face.scene import load_scene
 
     return load_scene(path, load_face("eyes"), good.silent_voice())
+
+
+def objects(path: Path) -> object:
+    """A set of objects, and what is done with it."""
+    import numpy as np
+
+    from hri.vision.objects.model_file import load_models
+    from hri.vision.objects.recognizer import ObjectRecognizer
+
+    noise = np.random.default_rng(1).integers(0, 256, (48, 64, 3), np.uint8)
+    return ObjectRecognizer(load_models(path)).recognize(noise)
+
+
+@cache
+def _entries_of_objects() -> dict[str, bytes]:
+    return good.entries_of(good.object_sets()[0])
+
+
+def object_entry(name: str) -> Read:
+    """A set of which one entry is the input."""
+
+    def read(path: Path) -> object:
+        path.write_bytes(good.packed(_entries_of_objects() | {name: path.read_bytes()}))
+        return objects(path)
+
+    return read
+
+
+def speech(path: Path) -> object:
+    """A text with markup, said by a silent voice."""
+    from hri.core.signals import Prosody
+    from hri.speech.ssml import Ssml, spoken
+
+    document = Ssml.parse(_read_text(path))
+    voice = good.silent_voice().__self__  # type: ignore[attr-defined]  # a bound method
+    return spoken(document, voice, Prosody(), lambda speech: None, lambda: True)
+
+
+def order(path: Path) -> object:
+    """What the page asks of the robot, as the server checks it."""
+    from hri.core.reading import parse_json
+    from hri.studio.commands import checked
+
+    def read(text: str) -> object:
+        asked = parse_json(text)
+        if not isinstance(asked, dict) or not isinstance(asked.get("arguments"), dict):
+            raise ValueError("no order")
+        return checked(str(asked.get("name")), asked["arguments"])
+
+    return _refusing(read, _read_text(path))
+
+
+def condition(path: Path) -> object:
+    """A condition of a breakpoint, and whether it holds for values."""
+    from hri.behavior.breakpoint import parse_condition
+
+    found = parse_condition(_read_text(path))
+    return [found.holds(value, 1.0) for value in (0.5, "text", True, None, [1, 2], float("nan"))]
+
+
+def entry(path: Path) -> None:
+    """What someone shows to enter the studio: nothing that was changed lets them in."""
+    from hri.studio.access import Codes, Cookies, is_loopback, is_own_host, is_own_origin
+
+    text = _read_text(path)
+    code, cookie, host, origin = [*text.split("\n"), "", "", "", ""][:4]
+    if Codes().redeem(code):
+        raise AssertionError(f"{code!r} is taken for a code")
+    is_known = text.encode(errors="surrogateescape") in good.entries()
+    if Cookies(good.SECRET).is_good(cookie, 2e9) and not is_known:
+        raise AssertionError(f"{cookie!r} is taken for a cookie")
+    is_own_host(host, False), is_own_host(host, True), is_own_origin(origin, host)
+    is_loopback(host)
+
+
+def token(path: Path) -> object:
+    """The file of the token."""
+    from hri.core.token import is_token, load_token
+
+    path.chmod(0o600)
+    shown = load_token()
+    return shown is not None and is_token(shown)
+
+
+def draft(path: Path) -> object:
+    """A draft of a network beside its file, as the page opens it."""
+    from hri.studio.composer.files import Library
+
+    library = Library(lambda: 0.0, start=path.parent)
+    library.listed()
+    return library.open(str(path.with_name("n.xml")))
+
+
+def laid_out(path: Path) -> object:
+    """A network, which is the same when its canonical text is read again."""
+    from hri.behavior.network_file import load_network
+    from hri.behavior.writer import write_network
+
+    text = write_network(load_network(path))
+    path.write_text(text)
+    if write_network(load_network(path)) != text:
+        raise AssertionError("the canonical text is not read as it was written")
+    return text
+
+
+def recording(path: Path) -> object:
+    """A recording in the studio: its line in the list, and all of its events."""
+    from hri.studio.recordings import events_of, folder_of, summary
+
+    folder = folder_of(str(path.parent))
+    return summary(folder), events_of(folder)
 
 
 def stimuli(path: Path) -> object:

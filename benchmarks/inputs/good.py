@@ -8,7 +8,7 @@ import struct
 import tempfile
 import wave
 import zipfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from pathlib import Path
 
@@ -41,7 +41,10 @@ def _lines(*texts: str) -> list[bytes]:
 def apps() -> list[bytes]:
     """An app of shipped networks."""
     networks = 'networks = ["networks/wander", "networks/follow"]'
-    return _lines(f'about = "An app"\n{networks}\ntasks = ["converse"]\n')
+    return _lines(
+        f'about = "An app"\n{networks}\ntasks = ["converse"]\n',
+        'extends = "companion"\n[on]\n"timer.ended" = "wonder"\n"head.*" = ["notice", "wonder"]\n',
+    )
 
 
 def choices() -> list[bytes]:
@@ -269,6 +272,139 @@ def archives() -> list[bytes]:
                 archive.writestr(zipfile.ZipInfo(name), content, method)  # of 1980, not of today
         made.append(file.getvalue())
     return made
+
+
+def object_sets() -> list[bytes]:
+    """Sets of two objects by either kind of features, as they are written, and deflated."""
+    from hri.vision.objects.cutout import whole
+    from hri.vision.objects.learning import view_of
+    from hri.vision.objects.local_features import METHODS
+    from hri.vision.objects.model_file import save_models
+    from hri.vision.objects.object_model import ModelSet, ObjectModel
+    from hri.vision.objects.printed_label import printed_label
+
+    made = []
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, "a.mdl")
+        for method in METHODS:
+            views = {
+                name: view_of(printed_label(name), whole(printed_label(name)), method, 0.001, "a")
+                for name in ("cup", "key")
+            }
+            objects = tuple(ObjectModel(name, (view,), "2026") for name, view in views.items())
+            save_models(file, ModelSet(method, objects))
+            made.append(file.read_bytes())
+        with zipfile.ZipFile(file, "w") as deflated:
+            for name, content in entries_of(made[0]).items():
+                deflated.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED)
+        made.append(file.read_bytes())
+    return made
+
+
+def manifests_of_objects() -> list[bytes]:
+    """What a set says of its objects."""
+    return [entries_of(object_sets()[0])["model_set.json"]]
+
+
+def pictures_of_objects() -> list[bytes]:
+    """Small pictures."""
+    return [*pictures()[:2], entries_of(object_sets()[0])["0000-00.jpg"]]
+
+
+def entries_of(archive: bytes) -> dict[str, bytes]:
+    """What is in an archive, by name."""
+    with zipfile.ZipFile(io.BytesIO(archive)) as opened:
+        return {name: opened.read(name) for name in opened.namelist()}
+
+
+def packed(entries: Mapping[str, bytes]) -> bytes:
+    """An archive of these entries."""
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w") as made:
+        for name, content in entries.items():
+            made.writestr(zipfile.ZipInfo(name), content)
+    return file.getvalue()
+
+
+def object_names() -> list[bytes]:
+    """Lists of names that stand for objects."""
+    return _lines("# the kitchen\ncup\nkey  # the spare one\n", "Søren's étui\n")
+
+
+def speeches() -> list[bytes]:
+    """Texts with markup."""
+    return _lines(
+        '<speak>It is <emphasis level="strong">very</emphasis> late.<break time="500ms"/>'
+        '<mark name="bye"/><prosody rate="120%" pitch="-12st" volume="+6dB">Good '
+        '<sub alias="evening">eve</sub></prosody>, sir.</speak>',
+        '<speak><p><s>On <say-as interpret-as="date" format="dmy">24/11/2026</say-as></s>'
+        '<say-as interpret-as="cardinal">-1,024.5</say-as> <voice name="robot">'
+        '<phoneme alphabet="ipa" ph="kæt">cat</phoneme></voice>'
+        '<break strength="weak"/></p></speak>',
+    )
+
+
+def orders() -> list[bytes]:
+    """What the page asks of the robot: a name, and arguments."""
+    asked = (
+        ("say", {"text": "hello"}),
+        ("visitor_go", {"x": 1.5, "y": -2, "who": "Anna"}),
+        ("mute", {"on": True}),
+        ("network_start", {"path": "wander.xml", "text": "<BehaviorNetwork/>"}),
+        ("network_break", {"name": "face", "port": "a.b", "condition": ">= 2*pi"}),
+    )
+    return _lines(*(json.dumps({"name": name, "arguments": given}) for name, given in asked))
+
+
+def conditions() -> list[bytes]:
+    """Of breakpoints."""
+    return _lines("< 30", ">= -pi/2", "== true", "!= hello you", "changes", "sent")
+
+
+def entries() -> list[bytes]:
+    """What someone who wants to enter the studio shows: a code, a cookie, a host, an origin."""
+    from hri.studio.access import Cookies
+
+    cookie = Cookies(SECRET).new(1e9)
+    return _lines(
+        f"abc-DEF_123\n{cookie}\nlocalhost:8000\nhttp://localhost:8000",
+        f"x\n{cookie[:-1]}\n[::1]:80\nhttps://pi.local",
+    )
+
+
+SECRET = "of the bench"
+
+
+def tokens() -> list[bytes]:
+    """Files of tokens."""
+    return _lines("abcdefghijklmnopqrstuvwxyz012345\n", "-_.~+/=-_.~+/=-_.~+/=")
+
+
+def drafts() -> list[bytes]:
+    """Networks that were not saved."""
+    text = '<BehaviorNetwork><Behavior type="Hri.Constant" id="a"/></BehaviorNetwork>\n'
+    return _lines(
+        json.dumps({"path": "/home/a/n.xml", "text": text, "mark": None, "time": 1.5e9}),
+        json.dumps({"path": "/home/a/n.xml", "text": text, "mark": "0f" * 32, "time": 0}),
+    )
+
+
+def laid_out() -> list[bytes]:
+    """Networks with the places of their parts."""
+    return _lines(
+        '<?xml version="1.0" encoding="UTF-8"?>\n<!-- adds -->\n<BehaviorNetwork>\n'
+        '  <Behavior type="Hri.Constant" id="one"><Parameter name="parsed_value" value="2.5"/>'
+        '</Behavior>\n  <Behavior type="Hri.InputCollector" id="told"/>\n'
+        '  <Link from="one.value" to="told.input"/>\n'
+        '  <Layout><Box id="one" x="40" y="-20"/><Box id="told" x="300" y="60"/></Layout>\n'
+        "</BehaviorNetwork>\n",
+    )
+
+
+def recordings() -> list[bytes]:
+    """Logs as a robot begins them."""
+    head = {"t": 5.0, "event": "recording.started", "face": 5.1, "sound": 5.2}
+    return [json.dumps(head).encode() + b"\n" + log for log in event_logs()]
 
 
 def tensors() -> list[bytes]:

@@ -35,12 +35,15 @@ def _named(name: str, seeds: Callable[[], list[bytes]], file: str, is_text: bool
 READERS: dict[str, Reader] = {
     "app": Reader(calls.app, good.apps, "app/app.toml"),
     "archive": Reader(calls.archive, good.archives, "a.zip", is_text=False),
+    "breakpoint": Reader(calls.condition, good.conditions, "condition.txt"),
     "choice of devices": Reader(calls.choices, good.choices, "home/hri/devices.toml"),
     "color": Reader(calls.color, _shipped("config/colors/*.color"), "a.color"),
+    "draft of a network": Reader(calls.draft, good.drafts, ".n.xml.draft"),
     "emotion display": _named(
         "hri.emotion.display:load_display", _shipped("emotions/display.toml"), "display.toml"
     ),
     "emotion timeline": Reader(calls.timeline, good.timelines, "timeline.txt"),
+    "entry to the studio": Reader(calls.entry, good.entries, "entry.txt"),
     "event form": Reader(calls.event_form, good.event_forms, "event.txt"),
     "event query": Reader(calls.event_query, good.event_queries, "event.txt"),
     "expectations": _named(
@@ -88,6 +91,16 @@ READERS: dict[str, Reader] = {
         _shipped("config/networks/*.xml", "apps/*/*.xml"),
         "network.xml",
     ),
+    "network, laid out": Reader(calls.laid_out, good.laid_out, "network.xml"),
+    "objects": Reader(calls.objects, good.object_sets, "a.mdl", is_text=False),
+    "object, its manifest": Reader(
+        calls.object_entry("model_set.json"), good.manifests_of_objects, "a.mdl"
+    ),
+    "object, its picture": Reader(
+        calls.object_entry("0000-00.jpg"), good.pictures_of_objects, "a.mdl", is_text=False
+    ),
+    "objects by name": Reader(calls.objects, good.object_names, "a.mdl"),
+    "order to the robot": Reader(calls.order, good.orders, "order.json"),
     "people": Reader(calls.people, good.people, "faces.json"),
     "personality": _named(
         "benchmarks.inputs.good:load_personality_file",
@@ -100,6 +113,7 @@ READERS: dict[str, Reader] = {
     "recorded events": _named("hri.core.event_log:read_events", good.event_logs, "events.jsonl"),
     "recorded run": Reader(calls.run_of_robot, good.runs, "events.jsonl"),
     "recorded values": Reader(calls.values, good.value_logs, "values.jsonl"),
+    "recording in the studio": Reader(calls.recording, good.recordings, "out/events.jsonl"),
     "replies": Reader(calls.replies, _shipped("apps/companion/replies.toml"), "replies.toml"),
     "resource configuration": _named(
         "hri.hal.configuration:load_configuration", _shipped("config/*.xml"), "c.xml"
@@ -120,11 +134,13 @@ READERS: dict[str, Reader] = {
         "hri.hal.drivers.wav_file:load_sound", good.sounds, "a.ogg", is_text=False
     ),
     "sound, WAV": _named("hri.hal.drivers.wav_file:load_sound", good.wavs, "a.wav", is_text=False),
+    "speech with markup": Reader(calls.speech, good.speeches, "speech.xml"),
     "stimuli": Reader(
         calls.stimuli,
         _shipped("emotions/stimuli/*.toml"),
         f"emotions/stimuli/{good.stimulus_file()}",
     ),
+    "token": Reader(calls.token, good.tokens, "home/hri/token"),
     "video": _named("hri.hal.drivers.video_file:check_video", good.videos, "a.avi", is_text=False),
     "visit": _named(
         "hri.simulation.visit_script:load_visit", _shipped("apps/*/demo.toml"), "visit.toml"

@@ -45,7 +45,7 @@ def test_a_run_in_several_processes_finds_what_one_finds(
 ) -> None:
     few = {name: READERS[name] for name in ("expression", "formula", "event query")}
     monkeypatch.setattr(inputs, "READERS", few)
-    alone, beside = (inputs.measure(tries=61, jobs=jobs)["readers"] for jobs in (1, 3))
+    alone, beside = (inputs.measure(tries=61, seed=1, jobs=jobs)["readers"] for jobs in (1, 3))
     for reader in (*alone.values(), *beside.values()):
         for measured in ("slowest_s", "slowest", "largest_mb", "largest"):
             del reader[measured]
@@ -57,14 +57,14 @@ def test_the_input_that_failed_is_the_one_that_is_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(inputs, "MOST_SECONDS", -1.0)  # each one is too slow
-    inputs.measure(tries=30, only="expression", keep=tmp_path)
+    inputs.measure(tries=30, seed=1, only="expression", keep=tmp_path)
     for number in (0, 17, 29):
         kept = (tmp_path / f"expression-{number}.txt").read_bytes()
         assert kept == bad_input("expression", 1, number)
 
 
 def test_a_reader_is_tried_and_a_second_call_goes_on(tmp_path: Path) -> None:
-    first = inputs.measure(tries=20, only="expression", keep=tmp_path)
+    first = inputs.measure(tries=20, seed=1, only="expression", keep=tmp_path)
     assert first["passed"]
     tally = first["readers"]["expression"]
     assert tally["taken"] + tally["refused"] == tally["tries"] == 20
@@ -92,6 +92,11 @@ def test_what_breaks_a_limit_is_counted(report: dict[str, object], what: str) ->
     assert tally.count({**usual, **report}) == what
     assert tally.tries == 8
     assert [failure["what"] for failure in tally.failures] == ([what] if what else [])
+
+
+def test_each_run_draws_other_inputs_and_says_by_which_seed() -> None:
+    seeds = {inputs.measure(tries=2, only="expression")["seed"] for _ in range(4)}
+    assert len(seeds) > 1
 
 
 def test_an_unknown_reader_is_one_line() -> None:
