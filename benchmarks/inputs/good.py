@@ -363,13 +363,19 @@ def conditions() -> list[bytes]:
 
 def entries() -> list[bytes]:
     """What someone who wants to enter the studio shows: a code, a cookie, a host, an origin."""
-    from hri.studio.access import Cookies
-
-    cookie = Cookies(SECRET).new(1e9)
+    (cookie,) = cookies()
     return _lines(
         f"abc-DEF_123\n{cookie}\nlocalhost:8000\nhttp://localhost:8000",
         f"x\n{cookie[:-1]}\n[::1]:80\nhttps://pi.local",
     )
+
+
+@cache
+def cookies() -> list[str]:
+    """Of the one who was let in."""
+    from hri.studio.access import Cookies
+
+    return [Cookies(SECRET).new(1e9)]
 
 
 SECRET = "of the bench"

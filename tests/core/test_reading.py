@@ -112,3 +112,11 @@ def test_a_log_is_read_to_its_last_whole_line(tmp_path: Path) -> None:
     with pytest.raises(AuthoringError, match=":2:1: not JSON"):
         read_events(file)
     assert read_text(file, "log").startswith(line)
+
+
+@pytest.mark.parametrize("part", ["[],", "{},", '"a",', "1,"])
+def test_a_long_text_of_json_that_would_fill_the_memory_is_refused(part: str) -> None:
+    for text in (f"[{part * 3_100_000}1]", f"[{part * 3_100_000}1]".encode()):
+        with pytest.raises(ValueError, match="too many lists, texts, or values"):
+            parse_json(text)
+    assert len(parse_json(f"[{part * 1000}1]")) == 1001

@@ -64,8 +64,8 @@ def count_scans(source: IO[bytes]) -> int:
 def picture_size(path: Path) -> tuple[int, int] | None:
     """Width and height as the file's first bytes tell; None for an invalid picture.
 
-    Raises HriError for one that claims to be larger than 8192 pixels a side, or than MOST_PIXELS,
-    and for a JPEG of more than MOST_SCANS scans.
+    Raises HriError for one that claims to be larger than 8192 pixels a side, or than MOST_PIXELS
+    (half of them with transparency, and for WebP), and for a JPEG of more than MOST_SCANS scans.
     """
     header = read_header(path)
     if header is None:
@@ -73,9 +73,12 @@ def picture_size(path: Path) -> tuple[int, int] | None:
     width, height = header.size
     if max(width, height) > LARGEST_SIDE:
         raise HriError(f"{path}: this picture is too large - keep it below {LARGEST_SIDE} pixels")
-    if width * height > MOST_PIXELS:
+    # The fourth channel, and the reader of WebP, take as much memory again.
+    is_costly = header.format == "WEBP" or "A" in header.mode
+    most = MOST_PIXELS // 2 if is_costly else MOST_PIXELS
+    if width * height > most:
         what = f"{width} x {height} pixels are too many"
-        raise HriError(f"{path}: {what} - keep it below {MOST_PIXELS:,}")
+        raise HriError(f"{path}: {what} - keep it below {most:,}")
     if header.format == "JPEG":
         with path.open("rb") as file:
             if count_scans(file) > MOST_SCANS:

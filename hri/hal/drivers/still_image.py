@@ -18,6 +18,8 @@ from hri.hal.drivers.image_size import picture_size
 ORIENTATION = 0x0112
 """Tag of EXIF 2.3, section 4.6.4: how the stored picture is to be turned and mirrored."""
 REMEDY = "name a JPEG or PNG"
+STRIP = 256
+"""Rows that are converted at once."""
 
 Point = tuple[float, float]
 
@@ -59,16 +61,25 @@ def read_still(path: Path) -> StillImage:
         raise HriError(f"{path}: not a readable picture - {REMEDY}")
     try:
         with PillowImage.open(path) as stored:
-            orientation = stored.getexif().get(ORIENTATION, 1)
-            upright = ImageOps.exif_transpose(stored)
             size = stored.size
-            has_alpha = "A" in upright.getbands() or "transparency" in upright.info
-            pixels = np.asarray(upright.convert("RGBA" if has_alpha else "RGB"), np.uint8)
+            orientation = stored.getexif().get(ORIENTATION, 1)
+            ImageOps.exif_transpose(stored, in_place=True)
+            image, alpha = _pixels(stored)
     except (OSError, ValueError, SyntaxError, EOFError) as error:  # Pillow raises all of these
         raise HriError(f"{path}: not a readable picture: {error} - {REMEDY}") from error
-    return StillImage(
-        np.ascontiguousarray(pixels[..., :3]),
-        np.ascontiguousarray(pixels[..., 3]) if has_alpha else None,
-        orientation if orientation in _STORED else 1,
-        size,
-    )
+    return StillImage(image, alpha, orientation if orientation in _STORED else 1, size)
+
+
+def _pixels(picture: PillowImage.Image) -> tuple[Image, NDArray[np.uint8] | None]:
+    """The colors and the opacity, strip by strip: a large picture is in the memory only twice."""
+    has_alpha = "A" in picture.getbands() or "transparency" in picture.info
+    width, height = picture.size
+    image = np.empty((height, width, 3), np.uint8)
+    alpha = np.empty((height, width), np.uint8) if has_alpha else None
+    for top in range(0, height, STRIP):
+        strip = picture.crop((0, top, width, min(height, top + STRIP)))
+        pixels = np.asarray(strip.convert("RGBA" if has_alpha else "RGB"), np.uint8)
+        image[top : top + STRIP] = pixels[..., :3]
+        if alpha is not None:
+            alpha[top : top + STRIP] = pixels[..., 3]
+    return image, alpha

@@ -16,8 +16,10 @@ from hri.core.signals import Frame, Image
 from hri.hal.camera import FIELD_OF_VIEW, Camera
 from hri.hal.drivers.growing_movie import GrowingMovie
 from hri.hal.drivers.image_size import picture_size
-from hri.hal.picture import LARGEST_SIDE
+from hri.hal.picture import LARGEST_SIDE, MOST_PIXELS
 from hri.hal.screen import Screen
+
+WIDTH, HEIGHT = cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FRAME_HEIGHT
 
 STILL_RATE = 10.0
 """Pictures a second that a single image is shown with."""
@@ -43,8 +45,14 @@ def check_video(path: Path) -> None:
 def _opened(path: Path) -> cv2.VideoCapture:
     """A file before its first picture, which is sure to be there. Raises HriError."""
     require_file(path, "video or image")
-    picture_size(path)  # raises before a giant is decoded
-    capture = cv2.VideoCapture(str(path))
+    is_film = picture_size(path) is None  # raises before a giant is decoded
+    # OpenCV's own readers of pictures decode those of other formats before they tell their size.
+    capture = cv2.VideoCapture(str(path), cv2.CAP_FFMPEG if is_film else cv2.CAP_ANY)
+    width, height = (capture.get(way) for way in (WIDTH, HEIGHT))
+    if width * height > MOST_PIXELS or max(width, height) > LARGEST_SIDE:
+        capture.release()
+        what = f"pictures of {width:.0f} x {height:.0f} pixels"
+        raise HriError(f"{path}: {what} - keep them below {LARGEST_SIDE} pixels a side")
     readable, picture = capture.read()
     # Opened again, since not every kind of file can be wound back.
     capture.release()
@@ -100,8 +108,7 @@ class VideoFileCamera(Camera):
         self.is_recording = self.description.choice("pace", "real", PACES) == "fast"
         self.field_of_view = self.description.number_within("field_of_view", *FIELD_OF_VIEW)
         self._capture = _opened(path)
-        width = int(self._capture.get(cv2.CAP_PROP_FRAME_WIDTH))
-        height = int(self._capture.get(cv2.CAP_PROP_FRAME_HEIGHT))
+        width, height = int(self._capture.get(WIDTH)), int(self._capture.get(HEIGHT))
         self._take_size(np.empty((height, width), np.uint8))
         self._is_still = _is_still(path)
         self._timing = _Timing(self._capture)

@@ -36,6 +36,8 @@ ALIKE = 0.4
 """Cosine of the angle between two vectors above which they show the same person."""
 MOST_SAMPLES = 20
 """Vectors that are kept of a name; the oldest go."""
+LONGEST_VECTOR = 10_000
+"""Numbers; networks give 128 to 4096."""
 MOST_NAMES = 1000
 LARGEST_FILE = 50_000_000
 """Bytes of a file of faces."""
@@ -114,7 +116,7 @@ class Acquaintances:
         text = read_bytes(path, "file of faces", LARGEST_FILE)
         try:
             for name, vectors in parse_json(text).items():
-                for vector in vectors:
+                for vector in _vectors(vectors):
                     with np.errstate(over="ignore"):
                         known.learn(name, np.array(vector, np.float32))
         except (ValueError, AttributeError, TypeError, OverflowError, HriError) as error:
@@ -193,6 +195,15 @@ def _sampled(image: Image, places: Vector) -> Image:
             total += colors * weight[..., None]
     sampled: Image = np.rint(total).astype(np.uint8)
     return sampled
+
+
+def _vectors(stored: object) -> list[list[object]]:
+    """The vectors of a name. Raises ValueError for anything else, and for more than are kept."""
+    if not isinstance(stored, list) or len(stored) > MOST_SAMPLES:
+        raise ValueError(f"a name has more than {MOST_SAMPLES} vectors, or none")
+    if not all(isinstance(one, list) and len(one) <= LONGEST_VECTOR for one in stored):
+        raise ValueError(f"a vector is not a list of at most {LONGEST_VECTOR} numbers")
+    return stored
 
 
 def _normalized(vector: Vector) -> Vector:

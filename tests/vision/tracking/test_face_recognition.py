@@ -64,7 +64,18 @@ def test_nothing_is_written_unless_asked_and_then_for_the_owner_alone(tmp_path):
     assert json.loads(path.read_text()) == {}
 
 
-@pytest.mark.parametrize("text", ["{", "[1]", '{"Anna": 3}', '{"Anna": [["x"]]}', '{"": [[1]]}'])
+TOO_LARGE = (
+    '{"Anna": [' + "1," * 50 + "1]}",
+    '{"Anna": [[' + "1," * 20_000 + "1]]}",
+    '{"Anna": [' + "[1]," * 50 + "[1]]}",
+    '{"Anna": [' + "[[]]," * 600_000 + "1]}",
+)
+"""What would take minutes or gigabytes."""
+
+
+@pytest.mark.parametrize(
+    "text", ["{", "[1]", '{"Anna": 3}', '{"Anna": [["x"]]}', '{"": [[1]]}', *TOO_LARGE]
+)
 def test_a_damaged_file_is_told(tmp_path, text):
     path = tmp_path / "faces.json"
     path.write_text(text)
