@@ -26,7 +26,7 @@ AHEAD = math.radians(15)
 """To each side; what is farther aside is on the left or on the right."""
 WORDS: Mapping[str, str] = {
     "learned": "Now I know your {thing}.",
-    "nothing_shown": "I saw no {thing}. Hold it before your face, and say: this is my {thing}.",
+    "nothing_shown": "I don't see your {thing}. Hold it up close, and say: this is my {thing}.",
     "not_learned": "I could not see enough of your {thing}. Hold it nearer, in more light.",
     "sees": "I see {things}.",
     "sees_nothing": "I see nothing that I know.",

@@ -53,7 +53,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     about = "number of inputs for all readers together, 100000 by default (inputs); how often the"
     about += " browser is killed, 200 by default (edits)"
     parser.add_argument("--tries", type=Within(int, 1, 999_999_999), metavar="N", help=about)
-    about = "seed of the random inputs, another one each time by default (inputs); the first try, each"
+    about = (
+        "seed of the random inputs, another one each time by default (inputs); the first try, each"
+    )
     about += " has its own (edits)"
     parser.add_argument("--seed", type=Within(int, 0, 999_999), metavar="N", help=about)
     about = "keep what failed in this folder; the same command continues there (inputs)"

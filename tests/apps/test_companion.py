@@ -472,7 +472,7 @@ def test_it_learns_a_thing_names_it_finds_it_and_forgets_it(tmp_path, monkeypatc
 def test_who_holds_up_nothing_is_told_so_and_no_picture_of_them_is_kept(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
     visit = Visit(9, {1: "this is my cup"}, devices=(SMALL_SCREEN,))
-    assert visit.said()[-1] == "I saw no cup. Hold it before your face, and say: this is my cup."
+    assert visit.said()[-1] == "I don't see your cup. Hold it up close, and say: this is my cup."
     reasons = {event.properties["reason"] for event in visit.named("object.learning")}
     assert reasons == {"a face is in it"}
     assert list(tmp_path.iterdir()) == []
