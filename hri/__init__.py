@@ -28,7 +28,9 @@ import os
 
 import lazy_loader
 
-import hri.core.telemetry  # noqa: F401 - first of all, before a package is imported that has some
+# onnxruntime, which the natural voice brings, reads it when it is imported; it would keep a device
+# id and a queue of events, and send them to its maker. Child processes inherit it.
+os.environ["ORT_DISABLE_TELEMETRY"] = "1"
 
 # Read when numpy is first imported. The matrices here are small: more threads make their products
 # slower (three times, for the phone network), and take the core that the robot loop runs on.

@@ -26,7 +26,7 @@ from itertools import count
 from pathlib import Path
 from pydoc_data.topics import topics
 
-import hri.core.telemetry  # noqa: F401 - before onnxruntime is imported
+import hri  # noqa: F401 - switches telemetry off, before onnxruntime is imported
 
 # isort: split
 import hibari

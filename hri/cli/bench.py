@@ -66,8 +66,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     module = _module(options.name)
-    words: dict[str, Any] = vars(options)
-    given = {name: value for name, value in words.items() if name != "name" and value is not None}
+    words: dict[str, Any] = {n: v for n, v in vars(options).items() if n not in ("name", "command")}
+    given = {name: value for name, value in words.items() if value is not None}
     for name in given.keys() - BENCHES[options.name]:
         raise HriError(f"bench {options.name} takes no --{name} - leave it out")
     print(json.dumps(module.measure(**given), indent=2))

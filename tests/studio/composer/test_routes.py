@@ -6,6 +6,7 @@ from contextlib import contextmanager
 import pytest
 from starlette.testclient import TestClient
 
+from hri.studio.access import Codes
 from hri.studio.composer import workshop
 from hri.studio.composer.files import LARGEST
 from hri.studio.composer.routes import LONGEST_BODY, ROOT, ROUTES
@@ -50,7 +51,7 @@ def stranger(start):
 def person(start):
     devices = [{"id": "eye", "interface": "camera", "about": "Hri.OpenCvCamera"}]
     with client(Settings(8311, "secret", False, devices=devices)) as made:
-        assert made.get("/?code=good").status_code == 200
+        assert made.get(f"/?code={Codes('secret').new()}").status_code == 200
         yield made
 
 
