@@ -6,12 +6,11 @@ from contextlib import contextmanager
 import pytest
 from starlette.testclient import TestClient
 
-from hri.studio.access import Codes
 from hri.studio.composer import workshop
 from hri.studio.composer.files import LARGEST
 from hri.studio.composer.routes import LONGEST_BODY, ROOT, ROUTES
 from hri.studio.server import LONGEST_BODY as LONGEST_OTHER, Hub, Settings, Studio
-from tests.studio.test_server import Robot
+from tests.studio.test_server import GOOD as CODE, Robot
 
 HOST = "http://127.0.0.1:8311"
 NETWORK = '<BehaviorNetwork>\n  <Behavior id="a" type="Hri.Constant"/>\n</BehaviorNetwork>\n'
@@ -51,7 +50,7 @@ def stranger(start):
 def person(start):
     devices = [{"id": "eye", "interface": "camera", "about": "Hri.OpenCvCamera"}]
     with client(Settings(8311, "secret", False, devices=devices)) as made:
-        assert made.get(f"/?code={Codes('secret').new()}").status_code == 200
+        assert made.get(f"/?code={CODE}").status_code == 200
         yield made
 
 

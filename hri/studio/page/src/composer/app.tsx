@@ -99,7 +99,7 @@ function Desktop({ doc, live, ask, open, want }: ComposerProps) {
   const place = useRef<HTMLDivElement>(null);
   useKeys(actions, place);
   useClipboard(doc, place);
-  const focusOnSearch = useFocusBack(asked !== null || question !== null, place);
+  const focusOnSearch = useFocusBack(asked !== null || question !== null);
   const isShown = useRef(isTextShown);
   useEffect(() => {
     if (isShown.current !== isTextShown) desk.fit(); // the graph has another width
@@ -303,29 +303,21 @@ function useClipboard(doc: ComposerDocument, place: { current: HTMLElement | nul
   }, [doc, place]);
 }
 
-/** When a dialog closes, the keyboard goes on where it was, or in the search for behaviors, as it is told. */
-function useFocusBack(isOpen: boolean, place: { current: HTMLElement | null }): () => void {
-  const before = useRef<Element | null>(null);
-  useEffect(() => {
-    const focused = (event: FocusEvent) => {
-      if (!(event.target as Element).closest("dialog")) before.current = event.target as Element;
-    };
-    document.addEventListener("focusin", focused);
-    return () => document.removeEventListener("focusin", focused);
-  }, []);
+/** When a dialog has closed, the search for behaviors gets the focus if that was asked for, or if nothing else has it. */
+function useFocusBack(isOpen: boolean): () => void {
+  const isWanted = useRef(false);
   useEffect(() => {
     if (!isOpen) return;
     return () => {
       requestAnimationFrame(() => {
-        if (document.activeElement !== document.body || document.querySelector("dialog[open]")) return;
-        const last = before.current as HTMLElement | null;
-        const isThere = last?.isConnected && place.current?.contains(last) && last.matches("input, button, [tabindex]") && !last.matches(":disabled");
-        (isThere ? last : document.getElementById("palette-search"))?.focus();
+        if (document.querySelector("dialog[open]")) return;
+        if (isWanted.current || document.activeElement === document.body) document.getElementById("palette-search")?.focus();
+        isWanted.current = false;
       });
     };
-  }, [isOpen, place]);
+  }, [isOpen]);
   return () => {
-    before.current = null;
+    isWanted.current = true;
   };
 }
 
