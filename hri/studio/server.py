@@ -81,6 +81,8 @@ NICE = 5
 """Steps by which the robot goes before, when the processor is busy."""
 PATIENCE = 2.0
 """Seconds that the robot has to answer."""
+CODE_PATIENCE = 60.0
+"""Seconds that it has to take a code: it may still be starting."""
 TYPES = {
     "html": "text/html",
     "js": "text/javascript",
@@ -418,7 +420,7 @@ class Studio:
             return _file("index.html")
         response = RedirectResponse("/", 303)
         try:
-            is_good = await self._is_good(code)
+            is_good = await self._is_good(code, request.scope)
         except HriError as error:
             return JSONResponse({"error": str(error)}, 409)
         if is_good:
@@ -426,13 +428,14 @@ class Studio:
             response.set_cookie(self._settings.cookie, cookie, httponly=True, samesite="strict")
         return response
 
-    async def _is_good(self, code: str) -> bool:
+    async def _is_good(self, code: str, scope: Scope) -> bool:
         """Whether a code was good until now. The robot is asked once about each that it has made,
-        and never about a guess. Raises HriError.
+        and never about a guess; one that is still starting takes its time. Raises HriError.
         """
         if code in self._spent or not is_signed_code(self._settings.secret, code):
             return False
-        is_good = bool(await self._hub.ask("redeem", {"code": code}))
+        know(scope)
+        is_good = bool(await self._hub.ask("redeem", {"code": code}, CODE_PATIENCE))
         self._spent.append(code)
         return is_good
 

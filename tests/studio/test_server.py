@@ -408,6 +408,24 @@ def test_a_stop_reaches_a_robot_that_was_held_up_though_others_fill_the_way(auto
     trio.run(run, clock=autojump_clock)
 
 
+def test_a_code_waits_for_a_robot_that_is_still_starting(app, robot, autojump_clock):
+    answered = robot.tell
+    robot.tell = lambda message: trio.lowlevel.spawn_system_task(tell_late, message)
+
+    async def tell_late(message):
+        await trio.sleep(20)
+        answered(message)
+
+    async def run():
+        transport = httpx.ASGITransport(app, client=("127.0.0.1", 5000))
+        async with httpx.AsyncClient(transport=transport, base_url=HOST) as made:
+            return await made.get(f"/?code={GOOD}")
+
+    answer = trio.run(run, clock=autojump_clock)
+    assert answer.status_code == 303
+    assert "set-cookie" in answer.headers
+
+
 def test_a_robot_that_does_not_answer_is_an_error_and_not_a_wait(app, robot, autojump_clock):
     robot.tell = lambda message: None
 
