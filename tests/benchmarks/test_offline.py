@@ -6,7 +6,7 @@ from benchmarks.offline import COMMANDS, has_failed, words
 from benchmarks.sandbox import require_sandbox, run
 from hri.core.errors import NotAvailable
 
-SECONDS = 30
+SECONDS = 12
 QUICK = ("hri say", "hri grammar parse", "hri object learn", "hri models")
 SLOW = ("hri companion --headless", "hri doctor", "hri face render", "hri drive replay")
 

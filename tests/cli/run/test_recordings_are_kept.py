@@ -1,7 +1,4 @@
-"""Recordings into one folder, by programs that are killed at any moment: none is lost.
-
-`pytest -m slow tests/cli/run/test_recordings_are_kept.py` takes a few minutes.
-"""
+"""Recordings into one folder, by programs that are killed at any moment: none is lost."""
 
 import hashlib
 import json
@@ -16,7 +13,7 @@ import pytest
 from hri.core.recorded import ABOUT, FILES
 
 pytestmark = pytest.mark.slow
-TRIES = 20
+TRIES = 8
 LONGEST = 1.0
 """Seconds that a program is let record at most before it is killed."""
 WORDS = (
