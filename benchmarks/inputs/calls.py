@@ -374,9 +374,11 @@ def draft(path: Path) -> object:
     """A draft of a network beside its file, as the page opens it."""
     from hri.studio.composer.files import Library
 
+    network = path.with_name("n.xml")
+    network.write_text("<BehaviorNetwork/>")
     library = Library(lambda: 0.0, start=path.parent)
     library.listed()
-    return library.open(str(path.with_name("n.xml")))
+    return library.open(str(network))
 
 
 def laid_out(path: Path) -> object:
