@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 from hri.core import paths
 from hri.core.errors import HriError
@@ -22,7 +22,7 @@ from hri.core.growing import is_growing
 from hri.core.privacy import is_named, is_same_name
 from hri.core.reading import opened, parse_json, read_bytes
 from hri.core.recorded import BY_DATE, RECORDINGS, parts
-from hri.core.whereabouts import noted, tidy
+from hri.core.whereabouts import Kind, noted, tidy
 from hri.core.writing import PRIVATE, delete, leftovers, write_text
 from hri.emotion import persistence
 from hri.hal import choices
@@ -43,7 +43,7 @@ LONGEST_LINE = 1 << 23
 class Kept(ABC):
     """One kind of saved data."""
 
-    about: ClassVar[str]
+    about: str
     """What it is, for people."""
 
     @abstractmethod
@@ -308,31 +308,14 @@ class Drafts(Kept):
         self.delete(place)
 
 
-class Sounds(Kept):
-    """Sound files of a microphone that a program asked for; who speaks is not known."""
+class Captures(Kept):
+    """Files of a camera or a microphone that someone asked for; who is in them is not known."""
 
-    about = "a sound of the microphone"
-
-    def places(self) -> list[Path]:
-        return noted("sounds")
-
-    def concerns(self, place: Path, person: str) -> bool:
-        return is_named(person, place.stem)
-
-    def needs_yes(self, person: str | None) -> bool:
-        return True
-
-    def forget(self, place: Path, person: str) -> None:
-        self.delete(place)
-
-
-class Pictures(Kept):
-    """Pictures and films of a camera that someone asked for; who is on them is not known."""
-
-    about = "a picture or film of the camera"
+    def __init__(self, kind: Kind, about: str) -> None:
+        self._kind, self.about = kind, about
 
     def places(self) -> list[Path]:
-        return noted("pictures")
+        return noted(self._kind)
 
     def concerns(self, place: Path, person: str) -> bool:
         return is_named(person, place.stem)
@@ -390,7 +373,8 @@ class Telemetry(Kept):
 
 KEPT: tuple[Kept, ...] = (
     Feelings(), Faces(), LookedUpWords(), OwnWords(), Devices(), Objects(), Colors(), Recordings(),
-    Pictures(), Sounds(), Drafts(), Telemetry(),
+    Captures("pictures", "a picture or film of the camera"),
+    Captures("sounds", "a sound of the microphone"), Drafts(), Telemetry(),
 )  # fmt: skip
 """The one list. What the program begins to keep about people is added here."""
 
