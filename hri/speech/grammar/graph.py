@@ -14,6 +14,7 @@ from collections import Counter
 
 import numpy as np
 
+from hri.core.collection import without_collection
 from hri.hal.word_graph import SILENT, WordGraph
 from hri.speech.grammar.automaton import FINAL, START, Automaton
 
@@ -23,7 +24,8 @@ Arc = tuple[str | None, int, float]
 
 def word_graph(automaton: Automaton) -> WordGraph:
     """The sentences of an automaton as an engine wants them."""
-    return _Reduction(automaton).graph()
+    with without_collection():
+        return _Reduction(automaton).graph()
 
 
 class _Reduction:
