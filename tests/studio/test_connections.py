@@ -16,7 +16,9 @@ from hri.studio.connections import (
     Connections,
     Seat,
 )
-from hri.studio.server import MOST_PAGES_EACH, Hub, Settings, Studio, _now
+from hri.studio.hub import Hub
+from hri.studio.page_socket import MOST_PAGES_EACH
+from hri.studio.server import Settings, Studio, _now
 from tests.studio.test_server import GOOD, Robot
 
 PORT = 8311

@@ -21,8 +21,9 @@ from hri.hal.drivers.growing_movie import GrowingMovie
 from hri.hal.drivers.wav_file import GrowingWav, write_wav
 from hri.studio import films, recordings
 from hri.studio.films import Film, Films
+from hri.studio.hub import Hub
 from hri.studio.recording_routes import span
-from hri.studio.server import Hub, Settings, Studio
+from hri.studio.server import Settings, Studio
 from tests.studio.recorded import RATE, SIZE, brightness, film, log
 
 ALL = "/api/v1/recordings"

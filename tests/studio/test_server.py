@@ -17,18 +17,12 @@ from hri.core.token import own_token
 from hri.studio.access import Codes, Cookies
 from hri.studio.commands import COMMANDS, LONGEST_TEXT
 from hri.studio.event_memory import MOST_FLOOD, MOST_LINES, MOST_OTHERS
+from hri.studio.guard import LONGEST_BODY
+from hri.studio.hub import Hub, Page
 from hri.studio.link import CAMERA, FACE, Unpacker, packed, packed_json
+from hri.studio.page_socket import MOST_PAGES, MOST_PAGES_EACH
 from hri.studio.request_queue import MOST_REQUESTS, MOST_STOPS
-from hri.studio.server import (
-    LONGEST_BODY,
-    MOST_PAGES,
-    MOST_PAGES_EACH,
-    Hub,
-    Page,
-    Settings,
-    Studio,
-    _now,
-)
+from hri.studio.server import Settings, Studio, _now
 
 HOST = "http://127.0.0.1:8311"
 LIVE = "ws://127.0.0.1:8311/api/v1/live"

@@ -9,7 +9,9 @@ from starlette.testclient import TestClient
 from hri.studio.composer import workshop
 from hri.studio.composer.files import LARGEST
 from hri.studio.composer.routes import LONGEST_BODY, ROOT, ROUTES
-from hri.studio.server import LONGEST_BODY as LONGEST_OTHER, Hub, Settings, Studio
+from hri.studio.guard import LONGEST_BODY as LONGEST_OTHER
+from hri.studio.hub import Hub
+from hri.studio.server import Settings, Studio
 from tests.studio.test_server import GOOD as CODE, Robot
 
 HOST = "http://127.0.0.1:8311"
