@@ -9,6 +9,8 @@
 # make checklist    run the tests and write docs/checklist.md
 
 PYTHON ?= python3
+SHELL := bash
+.SHELLFLAGS := -o pipefail -c
 VENV   := .venv
 BIN    := $(VENV)/bin
 
@@ -85,17 +87,19 @@ $(BIN)/python:
 # they are installed; both are built with what is locked, too.
 PIP    := $(BIN)/python -m pip install --disable-pip-version-check --progress-bar on --no-deps --no-build-isolation
 LOCKED := $(PIP) --require-hashes --only-binary :all: --no-binary srt --use-pep517 --requirement
+# Lines about packages that only other systems need are left out.
+APPLIES := | awk '!/^Ignoring / { print; fflush() }'
 
 $(VENV)/.run: pyproject.toml .ci/requirements/build.txt .ci/requirements/run.txt | $(BIN)/python
 	@$(TELL_SOURCE)
-	$(LOCKED) .ci/requirements/build.txt
-	$(LOCKED) .ci/requirements/run.txt
-	$(PIP) --editable .
+	@$(LOCKED) .ci/requirements/build.txt $(APPLIES)
+	@$(LOCKED) .ci/requirements/run.txt $(APPLIES)
+	@$(PIP) --editable .
 	@touch $@
 
 $(VENV)/.dev: pyproject.toml .ci/requirements/build.txt .ci/requirements/dev.txt | $(BIN)/python
 	@$(TELL_SOURCE)
-	$(LOCKED) .ci/requirements/build.txt
-	$(LOCKED) .ci/requirements/dev.txt
-	$(PIP) --editable .
+	@$(LOCKED) .ci/requirements/build.txt $(APPLIES)
+	@$(LOCKED) .ci/requirements/dev.txt $(APPLIES)
+	@$(PIP) --editable .
 	@touch $@ $(VENV)/.run
