@@ -13,14 +13,13 @@ from hri.speech.grammar import offers
 from hri.speech.grammar.expressions import (
     Alternative,
     Expression,
-    Repeat,
     RuleReference,
     Sequence,
     Tagged,
     Token,
     children,
-    heard_choices,
 )
+from hri.speech.grammar.fold import Fold
 from hri.speech.grammar.rules import Rule, Rules
 
 RulesByKey = Mapping[str, Rule]
@@ -44,29 +43,32 @@ def reachable(rules: RulesByKey, keys: Iterable[str]) -> list[str]:
     return list(found)
 
 
-def height(node: Expression, heights: Mapping[str, float]) -> float:
+class Height(Fold[float]):
     """How many recursive rules the shortest way through a node enters within each other.
 
     Infinite when there is no way.
     """
-    match node:
-        case Token():
-            return 0
-        case RuleReference(name=name):
-            return heights.get(name, math.inf)
-        case Sequence(items=items):
-            return max([height(item, heights) for item in items], default=0)
-        case Alternative():
-            least = math.inf
-            for choice in heard_choices(node):
-                least = min(least, height(choice, heights))
-                if least == 0:
-                    break
-            return least
-        case Repeat(item=item, minimum=1) | Tagged(item=item):
-            return height(item, heights)
-        case _:
-            return 0
+
+    def __init__(self, heights: Mapping[str, float]) -> None:
+        """`heights` are those of the rules; what has none can never be said."""
+        self._heights = heights
+
+    def word(self, node: Token) -> float:
+        return 0
+
+    def reference(self, node: RuleReference) -> float:
+        return self._heights.get(node.name, math.inf)
+
+    def row(self, node: Sequence, parts: Iterator[float]) -> float:
+        return max(parts, default=0)
+
+    def choice(self, node: Alternative, parts: Iterator[float]) -> float:
+        least = math.inf
+        for part in parts:
+            least = min(least, part)
+            if least == 0:
+                break
+        return least
 
 
 def recursive_of(grammar: Rules) -> frozenset[str]:
@@ -85,30 +87,33 @@ def heights(grammar: Rules) -> dict[str, float]:
     return settled(
         grammar,
         math.inf,
-        lambda rule, known: height(rule.expression, known) + (rule.key in recursive),
+        lambda rule, known: Height(known)(rule.expression) + (rule.key in recursive),
     )
 
 
-def is_silent(node: Expression, silent: Mapping[str, bool]) -> bool:
+class Silence(Fold[bool]):
     """Whether a node can be passed without a word."""
-    match node:
-        case RuleReference(name=name):
-            return silent.get(name, False)
-        case Sequence(items=items):
-            return all(is_silent(item, silent) for item in items)
-        case Alternative():
-            return any(is_silent(choice, silent) for choice in heard_choices(node))
-        case Repeat(item=item, minimum=1) | Tagged(item=item):
-            return is_silent(item, silent)
-        case Token():
-            return False
-        case _:
-            return True
+
+    def __init__(self, silent: Mapping[str, bool]) -> None:
+        """`silent` says it of the rules."""
+        self._silent = silent
+
+    def word(self, node: Token) -> bool:
+        return False
+
+    def reference(self, node: RuleReference) -> bool:
+        return self._silent.get(node.name, False)
+
+    def row(self, node: Sequence, parts: Iterator[bool]) -> bool:
+        return all(parts)
+
+    def choice(self, node: Alternative, parts: Iterator[bool]) -> bool:
+        return any(parts)
 
 
 def silent_rules(grammar: Rules) -> dict[str, bool]:
     """Whether each rule can be passed without a word."""
-    return settled(grammar, False, lambda rule, known: is_silent(rule.expression, known))
+    return settled(grammar, False, lambda rule, known: Silence(known)(rule.expression))
 
 
 def settled(
@@ -193,9 +198,10 @@ def left_corners(node: Expression, silent: Mapping[str, bool]) -> Iterator[RuleR
     if isinstance(node, RuleReference):
         yield node
         return
+    is_silent = Silence(silent)
     for child in children(node):
         yield from left_corners(child, silent)
-        if isinstance(node, Sequence) and not is_silent(child, silent):
+        if isinstance(node, Sequence) and not is_silent(child):
             return
 
 

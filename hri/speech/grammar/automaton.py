@@ -167,7 +167,7 @@ class _Builder:
     def __init__(self, grammar: Rules) -> None:
         self._grammar = grammar
         self._recursive = grammar.made(analysis.recursive_of)
-        self._silent = grammar.made(analysis.silent_rules)
+        self._is_silent = analysis.Silence(grammar.made(analysis.silent_rules))
         for error in analysis.left_recursion(grammar):
             raise error
         self._arcs = _Arcs()
@@ -288,7 +288,7 @@ class _Builder:
     def _sequence(self, job: _Job, items: tuple[Expression, ...]) -> Iterator[_Job]:
         if job.speaking is not _Speaking.SPOKEN:
             yield from self._chain(job, items, job.speaking)
-        elif all(analysis.is_silent(item, self._silent) for item in items):
+        elif all(map(self._is_silent, items)):
             yield from self._spoken_chain(job, items)
         else:
             yield from self._chain(job, items, _Speaking.ANY)
@@ -325,7 +325,7 @@ class _Builder:
 
     def _repeat(self, job: _Job, item: Expression, minimum: int) -> Iterator[_Job]:
         may_be_silent = job.speaking is not _Speaking.SPOKEN
-        if minimum == 1 and may_be_silent and analysis.is_silent(item, self._silent):
+        if minimum == 1 and may_be_silent and self._is_silent(item):
             yield job._replace(node=item, speaking=_Speaking.SILENT)
         if job.speaking is _Speaking.SILENT:
             if minimum == 0:

@@ -13,7 +13,7 @@ from itertools import accumulate, islice
 
 from hri.core.errors import AuthoringError, Place
 from hri.speech.grammar import analysis
-from hri.speech.grammar.analysis import height
+from hri.speech.grammar.analysis import Height
 from hri.speech.grammar.expressions import (
     Alternative,
     Expression,
@@ -26,6 +26,7 @@ from hri.speech.grammar.expressions import (
     children,
     heard_choices,
 )
+from hri.speech.grammar.fold import Fold
 from hri.speech.grammar.rules import Rules
 
 Words = tuple[str, ...]
@@ -130,6 +131,7 @@ class Ways:
 
     def __init__(self, grammar: Rules) -> None:
         self._grammar = grammar
+        self._height = Height(grammar.made(analysis.heights))
         self._heights: dict[int, float] = {}
         self._odds: dict[tuple[int, float], tuple[list[Expression], list[float]]] = {}
         self._recursive = grammar.made(analysis.recursive_of)
@@ -190,10 +192,10 @@ class Ways:
         raise AuthoringError(rule.place(), what, "split it into shorter commands")
 
     def height(self, node: Expression) -> float:
-        """`height`, looked up where it was asked for before."""
+        """`Height`, looked up where it was asked for before."""
         known = self._heights.get(id(node))
         if known is None:
-            known = self._heights[id(node)] = height(node, self._grammar.made(analysis.heights))
+            known = self._heights[id(node)] = self._height(node)
         return known
 
     def _start(self, key: str) -> _Todo:
@@ -255,36 +257,40 @@ def _count_rules(grammar: Rules) -> Mapping[str, float]:
     counts: dict[str, float] = dict.fromkeys(endless, math.inf)
     for key in grammar.made(analysis.order_of):
         if key not in endless:
-            counts[key] = _count(rules[key].expression, counts)
+            counts[key] = _Count(counts)(rules[key].expression)
     return counts
 
 
 def _live_references(node: Expression, heights: Mapping[str, float]) -> Iterator[str]:
     """The rules that can be said below a node."""
-    pending = [node]
+    height, pending = Height(heights), [node]
     while pending:
         node = pending.pop()
         if isinstance(node, RuleReference):
             yield node.name
-        pending += [below for below in children(node) if not math.isinf(height(below, heights))]
+        pending += [below for below in children(node) if not math.isinf(height(below))]
 
 
-def _count(node: Expression, counts: Mapping[str, float]) -> float:
-    match node:
-        case Token():
-            return 1
-        case RuleReference(name=name):
-            return counts.get(name, 0)
-        case Sequence(items=items):
-            return _product([_count(item, counts) for item in items])
-        case Alternative():
-            return _bounded(sum([_count(choice, counts) for choice in heard_choices(node)]))
-        case Optional(item=item):
-            return 1 + _count(item, counts)
-        case Repeat(item=item, minimum=minimum):
-            return math.inf if _count(item, counts) else 1 - minimum
-        case Tagged(item=item):
-            return _count(item, counts)
+class _Count(Fold[float]):
+    """In how many ways a node can be said, with those of the rules."""
+
+    def __init__(self, counts: Mapping[str, float]) -> None:
+        self._counts = counts
+
+    def word(self, node: Token) -> float:
+        return 1
+
+    def reference(self, node: RuleReference) -> float:
+        return self._counts.get(node.name, 0)
+
+    def row(self, node: Sequence, parts: Iterator[float]) -> float:
+        return _product(list(parts))
+
+    def choice(self, node: Alternative, parts: Iterator[float]) -> float:
+        return _bounded(sum(parts))
+
+    def repeated(self, node: Repeat, part: float) -> float:
+        return math.inf if part else 0
 
 
 def _product(factors: list[float]) -> float:

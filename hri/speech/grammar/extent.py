@@ -8,33 +8,34 @@ million; the count takes a moment, where the writing took seconds before it was 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from hri.speech.grammar import analysis
 from hri.speech.grammar.expressions import (
     Alternative,
-    Expression,
-    Optional,
     Repeat,
     RuleReference,
     Sequence,
     Tagged,
     Token,
-    heard_choices,
 )
+from hri.speech.grammar.fold import Fold
 from hri.speech.grammar.rules import Rules
 
 
-@dataclass(slots=True)
-class _Rule:
-    """What one rule holds by itself."""
+@dataclass(frozen=True, slots=True)
+class _Part:
+    """What a part of a rule holds by itself."""
 
     steps: int = 0
     """Its words and references."""
-    inside: list[str] = field(default_factory=list)
+    inside: tuple[str, ...] = ()
     """Rules that something follows: written out for each use."""
-    last: list[str] = field(default_factory=list)
+    last: tuple[str, ...] = ()
     """Rules at the end: written once for all that end in the same place."""
+
+
+_WORD = _Part(1)
 
 
 def too_large(grammar: Rules, most: int) -> str | None:
@@ -42,8 +43,8 @@ def too_large(grammar: Rules, most: int) -> str | None:
 
     It counts the least that is written: a rule inside itself counts as nothing.
     """
-    may_defer = bool(grammar.made(analysis.recursive_of))
-    rules = {key: _counted(rule.expression, may_defer) for key, rule in grammar.rules.items()}
+    counted = _Counted(may_defer=bool(grammar.made(analysis.recursive_of)))
+    rules = {key: counted(rule.expression) for key, rule in grammar.rules.items()}
     reached = set(analysis.reachable(grammar.rules, grammar.public_rules))
     used = {name for key in reached for name in rules[key].inside}
     sizes: dict[str, int] = {}
@@ -62,12 +63,12 @@ def too_large(grammar: Rules, most: int) -> str | None:
     return None
 
 
-def _size(rules: Mapping[str, _Rule], ending: list[str], sizes: Mapping[str, int]) -> int:
+def _size(rules: Mapping[str, _Part], ending: list[str], sizes: Mapping[str, int]) -> int:
     inside = sum(sizes.get(name, 0) for key in ending for name in rules[key].inside)
     return inside + sum(rules[key].steps for key in ending)
 
 
-def _ending(rules: Mapping[str, _Rule], key: str, found: set[str]) -> Iterator[str]:
+def _ending(rules: Mapping[str, _Part], key: str, found: set[str]) -> Iterator[str]:
     """A rule, and those that follow each other at its end, without those found before."""
     pending = [key]
     while pending:
@@ -78,32 +79,42 @@ def _ending(rules: Mapping[str, _Rule], key: str, found: set[str]) -> Iterator[s
             pending += [name for name in rules[key].last if name in rules and name not in found]
 
 
-def _counted(expression: Expression, may_defer: bool) -> _Rule:
-    rule = _Rule()
-    _count(expression, rule, True, may_defer)
-    return rule
-
-
-def _count(node: Expression, rule: _Rule, is_last: bool, may_defer: bool) -> None:
-    """Add what a node holds; in a grammar with recursion the tags behind a rule may be deferred,
-    so that it is at the end all the same.
+class _Counted(Fold[_Part]):
+    """What a node holds; in a grammar with recursion the tags behind a rule may be deferred, so
+    that it is at the end all the same.
     """
-    match node:
-        case Token():
-            rule.steps += 1
-        case RuleReference(name=name):
-            rule.steps += 1
-            (rule.last if is_last else rule.inside).append(name)
-        case Sequence(items=(*others, last)):
-            for item in others:
-                _count(item, rule, False, may_defer)
-            _count(last, rule, is_last, may_defer)
-        case Alternative():
-            for choice in heard_choices(node):
-                _count(choice, rule, is_last, may_defer)
-        case Tagged(item=item):
-            _count(item, rule, is_last and may_defer, may_defer)
-        case Repeat(item=item):
-            _count(item, rule, False, may_defer)
-        case Optional(item=item):
-            _count(item, rule, is_last, may_defer)
+
+    def __init__(self, *, may_defer: bool) -> None:
+        self._may_defer = may_defer
+
+    def word(self, node: Token) -> _Part:
+        return _WORD
+
+    def reference(self, node: RuleReference) -> _Part:
+        return _Part(1, last=(node.name,))
+
+    def row(self, node: Sequence, parts: Iterator[_Part]) -> _Part:
+        *others, last = [*parts] or [_Part()]
+        return _together([*map(_followed, others), last])
+
+    def choice(self, node: Alternative, parts: Iterator[_Part]) -> _Part:
+        return _together(list(parts))
+
+    def repeated(self, node: Repeat, part: _Part) -> _Part:
+        return _followed(part)
+
+    def tagged(self, node: Tagged, part: _Part) -> _Part:
+        return part if self._may_defer else _followed(part)
+
+
+def _followed(part: _Part) -> _Part:
+    """A part behind which something follows."""
+    return _Part(part.steps, part.inside + part.last) if part.last else part
+
+
+def _together(parts: list[_Part]) -> _Part:
+    return _Part(
+        sum(part.steps for part in parts),
+        tuple(name for part in parts for name in part.inside),
+        tuple(name for part in parts for name in part.last),
+    )

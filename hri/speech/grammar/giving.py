@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-from functools import reduce
+from collections.abc import Callable, Iterator
+from functools import partial, reduce
 
 from hri.speech.grammar.analysis import RulesByKey
 from hri.speech.grammar.expressions import (
     Alternative,
-    Expression,
-    Optional,
-    Repeat,
     RuleReference,
     Sequence,
     Tagged,
-    heard_choices,
+    Token,
 )
+from hri.speech.grammar.fold import Fold
 from hri.speech.grammar.tags import TagEntry
 
 Names = frozenset[str]
+Step = Callable[[Names], Names]
+"""From what is set before a part to what is set behind it."""
 
 
 def sure_tags(rules: RulesByKey, key: str) -> Names:
@@ -25,10 +26,10 @@ def sure_tags(rules: RulesByKey, key: str) -> Names:
 
     A tag that is only given by way of a rule that leads back to itself is not counted.
     """
-    return _Walk(rules).rule(key, frozenset())
+    return _Surely(rules).rule(key, frozenset())
 
 
-class _Walk:
+class _Surely(Fold[Step]):
     """Follows what is surely set through a rule, in the order its words are said."""
 
     def __init__(self, rules: RulesByKey) -> None:
@@ -36,30 +37,36 @@ class _Walk:
         self._known: dict[tuple[str, Names], Names] = {}
 
     def rule(self, key: str, before: Names) -> Names:
+        """What is set behind a rule."""
         if key not in self._rules:
             return before
         if (key, before) not in self._known:
             self._known[key, before] = before  # what a recursive rule adds is not counted
-            self._known[key, before] = self.node(self._rules[key].expression, before)
+            self._known[key, before] = self(self._rules[key].expression)(before)
         return self._known[key, before]
 
-    def node(self, node: Expression, before: Names) -> Names:
-        match node:
-            case RuleReference(name=name):
-                return self.rule(name, before)
-            case Sequence(items=items):
-                return reduce(lambda known, item: self.node(item, known), items, before)
-            case Alternative():
-                ways = [self.node(choice, before) for choice in heard_choices(node)]
-                return frozenset.intersection(*ways) if ways else before
-            case Optional(item=item) | Repeat(item=item, minimum=0):
-                return before & self.node(item, before)
-            case Repeat(item=item):
-                return self.node(item, before)
-            case Tagged(item=item, entries=entries):
-                return reduce(_with, entries, self.node(item, before))
-            case _:
-                return before
+    def word(self, node: Token) -> Step:
+        return _same
+
+    def reference(self, node: RuleReference) -> Step:
+        return partial(self.rule, node.name)
+
+    def row(self, node: Sequence, parts: Iterator[Step]) -> Step:
+        steps = list(parts)
+        return lambda before: reduce(lambda known, step: step(known), steps, before)
+
+    def choice(self, node: Alternative, parts: Iterator[Step]) -> Step:
+        ways = list(parts)
+        return lambda before: (
+            frozenset.intersection(*(way(before) for way in ways)) if ways else before
+        )
+
+    def tagged(self, node: Tagged, part: Step) -> Step:
+        return lambda before: reduce(_with, node.entries, part(before))
+
+
+def _same(before: Names) -> Names:
+    return before
 
 
 def _with(before: Names, entry: TagEntry) -> Names:

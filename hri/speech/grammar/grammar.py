@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from hri.hal.word_graph import WordGraph
@@ -15,12 +15,14 @@ from hri.speech.grammar.expressions import (
     Expression,
     Optional,
     Repeat,
+    RuleReference,
     Sequence,
     Tagged,
     Token,
     rename,
     spell,
 )
+from hri.speech.grammar.fold import Fold
 from hri.speech.grammar.graph import word_graph
 from hri.speech.grammar.matching import Matcher, matcher_of
 from hri.speech.grammar.rules import Rules
@@ -106,7 +108,8 @@ def flat_jsgf(grammar: Grammar) -> str:
 
     What can never be said is left out: with a `<VOID>` anywhere it hears nothing of the rest.
     """
-    said = {key: _sayable(rule.expression, grammar) for key, rule in grammar.rules.items()}
+    sayable = _Sayable(grammar.made(analysis.heights))
+    said = {key: sayable(rule.expression) for key, rule in grammar.rules.items()}
     public = [key for key in grammar.public_rules if said[key] is not None]
     keys = [key for key in analysis.reachable(grammar.rules, public) if said[key] is not None]
     names = {
@@ -122,27 +125,33 @@ def flat_jsgf(grammar: Grammar) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _sayable(node: Expression, grammar: Grammar) -> Expression | None:
-    """The node without its parts that have no sentence; None when it has none itself."""
-    if math.isinf(analysis.height(node, grammar.made(analysis.heights))):
-        return None
-    match node:
-        case Alternative(choices=choices, weights=weights):
-            kept = [
-                (said, weight)
-                for choice, weight in zip(choices, weights, strict=True)
-                if (said := _sayable(choice, grammar)) is not None
-            ]
-            return replace(
-                node,
-                choices=tuple(said for said, _ in kept),
-                weights=tuple(weight for _, weight in kept),
-            )
-        case Sequence(items=items):
-            rows = [_sayable(item, grammar) for item in items]
-            return replace(node, items=tuple(row for row in rows if row is not None))
-        case Optional(item=item) | Repeat(item=item) | Tagged(item=item):
-            said = _sayable(item, grammar)
-            return Sequence((), node.span) if said is None else replace(node, item=said)
-        case _:
-            return node
+class _Sayable(Fold[Expression | None]):
+    """A node without its parts that have no sentence; None when it has none itself."""
+
+    def __init__(self, heights: Mapping[str, float]) -> None:
+        self._heights = heights
+
+    def word(self, node: Token) -> Expression:
+        return node
+
+    def reference(self, node: RuleReference) -> Expression | None:
+        return None if math.isinf(self._heights[node.name]) else node
+
+    def row(self, node: Sequence, parts: Iterator[Expression | None]) -> Expression | None:
+        items = list(parts)
+        kept = tuple(item for item in items if item is not None)
+        return replace(node, items=kept) if len(kept) == len(items) else None
+
+    def choice(self, node: Alternative, parts: Iterator[Expression | None]) -> Expression | None:
+        weights = [weight for weight in node.weights if weight > 0.0]
+        kept = [(part, odds) for part, odds in zip(parts, weights, strict=True) if part is not None]
+        if not kept:
+            return None
+        choices, odds = (tuple(part for part, _ in kept), tuple(odds for _, odds in kept))
+        return replace(node, choices=choices, weights=odds)
+
+    def optional(self, node: Optional, part: Expression | None) -> Expression:
+        return Sequence((), node.span) if part is None else Optional(part, node.span)
+
+    def repeated(self, node: Repeat, part: Expression | None) -> Expression | None:
+        return None if part is None else Repeat(part, 1, node.span)

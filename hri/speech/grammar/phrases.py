@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from hri.speech.grammar.expressions import (
     Alternative,
-    Expression,
-    Optional,
     Repeat,
     RuleReference,
     Sequence,
-    Tagged,
     Token,
-    heard_choices,
 )
+from hri.speech.grammar.fold import Fold
 
 if TYPE_CHECKING:
     from hri.speech.grammar.grammar import Grammar
@@ -43,33 +40,35 @@ _UNKNOWN = Phrases(frozenset(), is_all=False)
 def phrases_of_rules(grammar: Grammar, most_words: int) -> dict[str, Phrases]:
     """The phrases of each rule up to a number of words, without recursion."""
     known: dict[str, Phrases] = {}
+    phrases = PhrasesOf(known, most_words)
     for key in grammar.used_first:
-        known[key] = phrases(grammar.rules[key].expression, known, most_words)
+        known[key] = phrases(grammar.rules[key].expression)
     return known
 
 
-def phrases(node: Expression, rules: Mapping[str, Phrases], most_words: int) -> Phrases:
+class PhrasesOf(Fold[Phrases]):
     """The phrases of a node up to a number of words, with those of its rules."""
-    match node:
-        case Token(text=text):
-            return Phrases(frozenset({(text,)}), is_all=True)
-        case RuleReference(name=name):
-            return rules.get(name, _UNKNOWN)
-        case Sequence(items=items):
-            found = _NOTHING
-            for item in items:
-                found = _joined(found, phrases(item, rules, most_words), most_words)
-            return found
-        case Alternative():
-            return _union(phrases(choice, rules, most_words) for choice in heard_choices(node))
-        case Optional(item=item):
-            return _union((_NOTHING, phrases(item, rules, most_words)))
-        case Repeat(item=item, minimum=minimum):
-            once = phrases(item, rules, most_words)
-            found = once if minimum else _union((_NOTHING, once))
-            return Phrases(found.said, is_all=False)
-        case Tagged(item=item):
-            return phrases(item, rules, most_words)
+
+    def __init__(self, rules: Mapping[str, Phrases], most_words: int) -> None:
+        self._rules, self._most_words = rules, most_words
+
+    def word(self, node: Token) -> Phrases:
+        return Phrases(frozenset({(node.text,)}), is_all=True)
+
+    def reference(self, node: RuleReference) -> Phrases:
+        return self._rules.get(node.name, _UNKNOWN)
+
+    def row(self, node: Sequence, parts: Iterator[Phrases]) -> Phrases:
+        found = _NOTHING
+        for part in parts:
+            found = _joined(found, part, self._most_words)
+        return found
+
+    def choice(self, node: Alternative, parts: Iterator[Phrases]) -> Phrases:
+        return _union(parts)
+
+    def repeated(self, node: Repeat, part: Phrases) -> Phrases:
+        return Phrases(part.said, is_all=False)
 
 
 def _joined(first: Phrases, second: Phrases, most_words: int) -> Phrases:

@@ -27,7 +27,7 @@ from hri.speech.grammar.lint.finding import SEVERITIES, Finding, hint, warning
 from hri.speech.grammar.lint.operators import idle_operators
 from hri.speech.grammar.lint.overwriting import overwritten
 from hri.speech.grammar.matching import Parse, parse
-from hri.speech.grammar.phrases import Phrases, Words, phrases, phrases_of_rules
+from hri.speech.grammar.phrases import Phrases, PhrasesOf, Words, phrases_of_rules
 from hri.speech.grammar.rules import Rule
 from hri.speech.grammar.tags import spell_tags
 from hri.speech.pronunciation.lexicon import Lexicon
@@ -170,8 +170,9 @@ def _never_said(grammar: Grammar) -> Iterator[Finding]:
 
 def _unsayable(grammar: Grammar, node: Expression) -> Iterator[Expression]:
     """The largest parts of a node that have no sentence, where what is around them has one."""
+    height = analysis.Height(grammar.made(analysis.heights))
     for child in children(node):
-        if math.isinf(analysis.height(child, grammar.made(analysis.heights))):
+        if math.isinf(height(child)):
             yield child
         else:
             yield from _unsayable(grammar, child)
@@ -200,9 +201,10 @@ def _said_twice(grammar: Grammar, known: Mapping[str, Phrases]) -> Iterator[Find
 def _said_before(rule: Rule, node: Alternative, known: Mapping[str, Phrases]) -> Iterator[Finding]:
     spelt: set[str] = set()
     said: set[Words] = set()
+    phrases = PhrasesOf(known, LONGEST_PHRASE)
     for choice in node.choices:
         text = spell(choice)
-        found = phrases(choice, known, LONGEST_PHRASE)
+        found = phrases(choice)
         if text in spelt or (found.is_all and found.said and found.said <= said):
             again = "stands twice among" if text in spelt else "is said already by others of"
             what = f'"{text}" {again} these alternatives'

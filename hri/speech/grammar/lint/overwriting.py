@@ -12,14 +12,14 @@ from hri.speech.grammar import analysis
 from hri.speech.grammar.expressions import (
     Alternative,
     Expression,
-    Optional,
     Repeat,
     RuleReference,
     Sequence,
     Tagged,
+    Token,
     children,
-    heard_choices,
 )
+from hri.speech.grammar.fold import Fold
 from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.lint.finding import Finding, warning
 from hri.speech.grammar.rules import Rule
@@ -102,13 +102,13 @@ def overwritten(grammar: Grammar, rules: Iterable[Rule]) -> Iterator[Finding]:
             for tag in tags:
                 losses.setdefault(tag, _culprit(node, tag, effects))
 
-        effect(rule.expression, effects, tell)
+        EffectOf(effects, tell)(rule.expression)
         places = {node.span: (tag, node) for tag, node in sorted(losses.items(), reverse=True)}
         yield from (_finding(rule, node, tag) for tag, node in places.values())
 
 
 def _of_rule(grammar: Grammar, rule: Rule, known: Effects) -> Effect:
-    found = effect(rule.expression, known)
+    found = EffectOf(known)(rule.expression)
     # In a circle what was found once stays, so that this comes to an end.
     return found | known[rule.key] if rule.key in grammar.recursive_rules else found
 
@@ -129,44 +129,44 @@ def _finding(rule: Rule, node: Expression, tag: str) -> Finding:
 
 def _culprit(node: Expression, tag: str, known: Effects) -> Expression:
     """The smallest part of a node that replaces a tag."""
+    effect = EffectOf(known)
     for below in children(node):
-        if tag in effect(below, known).replaces:
+        if tag in effect(below).replaces:
             return _culprit(below, tag, known)
     return node
 
 
-def effect(node: Expression, known: Effects, tell: Tell = lambda node, tags: None) -> Effect:
+class EffectOf(Fold[Effect]):
     """What a node does to the tags; `tell` is told where it loses what it set itself."""
-    match node:
-        case RuleReference(name=name):
-            return known.get(name, NOTHING)
-        case Sequence(items=items):
-            return _row(items, known, tell)
-        case Alternative():
-            choices = (effect(choice, known, tell) for choice in heard_choices(node))
-            return reduce(or_, choices, next(choices, NOTHING))
-        case Optional(item=item):
-            return NOTHING | effect(item, known, tell)
-        case Repeat(item=item, minimum=minimum):
-            once = effect(item, known, tell)
-            tell(item, once.lost(once))
-            return once | once.then(once) if minimum else NOTHING | once | once.then(once)
-        case Tagged(item=item, entries=entries):
-            inside, outside = effect(item, known, tell), _effect_of_tags(item, entries)
-            tell(node, inside.lost(outside))
-            tell(node, _set_twice(entries))
-            return inside.then(outside)
-        case _:
-            return NOTHING
 
+    def __init__(self, known: Effects, tell: Tell = lambda node, tags: None) -> None:
+        self._known, self._tell = known, tell
 
-def _row(items: tuple[Expression, ...], known: Effects, tell: Tell) -> Effect:
-    so_far = NOTHING
-    for item in items:
-        further = effect(item, known, tell)
-        tell(item, so_far.lost(further))
-        so_far = so_far.then(further)
-    return so_far
+    def word(self, node: Token) -> Effect:
+        return NOTHING
+
+    def reference(self, node: RuleReference) -> Effect:
+        return self._known.get(node.name, NOTHING)
+
+    def row(self, node: Sequence, parts: Iterator[Effect]) -> Effect:
+        so_far = NOTHING
+        for item, further in zip(node.items, parts, strict=True):
+            self._tell(item, so_far.lost(further))
+            so_far = so_far.then(further)
+        return so_far
+
+    def choice(self, node: Alternative, parts: Iterator[Effect]) -> Effect:
+        return reduce(or_, parts, next(parts, NOTHING))
+
+    def repeated(self, node: Repeat, part: Effect) -> Effect:
+        self._tell(node.item, part.lost(part))
+        return part | part.then(part)
+
+    def tagged(self, node: Tagged, part: Effect) -> Effect:
+        outside = _effect_of_tags(node.item, node.entries)
+        self._tell(node, part.lost(outside))
+        self._tell(node, _set_twice(node.entries))
+        return part.then(outside)
 
 
 def _set_twice(entries: tuple[TagEntry, ...]) -> list[str]:
