@@ -42,7 +42,7 @@ examples:
 The exit status is 0 when all are accepted, 1 when one is not.
 """
 
-NO_MEANING: dict[str, object] = {"rule": "", "tags": {}, "tree": None}
+NO_MEANING: dict[str, object] = {"rule": "", "tags": {}, "tree": None, "free": []}
 """The fields for a sentence outside the grammar: all are present."""
 
 
@@ -130,6 +130,7 @@ def _meaning(reading: Parse) -> dict[str, object]:
         "rule": reading.rule,
         "tags": dict(reading.tags),
         "tree": _branch(reading.tree, words, DEEPEST),
+        "free": list(reading.free),
     }
 
 
@@ -168,9 +169,11 @@ def _forgiven(near: Tolerant) -> str:
 
 def _drawn(reading: Parse) -> Iterator[str]:
     """The rules of a tree with their words, each below and right of the one that uses it. A rule
-    that is another's only content shares its line.
+    that is another's only content shares its line. Free words stand in parentheses.
     """
     words = reading.text.split()
+    for place in reading.free:
+        words[place] = f"({words[place]})"
     rules, indent = "", 0
     for depth, tree in reading.tree.walk():
         indent, rules = (indent, rules) if rules else (depth, "")

@@ -12,6 +12,7 @@ from hri.core.errors import AuthoringError, Place, did_you_mean
 from hri.speech.grammar import offers
 from hri.speech.grammar.expressions import (
     Alternative,
+    Anything,
     Expression,
     RuleReference,
     Sequence,
@@ -109,6 +110,13 @@ class Silence(Fold[bool]):
 
     def choice(self, node: Alternative, parts: Iterator[bool]) -> bool:
         return any(parts)
+
+
+class Unlisted(Silence):
+    """Whether a node can be passed without a word that is listed."""
+
+    def anything(self, node: Anything) -> bool:
+        return True
 
 
 def silent_rules(grammar: Rules) -> dict[str, bool]:
@@ -242,7 +250,7 @@ def errors(grammar: Rules) -> list[AuthoringError]:
     found = [*_undefined(grammar), *islice(left_recursion(grammar), MOST_CIRCLES)]
     if not found and not grammar.broken:
         found = [*_without_public(grammar), *_never_said(grammar), *_never_set(grammar)]
-        found = found or [*_without_words(grammar)]
+        found = found or [*_too_free(grammar)] or [*_without_words(grammar)]
     return sorted(found, key=lambda error: (error.place.line, error.place.column))
 
 
@@ -305,3 +313,31 @@ def _without_words(grammar: Rules) -> Iterator[AuthoringError]:
         place = grammar.rules[grammar.public_rules[0]].place()
         what = "the public rules hold no word"
         yield AuthoringError(place, what, "write the words of a command")
+
+
+def _too_free(grammar: Rules) -> Iterator[AuthoringError]:
+    """Commands that anything at all would be, and orders to move of which words are free."""
+    free = settled(grammar, False, lambda rule, known: Unlisted(known)(rule.expression))
+    silent = grammar.made(silent_rules)
+    for key in grammar.public_rules:
+        rule = grammar.rules[key]
+        if free[key] and not silent[key]:
+            what = f"<{key}> can be said with <any> alone, so it takes whatever is said"
+            yield AuthoringError(rule.place(), what, "write a word that must be said")
+        if "careful" in rule.marks:
+            yield from _free_orders(grammar, rule)
+
+
+def _free_orders(grammar: Rules, rule: Rule) -> Iterator[AuthoringError]:
+    """Where an order to move has free words."""
+    remedy = "list the words, or take @careful out if it moves nothing"
+    for tag in rule.doc_tags:
+        if tag.name == "anywhere":
+            what = f"<{rule.key}> moves the robot, so it may not count @anywhere"
+            yield AuthoringError(rule.place(tag.span), what, "take one of the two marks out")
+    for key in reachable(grammar.rules, [rule.key]):
+        part = grammar.rules[key]
+        for node in part.nodes:
+            if isinstance(node, Anything):
+                what = f"<{rule.key}> moves the robot, so none of its words may be free"
+                yield AuthoringError(part.place(node.span), what, remedy)

@@ -20,6 +20,7 @@ from hri.core.errors import AuthoringError
 from hri.speech.grammar import analysis
 from hri.speech.grammar.expressions import (
     Alternative,
+    Anything,
     Expression,
     Optional,
     Repeat,
@@ -32,6 +33,7 @@ from hri.speech.grammar.expressions import (
 from hri.speech.grammar.extent import too_large
 from hri.speech.grammar.rules import Rules
 from hri.speech.grammar.tags import TagEntry
+from hri.speech.grammar.words import ANY
 
 MOST_ARCS = 300_000
 """Together with the rules that are written out: about 3 s and 150 MB while they are built. A list
@@ -44,6 +46,8 @@ _NOWHERE = SourceSpan(1, 1, 1, 1)
 _SILENCE = Sequence((), _NOWHERE)
 _HALF = math.log(0.5)
 """JSGF gives no odds for what is optional or repeated: both ways are equally likely."""
+_AMONG = (1.0, 0.05)
+"""Odds of nothing, and of other words, before or after a phrase that counts anywhere."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +95,7 @@ class Automaton:
     """The number of the first arc of each node, and behind it the number of arcs. [size + 1]"""
     targets: list[int]
     words: list[str | None]
-    """None: passed without a word."""
+    """None: passed without a word; ANY: with any one."""
     weights: list[float]
     """Natural logarithms; those of one node add up to one."""
     actions: list[Actions]
@@ -155,7 +159,15 @@ def build(grammar: Rules) -> Automaton:
     Raises AuthoringError for left recursion, and when there are more than MOST_ARCS arcs.
     """
     with without_collection():
-        return _Builder(grammar).build()
+        return _Builder(grammar, grammar.marked("anywhere")).build()
+
+
+def build_as_written(grammar: Rules) -> Automaton:
+    """The same without the words around the rules that count @anywhere."""
+    if not grammar.marked("anywhere"):
+        return grammar.made(build)
+    with without_collection():
+        return _Builder(grammar, frozenset()).build()
 
 
 class _Builder:
@@ -164,8 +176,8 @@ class _Builder:
     What was written first is worked off first, which keeps the arcs of a node in that order.
     """
 
-    def __init__(self, grammar: Rules) -> None:
-        self._grammar = grammar
+    def __init__(self, grammar: Rules, anywhere: frozenset[str]) -> None:
+        self._grammar, self._anywhere = grammar, anywhere
         self._recursive = grammar.made(analysis.recursive_of)
         self._is_silent = analysis.Silence(grammar.made(analysis.silent_rules))
         for error in analysis.left_recursion(grammar):
@@ -219,6 +231,9 @@ class _Builder:
             case Token(text=text):
                 if job.speaking is not _Speaking.SILENT:
                     self._arcs.add(job, job.end, text, job.before + job.after)
+            case Anything():
+                if job.speaking is not _Speaking.SILENT:
+                    self._anything(job)
             case Tagged(item=item, entries=entries):
                 self._jobs.append(self._tagged(job, item, entries))
             case Sequence(items=()):
@@ -240,6 +255,14 @@ class _Builder:
                 self._later(job._replace(node=way, weight=weight) for way in (item, _SILENCE))
             case Repeat(item=item, minimum=minimum):
                 self._later(self._repeat(job, item, minimum))
+
+    def _anything(self, job: _Job) -> None:
+        """One word or more; of all ways through them the shortest comes first."""
+        inside = self._new_node()
+        again = job._replace(start=inside, before=(), weight=_HALF)
+        self._arcs.add(job, inside, ANY, job.before)
+        self._arcs.add(again, job.end, None, job.after)
+        self._arcs.add(again, inside, ANY, ())
 
     def _later(self, jobs: Iterator[_Job]) -> None:
         self._jobs += reversed(list(jobs))
@@ -265,6 +288,8 @@ class _Builder:
     def _reference(self, job: _Job, name: str) -> None:
         """Let a rule follow: written out here, or jumped to when it ends where this one ends."""
         body, context = self._grammar.rules[name].expression, job.context
+        if job.start == START and name in self._anywhere:
+            body = _among_others(body)
         is_recursive = name in self._recursive
         if not job.is_last:
             inside = context.inside
@@ -341,6 +366,13 @@ class _Builder:
         if needs_one:
             yield inside._replace(start=behind, end=head)
         yield inside._replace(start=behind, end=job.end, after=job.after)
+
+
+def _among_others(body: Expression) -> Expression:
+    """What may have other words before it and after it."""
+    span = body.span
+    others = Alternative((_SILENCE, Anything(span)), _AMONG, span)
+    return Sequence((others, body, others), span)
 
 
 def _shares(weights: tuple[float, ...]) -> list[float]:

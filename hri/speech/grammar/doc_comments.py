@@ -23,6 +23,7 @@ MARKS = MappingProxyType(
         "careful": "it moves the robot, so it must be heard without doubt",
         "answer": "it is only heard while a question is open",
         "interrupts": "it is heard while the robot speaks and under other grammars, too",
+        "anywhere": "it counts among other words, too",
         "wake": "other rules are heard only after it, and for a while after what was heard last",
         "part": "part of commands in other grammars, not a command itself",
     }

@@ -1,7 +1,7 @@
 """Sentences of a grammar: all in turn, one by chance, and how many there are.
 
 Repeats are said at most twice here, and recursion goes a few rules deep. Choices of weight 0 are
-never said. The same arguments give the same sentences in the same order.
+never said. Free words are "<any>". The same arguments give the same sentences in the same order.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from hri.speech.grammar import analysis
 from hri.speech.grammar.analysis import Height
 from hri.speech.grammar.expressions import (
     Alternative,
+    Anything,
     Expression,
     Optional,
     Repeat,
@@ -28,6 +29,7 @@ from hri.speech.grammar.expressions import (
 )
 from hri.speech.grammar.fold import Fold
 from hri.speech.grammar.rules import Rules
+from hri.speech.grammar.words import ANY
 
 Words = tuple[str, ...]
 
@@ -80,8 +82,7 @@ def sample(grammar: Rules, most: int) -> list[str]:
             if len(found) == most:
                 break
             found[sentence] = None
-    found.pop("", None)
-    return list(found)
+    return [sentence for sentence in found if sentence and ANY not in sentence]
 
 
 def random_sentence(
@@ -150,7 +151,7 @@ class Ways:
                 continue
             node, depth, rest = todo
             match node:
-                case Token(text=text):
+                case Token(text=text) | Anything(text=text):
                     stack.append((rest, (text, said)))
                 case Alternative():
                     for choice in reversed(heard_choices(node)):
@@ -174,7 +175,7 @@ class Ways:
                 return tuple(said)
             node, depth, rest = todo
             match node:
-                case Token(text=text):
+                case Token(text=text) | Anything(text=text):
                     said.append(text)
                     todo = rest
                 case Alternative():

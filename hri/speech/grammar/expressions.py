@@ -7,9 +7,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from operator import is_
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 from hri.speech.grammar.tags import TagEntry, spell_entries
+from hri.speech.grammar.words import ANY
 
 _PLAIN = re.compile(r"""[^\s=;|*+<>()\[\]{}/"\\]+(?:/[^\s=;|*+<>()\[\]{}/"\\]+)*""")
 
@@ -29,6 +30,14 @@ class Token:
 
     text: str
     span: SourceSpan
+
+
+@dataclass(frozen=True, slots=True)
+class Anything:
+    """`<any>`: one word or more that nobody has listed."""
+
+    span: SourceSpan
+    text: ClassVar[str] = ANY
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,13 +93,13 @@ class Tagged:
     span: SourceSpan
 
 
-Expression = Token | RuleReference | Sequence | Alternative | Optional | Repeat | Tagged
+Expression = Token | Anything | RuleReference | Sequence | Alternative | Optional | Repeat | Tagged
 
 
 def children(node: Expression) -> tuple[Expression, ...]:
     """The nodes directly below."""
     match node:
-        case Token() | RuleReference():
+        case Token() | Anything() | RuleReference():
             return ()
         case Sequence(items=below) | Alternative(choices=below):
             return below
@@ -125,8 +134,8 @@ def heard_choices(node: Alternative) -> tuple[Expression, ...]:
     )
 
 
-def rename(node: Expression, resolve: Callable[[RuleReference], RuleReference]) -> Expression:
-    """The same tree with other references; what stays the same is shared."""
+def rename(node: Expression, resolve: Callable[[RuleReference], Expression]) -> Expression:
+    """The same tree with something else for its references; what stays the same is shared."""
     match node:
         case RuleReference():
             return resolve(node)
@@ -144,7 +153,7 @@ def rename(node: Expression, resolve: Callable[[RuleReference], RuleReference]) 
 
 
 def _rename_all(
-    nodes: tuple[Expression, ...], resolve: Callable[[RuleReference], RuleReference]
+    nodes: tuple[Expression, ...], resolve: Callable[[RuleReference], Expression]
 ) -> tuple[Expression, ...]:
     renamed = [node if type(node) is Token else rename(node, resolve) for node in nodes]
     return nodes if all(map(is_, renamed, nodes)) else tuple(renamed)
@@ -169,6 +178,8 @@ def _spell(node: Expression, least: int, tags: Callable[[Tagged], str]) -> str:
     match node:
         case Token(text=text):
             return text if _is_plain(text) else _quoted(text)
+        case Anything():
+            return ANY
         case RuleReference(name=name):
             return f"<{name}>"
         case Sequence(items=()):

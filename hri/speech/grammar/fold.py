@@ -13,6 +13,7 @@ from typing import Generic, TypeVar
 
 from hri.speech.grammar.expressions import (
     Alternative,
+    Anything,
     Expression,
     Optional,
     Repeat,
@@ -34,6 +35,8 @@ class Fold(ABC, Generic[V]):
         match node:
             case Token():
                 return self.word(node)
+            case Anything():
+                return self.anything(node)
             case RuleReference():
                 return self.reference(node)
             case Sequence(items=items):
@@ -51,6 +54,10 @@ class Fold(ABC, Generic[V]):
     @abstractmethod
     def word(self, node: Token) -> V:
         """Of a word."""
+
+    def anything(self, node: Anything) -> V:
+        """Of free words: as of a word that is none of the grammar's."""
+        return self.word(Token(node.text, node.span))
 
     @abstractmethod
     def reference(self, node: RuleReference) -> V:

@@ -12,6 +12,7 @@ from hri.speech.grammar import analysis, expansion
 from hri.speech.grammar.automaton import Automaton, build
 from hri.speech.grammar.expressions import (
     Alternative,
+    Anything,
     Expression,
     Optional,
     Repeat,
@@ -66,7 +67,7 @@ class Grammar(Rules):
 
     def sample(self, most: int) -> list[str]:
         """Different sentences, at most so many: all, or the first of each rule and as many others
-        by chance, always the same.
+        by chance, always the same. None has free words.
         """
         return expansion.sample(self, most)
 
@@ -106,7 +107,8 @@ def _graph(rules: Rules) -> WordGraph:
 def flat_jsgf(grammar: Grammar) -> str:
     """See `Grammar.flat_jsgf`. PocketSphinx knows one public rule only and no dots in names.
 
-    What can never be said is left out: with a `<VOID>` anywhere it hears nothing of the rest.
+    What can never be said is left out: with a `<VOID>` anywhere it hears nothing of the rest. So is
+    what has free words, which no other engine knows.
     """
     sayable = _Sayable(grammar.made(analysis.heights))
     said = {key: sayable(rule.expression) for key, rule in grammar.rules.items()}
@@ -133,6 +135,9 @@ class _Sayable(Fold[Expression | None]):
 
     def word(self, node: Token) -> Expression:
         return node
+
+    def anything(self, node: Anything) -> None:
+        return None
 
     def reference(self, node: RuleReference) -> Expression | None:
         return None if math.isinf(self._heights[node.name]) else node

@@ -25,7 +25,13 @@ from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 from hri.core.reading import read_bytes, read_text
 from hri.speech.grammar import analysis
-from hri.speech.grammar.expressions import RuleReference, SourceSpan, rename
+from hri.speech.grammar.expressions import (
+    Anything,
+    Expression,
+    RuleReference,
+    SourceSpan,
+    rename,
+)
 from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.jsgf import Document, Import, NameListImport, read_jsgf
 from hri.speech.grammar.name_lists import read_names
@@ -289,8 +295,13 @@ class _Loader:
         self._broken.add(key)
         return None
 
-    def _resolve(self, file: _File, node: RuleReference) -> RuleReference:
-        """The reference with the key of the rule it means; unknown ones get a key nobody has."""
+    def _resolve(self, file: _File, node: RuleReference) -> Expression:
+        """The reference with the key of the rule it means; unknown ones get a key nobody has.
+
+        `<any>` is a rule of that name where there is one.
+        """
+        if node.name == "any" and node.name not in file.own and node.name not in file.imported:
+            return Anything(node.span)
         key = self._key(file, node)
         file.used.add(key)
         return node if key == node.name else replace(node, name=key)

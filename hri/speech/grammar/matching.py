@@ -8,7 +8,8 @@ many readings there are.
 
 Readings come in the order they were written: of two alternatives the first, an optional part
 rather than none, one more round of a repeat rather than its end. Weights have no say in it; only
-what has the weight 0 is not there at all.
+what has the weight 0 is not there at all. Where words are free, those readings come first that
+have a rule for most of the words.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import difflib
 import itertools
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
+from enum import Enum, auto
 from functools import cached_property
 from typing import NamedTuple
 
@@ -30,17 +32,20 @@ from hri.speech.grammar.automaton import (
     Enter,
     Leave,
     build,
+    build_as_written,
 )
 from hri.speech.grammar.numerals import in_words
 from hri.speech.grammar.rules import Rules
 from hri.speech.grammar.spellings import contracted_forms, spellings
 from hri.speech.grammar.tags import TagEntry, Value, are_same, evaluate
-from hri.speech.grammar.words import normalize
+from hri.speech.grammar.words import ANY, normalize
 
 MOST_WORDS = 200
 """A longer text is not a command."""
 MOST_PARSES = 20
 """Readings of one sentence that are listed."""
+MOST_FREE = 200
+"""Readings of one sentence that are looked at for the one with the fewest free words."""
 MOST_COMPARED = 500
 """Words that may follow; of more, only those much like the wrong one are compared with it."""
 LEAST_ALIKE = 0.75
@@ -85,6 +90,8 @@ class Parse:
     """The public rule that allows it."""
     tags: Mapping[str, Value] = field(default_factory=dict)
     tree: Tree = field(default_factory=lambda: Tree("", 0, 0, ()))
+    free: tuple[int, ...] = ()
+    """The numbers of its words that `<any>` stands for, from 0."""
 
     def means_the_same(self, other: Parse) -> bool:
         """Whether both have the same rule and tags."""
@@ -110,6 +117,11 @@ def matcher_of(grammar: Rules) -> Matcher:
     return Matcher(grammar.made(build))
 
 
+def as_written(grammar: Rules) -> Matcher:
+    """What does not go on with other words, and so has an opinion on which should have come."""
+    return Matcher(grammar.made(build_as_written))
+
+
 def parse(grammar: Rules, text: str, rules: Collection[str] | None = None) -> Parse | None:
     """What a sentence means, by its first reading; None when no public rule allows all of it.
 
@@ -124,13 +136,18 @@ def parses(
 ) -> tuple[Parse, ...]:
     """All readings of a sentence with different trees or tags, at most `limit`, the best first.
 
-    A sentence is ambiguous when two of them differ in rule or tags. `rules` are the public rules
-    that count; None is all. Raises AuthoringError where `Grammar.automaton` does.
+    A sentence is ambiguous when two of them differ in rule or tags. Those with more free words than
+    others do not count. `rules` are the public rules that count; None is all. Raises AuthoringError
+    where `Grammar.automaton` does.
     """
     found: dict[object, Parse] = {}
+    fewest = MOST_WORDS
     for reading in itertools.islice(
         grammar.made(matcher_of).readings(normalize(text), rules), 10 * limit
     ):
+        fewest = min(fewest, len(reading.free))
+        if len(reading.free) > fewest:
+            break
         rules_said = tuple((depth, t.rule, t.start, t.end) for depth, t in reading.tree.walk())
         found.setdefault((rules_said, tuple(sorted(reading.tags.items()))), reading)
         if len(found) == limit:
@@ -143,11 +160,12 @@ def refusal(grammar: Rules, text: str) -> Refusal | None:
 
     Raises AuthoringError where `Grammar.automaton` does.
     """
-    forms = grammar.made(matcher_of).forms(normalize(text)[: MOST_WORDS + 1])
-    words, state, position = max(
-        (grammar.made(matcher_of).followed(words) for words in forms), key=lambda way: way[2]
-    )
+    matcher = grammar.made(as_written)
+    forms = matcher.forms(normalize(text)[: MOST_WORDS + 1])
+    words, state, position = max(map(matcher.followed, forms), key=lambda way: way[2])
     if position == len(words) <= MOST_WORDS and state.is_final and words:
+        return None
+    if parse(grammar, text) is not None:
         return None
     word = words[position] if position < len(words) else ""
     expected = state.expected()
@@ -210,10 +228,14 @@ class State:
 
     def step(self, word: str) -> Step | None:
         """Where a word leads; None when it does not fit."""
+        if word not in self._matcher.words:
+            word = ANY
         step = self._steps.get(word)
         if step is None:
             spread = ((node, arc) for node, table in self._tables for arc in table.get(word, ()))
             moves = (*self._index.get(word, ()), *spread)
+            if word != ANY and (free := self.step(ANY)) is not None:
+                moves += free.moves
             if moves:
                 targets = self._matcher.automaton.targets
                 nodes = tuple(sorted({targets[arc] for _, arc in moves}))
@@ -222,13 +244,24 @@ class State:
 
     def expected(self) -> tuple[str, ...]:
         """The words that fit here, in order of the alphabet."""
-        return tuple(sorted({*self._index, *(word for _, table in self._tables for word in table)}))
+        fitting = {*self._index, *(word for _, table in self._tables for word in table)}
+        return tuple(sorted(fitting - {ANY}))
 
 
 _Ways = dict[int, list[int]]
 """The arcs that leave each node and lead to the end of the sentence."""
-_History = tuple["_History | None", bool, Actions]
-"""The steps so far, the last one first: whether it was a word, and what it did."""
+
+
+class _Said(Enum):
+    """What a step says."""
+
+    NOTHING = auto()
+    LISTED = auto()
+    FREE = auto()
+
+
+_History = tuple["_History | None", _Said, Actions]
+"""The steps so far, the last one first: what it said, and what it did."""
 
 
 class Matcher:
@@ -236,8 +269,10 @@ class Matcher:
 
     def __init__(self, automaton: Automaton) -> None:
         self.automaton = automaton
-        self.words = frozenset(word for word in automaton.words if word is not None)
-        """All words that can be said."""
+        self.words = frozenset(word for word in automaton.words if word not in (None, ANY))
+        """All words that are listed."""
+        self.is_open = ANY in automaton.words
+        """Whether any words are free."""
         self._leaving: dict[int, tuple[list[int], Mapping[str, list[int]]]] = {}
         self._states: dict[tuple[int, ...], State] = {}
         self._room = MOST_NODES
@@ -298,12 +333,18 @@ class Matcher:
 
         The first of its forms that means something is all that counts.
         """
+        free: list[Parse] = []
         for form in self.forms(words):
             found = self._readings(form, rules)
-            if (first := next(found, None)) is not None:
+            if (first := next(found, None)) is None:
+                continue
+            if self.is_open:
+                free += (first, *itertools.islice(found, MOST_FREE))
+            else:
                 yield first
                 yield from found
                 return
+        yield from sorted(free, key=lambda reading: len(reading.free))
 
     def _readings(self, words: list[str], rules: Collection[str] | None) -> Iterator[Parse]:
         ways = self._ways(words)
@@ -311,8 +352,8 @@ class Matcher:
             return
         text = " ".join(words)
         for history in self._histories(ways, rules):
-            tree, groups = _reading(words, history)
-            yield Parse(text, tree.rule, evaluate(groups), tree)
+            tree, groups, free = _reading(words, history)
+            yield Parse(text, tree.rule, evaluate(groups), tree, free)
 
     def _ways(self, words: list[str]) -> list[_Ways] | None:
         """The ways through a sentence, before each word and at its end; None without any."""
@@ -357,7 +398,7 @@ class Matcher:
         stack: list[tuple[int, list[int], _History | None]] = [(0, [START], None)]
         while stack:
             position, nodes, history = stack.pop()
-            further: dict[tuple[bool, Actions], list[int]] = {}
+            further: dict[tuple[_Said, Actions], list[int]] = {}
             here, pending, seen = ways[position], nodes[::-1], set(nodes)
             while pending:
                 node = pending.pop()
@@ -366,22 +407,29 @@ class Matcher:
                     yield history
                 quiet: list[int] = []
                 for arc in sorted(arcs) if len(arcs) > 1 else arcs:
-                    is_word = automaton.words[arc] is not None
+                    said = _said(automaton.words[arc])
                     actions, target = automaton.actions[arc], automaton.targets[arc]
-                    if is_word or actions:
-                        further.setdefault((is_word, actions), []).append(target)
+                    if said is not _Said.NOTHING or actions:
+                        further.setdefault((said, actions), []).append(target)
                     elif target not in seen:
                         seen.add(target)
                         quiet.append(target)
                 pending += reversed(quiet)
-            for (is_word, actions), targets in reversed(further.items()):
+            for (said, actions), targets in reversed(further.items()):
                 if history is None and rules is not None:
                     enter = actions[0]
                     if isinstance(enter, Enter) and enter.rule not in rules:
                         continue
                 # A node that several ways lead to is followed once: they would double at each word.
                 distinct = list(dict.fromkeys(targets))
-                stack.append((position + is_word, distinct, (history, is_word, actions)))
+                passed = position + (said is not _Said.NOTHING)
+                stack.append((passed, distinct, (history, said, actions)))
+
+
+def _said(word: str | None) -> _Said:
+    if word is None:
+        return _Said.NOTHING
+    return _Said.FREE if word == ANY else _Said.LISTED
 
 
 def _add_silent_ways(state: State, alive: set[int], ways: _Ways) -> None:
@@ -406,12 +454,14 @@ class _Open(NamedTuple):
     is_last: bool
 
 
-def _reading(words: list[str], history: _History | None) -> tuple[Tree, Groups]:
-    """The tree and the tags, in order, of one way through a sentence."""
-    steps: list[tuple[bool, Actions]] = []
+def _reading(words: list[str], history: _History | None) -> tuple[Tree, Groups, tuple[int, ...]]:
+    """The tree, the tags in order, and the numbers of the free words of one way through a
+    sentence.
+    """
+    steps: list[tuple[_Said, Actions]] = []
     while history is not None:
-        history, is_word, actions = history
-        steps.append((is_word, actions))
+        history, said, actions = history
+        steps.append((said, actions))
     groups: list[tuple[TagEntry, ...]] = []
     top: list[Tree | str] = []
     children, position = top, 0
@@ -428,8 +478,11 @@ def _reading(words: list[str], history: _History | None) -> tuple[Tree, Groups]:
             children.append(tree)
         return ended
 
-    for is_word, actions in reversed(steps):
-        is_said = not is_word
+    free: list[int] = []
+    for said, actions in reversed(steps):
+        is_said = said is _Said.NOTHING
+        if said is _Said.FREE:
+            free.append(position)
         for action in actions:
             if isinstance(action, Enter):
                 children = []
@@ -455,4 +508,4 @@ def _reading(words: list[str], history: _History | None) -> tuple[Tree, Groups]:
         close()
     tree = top[0]
     assert isinstance(tree, Tree)
-    return tree, tuple(groups)
+    return tree, tuple(groups), tuple(free)

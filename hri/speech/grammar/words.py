@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import unicodedata
 
+ANY = "<any>"
+"""Stands for words that nobody listed; no word has a bracket."""
 _CURLY = "\N{RIGHT SINGLE QUOTATION MARK}"
 _SPOKEN = {"&": " and ", "%": " percent ", "\N{DEGREE SIGN}": " degrees "}
 """Signs that are said as words wherever they stand."""
@@ -23,7 +25,7 @@ def normalize(text: str) -> list[str]:
 
 
 def _bare(word: str) -> str:
-    if word.isalnum():
+    if word.isalnum() or word == ANY:
         return word
     letters = [place for place, sign in enumerate(word) if sign.isalnum() or sign in "_'"]
     if not letters:

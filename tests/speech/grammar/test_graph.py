@@ -200,7 +200,7 @@ def test_what_is_counted_beforehand_is_not_more_than_is_written(grammar):
 
 def build_arcs(grammar) -> int:
     """How many arcs are written, those that lead nowhere included."""
-    builder = automaton._Builder(grammar)
+    builder = automaton._Builder(grammar, frozenset())
     builder.build()
     return len(builder._arcs.sources) + builder._contexts
 

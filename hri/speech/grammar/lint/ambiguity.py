@@ -9,7 +9,7 @@ from itertools import islice
 
 from hri.speech.grammar.automaton import FINAL, START, Apply, Defer
 from hri.speech.grammar.grammar import Grammar
-from hri.speech.grammar.matching import Matcher, Parse, parses
+from hri.speech.grammar.matching import Matcher, Parse, as_written, parses
 
 MOST_STEPS = 30_000
 """Nodes of the automaton that are visited for sentences with two readings."""
@@ -61,7 +61,7 @@ def _can_differ(grammar: Grammar) -> bool:
 
 
 def _tried(grammar: Grammar) -> Iterator[str]:
-    is_all = yield from suspects(grammar.matcher)
+    is_all = yield from suspects(grammar.made(as_written))
     if not is_all:
         arcs = len(grammar.automaton.targets)
         yield from grammar.sample(min(MOST_SAMPLED, MOST_READ // arcs))

@@ -1,0 +1,131 @@
+"""`<any>` stands for words that nobody listed, and @anywhere for those around a phrase."""
+
+import json
+import string
+
+import pytest
+from hypothesis import given, strategies as st
+
+from hri.cli.main import main
+from hri.speech.grammar import load_grammar, parse
+from hri.speech.grammar.lint.linter import check
+from hri.speech.grammar.loader import read_grammar
+from hri.speech.grammar.matching import parses, refusal
+
+TALK = """
+/** @anywhere */
+public <leave> = (goodbye | bye | see you later) {leave=true};
+/** @anywhere */
+public <timer> = set a timer [for <n> minutes];
+<n> = two {n=2} | three {n=3};
+public <name> = my name is <any>;
+public <stop> = stop;
+/** @careful */
+public <go> = go [forward] [<n> meters];
+"""
+OTHERS = st.lists(st.text(string.ascii_lowercase, min_size=1, max_size=8), max_size=12)
+
+
+@pytest.fixture(scope="module")
+def talk(tmp_path_factory):
+    path = tmp_path_factory.mktemp("talk") / "talk.jsgf"
+    path.write_text(f"#JSGF V1.0;\ngrammar talk;\n{TALK}")
+    return load_grammar(path)
+
+
+@pytest.mark.parametrize(
+    ("text", "rule", "free"),
+    [
+        ("bye", "leave", 0),
+        ("i have to run now so bye for today", "leave", 8),
+        ("well see you later then", "leave", 2),
+        ("please set a timer for 2 minutes thanks", "timer", 2),
+        ("set a timer for 7 minutes", "timer", 3),
+        ("my name is Anna Maria", "name", 2),
+    ],
+)
+def test_a_phrase_counts_among_other_words(talk, text, rule, free):
+    found = parse(talk, text)
+    assert (found.rule, len(found.free)) == (rule, free)
+
+
+@pytest.mark.parametrize("text", ["please stop", "now go forward", "my name is", "go two bananas"])
+def test_other_words_are_taken_nowhere_else(talk, text):
+    assert parse(talk, text) is None
+
+
+def test_a_sentence_without_free_words_wins_though_it_comes_later(write):
+    grammar = load_grammar(
+        write(
+            "/** @anywhere */\npublic <a> = turn;\npublic <b> = turn left;\npublic <c> = <any> go;"
+        )
+    )
+    assert parse(grammar, "turn left").rule == "b"
+    assert parse(grammar, "turn right").rule == "a"
+    assert parse(grammar, "turn and go").rule == "a"
+    assert [reading.rule for reading in parses(grammar, "turn left")] == ["b"]
+    assert [reading.rule for reading in parses(grammar, "turn go")] == ["a", "c"]
+
+
+def test_words_that_the_grammar_has_are_not_offered_as_free_ones(talk):
+    assert refusal(talk, "go two").expected == ("meters",)
+    assert refusal(talk, "my name is").expected == ()
+    assert refusal(talk, "so bye for today") is None
+
+
+@given(OTHERS, st.sampled_from(["see you later", "set a timer for two minutes"]), OTHERS)
+def test_whatever_is_around_a_phrase_its_tags_are_the_same(talk, before, phrase, behind):
+    found = parse(talk, " ".join([*before, phrase, *behind]))
+    assert found is not None
+    if found.rule == parse(talk, phrase).rule and not {*before, *behind} & talk.words():
+        assert found.tags == parse(talk, phrase).tags
+        others = (n for n, w in enumerate(found.text.split()) if w not in phrase.split())
+        assert found.free == tuple(others)
+
+
+def test_a_rule_named_any_is_that_rule(write):
+    grammar = load_grammar(write("public <a> = take <any>;\n<any> = all | none;"))
+    assert parse(grammar, "take all") is not None
+    assert parse(grammar, "take two") is None
+
+
+@pytest.mark.parametrize(
+    ("text", "error"),
+    [
+        ("public <a> = <any>;", "<a> can be said with <any> alone"),
+        ("public <a> = [please] <any> {x};", "<a> can be said with <any> alone"),
+        ("public <a> = <b> | stop;\n<b> = <any>+;", "<a> can be said with <any> alone"),
+        (
+            "/** @careful */\npublic <a> = go to <b>;\n<b> = the <any>;",
+            "<a> moves the robot, so none of its words may be free",
+        ),
+        (
+            "/** @careful\n @anywhere */\npublic <a> = go;",
+            "<a> moves the robot, so it may not count @anywhere",
+        ),
+    ],
+)
+def test_what_would_take_everything_and_free_orders_to_move_are_errors(write, text, error):
+    grammar, errors = read_grammar(write(text))
+    assert not errors
+    findings = check(grammar)
+    assert [finding.severity for finding in findings] == ["error"]
+    assert error in str(findings[0])
+
+
+def test_free_words_are_shown_and_left_out_of_what_is_spoken_for_tests(talk):
+    assert "my name is <any>" in list(talk.sentences(100))
+    assert parse(talk, "my name is <any>").free == (3,)
+    assert not any("<any>" in sentence for sentence in talk.sample(100))
+    assert "name" not in talk.flat_jsgf()
+
+
+def test_the_command_shows_which_words_are_free(talk, capsys):
+    main(["grammar", "parse", str(talk.path), "so bye now"])
+    assert "<leave> (so) bye (now)" in capsys.readouterr().out
+    main(["grammar", "parse", str(talk.path), "so bye now", "--json"])
+    assert json.loads(capsys.readouterr().out)["free"] == [0, 2]
+
+
+def test_no_finding_speaks_of_free_words_as_of_a_word(talk):
+    assert not [found for found in check(talk) if "<any>" in str(found)]
