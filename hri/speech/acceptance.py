@@ -10,6 +10,7 @@ from hri.core.signals import HeardWord, Rejection, Utterance
 from hri.hal.recognizer import Alternative, Hypothesis, Segment
 from hri.speech.grammar import Grammar
 from hri.speech.grammar.matching import Parse, parse, refusal
+from hri.speech.grammar.words import listed
 from hri.speech.turn import Turn
 
 STRICTNESS = 0.5
@@ -70,13 +71,13 @@ def judge(
     if turn.is_speaking and reason:
         reason = "robot speaking"
     if reason or found is None:
-        rejection = Rejection(reason, hypothesis.text, confidence, start, end, detail)
+        rejection = Rejection(reason, listed(hypothesis.text), confidence, start, end, detail)
         if reason != "low confidence" or found is None:
             return rejection
         likely = [found, *_likely(grammar, hypothesis.alternatives)]
         return replace(rejection, sure=agreed(likely), unsure=disputed(likely))
     return Utterance(
-        text=found.text,
+        text=listed(found.text),
         rule=found.rule,
         tags=found.tags,
         confidence=confidence,

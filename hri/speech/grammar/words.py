@@ -24,6 +24,11 @@ def normalize(text: str) -> list[str]:
     return [bare for word in text.lower().split() if (bare := _bare(word))]
 
 
+def listed(text: str) -> str:
+    """A text without what stands in it for words that nobody listed."""
+    return " ".join(word for word in text.split() if word != ANY)
+
+
 def _bare(word: str) -> str:
     if word.isalnum() or word == ANY:
         return word

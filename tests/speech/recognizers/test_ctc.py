@@ -11,9 +11,11 @@ from hypothesis import given, strategies as st
 
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError, NotAvailable
+from hri.core.signals import Rejection, Utterance
 from hri.hal.recognizer import Segment
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
+from hri.speech.acceptance import judge
 from hri.speech.grammar import load_grammar
 from hri.speech.pronunciation.lexicon import VARIABLE
 from hri.speech.recognizers.ctc.confidence import (
@@ -298,3 +300,56 @@ def test_a_long_sentence_is_asked_for_no_more_than_one_that_is_long_enough():
 
     assert fit(3 * LONG).numbers == pytest.approx(fit(LONG).numbers)
     assert fit(LONG // 4).margin == pytest.approx(fit(LONG).margin / 2)
+
+
+PHRASES = """
+/** @anywhere */
+public <leave> = see you later {leave=true};
+/** @anywhere */
+public <age> = how old are you;
+public <name> = my name is <any>;
+public <move> = go forward two meters;
+"""
+
+
+@pytest.fixture(scope="module")
+def talk(tmp_path_factory):
+    path = tmp_path_factory.mktemp("talk") / "talk.jsgf"
+    path.write_text(f"#JSGF V1.0;\ngrammar talk;\n{PHRASES}")
+    return load_grammar(path)
+
+
+@pytest.mark.parametrize(
+    ("said", "rule", "text"),
+    [
+        ("we are off now so see you later then", "leave", "see you later"),
+        ("see you later", "leave", "see you later"),
+        ("i was wondering how old are you by the way", "age", "how old are you"),
+        ("my name is jonathan", "name", "my name is"),
+        ("go forward two meters", "move", "go forward two meters"),
+    ],
+)
+def test_a_phrase_is_heard_among_other_words(engine, companion, talk, said, rule, text):
+    engine.start(talk)
+    try:
+        segment = piece(np.pad(spoken(said), 4000))
+        heard = judge(talk, segment, engine.decode(segment))
+    finally:
+        engine.start(companion)
+    assert isinstance(heard, Utterance), heard
+    assert (heard.rule, heard.text) == (rule, text)
+    assert [word.text for word in heard.words] == text.split()
+
+
+@pytest.mark.parametrize(
+    "said", ["the train leaves at seven from the other side", "did you water the plants today"]
+)
+def test_other_sentences_hold_no_phrase(engine, companion, talk, said):
+    engine.start(talk)
+    try:
+        segment = piece(np.pad(spoken(said), 4000))
+        heard = judge(talk, segment, engine.decode(segment))
+    finally:
+        engine.start(companion)
+    assert isinstance(heard, Rejection)
+    assert "<any>" not in heard.text

@@ -19,12 +19,12 @@ from numpy.typing import NDArray
 from hri.core.signals import Phoneme, Samples
 from hri.hal.word_graph import WordGraph
 from hri.speech.pronunciation.phones import VOWELS
-from hri.speech.recognizers.ctc.classes import CLASSES
+from hri.speech.recognizers.ctc.classes import BLANK, CLASSES
 from hri.speech.recognizers.ctc.confidence import FLOOR
 from hri.speech.recognizers.ctc.conformer import FRAME
 from hri.speech.recognizers.ctc.lattice import Walk
 from hri.speech.recognizers.ctc.phone_graph import Floats, Indices, Pronouncing, compile
-from hri.speech.recognizers.ctc.search import BLANK, Search
+from hri.speech.recognizers.ctc.search import Search
 from hri.speech.synthesizers.espeak_text import MNEMONICS
 
 DELAYS = {

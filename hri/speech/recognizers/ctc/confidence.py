@@ -16,6 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.speech.grammar.words import ANY
+from hri.speech.recognizers.ctc.classes import BLANK
 from hri.speech.recognizers.ctc.lattice import Path
 from hri.speech.recognizers.ctc.phone_graph import Floats
 
@@ -23,19 +25,22 @@ FLOOR, BLANK_BIAS = -7.0, -2.0
 """Natural logs: of what is added to each probability, so that one phone that is wrong, missing or
 too much costs no more than about that; and what is added to the log of blanks, of which the network
 gives too many as soon as there is noise."""
+FREE_COST = -1.0
+"""Natural log: what a phone of free words costs, in each of its frames."""
 LONG = 16
 """Phones."""
 
 
 def scores_of(log_probabilities: Floats) -> Floats:
-    """What the search adds up: [frames, classes] of the network with floor and bias.
+    """What the search adds up: [frames, classes] of the network with floor and bias, and FREE.
 
     The likeliest class of each frame has 0, so that the score of a path is its cost, negative.
     """
     scores: Floats = np.logaddexp(log_probabilities, np.float32(FLOOR))
     scores[:, 0] += BLANK_BIAS
     scores -= scores.max(axis=1, keepdims=True)
-    return scores
+    free = np.maximum(scores[:, 0], np.float32(FREE_COST))
+    return np.column_stack([scores, free])
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +90,37 @@ def fit_of(path: Path, rival: float, scores: Floats, phones: NDArray[np.integer]
         length=math.log(telling),
         pace=(sounding[-1] + 1 - sounding[0]) / count,
     )
+
+
+def nearness(path: Path, scores: Floats, phones: NDArray[np.integer]) -> float:
+    """How near the words of a path that are listed come to the likeliest phones, wherever they
+    stand: natural log, the mean of their phones; 0 at most.
+
+    Beside them other words were said, so neither the whole piece nor its length says anything.
+    """
+    cost, count = 0.0, 0
+    for word, span in zip(path.words, path.spans, strict=True):
+        before = None
+        for frame, state in enumerate(span.states, span.start):
+            if word != ANY:
+                cost += float(scores[frame, phones[state] if state >= 0 else BLANK])
+                count += state >= 0 and state != before
+            before = state
+    return cost / max(count, 1)
+
+
+AMONG_OTHERS = (4.8, 5.0)
+"""Weights of 1 and of the nearness in the log odds that a phrase was said among other words.
+
+Logistic regression over 22 phrases of two to four words, each in three sentences, and 40 other
+sentences of which 15 hold something that sounds like one, by the voices heart and en-us, clean and
+at 12 dB of babble: at 0.5 it takes 256 of 264, and of the others none but 13 of those 15 x 4.
+"""
+
+
+def confidence_among_others(nearness: float) -> float:
+    """0 to 1: the chance that a phrase was said among words that nobody listed."""
+    return 1.0 / (1.0 + math.exp(-float(np.dot(AMONG_OTHERS, (1.0, nearness)))))
 
 
 IN_QUIET = (4.40, 1.75, 0.50, 0.40, 0.00)

@@ -10,11 +10,14 @@ import numpy as np
 
 from hri.core.signals import Samples
 from hri.hal.recognizer import Alternative, Grammar, HeardWord, Hypothesis, Segment
+from hri.speech.grammar.words import ANY, listed
 from hri.speech.hearing import SILENT_AFTER
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.confidence import (
     confidence,
+    confidence_among_others,
     fit_of,
+    nearness,
     scores_of,
     shares,
 )
@@ -22,7 +25,7 @@ from hri.speech.recognizers.ctc.conformer import FRAME, load_network
 from hri.speech.recognizers.ctc.habits import Habits
 from hri.speech.recognizers.ctc.lattice import Path
 from hri.speech.recognizers.ctc.loudness import noise_of, sounding
-from hri.speech.recognizers.ctc.phone_graph import Floats, compile
+from hri.speech.recognizers.ctc.phone_graph import Floats, Indices, compile
 from hri.speech.recognizers.ctc.posterior_stream import PosteriorStream
 from hri.speech.recognizers.ctc.ranking import ranked
 from hri.speech.recognizers.ctc.rivals import Rivals
@@ -97,12 +100,12 @@ class CtcRecognizer(EndpointedRecognizer):
             if self._search is None or segment.samples is None:
                 return ""
             if segment.quiet >= SILENT_AFTER:
-                return self._whole(segment, segment.samples, active, self._search).text
+                return listed(self._whole(segment, segment.samples, active, self._search).text)
             progress = self._progress_of(segment, active, self._search)
             new = segment.samples[progress.taken :]
             progress.taken += len(new)
             progress.search.advance(scores_of(progress.stream.push(new)))
-            return " ".join(progress.search.partial())
+            return listed(" ".join(progress.search.partial()))
 
     def _progress_of(
         self, segment: Segment, rules: frozenset[str] | None, search: Search
@@ -162,17 +165,23 @@ def decoded(
     if not found:
         return Hypothesis("", 0.0)
     best = found[0].path
-    fit = fit_of(best, rivals.score(scores, best.words), scores, search.graph.phones)
     chances = shares([candidate.score for candidate in found])
     return Hypothesis(
         text=" ".join(best.words),
-        confidence=confidence(fit, noise),
+        confidence=_confidence(best, scores, search.graph.phones, rivals, noise),
         words=_times(best),
         alternatives=tuple(
             Alternative(" ".join(candidate.path.words), float(chance))
             for candidate, chance in zip(found[1:], chances[1:], strict=True)
         ),
     )
+
+
+def _confidence(best: Path, scores: Floats, phones: Indices, rivals: Rivals, noise: float) -> float:
+    if ANY in best.words:
+        return confidence_among_others(nearness(best, scores, phones))
+    fit = fit_of(best, rivals.score(scores, best.words), scores, phones)
+    return confidence(fit, noise)
 
 
 def later(hypothesis: Hypothesis, seconds: float) -> Hypothesis:
@@ -185,9 +194,11 @@ def later(hypothesis: Hypothesis, seconds: float) -> Hypothesis:
 
 
 def _times(path: Path) -> tuple[HeardWord, ...]:
-    """The words with the times of their phones; pauses belong to none."""
+    """The words with the times of their phones; pauses and free words belong to none."""
     heard = []
     for word, span in zip(path.words, path.spans, strict=True):
+        if word == ANY:
+            continue
         sounding = [index for index, state in enumerate(span.states) if state >= 0]
         start, end = span.start + sounding[0], span.start + sounding[-1] + 1
         heard.append(HeardWord(word, round(start * FRAME, 3), round(end * FRAME, 3)))

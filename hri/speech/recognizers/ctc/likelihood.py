@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.hal.word_graph import WordGraph
+from hri.speech.recognizers.ctc.classes import BLANK
 from hri.speech.recognizers.ctc.phone_graph import Floats, PhoneGraph, Pronouncing, compile
-from hri.speech.recognizers.ctc.search import BLANK
 
 Doubles = NDArray[np.float64]
 

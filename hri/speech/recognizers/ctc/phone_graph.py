@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from hri.core.errors import HriError
 from hri.hal.word_graph import WordGraph
-from hri.speech.recognizers.ctc.classes import CLASSES
+from hri.speech.grammar.words import ANY
+from hri.speech.recognizers.ctc.classes import CLASSES, FREE
 
 Indices = NDArray[np.intp]
 Floats = NDArray[np.float32]
@@ -48,7 +49,7 @@ class PhoneGraph:
     words: tuple[str, ...]
     size: int
     phones: Indices
-    """[states] class of the network."""
+    """[states] class of the network, or FREE."""
     parents: Indices
     """[states]"""
     doubled: Indices
@@ -186,14 +187,20 @@ def _grow(
         if label < 0:
             continue
         if label not in sounds:
-            said = lexicon.pronunciations(graph.words[label])
-            sounds[label] = [[_CLASS_OF[phone] for phone in phones] for phones in said]
+            sounds[label] = _sounds_of(graph.words[label], lexicon)
         for phones in sounds[label]:
             state = forest.grow(place_of[source], phones)
             exits.append((group_of[target], state, label, weight))
         if len(exits) > MOST_STATES or len(forest.phones) > MOST_STATES:
             raise _too_large()
     return exits
+
+
+def _sounds_of(word: str, lexicon: Pronouncing) -> list[list[int]]:
+    """The classes of each pronunciation of a word, or of free words."""
+    if word == ANY:
+        return [[FREE]]
+    return [[_CLASS_OF[phone] for phone in phones] for phones in lexicon.pronunciations(word)]
 
 
 def _reach(graph: WordGraph, wanted: set[int]) -> dict[int, dict[int, float]]:

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.speech.recognizers.ctc.classes import BLANK
 from hri.speech.recognizers.ctc.lattice import Path, Walk
 from hri.speech.recognizers.ctc.likelihood import likelihoods
 from hri.speech.recognizers.ctc.phone_graph import Floats, Pronouncing
-from hri.speech.recognizers.ctc.search import BLANK, Search
+from hri.speech.recognizers.ctc.search import Search
 
 MOST_REPORTED = 8
 """Sentences that are reported: the best and its alternatives."""

@@ -12,11 +12,9 @@ from collections.abc import Collection
 
 import numpy as np
 
+from hri.speech.recognizers.ctc.classes import BLANK
 from hri.speech.recognizers.ctc.lattice import Trellis, Walk
 from hri.speech.recognizers.ctc.phone_graph import NOWHERE, Floats, PhoneGraph
-
-BLANK = 0
-"""Class of the blank."""
 
 
 class Search:
