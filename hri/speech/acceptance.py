@@ -52,7 +52,7 @@ def judge(
     """
     rules = frozenset(grammar.public_rules) if turn is None else turn.rules(grammar)
     turn = turn or Turn()
-    found = _parse_of(grammar, hypothesis.text, rules)
+    found = _parse_of(grammar, hypothesis.text, rules, turn)
     doubts = _doubts(grammar, found, hypothesis.alternatives)
     doubt = min(1.0, sum(alternative.share for alternative in doubts))
     confidence = hypothesis.confidence * (1.0 - doubt)
@@ -133,9 +133,13 @@ def needed(
     return strictness + (CAREFUL * (1.0 - strictness) if is_careful else 0.0)
 
 
-def _parse_of(grammar: Grammar, text: str, rules: Collection[str]) -> Parse | None:
-    """What a text means, by a rule that counts where there is one."""
-    return parse(grammar, text, rules) or parse(grammar, text)
+def _parse_of(grammar: Grammar, text: str, rules: Collection[str], turn: Turn) -> Parse | None:
+    """What a text means, by a rule that counts where there is one; to an open question "go ahead"
+    is an answer and not an order.
+    """
+    answers = grammar.marked("answer") if turn.is_question_open else frozenset()
+    answer = parse(grammar, text, answers) if answers else None
+    return answer or parse(grammar, text, rules) or parse(grammar, text)
 
 
 def _doubts(

@@ -70,13 +70,15 @@ def _tried(grammar: Grammar) -> Iterator[str]:
 def ambiguity(grammar: Grammar, sentence: str) -> Ambiguity | None:
     """The two meanings of a sentence, if it has two.
 
-    Two rules with the mark "part" are not heard side by side, so one sentence may be of both.
+    Two rules with the mark "part" are not heard side by side, so one sentence may be of both. It
+    may also be of an answer, which it is while a question is open, and of another rule.
     """
     readings = parses(grammar, sentence)
-    parts = grammar.marked("part")
+    parts, answers = grammar.marked("part"), grammar.marked("answer")
     for other in readings[1:]:
         first = readings[0]
-        are_apart = first.rule != other.rule and parts.issuperset((first.rule, other.rule))
+        rules = {first.rule, other.rule}
+        are_apart = len(rules) == 2 and (rules <= parts or len(rules & answers) == 1)
         if not are_apart and not other.means_the_same(first):
             return Ambiguity(sentence, first, other)
     return None
