@@ -179,7 +179,7 @@ def decoded(
 
 def _confidence(best: Path, scores: Floats, phones: Indices, rivals: Rivals, noise: float) -> float:
     if ANY in best.words:
-        return confidence_among_others(nearness(best, scores, phones))
+        return confidence_among_others(nearness(best, scores, phones), noise)
     fit = fit_of(best, rivals.score(scores, best.words), scores, phones)
     return confidence(fit, noise)
 
