@@ -8,8 +8,17 @@ foreign speech and the babble come from recordings of people.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
-from benchmarks.speech import accuracy, alignment, barge_in, feelings, heard_back, peers
+from benchmarks.speech import (
+    accuracy,
+    alignment,
+    barge_in,
+    feelings,
+    heard_back,
+    peers,
+    phrases,
+)
 from hri.bench.speech.latency import Progress
 from hri.bench.speech.listening import Listen
 from hri.bench.speech.samples import Recordings
@@ -21,6 +30,7 @@ def rows(
 ) -> Iterator[Row]:
     """What `hri bench speech` measures in a checkout beside its own."""
     yield from accuracy.rows(people, hear, step, progress, draw)
+    yield from attempted(phrases.WHAT, partial(phrases.rows, people, hear, step, progress))
     yield from peers.rows(people, hear, step, progress)
     progress("feelings in the voice")
     yield from attempted(feelings.WHAT, feelings.rows)
