@@ -13,7 +13,7 @@ from pathlib import Path
 from hri.core.errors import AuthoringError, HriError, Mistakes, did_you_mean
 from hri.core.event_bus import OWN_SUBJECTS
 from hri.core.toml import Table, load_toml
-from hri.robot.app import GRAMMAR, App
+from hri.robot.app import GRAMMARS, App
 from hri.speech.grammar import Grammar
 from hri.speech.grammar.giving import sure_tags
 from hri.task.task import TaskType
@@ -132,8 +132,8 @@ def _read(table: Table, vocabulary: Vocabulary, mistakes: Mistakes, is_own: bool
             replies[rule] = mistakes.keep(partial(_reply, rule, entry, vocabulary)) or Reply()
         elif is_own:
             mend = "delete this table, or fix the grammar"
-            if vocabulary.app.base is not None and not vocabulary.app.files(GRAMMAR):
-                mend = f"add the rule to a {GRAMMAR} in {vocabulary.app.folder}"
+            if vocabulary.app.base is not None and vocabulary.app.grammar() is None:
+                mend = f"add the rule to a {GRAMMARS[0]} in {vocabulary.app.folder}"
             remedy = did_you_mean(rule, missing, mend)
             mistakes.add(entry.error(None, f'the grammar has no rule "{rule}"', remedy))
     unasked = mistakes.keep(lambda: _unasked(table.table("unasked", optional=True))) or {}

@@ -13,8 +13,9 @@ from hri.core.errors import HriError, did_you_mean
 
 VARIABLES = ("HRI_PATH", "EVOLUTION_CONFIG_PATH")
 
-SUFFIXES = {"grammars": ".jsgf", "config": ".xml"}
-"""What a name without a suffix gets, by kind; else ".toml"."""
+SUFFIXES = {"grammars": (".jsgf", ".gram"), "config": (".xml",)}
+"""What a name without a suffix gets, the first that is there, by kind; else ".toml". Sphinx and
+Java name their JSGF files ".gram"."""
 MARKS = {"apps": "app.toml", "faces": "face.toml"}
 """By kind of which each one is a folder, the file that such a folder has."""
 FOLDERS = tuple(MARKS)
@@ -71,21 +72,26 @@ def find(kind: str, name: str) -> Path:
         raise HriError(f'"{name[:60]}" is not a valid file name - shorten or fix it') from error
     if is_there and (os.sep in name or direct.suffix or name in (os.curdir, os.pardir)):
         return direct
-    spelled = name if kind in FOLDERS else name + SUFFIXES.get(kind, ".toml")
+    spelled = [name] if kind in FOLDERS else [name + suffix for suffix in suffixes(kind)]
     for folder in search_folders():
         for candidate in (
-            below / spelling for below in (folder / kind, folder) for spelling in (name, spelled)
+            below / spelling for below in (folder / kind, folder) for spelling in (name, *spelled)
         ):
             if exists(candidate) and candidate != folder:
                 return candidate
-    beside = expanded(spelled)
-    if exists(beside) and beside.is_dir() == (kind in FOLDERS):
-        return beside
+    for beside in map(expanded, spelled):
+        if exists(beside) and beside.is_dir() == (kind in FOLDERS):
+            return beside
     is_below = os.sep in name and direct.parent.is_dir()
     has_form_of_path = name.startswith((".", os.sep, "~")) or name.endswith(os.sep)
     if has_form_of_path or (is_below and direct.suffix):
         raise HriError(f"{name}: no such file or folder - check the path")
     raise HriError(f'no "{name}" in {kind} - {_meant(kind, name)}')
+
+
+def suffixes(kind: str) -> tuple[str, ...]:
+    """The suffixes of the files of a kind."""
+    return SUFFIXES.get(kind, (".toml",))
 
 
 def _meant(kind: str, name: str) -> str:
@@ -95,13 +101,13 @@ def _meant(kind: str, name: str) -> str:
         return did_you_mean(
             Path(name).stem, [*here, *(n for n in names(kind) if not Path(n).suffix)]
         )
-    suffix = SUFFIXES.get(kind, ".toml")
     # Lists of names beside grammars are not grammars.
-    fitting = [n for n in names(kind) if kind not in SUFFIXES or Path(n).suffix in ("", suffix)]
+    own = ("", *suffixes(kind))
+    fitting = [n for n in names(kind) if kind not in SUFFIXES or Path(n).suffix in own]
     known = {Path(n).stem: Path(n).stem for n in fitting}
     for below in [found for found in names(kind) if not Path(found).suffix]:
         for found in names(f"{kind}/{below}"):
-            if found.endswith(suffix):
+            if found.endswith(suffixes(kind)):
                 known.setdefault(Path(found).stem, f"{below}/{Path(found).stem}")
     near = difflib.get_close_matches(Path(name).stem, known, n=1)
     if near:

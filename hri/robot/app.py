@@ -33,7 +33,8 @@ from hri.task.context import TaskContext
 from hri.task.task import TaskType, find_task
 from hri.task.task_run import Job
 
-GRAMMAR = "grammar.jsgf"
+GRAMMARS = tuple(f"grammar{suffix}" for suffix in paths.suffixes("grammars"))
+"""Names that its grammar may have; the first that is there counts."""
 NETWORK = ".xml"
 SLOT = "app"
 """Slot of the board with the app that runs."""
@@ -88,13 +89,18 @@ class App:
         found = [app.folder / name for app in self.line() if paths.is_file(app.folder / name)]
         return found[::-1]
 
+    def grammar(self) -> Path | None:
+        """Its own grammar, or that of the nearest app in its line that has one."""
+        places = (app.folder / name for app in self.line() for name in GRAMMARS)
+        return next(filter(paths.is_file, places), None)
+
     def load_networks(self) -> list[Network]:
         """The networks, checked and in dependency order."""
         networks = [load_network(path) for path in self.networks]
-        if grammars := self.files(GRAMMAR):
+        if (grammar := self.grammar()) is not None:
             for behavior in (one for network in networks for one in network.behaviors):
                 if isinstance(behavior, Listener):
-                    behavior.set_parameter("grammar", str(grammars[-1]))
+                    behavior.set_parameter("grammar", str(grammar))
         return networks
 
     def load_tasks(self) -> list[Job]:

@@ -17,7 +17,7 @@ CODE = Path(__file__).parents[1]
 """The folder of hri itself: between two versions, it changes as well."""
 KINDS = ("apps", "config", "emotions", "faces", "grammars")
 """What is looked for in the search folders."""
-AUTHORED = frozenset((".color", ".jsgf", ".mdl", ".py", ".svg", ".toml", ".txt", ".xml"))
+AUTHORED = frozenset((".color", ".gram", ".jsgf", ".mdl", ".py", ".svg", ".toml", ".txt", ".xml"))
 """Suffixes of the files that count in a folder."""
 PASSED_OVER = ("node_modules", "recordings")
 """Folders that do not, besides those whose names begin with a point or a line."""

@@ -90,6 +90,12 @@ def test_a_list_of_words_is_an_argument(put):
     assert said(events) == ["ham and corn"]
 
 
+def test_its_grammar_may_have_the_suffix_of_sphinx(put):
+    files = {name.replace(".jsgf", ".gram"): text for name, text in JOKE.items()}
+    robot = robot_of(put(files))
+    assert said(live(robot, 4, {1.0: "tell me a joke"})) == ["What is brown and sticky? A stick."]
+
+
 def test_an_action_is_a_task_of_an_entry_point(put):
     replies = '[reply.joke]\naction = "Hri.SpeakNow"\n'
     with pytest.raises(AuthoringError, match=r'replies.toml:2:1: unknown task "Hri.SpeakNow" - '):

@@ -27,6 +27,18 @@ def test_a_missing_thing_says_what_is_near():
         paths.find("grammars", "companoin.jsgf")
 
 
+def test_a_grammar_of_sphinx_is_found_by_its_name(tmp_path, monkeypatch):
+    (tmp_path / "grammars").mkdir()
+    (tmp_path / "grammars" / "lamp.gram").write_text("")
+    (tmp_path / "here.gram").write_text("")
+    monkeypatch.setenv("HRI_PATH", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    assert paths.find("grammars", "lamp").name == "lamp.gram"
+    assert paths.find("grammars", "here").name == "here.gram"
+    with pytest.raises(HriError, match='did you mean "lamp"'):
+        paths.find("grammars", "lamb")
+
+
 @pytest.mark.parametrize("name", ["wander.xml", "networks/wandr", "other/wnder"])
 def test_a_missing_thing_may_be_in_a_folder_of_its_kind(name):
     with pytest.raises(HriError, match=r'did you mean "networks/wander"'):

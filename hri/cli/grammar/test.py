@@ -94,16 +94,16 @@ def _grammar_of(path: Path, named: str) -> Path:
     """The named grammar, beside the file or in grammars/; by default the one with the file's
     name.
     """
+    suffixes = paths.suffixes("grammars")
     if not named:
-        beside = path.with_suffix(".jsgf")
-        if not beside.is_file():
-            remedy = f"add --grammar NAME, or put {beside.name} beside it"
+        beside = [path.with_suffix(suffix) for suffix in suffixes]
+        found = next(filter(paths.is_file, beside), None)
+        if found is None:
+            remedy = f"add --grammar NAME, or put {beside[0].name} beside it"
             raise HriError(f"{path}: which grammar is this for? - {remedy}")
-        return beside
-    for beside in (path.parent / named, path.parent / f"{named}.jsgf"):
-        if beside.is_file():
-            return beside
-    return paths.find("grammars", named)
+        return found
+    spelled = [path.parent / f"{named}{suffix}" for suffix in ("", *suffixes)]
+    return next(filter(paths.is_file, spelled), None) or paths.find("grammars", named)
 
 
 def _as_json(path: Path, count: int, failed: list[Failure]) -> dict[str, object]:

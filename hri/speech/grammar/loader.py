@@ -1,8 +1,9 @@
 """Reads a grammar file and all it imports, and finds the rule behind every name.
 
 A grammar `com.acme.colors` is looked for as `colors.jsgf` and as `com/acme/colors.jsgf`: beside
-the file that imports it, then in the folders above it as far as its own package goes, then in
-`grammars/` of the folders of HRI_PATH and among the built-in ones.
+the file that imports it, in the folders above it as far as its own package goes, beside the main
+file, where PocketSphinx and Sphinx-4 begin for all files, in `grammars/` of the folders of HRI_PATH
+and among the built-in ones. The suffix may be `.gram`, as theirs is, or that of the importing file.
 
 A grammar with `/** @extends companion */` before its `grammar` understands the commands of that one
 as well. Its rule hides one of the same name there, and may still call it as
@@ -37,6 +38,7 @@ from hri.speech.grammar.jsgf import Document, Import, NameListImport, read_jsgf
 from hri.speech.grammar.name_lists import read_names
 from hri.speech.grammar.rules import Rule
 
+SUFFIXES = paths.suffixes("grammars")
 MOST_FILES = 100
 """Files that one grammar may import, directly or not."""
 
@@ -141,8 +143,11 @@ class _Loader:
         self._pending: list[_File] = []
         self._taken: set[str] = set()
         """Names that stand for a rule without a prefix."""
+        self._root = Path()
+        """The folder of the main file."""
 
     def load(self, path: Path) -> tuple[Grammar, list[AuthoringError]]:
+        self._root = path.parent
         main = self._read(path, prefix="", is_heard=True)
         self._extend(main, (main,))
         while self._pending:
@@ -214,7 +219,8 @@ class _Loader:
 
     def _miss(self, file: _File, grammar: str, span: SourceSpan) -> None:
         near = did_you_mean(grammar, _grammars_near(file), "")
-        where = f"put {grammar.rpartition('.')[2]}.jsgf into the same folder"
+        suffix = file.document.path.suffix or SUFFIXES[0]
+        where = f"put {grammar.rpartition('.')[2]}{suffix} into the same folder"
         remedy = near if near.startswith("did you mean") else where
         self._report(file, span, f'no grammar "{grammar}"', remedy)
         file.lost.append(grammar)
@@ -231,7 +237,7 @@ class _Loader:
 
     def _open(self, file: _File, grammar: str, is_heard: bool = False) -> _File | None:
         """The file of a grammar, read when it is a new one; None when there is none."""
-        path = _find_grammar(file.document, grammar)
+        path = _find_grammar(file.document, grammar, self._root)
         if path is None:
             return None
         known = self._files.get(path.resolve())
@@ -347,18 +353,24 @@ def _not_public(other: _File, grammar: str, name: str) -> tuple[str, str]:
     return f'"{grammar}" has no public rule <{name}>', did_you_mean(name, other.public_names())
 
 
-def _find_grammar(importer: Document, grammar: str) -> Path | None:
-    """The file of a grammar that another one names."""
-    inside = Path(*grammar.split("."))
-    inside = inside.with_name(f"{inside.name}.jsgf")
-    beside = importer.path.parent / inside.name
-    if paths.is_file(beside):
-        return beside
+def _find_grammar(importer: Document, grammar: str, root: Path) -> Path | None:
+    """The file of a grammar that another one names; `root` is the folder of the main file."""
     levels = importer.name.count(".") + 1
-    for folder in list(importer.path.resolve().parents)[:levels]:
-        if paths.is_file(folder / inside):
-            return folder / inside
-    return next(_places_of(importer.path, str(inside)), None)
+    folders = [*list(importer.path.resolve().parents)[:levels], root]
+    inside = Path(*grammar.split("."))
+    spelled = [inside.with_name(inside.name + suffix) for suffix in _suffixes(importer.path)]
+    places = (
+        *(importer.path.parent / file.name for file in spelled),
+        *(folder / file for folder in folders for file in spelled),
+        *(place for file in spelled for place in _places_of(importer.path, str(file))),
+    )
+    return next(filter(paths.is_file, places), None)
+
+
+def _suffixes(importer: Path) -> tuple[str, ...]:
+    """Those of grammars that a file may import, the likeliest first: its own, if it is usual."""
+    own = importer.suffix
+    return (*sorted(SUFFIXES, key=lambda suffix: suffix != own), own)
 
 
 def _places_of(importer: Path, file: str) -> Iterator[Path]:
@@ -396,5 +408,7 @@ def _leads_out(folder: Path, file: str) -> bool:
 
 def _grammars_near(file: _File) -> list[str]:
     """Names of the grammars that could be meant."""
-    beside = [entry.stem for entry in sorted(file.document.path.parent.glob("*.jsgf"))[:100]]
+    known = set(_suffixes(file.document.path))
+    folder = sorted(file.document.path.parent.glob("*"))
+    beside = [entry.stem for entry in folder if entry.suffix in known][:100]
     return beside + [Path(name).stem for name in paths.names("grammars")]

@@ -20,7 +20,8 @@ def offers() -> dict[str, str]:
     offer nothing.
     """
     offered: dict[str, str] = {}
-    files = [name for name in paths.names("grammars") if name.endswith(".jsgf")]
+    suffixes = paths.suffixes("grammars")
+    files = [name for name in paths.names("grammars") if name.endswith(suffixes)]
     for file in files[:MOST_FILES]:
         with suppress(HriError):
             path = paths.find("grammars", file)

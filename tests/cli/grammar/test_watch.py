@@ -65,6 +65,15 @@ def test_all_mistakes_of_sentences_and_of_the_grammar_are_told(put, capsys):
     assert "my.jsgf:5:14: no rule <d>" in told
 
 
+def test_sentences_are_for_the_grammar_beside_them_whatever_its_suffix(put, capsys):
+    put("my.gram", GOOD)
+    put("my.txt", "+ switch on the light\n")
+    put("named.txt", "grammar my\n+ switch on the light\n")
+    assert main(["grammar", "test", "my.txt", "named.txt"]) == 0
+    assert capsys.readouterr().out.count("1 of 1 sentences as expected") == 2
+    assert main(["grammar", "check", "my"]) == 0
+
+
 def test_a_wrong_file_does_not_keep_others_from_being_tried(put, capsys):
     put("my.jsgf", GOOD)
     put("my.txt", "+ switch on the light\n")

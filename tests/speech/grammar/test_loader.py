@@ -15,7 +15,8 @@ def put(tmp_path):
     def put(file: str, rules: str, name: str | None = None):
         path = tmp_path / file
         path.parent.mkdir(parents=True, exist_ok=True)
-        head = f"#JSGF V1.0;\ngrammar {name or path.stem};\n" if path.suffix == ".jsgf" else ""
+        is_list = path.suffix == ".txt"
+        head = "" if is_list else f"#JSGF V1.0;\ngrammar {name or path.stem};\n"
         path.write_text(head + rules, encoding="utf-8")
         return path
 
@@ -42,6 +43,56 @@ def test_imports_are_found_by_package(put, tmp_path, monkeypatch, main, other):
     path = put(main, "import <com.acme.colors.red>;\npublic <a> = <red>;", "com.acme.apps.a")
 
     assert parse(load_grammar(path), "red").rule == "a"
+
+
+@pytest.mark.parametrize(
+    ("main", "other", "grammar"),
+    [
+        ("main.gram", "polite.gram", "polite"),
+        ("main.jsgf", "polite.gram", "polite"),
+        ("main.gram", "polite.jsgf", "polite"),
+        ("main.grm", "polite.grm", "polite"),
+        ("main", "polite", "polite"),
+        ("main.gram", "polite.gram", "com.acme.polite"),
+        ("main.gram", "com/acme/polite.gram", "com.acme.polite"),
+        ("main.gram", "path/com/acme/polite.gram", "com.acme.polite"),
+        ("main.gram", "path/grammars/polite.gram", "polite"),
+    ],
+)
+def test_imports_are_found_whatever_their_suffix(put, tmp_path, monkeypatch, main, other, grammar):
+    monkeypatch.setenv("HRI_PATH", str(tmp_path / "path"))
+    put(other, "public <p> = please;", grammar)
+    path = put(main, f"import <{grammar}.p>;\npublic <c> = <p> open the door;")
+
+    assert parse(load_grammar(path), "please open the door").rule == "c"
+
+
+def test_of_two_suffixes_that_of_the_importing_file_counts(put):
+    put("polite.gram", "public <p> = please;")
+    put("polite.jsgf", "public <p> = kindly;")
+    rules = "import <polite.p>;\npublic <c> = <p> go;"
+
+    assert parse(load_grammar(put("main.gram", rules)), "please go")
+    assert parse(load_grammar(put("main.jsgf", rules)), "kindly go")
+
+
+def test_packages_begin_at_the_main_file_as_for_sphinx(put):
+    """An imported file need not say its own package."""
+    put("com/acme/words.gram", "public <red> = red;")
+    put("com/other/things.gram", "import <com.acme.words.red>;\npublic <thing> = <red> ball;")
+    path = put("main.gram", "import <com.other.things.thing>;\npublic <c> = get the <thing>;")
+
+    assert parse(load_grammar(path), "get the red ball").rule == "c"
+
+
+@pytest.mark.parametrize("suffix", [".gram", ".jsgf", ".grm"])
+def test_a_missing_import_is_named_as_its_file_would_be(put, suffix):
+    path = put(f"main{suffix}", "import <polite.p>;\npublic <c> = <p> go;")
+    with pytest.raises(HriError, match=f'no grammar "polite" - put polite{suffix} into the same'):
+        load_grammar(path)
+    put(f"politte{suffix}", "public <p> = please;")
+    with pytest.raises(HriError, match='no grammar "polite" - did you mean "politte"'):
+        load_grammar(path)
 
 
 @pytest.mark.parametrize("name", ["red", "colors.red", "com.acme.colors.red"])
