@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from hri.core.errors import HriError, Place
-from hri.speech.grammar.loader import read_source
+from hri.speech.grammar.encoding import read_source
 
 WIDEST = 100
 """Most characters of a line to show."""
@@ -23,7 +23,7 @@ class Excerpts:
         """Two indented lines: the file's and the caret; empty without a line."""
         if place.path not in self._lines:
             try:
-                self._lines[place.path] = read_source(place.path).split("\n")
+                self._lines[place.path] = read_source(place.path).text.split("\n")
             except HriError:
                 self._lines[place.path] = ()
         lines = self._lines[place.path]

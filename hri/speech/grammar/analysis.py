@@ -92,6 +92,12 @@ def heights(grammar: Rules) -> dict[str, float]:
     )
 
 
+def switched_off(grammar: Rules) -> frozenset[str]:
+    """Keys of the rules that are `<VOID>`, or lead only to such: nobody can say them."""
+    known = settled(grammar, 0.0, lambda rule, known: Height(known)(rule.expression))
+    return frozenset(key for key, least in known.items() if math.isinf(least))
+
+
 class Silence(Fold[bool]):
     """Whether a node can be passed without a word."""
 
@@ -294,8 +300,9 @@ def _never_set(grammar: Rules) -> Iterator[AuthoringError]:
 
 
 def _never_said(grammar: Rules) -> Iterator[AuthoringError]:
+    """Recursion without an end. A rule that is switched off is fine, for that is what is meant."""
     for key, rule in grammar.rules.items():
-        if math.isinf(grammar.made(heights)[key]):
+        if math.isinf(grammar.made(heights)[key]) and key not in grammar.made(switched_off):
             what = f"<{key}> can never be said to its end"
             yield AuthoringError(rule.place(), what, "give it an alternative of words only")
 
@@ -309,10 +316,13 @@ def _without_public(grammar: Rules) -> Iterator[AuthoringError]:
 
 def _without_words(grammar: Rules) -> Iterator[AuthoringError]:
     keys = reachable(grammar.rules, grammar.public_rules)
+    place = grammar.rules[grammar.public_rules[0]].place()
     if not any(isinstance(node, Token) for key in keys for node in grammar.rules[key].nodes):
-        place = grammar.rules[grammar.public_rules[0]].place()
         what = "the public rules hold no word"
         yield AuthoringError(place, what, "write the words of a command")
+    elif grammar.made(switched_off).issuperset(grammar.public_rules):
+        what = "the commands can never be said, for <VOID> or a weight of 0 stands in each"
+        yield AuthoringError(place, what, "write words instead")
 
 
 def _too_free(grammar: Rules) -> Iterator[AuthoringError]:

@@ -33,8 +33,10 @@ from hri.speech.grammar.expressions import (
     Token,
     depth,
 )
+from hri.speech.grammar.formats import format_of
+from hri.speech.grammar.header import read_header
 from hri.speech.grammar.lexemes import MOST_LEXEMES, TOO_MUCH, Lexeme, Lines, split
-from hri.speech.grammar.tags import TagError, read_entries
+from hri.speech.grammar.tags import TagError, opaque, read_entries
 from hri.speech.grammar.words import normalize
 
 EXTENDS = "extends"
@@ -46,9 +48,6 @@ DEEPEST_TREE = 120
 MOST_ERRORS = 100
 """Most mistakes reported for one file."""
 
-_HEADER = re.compile(
-    r"#JSGF[ \t]+V1\.0(?:[ \t]+(?P<encoding>[\w.:-]+))?(?:[ \t]+(?P<locale>[\w-]+))?[ \t]*;"
-)
 _WEIGHT = re.compile(r"/\s*([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?[fF]?\s*/")
 _PART = r"""[^\s.<>{}"*+|;=/\\()\[\]]+"""
 _GRAMMAR_NAME = re.compile(rf"{_PART}(\.{_PART})*")
@@ -123,11 +122,21 @@ class Document:
     broken: set[str] = field(default_factory=set)
     """Names of rules that could not be read; the mistakes in them are told."""
     errors: list[AuthoringError] = field(default_factory=list)
+    warnings: list[AuthoringError] = field(default_factory=list)
+    """What is odd but costs no rule; one of a kind, with how many more there are."""
 
 
 def read_jsgf(text: str, path: Path) -> Document:
     """The rules of a grammar's text; mistakes are collected in `errors`, none is raised."""
     return _JsgfReader(text, path).read()
+
+
+def _with_number(odd: list[AuthoringError]) -> AuthoringError:
+    """The first, with how many more there are."""
+    first, *more = odd
+    if not more:
+        return first
+    return AuthoringError(first.place, f"{first.what} (and {len(more)} more)", first.remedy)
 
 
 class _Mistake(Exception):
@@ -141,6 +150,8 @@ class _JsgfReader:
         self._lines = Lines(text)
         self._position = 0
         self._brackets = 0
+        self._odd: dict[str, list[AuthoringError]] = {}
+        """What is odd, by its kind."""
 
     # Places and mistakes
 
@@ -154,6 +165,11 @@ class _JsgfReader:
         place = Place(self.document.path, *self._lines.place(offset))
         self.document.errors.append(AuthoringError(place, what, remedy))
         return _Mistake()
+
+    def _remark(self, kind: str, offset: int, what: str, remedy: str) -> None:
+        """Something that may be meant otherwise; the first of its kind is told."""
+        place = Place(self.document.path, *self._lines.place(offset))
+        self._odd.setdefault(kind, []).append(AuthoringError(place, what, remedy))
 
     def _unexpected(self, expected: str, remedy: str) -> _Mistake:
         lexeme = self._next
@@ -198,7 +214,10 @@ class _JsgfReader:
     # The grammar of grammars
 
     def read(self) -> Document:
-        self._lexemes, comments = split(self.text, self._header())
+        begin = self._header()
+        if begin is None:
+            return self.document
+        self._lexemes, comments = split(self.text, begin)
         self._last = len(self._lexemes) - 1
         self._docs = dict(self._doc_comments(comments))
         self._attempt(self._name)
@@ -210,6 +229,7 @@ class _JsgfReader:
             what = f"more than {MOST_LEXEMES} words and signs"
             self._report(self._next.start, what, "split the grammar, or import a list of names")
         self.document.errors.sort(key=lambda error: (error.place.line, error.place.column))
+        self.document.warnings = [_with_number(odd) for odd in self._odd.values()]
         return self.document
 
     def _attempt(self, read: Callable[[], None]) -> None:
@@ -235,14 +255,16 @@ class _JsgfReader:
                 behind = starts[bisect_left(starts, comment.end)]
                 yield behind, read_doc_comment(comment.text, comment.start, self._lines)
 
-    def _header(self) -> int:
-        """Read the first line; the offset behind it."""
+    def _header(self) -> int | None:
+        """Read the first line; the offset behind it, None in a file of another format."""
+        header = read_header(self.text)
+        if header is not None:
+            self.document.encoding, self.document.locale = header.encoding, header.locale
+            return header.end
         start = len(self.text) - len(self.text.lstrip("\ufeff \t\r\n"))
-        match = _HEADER.match(self.text, start)
-        if match is not None:
-            self.document.encoding = match["encoding"] or ""
-            self.document.locale = match["locale"] or ""
-            return match.end()
+        if (other := format_of(self.text)) is not None:
+            self._report(start, f"this is {other.name}, not JSGF", other.remedy)
+            return None
         if not self.text.startswith("#", start):
             self._report(start, "the header is missing", 'write "#JSGF V1.0;" as the first line')
             return start
@@ -378,13 +400,19 @@ class _JsgfReader:
         start = self._next.start
         choices: list[Expression] = []
         weights: list[float] = []
+        bare: list[int] = []
         while True:
+            if self._next.kind != "weight":
+                bare.append(self._next.start)
             weights.append(self._weight())
             choices.append(self._sequence())
             if not self._take("|"):
                 break
         if len(choices) == 1:
             return choices[0]
+        if 0 < len(bare) < len(choices):
+            what = "of these alternatives only some have a weight; this one counts as /1/"
+            self._remark("weight", bare[0], what, "write a weight before each, or before none")
         return Alternative(tuple(choices), tuple(weights), self._span_from(start))
 
     def _weight(self) -> float:
@@ -421,6 +449,11 @@ class _JsgfReader:
             if lexeme.kind == "tag":
                 item = self._tagged(item, start)
             elif lexeme.kind == "sign" and lexeme.text in "*+":
+                if self._lexemes[self._position - 1].text in ("*", "+"):
+                    what = f'"{lexeme.text}" stands behind another repeat'
+                    raise self._report(
+                        lexeme.start, what, "write * for any number, + for at least one"
+                    )
                 self._position += 1
                 item = self._repeat(item, int(lexeme.text == "+"), start)
             else:
@@ -439,12 +472,14 @@ class _JsgfReader:
         self._position += 1
         content = re.sub(r"\\(.)", r"\1", lexeme.text[1:-1], flags=re.DOTALL)
         try:
-            return Tagged(item, read_entries(content), self._span_from(start))
+            entries = read_entries(content)
         except TagError as error:
             # What is behind a backslash stands further on than it counts.
             offset = error.offset + lexeme.text[1 : max(error.offset, 0) + 1].count("\\")
-            self._report(lexeme.start + 1 + offset, str(error), error.remedy)
-            return item
+            entries = opaque(content)
+            what = f"{error}, so the tag is kept as a text" if entries else str(error)
+            self._remark("tag", lexeme.start + 1 + offset, what, error.remedy)
+        return Tagged(item, entries, self._span_from(start)) if entries else item
 
     def _item(self) -> Expression | None:
         lexeme = self._lexemes[self._position]

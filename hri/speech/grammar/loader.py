@@ -15,17 +15,16 @@ needs no import (JSGF 1.0, 3.3). A grammar's own rules hide imported ones of the
 
 from __future__ import annotations
 
-import codecs
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
+from glob import escape
 from pathlib import Path
 
 from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
-from hri.core.reading import read_bytes, read_text
 from hri.speech.grammar import analysis
+from hri.speech.grammar.encoding import read_source
 from hri.speech.grammar.expressions import (
     Anything,
     Expression,
@@ -41,12 +40,6 @@ from hri.speech.grammar.rules import Rule
 SUFFIXES = paths.suffixes("grammars")
 MOST_FILES = 100
 """Files that one grammar may import, directly or not."""
-
-_ENCODING = re.compile(rb"\s*#JSGF[ \t]+V1\.0[ \t]+([\w.:-]+)[^\n;]*;")
-_KNOWN_ENCODINGS = re.compile(
-    r"ascii|utf-(8|16|32).*|iso8859.*|iso2022.*|cp\d+|koi8.*|mac.*|euc.*|shift.*|gb.*|big5.*"
-)
-"""Python's names of encodings of text; others are transformations, and some take for ever."""
 
 
 def load_grammar(name: str | Path) -> Grammar:
@@ -69,34 +62,6 @@ def read_grammar(path: Path) -> tuple[Grammar, list[AuthoringError]]:
     Raises HriError when the file, or one that it imports, cannot be read at all.
     """
     return _Loader().load(path)
-
-
-def read_source(path: Path) -> str:
-    """The text of a grammar file in the encoding its header names, UTF-8 without one.
-
-    Raises HriError when it cannot be read, AuthoringError when it is not a text in that encoding.
-    """
-    if paths.exists(path) and path.is_dir():
-        raise HriError(f"{path}: this is a folder - name a grammar file in it")
-    if not paths.exists(path):
-        raise HriError(f"{path}: no such grammar file - check the path")
-    raw = read_bytes(path, "grammar")
-    match = _ENCODING.match(raw)
-    encoding = match[1].decode(errors="replace") if match else "utf-8"
-    if raw.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-        encoding = "utf-16"
-    remedy = 'save it as UTF-8 and write "#JSGF V1.0 UTF-8 en;"'
-    try:
-        name = codecs.lookup(encoding).name
-        if name in ("utf-8", "ascii"):
-            return read_text(path, "grammar")
-        if _KNOWN_ENCODINGS.fullmatch(name):
-            return raw.decode(encoding)
-        raise LookupError
-    except LookupError as error:
-        raise AuthoringError(Place(path), f'unknown encoding "{encoding}"', remedy) from error
-    except UnicodeError as error:
-        raise AuthoringError(Place(path), f"not {encoding} text", remedy) from error
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,6 +102,7 @@ class _Loader:
 
     def __init__(self) -> None:
         self._errors: list[AuthoringError] = []
+        self._warnings: list[AuthoringError] = []
         self._rules: dict[str, Rule] = {}
         self._broken: set[str] = set()
         self._files: dict[Path, _File] = {}
@@ -165,12 +131,15 @@ class _Loader:
             locale=main.document.locale,
             idle_imports=main.idle_imports(),
             names=frozenset({*main.own, *main.imported}),
+            warnings=tuple(self._warnings),
         )
         return grammar, self._errors
 
     def _read(self, path: Path, prefix: str, is_heard: bool = False) -> _File:
-        document = read_jsgf(read_source(path), path)
+        text, doubt = read_source(path)
+        document = read_jsgf(text, path)
         self._errors += document.errors
+        self._warnings += [*filter(None, [doubt]), *document.warnings]
         file = self._files[path.resolve()] = _File(document, prefix, is_heard)
         self._pending.append(file)
         commands = {rule.name for rule in document.rules if rule.is_public and is_heard}
@@ -219,9 +188,14 @@ class _Loader:
 
     def _miss(self, file: _File, grammar: str, span: SourceSpan) -> None:
         near = did_you_mean(grammar, _grammars_near(file), "")
+        short = grammar.rpartition(".")[2]
         suffix = file.document.path.suffix or SUFFIXES[0]
-        where = f"put {grammar.rpartition('.')[2]}{suffix} into the same folder"
-        remedy = near if near.startswith("did you mean") else where
+        remedy = f"put {short}{suffix} into the same folder"
+        other = next(file.document.path.parent.glob(f"{escape(short)}.*"), None)
+        if near.startswith("did you mean"):
+            remedy = near
+        elif other is not None:
+            remedy = f"name {other.name} {short}{suffix} if it is JSGF, or write it in JSGF"
         self._report(file, span, f'no grammar "{grammar}"', remedy)
         file.lost.append(grammar)
 

@@ -6,7 +6,7 @@ from contextlib import suppress
 
 from hri.core import paths
 from hri.core.errors import HriError
-from hri.core.reading import read_text
+from hri.speech.grammar.encoding import read_source
 from hri.speech.grammar.jsgf import read_jsgf
 
 MOST_FILES = 100
@@ -25,7 +25,7 @@ def offers() -> dict[str, str]:
     for file in files[:MOST_FILES]:
         with suppress(HriError):
             path = paths.find("grammars", file)
-            document = read_jsgf(read_text(path, "grammar"), path)
+            document = read_jsgf(read_source(path).text, path)
             for rule in document.rules:
                 if rule.is_public and any(tag.name == "part" for tag in rule.doc.tags):
                     offered.setdefault(rule.name, f"{path.stem}.{rule.name}")

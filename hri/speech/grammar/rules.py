@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, TypeVar
 
-from hri.core.errors import Place
+from hri.core.errors import AuthoringError, Place
 from hri.speech.grammar.doc_comments import MARKS, DocTag
 from hri.speech.grammar.expressions import Expression, RuleReference, SourceSpan, walk
 from hri.speech.grammar.jsgf import Import, NameListImport
@@ -72,6 +72,8 @@ class Rules:
     """Imports of the main file that bring nothing it uses."""
     names: frozenset[str] = frozenset()
     """What the main file may call rules: its own, and imported ones in short and in full."""
+    warnings: tuple[AuthoringError, ...] = ()
+    """What is odd about how its files are written, and costs no rule."""
     _made: dict[Callable[..., Any], Any] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )

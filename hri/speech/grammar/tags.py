@@ -15,9 +15,12 @@ Between `{` and `}` stand entries, with spaces or semicolons between them:
     {time="$hour:$minute"}  puts the values of other tags into a text and uses them up; nothing
                           happens when one of them was not set; "$$" is a "$"
 
+What is none of this, such as the code of another program, is kept as it is: `opaque` makes it one
+of the texts in the list `tag`.
+
 Entries take effect in the order their words are said, those behind a group after those inside.
 That is enough for compound numbers: "twenty" {number+=20}, "five" {number+=5}. Nothing is ever
-run: a tag is data, whoever wrote the grammar.
+run: a tag is data, whoever wrote the grammar. In a text in quotes, "" is a quote.
 """
 
 from __future__ import annotations
@@ -30,6 +33,8 @@ from dataclasses import dataclass
 Value = str | float | bool | tuple[str, ...]
 """A tuple is a list of texts that `+=` collected."""
 
+OPAQUE = "tag"
+"""The name under which tags of other programs are collected."""
 LONGEST_TAG = 1000
 """Characters between the braces."""
 LONGEST_VALUE = 1000
@@ -41,7 +46,7 @@ _ENTRY = re.compile(
     r"""[\s;]*
     (?P<name>[A-Za-z_][\w.-]*)
     (?:\s*(?P<operation>\+=|\*=|=)\s*
-       (?: "(?P<quoted>[^"]*)" | (?P<plain>[^\s;"=]+) )
+       (?: "(?P<quoted>(?:[^"]|"")*+)" | (?P<plain>[^\s;"=]+) )
     )?
     (?=[\s;]|$)[\s;]*""",
     re.VERBOSE,
@@ -134,6 +139,15 @@ def read_entries(text: str) -> tuple[TagEntry, ...]:
     return tuple(entries)
 
 
+def opaque(text: str) -> tuple[TagEntry, ...]:
+    """A tag of another program, as one text with single spaces.
+
+    Nothing for an empty one. What is longer than LONGEST_VALUE ends there.
+    """
+    words = " ".join(text.split())[:LONGEST_VALUE]
+    return (TagEntry(OPAQUE, "+=", words),) if words else ()
+
+
 def _refuse_rest_of_text(before: re.Match[str], value: object, match: re.Match[str]) -> None:
     """Raise TagError for the second word of `{light=very bright}`."""
     if before["plain"] is not None and isinstance(value, str) and ";" not in before.group():
@@ -154,6 +168,7 @@ def _entry(match: re.Match[str]) -> TagEntry:
 def _value(match: re.Match[str]) -> Value | Reference | Template:
     quoted, plain = match["quoted"], match["plain"]
     if quoted is not None:
+        quoted = quoted.replace('""', '"')
         template = Template(quoted)
         return template if template.names else quoted.replace("$$", "$")
     if plain is None:
@@ -219,13 +234,17 @@ def _spell(entry: TagEntry) -> str:
         case Reference(name):
             value = f"${name}"
         case Template(text):
-            value = f'"{text}"'
+            value = _quoted(text)
         case str() as text:
             is_plain = _PLAIN.fullmatch(text) and text not in _WORDS and not _NUMBER.fullmatch(text)
-            value = text if is_plain else '"' + text.replace("$", "$$") + '"'
+            value = text if is_plain else _quoted(text.replace("$", "$$"))
         case other:
             value = written(other)
     return f"{entry.name}{entry.operation}{value}"
+
+
+def _quoted(text: str) -> str:
+    return '"' + text.replace('"', '""') + '"'
 
 
 def evaluate(groups: Iterable[tuple[TagEntry, ...]]) -> dict[str, Value]:

@@ -7,8 +7,8 @@ import unicodedata
 ANY = "<any>"
 """Stands for words that nobody listed; no word has a bracket."""
 _CURLY = "\N{RIGHT SINGLE QUOTATION MARK}"
-_SPOKEN = {"&": " and ", "%": " percent ", "\N{DEGREE SIGN}": " degrees "}
-"""Signs that are said as words wherever they stand."""
+_SPOKEN = {"&": " and ", "%": " percent ", "\N{DEGREE SIGN}": " degrees ", "\\": " "}
+"""Signs that are said as words, or stand between words, wherever they are."""
 _SIGNS = str.maketrans(_SPOKEN)
 
 

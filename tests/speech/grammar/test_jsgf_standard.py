@@ -6,6 +6,7 @@ import pytest
 
 from hri.core.errors import AuthoringError
 from hri.speech.grammar import load_grammar
+from hri.speech.grammar.jsgf import read_jsgf
 from hri.speech.grammar.matching import parse
 
 
@@ -45,9 +46,14 @@ from hri.speech.grammar.matching import parse
         ("public <a> = (x y)*z;", ["z", "x y x y z"], ["x z"]),
         ("public <a> = x+ y;", ["x y", "x x y"], ["y"]),
         ("public <a> = [x]* y;", ["y", "x x y"], ["x"]),
-        ("public <a> = x+* y;", ["y", "x x y"], ["x"]),
+        ("public <a> = (x+)* y;", ["y", "x x y"], ["x"]),
+        ('public <a> = "back\\\\slash";', ["back slash", "back\\slash"], ["backslash"]),
         # <NULL>, <VOID>, recursion
         ("public <a> = x <NULL> | y <VOID>;", ["x"], ["y"]),
+        ("public <a> = x | <off>;\n<off> = <VOID>;", ["x"], [""]),
+        ("public <a> = x | y <off> | <off> z;\n<off> = no <VOID>;", ["x"], ["y", "z", "no"]),
+        ("public <a> = x [<off>] y*;\n<off> = <of>;\n<of> = <VOID> | /0/ u;", ["x y"], ["x u"]),
+        ("public <a> = x;\npublic <b> = <VOID> y;", ["x"], ["y"]),
         ("public <a> = x | y <a>;", ["x", "y y x"], ["y"]),
         ("public <a> = x (and <a> | <NULL>);", ["x", "x and x and x"], ["x and"]),
         ("public <a> = x [and <b>];\n<b> = y <a>;", ["x", "x and y x"], ["x and y"]),
@@ -95,8 +101,8 @@ def test_a_tag_belongs_to_what_stands_before_it(write, rules, tags):
         ("#JSGF V1.0;\ngrammar a;\npublic <a> = * x;", "3:14", 'expected words, found "*"'),
         ("#JSGF V1.0;\ngrammar a;\npublic <a> = {t=1} x;", "3:14", "expected words"),
         ("#JSGF V1.0;\ngrammar a;\npublic <a> = x | | y;", "3:18", "expected words"),
-        ("#JSGF V1.0;\ngrammar a;\npublic <a> = x {t=1 =};", "3:21", "cannot read the tag"),
-        ("#JSGF V1.0;\ngrammar a;\npublic <a> = x {t=$};", "3:19", "$ names no tag"),
+        ("#JSGF V1.0;\ngrammar a;\npublic <a> = <b>;\n<b> = <VOID> x;", "3:1", "never be said"),
+        ("#JSGF V1.0;\ngrammar a;\npublic <a> = y <a> | <VOID> x;", "3:1", "never be said"),
         ("#JSGF V1.0;\ngrammar a;\npublic <a> = /-1/ x | y;", "3:14", "/-1/ is not a weight"),
         ("#JSGF V1.0;\ngrammar a;\npublic <a> = x , y;", "3:16", "nothing that can be said"),
         ("#JSGF V1.0;\ngrammar a;\npublic <a> = x; /* y", "3:17", "this comment has no end"),
@@ -124,6 +130,35 @@ def test_misspelt_keywords_are_named(tmp_path):
 
     with pytest.raises(AuthoringError, match='did you mean "grammar"'):
         load_grammar(path)
+
+
+@pytest.mark.parametrize(
+    ("header", "encoding", "locale"),
+    [
+        ("#JSGF v1.0;", "", ""),
+        ("#jsgf v1.0 utf-8 en;", "utf-8", "en"),
+        ("# JSGF  V 1.0 ;", "", ""),
+        ("#JSGF V1;", "", ""),
+        ("#JSGF 1.0 UTF-8;", "UTF-8", ""),
+        ("#JSGF V1.0 fr;", "", "fr"),
+        ("#JSGF V1.0 fr-CA ;", "", "fr-CA"),
+        ("#JSGF/* one */V1.0 /* two **/ UTF-8 /* three */ fr /* four; */;", "UTF-8", "fr"),
+        (
+            "\ufeff// A comment;\n/* Another\n * one. */\n\n#JSGF V1.0 UTF-8 fr; // the third",
+            "UTF-8",
+            "fr",
+        ),
+    ],
+)
+def test_the_header_is_read_liberally(tmp_path, header, encoding, locale):
+    path = tmp_path / "a.jsgf"
+    path.write_text(f"{header}\ngrammar a;\npublic <a> = x;\n", encoding="utf-8")
+
+    document = read_jsgf(path.read_text(encoding="utf-8"), path)
+
+    assert document.errors == []
+    assert (document.encoding, document.locale) == (encoding, locale)
+    assert parse(load_grammar(path), "x")
 
 
 def test_the_header_may_name_the_language(tmp_path):

@@ -90,6 +90,9 @@ def test_a_missing_import_is_named_as_its_file_would_be(put, suffix):
     path = put(f"main{suffix}", "import <polite.p>;\npublic <c> = <p> go;")
     with pytest.raises(HriError, match=f'no grammar "polite" - put polite{suffix} into the same'):
         load_grammar(path)
+    put("polite.grxml", "")
+    with pytest.raises(HriError, match=f"name polite.grxml polite{suffix} if it is JSGF"):
+        load_grammar(path)
     put(f"politte{suffix}", "public <p> = please;")
     with pytest.raises(HriError, match='no grammar "polite" - did you mean "politte"'):
         load_grammar(path)
@@ -198,10 +201,57 @@ def test_encodings_of_text_are_read(tmp_path, encoding):
 @pytest.mark.parametrize("encoding", ["hex", "zlib", "punycode", "idna", "no-such"])
 def test_what_encodes_no_text_is_refused(tmp_path, encoding):
     path = tmp_path / "a.jsgf"
-    path.write_text(f"#JSGF V1.0 {encoding} de;\ngrammar a;\npublic <a> = x;\n")
+    text = f"#JSGF V1.0 {encoding} de;\ngrammar a;\npublic <a> = größer;\n"
+    path.write_bytes(text.encode("latin-1"))
 
     with pytest.raises(AuthoringError, match="unknown encoding"):
         load_grammar(path)
+
+
+@pytest.mark.parametrize(
+    ("declared", "real", "words", "doubt"),
+    [
+        ("ISO8859-1", "utf-8", "café éteins", "the header says ISO8859-1, but this file is UTF-8"),
+        ("iso-8859-15", "utf-8-sig", "café", "says iso-8859-15, but this file is UTF-8"),
+        ("windows-1252", "utf-8", "größer", "says windows-1252, but this file is UTF-8"),
+        ("KOI8-R", "utf-8", "стоп", "says KOI8-R, but this file is UTF-8"),
+        ("US-ASCII", "utf-8", "café", "says US-ASCII, but this file is UTF-8"),
+        ("JIS", "utf-8", "停止", "says JIS, but this file is UTF-8"),
+        ("Shift_JIS", "utf-8", "停止 進め", "says Shift_JIS, but this file is UTF-8"),
+        ("GB2312", "utf-8", "打开 灯", "says GB2312, but this file is UTF-8"),
+        ("UTF-16", "utf-8", "café", "says UTF-16, but this file is UTF-8"),
+        ("UTF-16", "ascii", "stop", "says UTF-16, but this file is UTF-8"),
+        ("utf9", "utf-8", "café", 'unknown encoding "utf9", read as UTF-8'),
+        ("no-such", "ascii", "stop", 'unknown encoding "no-such", read as UTF-8'),
+        ("ISO8859-1", "cp1252", "don\u2019t", "says ISO8859-1, but this file is cp1252"),
+        ("GB2312", "gb18030", "镕", "says GB2312, but this file is gb18030"),
+        ("ISO8859-1", "latin-1", "café", None),
+        ("ISO8859-1", "ascii", "stop", None),
+        ("ISO-8859-5", "iso8859-5", "стоп", None),
+        ("KOI8-R", "koi8-r", "стоп", None),
+        ("windows-1251", "cp1251", "вперёд стоп", None),
+        ("JIS", "iso2022_jp", "停止", None),
+        ("Shift_JIS", "shift_jis", "停止 進め", None),
+        ("EUC-KR", "euc_kr", "정지", None),
+        ("GBK", "gbk", "打开 灯", None),
+        ("Big5", "big5", "開燈", None),
+        ("UTF-16", "utf-16", "café", None),
+        ("UTF-16", "utf-16-le", "café", None),
+        ("UTF-16BE", "utf-16-be", "café", None),
+    ],
+)
+def test_the_bytes_of_a_file_say_more_than_its_header(tmp_path, declared, real, words, doubt):
+    path = tmp_path / "a.jsgf"
+    text = f"#JSGF V1.0 {declared} xx;\ngrammar a;\npublic <a> = {words};\n"
+    path.write_bytes(text.encode(real))
+
+    grammar = load_grammar(path)
+
+    assert grammar.words() == set(words.replace("\u2019", "'").split())
+    assert len(grammar.warnings) == (doubt is not None)
+    for odd in grammar.warnings:
+        assert doubt in odd.what
+        assert 'write "#JSGF V1.0 UTF-8 xx;"' in odd.remedy
 
 
 # ------------------------------------------------------------------ lists of names

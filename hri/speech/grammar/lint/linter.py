@@ -64,6 +64,7 @@ def _opinions(grammar: Grammar, lexicon: Lexicon | None) -> list[Finding]:
     """What there is to say about a grammar that can be used."""
     said = phrases_of_rules(grammar, LONGEST_PHRASE)
     findings = [
+        *(warning(odd.place, odd.what, odd.remedy) for odd in grammar.warnings),
         *_broken_examples(grammar),
         *_unknown_marks(grammar),
         *_idle_marks(grammar),
