@@ -22,6 +22,10 @@ class Grammar(Protocol):
     @property
     def name(self) -> str: ...
 
+    @property
+    def locale(self) -> str:
+        """The language that it says it is in, such as "en-US"; empty when it says nothing."""
+
     def words(self) -> frozenset[str]:
         """All words that can be said."""
 

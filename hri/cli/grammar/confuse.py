@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 
 from hri.cli.grammar import FILE_HELP
 from hri.cli.grammar.engine import add_engine_arguments, add_strictness, started_engine
@@ -17,6 +18,7 @@ from hri.speech.grammar.expansion import count_ways
 from hri.speech.grammar.lint.confusion import FARTHEST, SoundAlike, sound_alikes
 from hri.speech.grammar.lint.expectations import meaning_of
 from hri.speech.grammar.matching import Parse, parse
+from hri.speech.language import complaint, foreign
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.trials import Attempt, attempt, confusions, score
 
@@ -62,6 +64,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     grammar = load_grammar(options.file)
+    if language := foreign(grammar):
+        print(f"{grammar.path}: {' - '.join(complaint(grammar, language))}", file=sys.stderr)
     most = options.sentences or (MOST_SPOKEN if options.speak else MOST_COMPARED)
     sentences = grammar.sample(most)
     if options.speak:

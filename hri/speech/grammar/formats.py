@@ -1,4 +1,4 @@
-"""What a file without the header of JSGF is: grammars of other programs, recognized by how they begin."""
+"""What a file without the header of JSGF is: how grammars of other programs begin."""
 
 from __future__ import annotations
 

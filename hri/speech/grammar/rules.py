@@ -90,11 +90,6 @@ class Rules:
         """Names of the public rules of the main file, in its order; imported ones only help."""
         return tuple(key for key, rule in self.rules.items() if rule.is_public)
 
-    @property
-    def is_english(self) -> bool:
-        """Whether its header names English, or no language."""
-        return not self.locale or self.locale.lower().startswith("en")
-
     def marked(self, mark: str) -> frozenset[str]:
         """The public rules with a mark, which is one of `doc_comments.MARKS`."""
         return self._marked[mark]

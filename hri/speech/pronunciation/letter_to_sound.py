@@ -46,7 +46,9 @@ def guesses(word: str) -> tuple[Phones, ...]:
     spelt = [mnemonic for mnemonic in spelt if mnemonic.strip("_:")]
     is_known = bool(spelt) and all(mnemonic in PHONES for mnemonic in spelt)
     if not (is_known and _is_latin(word)):
-        raise HriError(f'nobody knows how "{word}" sounds - write it as English words')
+        hearing = "" if _is_latin(word) else ", or hear it with a Vosk model of its language"
+        remedy = f"write in English letters how it sounds{hearing}"
+        raise HriError(f'nobody knows how "{word}" sounds in English - {remedy}')
     likely = _phones(PHONES, spelt)
     other = _phones({**PHONES, **VARIANTS}, spelt)
     return (likely,) if likely == other else (likely, other)

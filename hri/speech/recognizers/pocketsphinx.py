@@ -17,6 +17,7 @@ from hri.core.errors import HriError
 from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, HeardWord, Hypothesis, Segment
 from hri.speech.engine_models import find_pocketsphinx
+from hri.speech.language import require_english
 from hri.speech.path_confidence import FRAME, PathFigures, confidence
 from hri.speech.pronunciation.lexicon import Lexicon, load_lexicon
 from hri.speech.recognizers.endpointed import EndpointedRecognizer
@@ -41,6 +42,7 @@ class PocketSphinxRecognizer(EndpointedRecognizer):
         self._talk = threading.Lock()
 
     def start(self, grammar: Grammar) -> None:
+        require_english(grammar, self.manager.notice)
         with self._talk:
             words = sorted(grammar.words())
             missing = self._ask({"lookup": words})["missing"]

@@ -30,6 +30,7 @@ from hri.speech.grammar.matching import Parse, parse
 from hri.speech.grammar.phrases import Phrases, PhrasesOf, Words, phrases_of_rules
 from hri.speech.grammar.rules import Rule
 from hri.speech.grammar.tags import spell_tags
+from hri.speech.language import complaint, foreign, says_english
 from hri.speech.pronunciation.lexicon import Lexicon
 
 __all__ = ["Finding", "check"]
@@ -77,7 +78,9 @@ def _opinions(grammar: Grammar, lexicon: Lexicon | None) -> list[Finding]:
         *_said_twice(grammar, said),
         *_ambiguous(grammar),
     ]
-    if lexicon is not None and grammar.is_english:
+    if language := foreign(grammar):
+        findings.append(warning(Place(grammar.path), *complaint(grammar, language)))
+    if lexicon is not None and (not language or says_english(grammar)):
         sounding = heard_badly(grammar, said, lexicon)
         findings += sounding
         if not any(finding.severity == "error" for finding in sounding):

@@ -12,6 +12,7 @@ from hri.core.signals import Samples
 from hri.hal.recognizer import Alternative, Grammar, HeardWord, Hypothesis, Segment
 from hri.speech.grammar.words import ANY, listed
 from hri.speech.hearing import SILENT_AFTER
+from hri.speech.language import require_english
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.confidence import (
     confidence,
@@ -86,6 +87,7 @@ class CtcRecognizer(EndpointedRecognizer):
         self._early: Early | None = None
 
     def start(self, grammar: Grammar) -> None:
+        require_english(grammar, self.manager.notice)
         # The same lexicon for both: it may have changed since the engine was opened.
         lexicon = Habits(load_lexicon())
         search, rivals = Search(compile(grammar.graph(), lexicon)), Rivals(lexicon)

@@ -379,9 +379,12 @@ def test_a_thousand_rules_are_checked_at_once(write):
 
 def test_the_sounds_of_another_language_are_of_no_concern(tmp_path):
     path = tmp_path / "lamp.jsgf"
-    for locale, severities in (("ko", []), ("en", ["error", "error"])):
-        path.write_text(f"#JSGF V1.0 UTF-8 {locale};\ngrammar lamp;\npublic <a> = 불을 켜;\n")
-        assert [one.severity for one in check(load_grammar(path), load_lexicon())] == severities
+    both = ["error", "error", "warning"]
+    for locale, severities in ((" ko", ["warning"]), ("", ["warning"]), (" en", both)):
+        path.write_text(f"#JSGF V1.0 UTF-8{locale};\ngrammar lamp;\npublic <a> = 불을 켜;\n")
+        found = check(load_grammar(path), load_lexicon())
+        assert [one.severity for one in found] == severities
+        assert "this grammar is in Korean, and only Vosk" in found[-1].what
 
 
 def test_thousands_of_alternatives_are_checked_in_a_moment(write):
