@@ -30,6 +30,8 @@ class Layer:
     """What its file says, once it has been read."""
     heard: Grammar | None = None
     """What is understood once it is in force: this, and the interrupting rules of those below."""
+    unheard: HriError | None = None
+    """Why the recognizer does not take it; then it is in force for typed lines alone."""
     below: tuple[Layer, ...] = ()
     """The layers whose interrupting rules stay in force."""
     error: HriError | None = None

@@ -13,6 +13,7 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
 from hri.core import paths
 from hri.core.clock import Worker
+from hri.core.errors import HriError, NotAvailable
 from hri.core.origin import caused_by, origin
 from hri.core.signals import Rejection, Samples, Speech, Utterance
 from hri.hal.microphone import Microphone
@@ -65,7 +66,8 @@ class Listener(Behavior):
     (reason, detail, text, confidence), `speech.partial` (text) while someone speaks,
     `speech.interrupted` (text, rule) when a rule marked @interrupts is heard over the robot's own
     voice, and `grammar.changed` (file) or `grammar.refused` (file, error). Loads its models and
-    grammars while the rest already runs; speech before the first grammar is loaded waits.
+    grammars while the rest already runs; speech before the first grammar is loaded waits. When the
+    recognizer refuses the first one, `grammar.refused` says why, and only typed lines are heard.
 
     The marks of rules decide which are active, see `hri.speech.turn`. A sentence of a rule marked
     @interrupts that is heard as clearly as over speech takes effect 0.2 s after its last sound,
@@ -174,20 +176,31 @@ class Listener(Behavior):
         return in_force is not None and in_force.stands_for(layer)
 
     def _take_grammar(self, layer: Layer) -> None:
-        """Read a grammar and give it to the recognizer; runs in a worker."""
+        """Read a grammar and give it to the recognizer; runs in a worker.
+
+        Where there is no other one, a grammar that the recognizer refuses serves for typed lines.
+        """
         grammar = heard = layer.grammar or load_grammar(layer.path)
         for below in layer.below:
             heard = with_interrupts_of(heard, below.grammar or load_grammar(below.path))
-        self._recognizer.start(heard)
-        layer.grammar, layer.heard = grammar, heard
+        unheard = None
+        try:
+            self._recognizer.start(heard)
+        except NotAvailable:
+            raise
+        except HriError as error:
+            if self._grammars.in_force is not None and layer.unheard is None:
+                raise
+            unheard = error
+        layer.grammar, layer.heard, layer.unheard = grammar, heard, unheard
         self._grammars.in_force = layer
 
     def _change_grammar(self, now: float) -> None:
         # What ended before is still decoded by the grammar that was in force then.
         if not self._waiting or self._grammars.in_force is None:
             layer = self._grammars.update()
-            if layer is not None and layer.error is not None:
-                error = str(layer.error)
+            if layer is not None and (refused := layer.error or layer.unheard) is not None:
+                error = str(refused)
                 self._events.raise_event("grammar.refused", file=str(layer.path), error=error)
             elif layer is not None and layer.grammar is not self._first:
                 self._events.raise_event("grammar.changed", file=str(layer.path))
@@ -247,7 +260,8 @@ class Listener(Behavior):
         if is_held:
             self._wakefulness.extend(now)
         is_off = self.is_muted or bool(self.push_to_talk.sources and not self.push_to_talk.value)
-        is_deaf = is_off and not is_held
+        layer = self._grammars.in_force
+        is_deaf = (is_off and not is_held) or (layer is not None and layer.unheard is not None)
         was_hearing = self._recognizer.is_hearing
         self._recognizer.mind(is_speaking, now)
         segments = self._recognizer.listen(samples[:0] if is_deaf else samples, now)

@@ -336,6 +336,31 @@ def test_a_faulty_grammar_is_refused_and_the_old_one_stays(write, rules, why):
     assert not stage.behavior.is_in_force(layer)
 
 
+def test_a_first_grammar_that_the_recognizer_refuses_serves_for_typed_lines(write):
+    path = write("public <a> = unspeakable | go forward;")
+    stage = Stage(Listener(grammar=str(path)))
+    stage.run(1.5)
+    assert stage.names() == ["grammar.refused"]
+    assert "unspeakable - write" in stage.events[0][2]["error"]
+
+    stage.behavior.type_line("unspeakable")
+    stage.run(0.5)
+    assert stage.names()[1:] == ["speech.heard"]
+
+    layer = stage.behavior.push(write("public <b> = hello;", "other"))
+    stage.run(0.5)
+    stage.ears.script[3.0] = ("hello", 0.9)
+    stage.run(1.0)
+    assert stage.names()[2:] == ["grammar.changed", "speech.heard"]
+
+    stage.behavior.pop(layer)
+    stage.run(1.0)
+    assert stage.names()[4:] == ["grammar.refused"]
+    stage.behavior.type_line("unspeakable")
+    stage.run(0.5)
+    assert stage.names()[5:] == ["speech.heard"]
+
+
 def test_a_grammar_is_read_again_when_its_file_changes(write):
     path = write("public <greet> = hello;")
     stage = Stage(Listener(grammar=str(path), reload=True))
