@@ -38,7 +38,7 @@ from hri.speech.grammar.numerals import in_words
 from hri.speech.grammar.rules import Rules
 from hri.speech.grammar.spellings import contracted_forms, spellings
 from hri.speech.grammar.tags import TagEntry, Value, are_same, evaluate
-from hri.speech.grammar.words import ANY, normalize
+from hri.speech.grammar.words import ANY, typed
 
 MOST_WORDS = 200
 """A longer text is not a command."""
@@ -128,7 +128,7 @@ def parse(grammar: Rules, text: str, rules: Collection[str] | None = None) -> Pa
     `rules` are the public rules that count; None is all. Raises AuthoringError where
     `Grammar.automaton` does.
     """
-    return next(grammar.made(matcher_of).readings(normalize(text), rules), None)
+    return next(grammar.made(matcher_of).readings(typed(text), rules), None)
 
 
 def parses(
@@ -143,7 +143,7 @@ def parses(
     found: dict[object, Parse] = {}
     fewest = MOST_WORDS
     for reading in itertools.islice(
-        grammar.made(matcher_of).readings(normalize(text), rules), 10 * limit
+        grammar.made(matcher_of).readings(typed(text), rules), 10 * limit
     ):
         fewest = min(fewest, len(reading.free))
         if len(reading.free) > fewest:
@@ -161,7 +161,7 @@ def refusal(grammar: Rules, text: str) -> Refusal | None:
     Raises AuthoringError where `Grammar.automaton` does.
     """
     matcher = grammar.made(as_written)
-    forms = matcher.forms(normalize(text)[: MOST_WORDS + 1])
+    forms = matcher.forms(typed(text)[: MOST_WORDS + 1])
     words, state, position = max(map(matcher.followed, forms), key=lambda way: way[2])
     if position == len(words) <= MOST_WORDS and state.is_final and words:
         return None

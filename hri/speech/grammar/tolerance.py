@@ -17,7 +17,7 @@ from typing import Literal, NamedTuple
 
 from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.matching import MOST_WORDS, Parse, State, parse
-from hri.speech.grammar.words import normalize
+from hri.speech.grammar.words import typed
 
 MOST_COST = 2.0
 """What all edits of a sentence may cost: about four little words."""
@@ -118,7 +118,7 @@ def nearest(
     exact = parse(grammar, text, rules)
     if exact is not None:
         return Tolerant(exact)
-    forms = grammar.matcher.forms(normalize(text))
+    forms = grammar.matcher.forms(typed(text))
     words = next((words for words in forms if _may_be_forgiven(grammar, words)), [])
     if not 0 < len(words) <= MOST_WORDS:
         return None

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
+
+from hri.speech.grammar.numerals import CURRENCIES
 
 ANY = "<any>"
 """Stands for words that nobody listed; no word has a bracket."""
@@ -12,16 +15,31 @@ _SPOKEN = {"&": " and ", "%": " percent ", "\N{DEGREE SIGN}": " degrees ", "\\":
 _SIGNS = str.maketrans(_SPOKEN)
 
 
+_INITIALS = re.compile(r"(?:[^\W\d_]\.)+[^\W\d_]")
+"""Of "U.S.A.", all but the last point."""
+_MINUS = str.maketrans("\N{MINUS SIGN}\N{EN DASH}", "--")
+_BEFORE_DIGITS = frozenset("-+.").union(CURRENCIES)
+
+
 def normalize(text: str) -> list[str]:
     """The words of a text: lower case, composed (NFC), without the punctuation around them.
 
-    "salt & pepper" is "salt and pepper", "50%" is "50 percent".
+    "salt & pepper" is "salt and pepper", "50%" is "50 percent"; "U.S.A" has its last point.
     """
+    return [bare for word in _split(text) if (bare := _bare(word))]
+
+
+def typed(text: str) -> list[str]:
+    """The words of a text that someone typed: signs before numbers, and of currencies, are kept."""
+    return [signed for word in _split(text) if (signed := _signed(word))]
+
+
+def _split(text: str) -> list[str]:
     if not text.isascii():
         text = unicodedata.normalize("NFC", text).replace(_CURLY, "'")
     if not text.isalnum() and not _SPOKEN.keys().isdisjoint(text):
         text = text.translate(_SIGNS)
-    return [bare for word in text.lower().split() if (bare := _bare(word))]
+    return text.lower().split()
 
 
 def listed(text: str) -> str:
@@ -32,10 +50,30 @@ def listed(text: str) -> str:
 def _bare(word: str) -> str:
     if word.isalnum() or word == ANY:
         return word
+    start, end = _bounds(word)
+    return f"{word[start:end]}." if _INITIALS.fullmatch(word, start, end) else word[start:end]
+
+
+def _signed(word: str) -> str:
+    if word.isalnum() or word in CURRENCIES or word == ANY:
+        return word
+    start, end = _bounds(word)
+    if start == end or not (word[start].isdigit() or word[end - 1].isdigit()):
+        return _bare(word)
+    word = word.translate(_MINUS)
+    first = start
+    while start and word[first].isdigit() and word[start - 1] in _BEFORE_DIGITS:
+        start -= 1
+    end += word[end - 1].isdigit() and word[end : end + 1] in CURRENCIES
+    return word[start:end]
+
+
+def _bounds(word: str) -> tuple[int, int]:
+    """Where a word begins and ends without the punctuation around it."""
     letters = [place for place, sign in enumerate(word) if sign.isalnum() or sign in "_'"]
     if not letters:
-        return ""
+        return 0, 0
     end = letters[-1] + 1
     while end < len(word) and unicodedata.category(word[end]).startswith("M"):
         end += 1  # Accents and vowel signs belong to the letter before them.
-    return word[letters[0] : end]
+    return letters[0], end
