@@ -70,8 +70,15 @@ NAMES = {
     "bg": "Bulgarian", "el": "Greek", "ar": "Arabic", "he": "Hebrew", "fa": "Persian",
     "hi": "Hindi", "th": "Thai", "sk": "Slovak", "sl": "Slovenian", "et": "Estonian",
     "lv": "Latvian", "lt": "Lithuanian", "id": "Indonesian", "kk": "Kazakh", "uz": "Uzbek",
+    "fra": "French", "fre": "French", "deu": "German", "ger": "German", "spa": "Spanish",
+    "ita": "Italian", "por": "Portuguese", "nld": "Dutch", "dan": "Danish", "nor": "Norwegian",
+    "swe": "Swedish", "fin": "Finnish", "pol": "Polish", "ces": "Czech", "tur": "Turkish",
+    "rus": "Russian", "ukr": "Ukrainian", "zho": "Chinese", "cmn": "Chinese", "jpn": "Japanese",
+    "kor": "Korean", "ell": "Greek", "ara": "Arabic", "heb": "Hebrew", "hin": "Hindi",
     "ka": "Georgian", "nb": "Norwegian", "nn": "Norwegian", "ga": "Irish", "cy": "Welsh",
 }  # fmt: skip
+_ENGLISH_CODES = ("", "en", "eng", "english", "us", "gb", "und", "c", "posix")
+"""What headers say for English, or for nothing."""
 OTHER = "another language"
 _EVERYWHERE = frozenset(("robot", "stop", "ok", "okay", "hotel", "radio", "taxi", "pizza", "tv"))
 """Words of many languages, which say nothing."""
@@ -116,7 +123,10 @@ def says_english(grammar: Grammar) -> bool:
 def of_header(locale: str) -> str:
     """The name of the language of a locale such as "fr-CA"; empty for English, or none."""
     code = locale.replace("_", "-").partition("-")[0].lower()
-    return "" if code in ("", "en", "eng") else NAMES.get(code, f'the language "{locale}"')
+    if code in _ENGLISH_CODES:
+        return ""
+    named = code.capitalize() if code.capitalize() in NAMES.values() else ""
+    return NAMES.get(code) or named or f'the language "{locale}"'
 
 
 def of_words(grammar: Grammar) -> str:

@@ -70,7 +70,10 @@ def test_english_is_english_with_names_and_words_of_others(grammar, words):
         ("#JSGF V1.0 UTF-8 fr_CA;", "French"),
         ("#JSGF V1.0 de;", "German"),
         ("#JSGF V1.0 UTF-8 xh;", 'the language "xh"'),
+        ("#JSGF V1.0 UTF-8 fra;", "French"),
+        ("#JSGF V1.0 UTF-8 German;", "German"),
         ("#JSGF V1.0 UTF-8 en-GB;", ""),
+        ("#JSGF V1.0 UTF-8 us;", ""),
     ],
 )
 def test_a_language_is_known_by_the_header(grammar, header, name):

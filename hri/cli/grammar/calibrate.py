@@ -18,6 +18,7 @@ from hri.core.statistics import told
 from hri.speech.acceptance import STRICTNESS
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.matching import parse
+from hri.speech.language import foreign
 from hri.speech.trials import NEARLY, Attempt, RecordedClip, Score, attempt, recommended, score
 
 EXAMPLES = """\
@@ -115,6 +116,9 @@ def _clips(options: argparse.Namespace, grammar: Grammar) -> Iterable[RecordedCl
         rows = read_manifest(options.audio, grammar)
         yield from (row.clip() for row in progress(rows, len(rows), "hearing"))
     if options.speak or options.audio is None:
+        if not options.voices and (language := foreign(grammar)):
+            remedy = f"name some of {language} with --voices, or recordings with --audio"
+            raise HriError(f"{grammar.path}: the usual voices speak English - {remedy}")
         voices = tuple(options.voices or usual_voices())
         other = [sentence for sentence in OTHER_TALK if parse(grammar, sentence) is None]
         sentences = [*grammar.sample(options.sentences), *other]

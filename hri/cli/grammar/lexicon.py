@@ -9,6 +9,7 @@ from pathlib import Path
 from hri.cli.grammar import FILE_HELP
 from hri.core.errors import HriError
 from hri.speech.grammar import load_grammar
+from hri.speech.language import complaint, foreign
 from hri.speech.pronunciation.lexicon import load_lexicon, user_lexicon
 
 EXAMPLES = """\
@@ -30,6 +31,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     grammar = load_grammar(options.file)
+    if language := foreign(grammar):
+        print(f"{grammar.path}: {' - '.join(complaint(grammar, language))}", file=sys.stderr)
     lexicon = load_lexicon(*options.add)
     words = sorted(word for word in grammar.words() if not options.missing or word not in lexicon)
     width = max(map(len, words), default=0)

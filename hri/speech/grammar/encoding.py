@@ -14,6 +14,7 @@ from typing import NamedTuple
 from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, Place
 from hri.core.reading import read_bytes, read_text
+from hri.speech.grammar.formats import format_of
 from hri.speech.grammar.header import Header, read_header
 
 LONGEST_HEADER = 4000
@@ -60,18 +61,22 @@ def read_source(path: Path) -> Source:
         return Source(_decoded(raw, utf16, path))
     begin = raw[:LONGEST_HEADER].removeprefix(codecs.BOM_UTF8)
     header = read_header(begin.decode("latin-1"))
+    if header is None and _attempted(raw, "utf-8") is None:
+        other = raw.decode("latin-1")
+        if format_of(other) is not None:  # which is told, rather than its encoding
+            return Source(other)
     if header is None or _codec(header.encoding or "utf-8") == "utf-8":
         return Source(read_text(path, "grammar"))
     return _weighed(raw, header, path)
 
 
 def _utf16_of(raw: bytes) -> str | None:
-    """The name of UTF-16 that a file begins in: with its mark, or with "#" or "/" in it."""
+    """The name of UTF-16 that a file begins in: with its mark, or with a letter of ASCII in it."""
     if raw.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         return "utf-16"
-    if raw.startswith((b"#\0", b"/\0")):
-        return "utf-16-le"
-    return "utf-16-be" if raw.startswith((b"\0#", b"\0/")) else None
+    if len(raw) < 2 or raw.count(0, 0, 2) != 1:
+        return None
+    return "utf-16-be" if raw[0] == 0 else "utf-16-le"
 
 
 def _weighed(raw: bytes, header: Header, path: Path) -> Source:

@@ -29,6 +29,7 @@ _SENTENCES = 'write "public <name> = ...;" around its sentences'
 _AS_RULE = 'write them as "public <command> = turn left | turn right;"'
 _NAME_JSGF = "name a grammar in JSGF, which is a text of rules"
 FORMATS = (
+    _format("a table of words (Kaldi, Vosk)", _AS_RULE, r"\A\s*+<eps>[ \t]+0\b"),
     _format(
         "SRGS, a grammar in XML",
         "<one-of> is (a | b), repeat='0-1' is [a], <ruleref uri='#b'/> is <b>, <tag> is {...}",
@@ -44,13 +45,13 @@ FORMATS = (
     _format(
         "a file of sentences of Home Assistant (hassil, YAML)",
         f"{_SENTENCES}: (a | b) and [a] stay as they are, {{name}} is <name>",
-        r"\A(?=[\s\S]*^(intents|lists|expansion_rules|skip_words)[ \t]*:)"
-        r"(?=[\s\S]*^[ \t-]*(language|sentences|values|expansion_rules|data)[ \t]*:)",
+        r"\A(?=[\s\S]*^[ \t]*(intents|lists|expansion_rules|skip_words)[ \t]*:)"
+        r"(?=[\s\S]*^[ \t-]*(language|sentences|values|expansion_rules|data|conversation)[ \t]*:)",
     ),
     _format(
-        "training data of Rasa or Snips (YAML)",
+        "training data of Rasa or Snips",
         f"{_SENTENCES}, and [text](name) as text {{name=text}}",
-        rf"{_COMMENTS}(---\s*+)?(version[ \t]*:.*\s+)?"
+        rf"\A\s*+##[ \t]*(intent|lookup|synonym)\b|{_COMMENTS}(---\s*+)?(version[ \t]*:.*\s+)?"
         r"(nlu[ \t]*:|type[ \t]*:[ \t]*(intent|entity)\b)",
     ),
     _format(
@@ -62,6 +63,16 @@ FORMATS = (
         "a grammar in BNF or GBNF",
         '<a> ::= b is public <a> = b;, a quoted "word" needs no quotes, (a)? is [a]',
         rf"{_COMMENTS}(<[^<>\n]++>|[A-Za-z][\w-]*+)\s*+::=",
+    ),
+    _format(
+        'a file of "name: value" lines, as YAML',
+        _NAME_JSGF,
+        rf"{_COMMENTS}(---[ \t]*+$|[A-Za-z_][\w-]*+:([ \t]|$))",
+    ),
+    _format(
+        'a file of "name = value" lines, as EBNF',
+        'a = "b" is public <a> = b;, and the first line is "#JSGF V1.0;"',
+        rf"{_COMMENTS}(?:\(\*[^*]*+\*\)\s*+)*+(?!public\b|grammar\b)[A-Za-z][\w -]*+=(?!=)",
     ),
     _format(
         "a graph of states (Sphinx FSG)",

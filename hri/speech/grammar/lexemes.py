@@ -18,7 +18,7 @@ _LEXICON = re.compile(
     |(?P<word>[^\s=;|*+<>()\[\]{}/"]++(?:/(?![/*])[^\s=;|*+<>()\[\]{}/"]++)*+)
     |(?P<rule><(?:[^\s<>{}"*]+|[^<>;|(){}\[\]\n"]*)>)
     |(?P<sign>[=;|*+()\[\]])
-    |(?P<tag>\{[^\\{}]*+(?:\\.[^\\{}]*+){0,100}+\})
+    |(?P<tag>\{[^\\{}]*+(?:(?:\\.|\{[^\\{}]*+\})[^\\{}]*+){0,100}+\})
     |(?P<comment>//[^\n]*+|/\*.*?(?:\*/|\Z))
     |(?P<quoted>"[^"\\\n]*+(?:\\.[^"\\\n]*+){0,100}+")
     |(?P<weight>/[^/\n|;]*+/)
@@ -27,6 +27,7 @@ _LEXICON = re.compile(
 )
 # A "/" inside a word is part of it ("and/or") unless a comment begins there; a rule's name may
 # hold almost any sign, but no white space: the second form is read to be refused as a whole.
+# A tag may hold braces in pairs, as code does.
 # No form looks far ahead in vain: a text of only escaped quotes takes no longer than others.
 
 

@@ -30,6 +30,11 @@ OTHERS = [
     ("GBNF", 'root ::= ("on" | "off")? ws\nws ::= [ \\t]*\n'),
     ("GBNF", '# A lamp.\nroot ::= "on"\n'),
     ("BNF", '<command> ::= turn <state>\n<state> ::= "on" | "off"\n'),
+    ("YAML", "trigger:\n  platform: conversation\n"),
+    ("EBNF", '(* a lamp *)\nlamp = "on" | "off" ;\n'),
+    ("Kaldi", "<eps> 0\n!SIL 1\non 2\n"),
+    ("Home Assistant", "conversation:\n  intents:\n    TurnOn:\n      - turn on\n"),
+    ("Rasa", "## intent:greet\n- hey\n"),
     ("FSG", "FSG_BEGIN lamp\nNUM_STATES 2\nSTART_STATE 0\nTRANSITION 0 1 1.0 on\nFSG_END\n"),
     ("ARPA", "comment\n\n\\data\\\nngram 1=3\n\n\\1-grams:\n"),
     ("Nuance", ";GSL2.0;\n.Lamp [on off]\n"),
@@ -58,9 +63,19 @@ def test_a_file_of_another_program_is_named(tmp_path, name, text):
         load_grammar(path)
 
 
+@pytest.mark.parametrize("encoding", ["latin-1", "utf-16", "utf-16-le", "utf-16-be"])
+def test_a_file_of_another_program_is_named_in_any_encoding(tmp_path, encoding):
+    path = tmp_path / "lamp.grxml"
+    path.write_text('<?xml version="1.0"?>\n<grammar><item>éteins</item></grammar>', encoding)
+
+    with pytest.raises(AuthoringError, match="this is SRGS, a grammar in XML, not JSGF"):
+        load_grammar(path)
+
+
 @pytest.mark.parametrize(
     "text",
     [
+        "public a = stop;",
         "grammar lamp;\npublic <a> = [please] stop;",
         "// A lamp: on ::= off\ngrammar lamp;\npublic <a> = stop;",
         "<a> = stop | <b>;",

@@ -171,6 +171,8 @@ def test_what_is_odd_is_told_and_costs_nothing(write, rules, place, what, remedy
         ("this.item = $;", "this.item = $;"),
         ('this.x = new Array();\n  this.y.add("a");', 'this.x = new Array(); this.y.add("a");'),
         ('\\{"intent": "play"\\}', '{"intent": "play"}'),
+        ('{"intent": "play"}', '{"intent": "play"}'),
+        ("if (a) { go(); } else { stop(); }", "if (a) { go(); } else { stop(); }"),
         ("3", "3"),
         ("go!", "go!"),
         ("\u64ad\u653e", "\u64ad\u653e"),
