@@ -27,17 +27,19 @@ _XML = r"\A\s*+(?:<\?xml[^>]*+>\s*+)?(?:(?><!--[\s\S]*?-->|<!DOCTYPE[^>]*+>)\s*+
 _COMMENTS = r"\A(?:\s++|[#;](?!JSGF)[^\n]*+)*+"
 _SENTENCES = 'write "public <name> = ...;" around its sentences'
 _AS_RULE = 'write them as "public <command> = turn left | turn right;"'
+_IN_JSGF = "write it in JSGF: "
 _NAME_JSGF = "name a grammar in JSGF, which is a text of rules"
 FORMATS = (
     _format("a table of words (Kaldi, Vosk)", _AS_RULE, r"\A\s*+<eps>[ \t]+0\b"),
     _format(
         "SRGS, a grammar in XML",
-        "<one-of> is (a | b), repeat='0-1' is [a], <ruleref uri='#b'/> is <b>, <tag> is {...}",
+        f"{_IN_JSGF}<one-of> is (a | b), repeat='0-1' is [a], <ruleref uri='#b'/> is <b>,"
+        " <tag> is {tag=value}",
         rf"{_XML}<(\w+:)?grammar\b",
     ),
     _format(
         "SRGS, a grammar in ABNF",
-        "#ABNF 1.0 is #JSGF V1.0, $name is <name>, a<0-1> is [a], the rest is alike",
+        f"{_IN_JSGF}#ABNF 1.0 is #JSGF V1.0, $name is <name>, a<0-1> is [a], the rest is alike",
         r"\A\s*+#ABNF\b",
     ),
     _format("VoiceXML", "take its grammar out, and write it in JSGF", rf"{_XML}<vxml\b"),
@@ -61,7 +63,7 @@ FORMATS = (
     ),
     _format(
         "a grammar in BNF or GBNF",
-        '<a> ::= b is public <a> = b;, a quoted "word" needs no quotes, (a)? is [a]',
+        f'{_IN_JSGF}<a> ::= b is public <a> = b;, a quoted "word" needs no quotes, (a)? is [a]',
         rf"{_COMMENTS}(<[^<>\n]++>|[A-Za-z][\w-]*+)\s*+::=",
     ),
     _format(
@@ -71,7 +73,7 @@ FORMATS = (
     ),
     _format(
         'a file of "name = value" lines, as EBNF',
-        'a = "b" is public <a> = b;, and the first line is "#JSGF V1.0;"',
+        f'{_IN_JSGF}a = "b" is public <a> = b;, and the first line is "#JSGF V1.0;"',
         rf"{_COMMENTS}(?:\(\*[^*]*+\*\)\s*+)*+(?!public\b|grammar\b)[A-Za-z][\w -]*+=(?!=)",
     ),
     _format(
@@ -86,7 +88,7 @@ FORMATS = (
     ),
     _format(
         "a grammar of Nuance (GSL)",
-        ".Name [(a b) c] is public <name> = a b | c;, ?a is [a]",
+        f"{_IN_JSGF}.Name [(a b) c] is public <name> = a b | c;, ?a is [a]",
         r"\A\s*+;[ \t]*GSL",
     ),
     _format(
