@@ -20,6 +20,14 @@ CURRENCIES = {
 """What a sign before or behind a number is called."""
 _HUNDREDTHS = {"$": ("cents", "cent"), "€": ("cents", "cent"), "£": ("pence", "penny")}
 
+_FRACTIONS = {
+    "½": ("a half", "half", "one half"),
+    "¼": ("a quarter", "quarter", "one quarter"),
+    "¾": ("three quarters",),
+}
+_ROW_OF_DIGITS = re.compile(r"[0-9][0-9,:-]*")
+"""What may be read digit by digit, such as "555-1234"."""
+
 _BELOW_TWENTY = (
     *("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"),
     *("eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen", "seventeen", "eighteen"),
@@ -60,13 +68,16 @@ def sayings(written: str) -> Iterator[str]:
     """
     sign = written[0] if written[0] in "+-" else ""
     match = _TYPED.fullmatch(written, len(sign))
-    if match is None or not (match["whole"] or match["decimals"]):
+    if written[-1] in _FRACTIONS:
+        whole = in_words(written[len(sign) : -1])
+        amounts = [f"{whole} and {part}" if whole else part for part in _FRACTIONS[written[-1]]]
+    elif match is None or not (match["whole"] or match["decimals"]):
         amounts = [in_words(written[len(sign) :])]
     else:
         amounts = list(_amounts(match))
         sign = sign or match["sign"]
     said = [prefix + amount for prefix in _SIGNS[sign] for amount in amounts]
-    if sign != "-":
+    if _ROW_OF_DIGITS.fullmatch(written):
         said.append(_digits(re.sub(r"[^0-9]", "", written)))
     for words in said:
         yield words

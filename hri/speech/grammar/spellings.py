@@ -95,7 +95,7 @@ def _readings(word: str, known: Collection[str], forms: Mapping[str, str]) -> li
 
 
 def _written_out(word: str) -> Iterator[list[str]]:
-    if any(sign.isdigit() for sign in word):
+    if any(sign.isnumeric() for sign in word):
         yield from map(normalize, dict.fromkeys(sayings(word)))
     if word.endswith("."):
         letters = word.split(".")[:-1]

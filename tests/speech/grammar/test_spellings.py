@@ -91,6 +91,9 @@ def numbers(tmp_path_factory):
         ("set it to $-5", "set it to minus five"),
         ("-10%", "minus ten percent"),
         (".5%", "zero point five percent"),
+        ("set it to 2½", "set it to two and a half"),
+        ("set it to -2¼", "set it to minus two and a quarter"),
+        ("set it to ¾", "set it to three quarters"),
         ("set it to (5)", "set it to five"),
         ("pay $5.05", "pay five dollars and five cents"),
         ("pay $1,000.50", "pay one thousand dollars and fifty cents"),
@@ -115,7 +118,10 @@ def test_typed_numbers_are_said(numbers, typed, meant):
     assert found == parse(numbers, meant)
 
 
-@pytest.mark.parametrize("typed", ["set the price to -5 dollars", "set it to 1,2", "the -3rd room"])
+@pytest.mark.parametrize(
+    "typed",
+    ["set the price to -5 dollars", "set it to 1,2", "the -3rd room", "dial 1.5", "set it to 10cm"],
+)
 def test_no_number_changes_its_meaning_to_fit(numbers, typed):
     assert parse(numbers, typed) is None
 
