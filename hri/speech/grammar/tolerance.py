@@ -118,8 +118,9 @@ def nearest(
     exact = parse(grammar, text, rules)
     if exact is not None:
         return Tolerant(exact)
-    forms = grammar.matcher.forms(typed(text))
-    words = next((words for words in forms if _may_be_forgiven(grammar, words)), [])
+    said = typed(text)
+    forms = grammar.matcher.forms(said)
+    words = next((words for words in forms if _may_be_forgiven(grammar, words, said)), [])
     if not 0 < len(words) <= MOST_WORDS:
         return None
     for trace in _cheapest_first(words, grammar.matcher.begin(), most):
@@ -130,10 +131,13 @@ def nearest(
     return None
 
 
-def _may_be_forgiven(grammar: Grammar, words: list[str]) -> bool:
-    """Whether every word is one of the grammar's or a little one."""
-    known = grammar.matcher.words
-    return all(word in known or word in LITTLE_WORDS for word in words)
+def _may_be_forgiven(grammar: Grammar, words: list[str], said: list[str]) -> bool:
+    """Whether every word is one of the grammar's or a little one; the "oh" of 100 is none."""
+    known, heard = grammar.matcher.words, {*said}
+    return all(
+        (word in known or word in LITTLE_WORDS) and (word in heard or word not in HESITATIONS)
+        for word in words
+    )
 
 
 def _cheapest_first(words: list[str], begin: State, most: float) -> Iterator[_Trace | None]:
