@@ -132,7 +132,7 @@ def nearest(
 
 
 def _may_be_forgiven(grammar: Grammar, words: list[str], said: list[str]) -> bool:
-    """Whether every word is one of the grammar's or a little one; the "oh" of 100 is none."""
+    """Whether every word is one of the grammar's or a little one; "oh" in 100 is a number."""
     known, heard = grammar.matcher.words, {*said}
     return all(
         (word in known or word in LITTLE_WORDS) and (word in heard or word not in HESITATIONS)
