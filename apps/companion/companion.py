@@ -79,6 +79,7 @@ class Companion:
         self.camera = context.resources.obtain("camera", Camera)
         self.replies = authored_replies(context)
         self.voice.voice = self.replies.voice or self.voice.voice
+        self.listener.call(self.replies.name)
         self.talk = Lane(context)
         self.motion = Lane(context)
         self.face = Lane(context)

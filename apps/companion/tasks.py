@@ -87,6 +87,7 @@ async def take_saved_replies(context: TaskContext) -> None:
                 while not (read := worker.poll()):
                     await context.clock.sleep(READING_SECONDS)
                 companion.replies = read[0]
+                companion.listener.call(read[0].name)
                 context.events.raise_event("replies.changed", file=str(files[-1]))
             except HriError as error:
                 context.events.raise_event("replies.refused", file=str(files[-1]), error=str(error))
@@ -103,7 +104,9 @@ async def converse(context: TaskContext) -> None:
                 companion.puzzle(heard["reason"], heard["text"])
                 continue
             try:
-                companion.reply(heard["rule"], heard["text"], dict(heard["tags"]))
+                companion.reply(
+                    heard["rule"], heard.get("command") or heard["text"], dict(heard["tags"])
+                )
             except (LookupError, ValueError, TypeError) as error:
                 # A reply that cannot be filled in costs this reply, not the companion.
                 why = f"nothing fills in {{{error.args[0]}}}" if type(error) is KeyError else error

@@ -64,6 +64,8 @@ class Utterance:
     """What else it may have been, likeliest first."""
     latency: float = 0.0
     """Seconds from where the pause was long enough to the result."""
+    command: str = ""
+    """The same words without courtesies, names, and free words around the command."""
 
 
 @dataclass(frozen=True, slots=True)

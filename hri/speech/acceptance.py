@@ -85,7 +85,18 @@ def judge(
         end=end,
         words=words,
         alternatives=hypothesis.alternatives,
+        command=_command(grammar, found),
     )
+
+
+def _command(grammar: Grammar, found: Parse) -> str:
+    """The words of a sentence without those that are said around it."""
+    aside = set(found.free)
+    for _, tree in found.tree.walk():
+        if "aside" in grammar.rules[tree.rule].marks:
+            aside.update(range(tree.start, tree.end))
+    words = enumerate(found.text.split())
+    return " ".join(word for place, word in words if place not in aside)
 
 
 def _likely(grammar: Grammar, alternatives: Iterable[Alternative]) -> Iterator[Parse]:

@@ -94,6 +94,13 @@ class GrammarStack:
             self._first = new
         return new
 
+    def retake(self) -> None:
+        """Give the topmost to the recognizer again, as it was read."""
+        if self._layers:
+            grammar = self._layers[-1].grammar
+            self.reload()
+            self._layers[-1].grammar = grammar
+
     @property
     def is_settled(self) -> bool:
         """Whether the topmost is in force."""

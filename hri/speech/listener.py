@@ -62,12 +62,13 @@ class _Piece:
 class Listener(Behavior):
     """Hears what the grammar allows: sound in, utterances out.
 
-    Raises `speech.heard` (text, rule, tags, confidence, start, end, latency), `speech.rejected`
-    (reason, detail, text, confidence), `speech.partial` (text) while someone speaks,
-    `speech.interrupted` (text, rule) when a rule marked @interrupts is heard over the robot's own
-    voice, and `grammar.changed` (file) or `grammar.refused` (file, error). Loads its models and
-    grammars while the rest already runs; speech before the first grammar is loaded waits. When the
-    recognizer refuses the first one, `grammar.refused` says why, and only typed lines are heard.
+    Raises `speech.heard` (text, rule, tags, confidence, start, end, latency, command),
+    `speech.rejected` (reason, detail, text, confidence), `speech.partial` (text) while someone
+    speaks, `speech.interrupted` (text, rule) when a rule marked @interrupts is heard over the
+    robot's own voice, and `grammar.changed` (file) or `grammar.refused` (file, error). Loads
+    its models and grammars while the rest already runs; speech before the first grammar is
+    loaded waits. When the recognizer refuses the first one, `grammar.refused` says why, and
+    only typed lines are heard.
 
     The marks of rules decide which are active, see `hri.speech.turn`. A sentence of a rule marked
     @interrupts that is heard as clearly as over speech takes effect 0.2 s after its last sound,
@@ -107,6 +108,7 @@ class Listener(Behavior):
 
     is_muted = False
     """Set it to be deaf for a while."""
+    _name = ""
     _held_until = 0.0
     _was_held = False
     last_utterance: Utterance | None = None
@@ -170,6 +172,12 @@ class Listener(Behavior):
         """Take a grammar away that was pushed; the one below it comes back into force."""
         self._grammars.pop(layer)
 
+    def call(self, name: str) -> None:
+        """Let the grammars know what the robot is called, where a rule is marked @name."""
+        if name != self._name:
+            self._name = name
+            self._grammars.retake()
+
     def is_in_force(self, layer: Layer) -> bool:
         """Whether a grammar is the one that is listened for."""
         in_force = self._grammars.in_force
@@ -184,6 +192,7 @@ class Listener(Behavior):
         for below in layer.below:
             heard = with_interrupts_of(heard, below.grammar or load_grammar(below.path))
         unheard = None
+        heard = heard.called(self._name)
         try:
             self._recognizer.start(heard)
         except NotAvailable:
@@ -435,6 +444,7 @@ class Listener(Behavior):
             start=round(result.start, 3),
             end=round(result.end, 3),
             latency=round(result.latency, 3),
+            command=result.command,
         )
 
     def stop(self) -> None:

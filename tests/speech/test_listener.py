@@ -37,6 +37,7 @@ def test_a_command_is_heard_with_its_meaning():
         "start": 0.5,
         "end": 1.0,
         "latency": pytest.approx(0.15, abs=TICK),
+        "command": "go forward ten meters",
     }
 
 
@@ -186,7 +187,7 @@ def test_the_engine_is_told_which_rules_count():
 
     unasked, everything, asked = stage.ears.decoded_with
     assert everything == frozenset(), "what no rule explains is held against all of them"
-    assert asked - unasked == {"yes", "no"}
+    assert asked - unasked == {"yes", "no", "unsure"}
     assert stage.names() == ["speech.rejected", "speech.heard"]
 
 

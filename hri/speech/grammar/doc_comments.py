@@ -25,10 +25,14 @@ MARKS = MappingProxyType(
         "interrupts": "it is heard while the robot speaks and under other grammars, too",
         "anywhere": "it counts among other words, too",
         "wake": "other rules are heard only after it, and for a while after what was heard last",
+        "aside": "what is said around a command and does not belong to it",
+        "name": "what the robot is called; the app adds its name",
         "part": "part of commands in other grammars, not a command itself",
     }
 )
 """The marks of a rule and what they mean."""
+OF_PARTS = frozenset(("aside", "name"))
+"""Those of rules that need not be commands."""
 
 STANDARD_TAGS = ("example", "see", "author", "version")
 """Doc tags of JSGF 1.0 that are not marks."""

@@ -18,6 +18,7 @@ from hri.speech.grammar.expressions import (
     Repeat,
     RuleReference,
     Sequence,
+    SourceSpan,
     Tagged,
     Token,
     rename,
@@ -27,6 +28,11 @@ from hri.speech.grammar.fold import Fold
 from hri.speech.grammar.graph import word_graph
 from hri.speech.grammar.matching import Matcher, matcher_of
 from hri.speech.grammar.rules import Rules
+from hri.speech.grammar.words import normalize
+
+RARE = 0.00001
+"""Odds of an answer against a command: PocketSphinx hears both at any time."""
+_NOWHERE = SourceSpan(1, 1, 1, 1)
 
 
 @dataclass(frozen=True)
@@ -36,6 +42,19 @@ class Grammar(Rules):
     def with_commands(self, keys: Collection[str]) -> Grammar:
         """The same rules, with some of them, public or not, as the only commands."""
         rules = {key: replace(rule, is_public=key in keys) for key, rule in self.rules.items()}
+        return replace(self, rules=rules)
+
+    def called(self, name: str) -> Grammar:
+        """The same rules for a robot with a name, which rules that are marked @name know then."""
+        words = tuple(Token(word, _NOWHERE) for word in normalize(name))
+        if not words:
+            return self
+        rules = {
+            key: replace(rule, expression=_either(rule.expression, Sequence(words, _NOWHERE)))
+            if "name" in rule.marks
+            else rule
+            for key, rule in self.rules.items()
+        }
         return replace(self, rules=rules)
 
     def words(self) -> frozenset[str]:
@@ -100,6 +119,10 @@ class Grammar(Rules):
         return self.made(analysis.order_of)
 
 
+def _either(one: Expression, other: Expression) -> Expression:
+    return Alternative((one, other), (1.0, 1.0), one.span)
+
+
 def _graph(rules: Rules) -> WordGraph:
     return word_graph(rules.made(build))
 
@@ -108,16 +131,19 @@ def flat_jsgf(grammar: Grammar) -> str:
     """See `Grammar.flat_jsgf`. PocketSphinx knows one public rule only and no dots in names.
 
     What can never be said is left out: with a `<VOID>` anywhere it hears nothing of the rest. So is
-    what has free words, which no other engine knows.
+    what has free words, which no other engine knows, and what is said beside commands, which makes
+    PocketSphinx hear it in everything.
     """
-    sayable = _Sayable(grammar.made(analysis.heights))
+    aside = [key for key, rule in grammar.rules.items() if "aside" in rule.marks]
+    sayable = _Sayable(grammar.made(analysis.heights), aside)
     said = {key: sayable(rule.expression) for key, rule in grammar.rules.items()}
     public = [key for key in grammar.public_rules if said[key] is not None]
     keys = [key for key in analysis.reachable(grammar.rules, public) if said[key] is not None]
     names = {
         key: f"r{number}_{re.sub(r'[^A-Za-z0-9]', '_', key)}" for number, key in enumerate(keys)
     }
-    top = " | ".join(f"<{names[key]}>" for key in public) or "<VOID>"
+    rare = grammar.marked("answer")
+    top = " | ".join(f"/{RARE if key in rare else 1}/ <{names[key]}>" for key in public) or "<VOID>"
     lines = ["#JSGF V1.0;", "grammar flat;", f"public <sentence> = {top};"]
     for key in keys:
         kept = said[key]
@@ -130,8 +156,9 @@ def flat_jsgf(grammar: Grammar) -> str:
 class _Sayable(Fold[Expression | None]):
     """A node without its parts that have no sentence; None when it has none itself."""
 
-    def __init__(self, heights: Mapping[str, float]) -> None:
-        self._heights = heights
+    def __init__(self, heights: Mapping[str, float], aside: Collection[str]) -> None:
+        """`heights` are those of the rules; `aside` are rules that count as never said."""
+        self._heights, self._aside = heights, aside
 
     def word(self, node: Token) -> Expression:
         return node
@@ -140,7 +167,8 @@ class _Sayable(Fold[Expression | None]):
         return None
 
     def reference(self, node: RuleReference) -> Expression | None:
-        return None if math.isinf(self._heights[node.name]) else node
+        is_said = node.name not in self._aside and not math.isinf(self._heights[node.name])
+        return node if is_said else None
 
     def row(self, node: Sequence, parts: Iterator[Expression | None]) -> Expression | None:
         items = list(parts)

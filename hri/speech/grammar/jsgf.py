@@ -39,7 +39,7 @@ from hri.speech.grammar.lexemes import MOST_LEXEMES, TOO_MUCH, Lexeme, Lines, sp
 from hri.speech.grammar.tags import TagError, opaque, read_entries
 from hri.speech.grammar.words import normalize
 
-EXTENDS = "extends"
+EXTENDS, BEFORE, AFTER = "extends", "before", "after"
 """The doc tag before `grammar` that names a grammar whose commands are understood as well."""
 DEEPEST = 50
 """Brackets within brackets; deeper is a mistake or an attack."""
@@ -116,6 +116,10 @@ class Document:
     encoding: str = ""
     locale: str = ""
     extends: list[Extension] = field(default_factory=list)
+    before: RuleReference | None = None
+    """`/** @before <polite> */ grammar mine;`: what may be said before each of its commands."""
+    after: RuleReference | None = None
+    """What may be said behind each, `@after`."""
     imports: list[Import] = field(default_factory=list)
     name_lists: list[NameListImport] = field(default_factory=list)
     rules: list[RuleDefinition] = field(default_factory=list)
@@ -288,6 +292,8 @@ class _JsgfReader:
         self._position += 1
         self.document.name = lexeme.text
         self.document.extends = list(self._extensions(doc))
+        self.document.before = self._around(doc, BEFORE)
+        self.document.after = self._around(doc, AFTER)
         self._expect_end("the grammar's name")
 
     def _extensions(self, doc: DocComment) -> Iterator[Extension]:
@@ -299,6 +305,19 @@ class _JsgfReader:
                 place = Place(self.document.path, tag.span.line, tag.span.column)
                 remedy = f"write /** @{EXTENDS} companion */ before grammar"
                 self.document.errors.append(AuthoringError(place, what, remedy))
+
+    def _around(self, doc: DocComment, name: str) -> RuleReference | None:
+        """The rule that a tag of the grammar's comment names."""
+        tag = next((tag for tag in doc.tags if tag.name == name), None)
+        if tag is None:
+            return None
+        named = re.fullmatch(rf"<({_PART}(?:\.{_PART})*)>", tag.text)
+        if named is None:
+            place = Place(self.document.path, tag.span.line, tag.span.column)
+            what, remedy = f"@{name} needs the name of one rule", f"write @{name} <polite>"
+            self.document.errors.append(AuthoringError(place, what, remedy))
+            return None
+        return RuleReference(named[1], tag.span)
 
     def _spelling(self, keyword: str, otherwise: str) -> str:
         """The remedy for a misspelt keyword."""

@@ -322,7 +322,7 @@ def test_a_hundred_thousand_sentences_are_parsed_in_no_time(write):
 def test_the_vocabulary_is_told(companion):
     assert {"distance", "angle", "emotion", "eyes", "thing"} == companion.tag_names()
     assert {"forward", "ninety"} <= companion.words()
-    assert list(companion.sentences_of("turn", 2)) == ["turn left", "turn left a little"]
+    assert list(companion.sentences_of("move", 2)) == ["go forward", "go forward robot"]
 
 
 def test_signs_in_quoted_words_stay_signs_in_the_flat_form(write, tmp_path):

@@ -9,7 +9,7 @@ from hypothesis import assume, given, settings, strategies as st
 from hri.speech.grammar import load_grammar
 from hri.speech.grammar.expansion import random_sentence
 from hri.speech.grammar.matching import parse
-from hri.speech.grammar.tolerance import LITTLE_WORDS, MOST_COST, nearest
+from hri.speech.grammar.tolerance import HESITATIONS, LITTLE_WORDS, MOST_COST, nearest
 
 RULES = """
 public <go> = go (forward | back) [<count> meters] | take me to the (kitchen | garden);
@@ -94,7 +94,8 @@ def test_a_hesitation_anywhere_changes_nothing(companion, seed, data):
 
     found = nearest(companion, " ".join(words))
 
-    assert [str(edit) for edit in found.edits] == ["+um"]
+    (edit,) = found.edits  # that one, or another of the sentence, which may have some itself
+    assert (edit.kind, edit.word in HESITATIONS) == ("+", True)
     assert found.parse.tags == parse(companion, found.parse.text).tags
     assert found.cost <= MOST_COST
 

@@ -8,7 +8,7 @@ from itertools import islice
 
 from hri.core.errors import AuthoringError, Place, did_you_mean
 from hri.speech.grammar import analysis
-from hri.speech.grammar.doc_comments import KNOWN_TAGS, MARKS
+from hri.speech.grammar.doc_comments import KNOWN_TAGS, MARKS, OF_PARTS
 from hri.speech.grammar.expressions import (
     Alternative,
     Expression,
@@ -131,7 +131,7 @@ def _unknown_marks(grammar: Grammar) -> Iterator[Finding]:
 def _idle_marks(grammar: Grammar) -> Iterator[Finding]:
     for rule in _own_rules(grammar):
         for tag in rule.doc_tags:
-            if tag.name in MARKS and not rule.is_public:
+            if tag.name in MARKS.keys() - OF_PARTS and not rule.is_public:
                 what = f"@{tag.name} says nothing here, for <{rule.key}> is not public"
                 yield warning(rule.place(tag.span), what, "mark the public rules that use it")
 
