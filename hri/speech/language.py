@@ -92,7 +92,8 @@ def foreign(grammar: Grammar) -> str:
 def complaint(grammar: Grammar, language: str) -> tuple[str, str]:
     """What is wrong with hearing a grammar of a language as English, and what to do."""
     model = next((one.name for one in DOWNLOADS if one.about == f"Vosk, {language}"), "")
-    get = f"`hri models fetch {model}`" if model else f"get a Vosk model of {language}"
+    of_it = "it" if language == OTHER else language
+    get = f"`hri models fetch {model}`" if model else f"get a Vosk model of {of_it}"
     remedy = f"{get} and name it with --model DIR (docs/speech.md)"
     if not says_english(grammar):
         remedy += f", or write {ENGLISH} if it is English"
@@ -151,12 +152,6 @@ def _voted(sentence: str) -> str:
     return "English" if english else ""
 
 
-def scripts_of(text: str) -> frozenset[str]:
-    """The scripts of the letters of a text, but for Latin, as Unicode calls them."""
-    found = {unicodedata.name(letter, "LATIN").split()[0] for letter in text if letter.isalpha()}
-    return frozenset(found - {"LATIN"})
-
-
 @cache
 def _english() -> frozenset[str]:
     """Ordinary words of English, short ones too."""
@@ -170,12 +165,12 @@ def _languages_of(word: str) -> Collection[str]:
             return ()
         return [known.name for known in LATIN.values() if word in known.words]
     letters = {letter for letter in word if letter.isalpha() and not letter.isascii()}
-    if scripts := scripts_of(word):
-        if letters & _UKRAINIAN:
-            return ("Ukrainian",)
-        kana = scripts & {"HIRAGANA", "KATAKANA"}
-        script = min(kana or scripts)
-        return (SCRIPTS.get(script, script.capitalize()), *_ALSO.get(script, ()))
+    if letters & _UKRAINIAN:
+        return ("Ukrainian",)
+    scripts = {unicodedata.name(letter, "").partition(" ")[0] for letter in letters}
+    if known_scripts := scripts & SCRIPTS.keys():
+        script = min(known_scripts - {"CJK"} or known_scripts)  # Japanese has signs of Chinese
+        return (SCRIPTS[script], *_ALSO.get(script, ()))
     fitting = [known for known in LATIN.values() if letters and letters.issubset(known.letters)]
     sure = [known.name for known in fitting if word in known.words]
     return sure or [known.name for known in fitting] or ((OTHER,) if letters else ())
