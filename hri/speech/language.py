@@ -94,7 +94,7 @@ def complaint(grammar: Grammar, language: str) -> tuple[str, str]:
     model = next((one.name for one in DOWNLOADS if one.about == f"Vosk, {language}"), "")
     of_it = "it" if language == OTHER else language
     get = f"`hri models fetch {model}`" if model else f"get a Vosk model of {of_it}"
-    remedy = f"{get} and name it with --model DIR (docs/speech.md)"
+    remedy = f"{get} and name it with --model DIR or HRI_VOSK_MODEL (docs/speech.md)"
     if not says_english(grammar):
         remedy += f", or write {ENGLISH} if it is English"
     return (
@@ -114,6 +114,11 @@ def require_english(grammar: Grammar, notice: Callable[[str], object]) -> None:
         if not says_english(grammar):
             raise HriError(told)
         notice(told)
+
+
+def is_other_language(grammar: Grammar) -> bool:
+    """Whether a grammar is in another language than English, and does not say that it is not."""
+    return not says_english(grammar) and bool(foreign(grammar))
 
 
 def says_english(grammar: Grammar) -> bool:

@@ -16,12 +16,19 @@ from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.speech.acceptance import judge
 from hri.speech.grammar import load_grammar
+from hri.speech.recognizers import automatic
 from hri.speech.recognizers.automatic import AutomaticRecognizer
 from hri.speech.recognizers.consensus import ConsensusRecognizer
 from hri.speech.recognizers.ctc.decoder import CtcRecognizer
 from hri.speech.recognizers.pocketsphinx import PocketSphinxRecognizer
 from hri.speech.recognizers.typed import TypedRecognizer
-from hri.speech.recognizers.vosk import PARTS, VoskRecognizer, hypothesis, known_sentences
+from hri.speech.recognizers.vosk import (
+    PARTS,
+    VoskRecognizer,
+    hypothesis,
+    is_of_another_language,
+    known_sentences,
+)
 from hri.speech.synthesizers.espeak import EspeakVoice
 from tests.recorded import BOOK, ORDERS, spoken_by_a_person
 
@@ -270,6 +277,34 @@ class Certain(TypedRecognizer):
 
     def decode(self, segment, rules=None):
         return Hypothesis(self.words, 0.8)
+
+
+def test_the_best_engine_for_another_language_is_vosk(resources, write, tmp_path, monkeypatch):
+    monkeypatch.setattr(automatic, "VoskRecognizer", Certain)
+    french, english = write("public <a> = éteins la lumière;", "f"), write("public <a> = stop now;")
+    for model in ("", str(tmp_path)):
+        description = Description("ears", "Hri.Recognizer", {"model": model} if model else {})
+        ears = AutomaticRecognizer(description, resources)
+        ears.activate()
+        ears.start(load_grammar(english))
+        assert isinstance(ears.engine, CtcRecognizer)
+        if model:
+            ears.start(load_grammar(french))
+            assert isinstance(ears.engine, Certain)
+        else:
+            with pytest.raises(HriError, match="in French, and only Vosk"):
+                ears.start(load_grammar(french))
+        ears.start(load_grammar(english))
+        assert isinstance(ears.engine, CtcRecognizer)
+        ears.deactivate()
+
+
+def test_a_vosk_model_of_english_takes_no_french(write):
+    french = load_grammar(write("public <a> = éteins la lumière du salon;"))
+    assert is_of_another_language(french, {"la", "salon"}.__contains__)
+    assert not is_of_another_language(french, {"la", "lumière", "éteins"}.__contains__)
+    names = load_grammar(write("public <a> = call (zorblax | glorp | fnord);", "names"))
+    assert not is_of_another_language(names, {"call"}.__contains__)
 
 
 class Choosy(Certain):

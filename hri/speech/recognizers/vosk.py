@@ -15,6 +15,7 @@ from hri.core.models import models_folder
 from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, HeardWord, Hypothesis, Segment
 from hri.speech.engine_models import DOWNLOADS, find_vosk
+from hri.speech.language import foreign
 from hri.speech.recognizers.endpointed import EndpointedRecognizer
 
 VARIABLE = "HRI_VOSK_MODEL"
@@ -67,9 +68,10 @@ class VoskRecognizer(EndpointedRecognizer):
                     remedy = "unpack the model again"
                     raise self.not_available(f"{self._path}: {error}", remedy) from error
             phrases = known_sentences(grammar, self._knows)
-            if not phrases:  # With an empty list Vosk ends the process.
-                what = f'{self._path}: this model lacks words of all sentences of "{grammar.name}"'
-                raise HriError(f"{what} - take a model of its language: hri models list")
+            # With an empty list Vosk ends the process.
+            if not phrases or is_of_another_language(grammar, self._knows):
+                what = f'{self._path}: this model lacks most words of "{grammar.name}"'
+                raise HriError(f"{what} - take a model of its language, see docs/speech.md")
             # Vosk does not know what JSON escapes.
             told = json.dumps(phrases, ensure_ascii=False)
             self._engine = vosk.KaldiRecognizer(self._model, self.rate, told)
@@ -85,6 +87,12 @@ class VoskRecognizer(EndpointedRecognizer):
             self._engine.Reset()
             self._engine.AcceptWaveform(samples.tobytes())
             return hypothesis(json.loads(self._engine.FinalResult()))
+
+
+def is_of_another_language(grammar: Grammar, knows: Callable[[str], bool]) -> bool:
+    """Whether a model lacks most words of a grammar that is not English."""
+    words = grammar.words()
+    return 2 * sum(map(knows, words)) < len(words) and bool(foreign(grammar))
 
 
 def known_sentences(grammar: Grammar, knows: Callable[[str], bool]) -> list[str]:
