@@ -13,7 +13,7 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
 from hri.core import paths
 from hri.core.clock import Worker
-from hri.core.errors import HriError, NotAvailable
+from hri.core.errors import HriError
 from hri.core.origin import caused_by, origin
 from hri.core.signals import Rejection, Samples, Speech, Utterance
 from hri.hal.microphone import Microphone
@@ -195,8 +195,6 @@ class Listener(Behavior):
         heard = heard.called(self._name)
         try:
             self._recognizer.start(heard)
-        except NotAvailable:
-            raise
         except HriError as error:
             if self._grammars.in_force is not None and layer.unheard is None:
                 raise
