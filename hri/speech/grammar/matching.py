@@ -34,7 +34,7 @@ from hri.speech.grammar.automaton import (
     build,
     build_as_written,
 )
-from hri.speech.grammar.numerals import in_words
+from hri.speech.grammar.numerals import sayings
 from hri.speech.grammar.rules import Rules
 from hri.speech.grammar.spellings import contracted_forms, spellings
 from hri.speech.grammar.tags import TagEntry, Value, are_same, evaluate
@@ -175,7 +175,7 @@ def refusal(grammar: Rules, text: str) -> Refusal | None:
 def _remedy(word: str, expected: Collection[str]) -> str:
     """What to do about a word that does not fit; what may be meant are words that fit there."""
     if any(sign.isdigit() for sign in word):
-        return f'write numbers as words, "{in_words(word)}"'
+        return f'write numbers as words, "{next(sayings(word))}"'
     if len(expected) > MOST_COMPARED:
         # A slip of the fingers leaves the first letter and most of the others.
         alike = range(len(word) - 1, len(word) + 2)

@@ -25,6 +25,11 @@ _FRACTIONS = {
     "¼": ("a quarter", "quarter", "one quarter"),
     "¾": ("three quarters",),
 }
+_HALF = {"5": "a half", "25": "a quarter", "75": "three quarters"}
+_HALVES = re.compile(r"([1-9][0-9]*)\.(5|25|75)")
+_FULL_HOUR = re.compile(r"([0-9]{1,2}):00([a-z]*)")
+_YEAR = re.compile(r"1[1-9][0-9]{2}|20[0-9]{2}")
+_DAY = re.compile(r"[1-9]|[12][0-9]|3[01]")
 _ROW_OF_DIGITS = re.compile(r"[0-9][0-9,:-]*")
 """What may be read digit by digit, such as "555-1234"."""
 
@@ -77,12 +82,30 @@ def sayings(written: str) -> Iterator[str]:
         amounts = list(_amounts(match))
         sign = sign or match["sign"]
     said = [prefix + amount for prefix in _SIGNS[sign] for amount in amounts]
+    if not sign:
+        said += _in_dates_and_times(written)
     if _ROW_OF_DIGITS.fullmatch(written):
         said.append(_digits(re.sub(r"[^0-9]", "", written)))
     for words in said:
         yield words
         if "zero" in words:
             yield words.replace("zero", "oh")
+
+
+def _in_dates_and_times(written: str) -> Iterator[str]:
+    """How the day of a month, a year, a full hour, or a half is said."""
+    if match := _FULL_HOUR.fullmatch(written):
+        hour = _whole(int(match[1]))
+        yield f"{hour} {match[2]}"
+        yield f"{hour} o'clock {match[2]}"
+    elif match := _HALVES.fullmatch(written):
+        yield f"{in_words(match[1])} and {_HALF[match[2]]}"
+    elif _YEAR.fullmatch(written):
+        century, year = divmod(int(written), 100)
+        rest = _whole(year) if year > 9 else f"oh {_whole(year)}" if year else "hundred"
+        yield f"{_whole(century)} {rest}"
+    elif _DAY.fullmatch(written):
+        yield _ordinal(_whole(int(written)))
 
 
 def _amounts(match: re.Match[str]) -> Iterator[str]:

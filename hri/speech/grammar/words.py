@@ -15,8 +15,8 @@ _SPOKEN = {"&": " and ", "%": " percent ", "\N{DEGREE SIGN}": " degrees ", "\\":
 _SIGNS = str.maketrans(_SPOKEN)
 
 
-_INITIALS = re.compile(r"(?:[^\W\d_]\.)+[^\W\d_]")
-"""Of "U.S.A.", all but the last point."""
+_INITIALS = re.compile(r"(?:[^\W\d_]{1,2}\.)+[^\W\d_]{1,2}")
+"""Of "U.S.A." or "Ph.D.", all but the last point."""
 _MINUS = str.maketrans("\N{MINUS SIGN}\N{EN DASH}", "--")
 _BEFORE_DIGITS = frozenset("-+.").union(CURRENCIES)
 

@@ -44,6 +44,10 @@ def test_a_typed_text_is_what_it_stands_for(companion, typed, meant):
 
 NUMBERS = """
 import <numbers.whole>; import <numbers.number>; import <numbers.ordinal>; import <numbers.digits>;
+import <date.date>; import <time.time>; import <duration.duration>;
+public <on> = on <date>;
+public <at> = at <time>;
+public <wait> = wait <duration>;
 public <price> = set the price to <whole> (dollars | dollar);
 public <set> = set it to <number>;
 public <pay> = pay <whole> (dollars | dollar) [and <whole> {cents=$number} cents];
@@ -94,6 +98,13 @@ def numbers(tmp_path_factory):
         ("set it to 2½", "set it to two and a half"),
         ("set it to -2¼", "set it to minus two and a quarter"),
         ("set it to ¾", "set it to three quarters"),
+        ("on May 3", "on may third"),
+        ("on May 3rd, 1984", "on may third nineteen eighty four"),
+        ("on the 21st", "on the twenty first"),
+        ("at 12:00", "at twelve o'clock"),
+        ("at 5:00pm", "at five pm"),
+        ("at 5:15 p.m.", "at five fifteen pm"),
+        ("wait 1.5 hours", "wait one and a half hours"),
         ("set it to (5)", "set it to five"),
         ("pay $5.05", "pay five dollars and five cents"),
         ("pay $1,000.50", "pay one thousand dollars and fifty cents"),
@@ -157,6 +168,7 @@ USA = [
         ("public <a> = the u s a office;", USA[1:4]),
         ("public <a> = in the U.S.A.;", ["in the USA", "in the U.S.A.", "in the U.S.A"]),
         ("public <a> = at five p.m. sharp;", ["at 5 pm sharp", "at 5pm sharp", "at 5 P.M. sharp"]),
+        ("public <a> = call the Ph.D. now;", ["call the PhD now", "call the ph.d now"]),
         ("public <a> = at five pm;", ["at 5 p.m.", "at 5pm", "at 5 p.m"]),
     ],
 )
