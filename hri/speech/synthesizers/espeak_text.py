@@ -6,6 +6,7 @@ import re
 import unicodedata
 from dataclasses import dataclass
 
+from hri.speech.notation.reading import spoken
 from hri.speech.pronunciation.lexicon import Lexicon
 from hri.speech.pronunciation.phones import VOWELS, Phones
 
@@ -47,20 +48,27 @@ def plain(text: str) -> str:
 
 
 def reading(text: str, lexicon: Lexicon | None = None) -> Reading:
-    """The text as the library gets it; words that the user's lexicon holds sound as it says."""
+    """The text as the library gets it.
+
+    With a lexicon it is English: numbers and signs are read as the natural voice reads them, and
+    words that the lexicon holds sound as it says.
+    """
     text = plain(text)
-    names = [] if lexicon is None else list(_names(text, lexicon))
-    if not names:
+    if lexicon is None:
         return Reading(text, tuple(range(len(text))))
-    text = text.translate(_PHONEME_BRACKETS)
+    read = spoken(text)
+    names = list(_names(read.text, lexicon))
+    if not names:
+        return Reading(read.text, read.origins)
+    text, places = read.text.translate(_PHONEME_BRACKETS), read.origins
     parts: list[str] = []
     origins: list[int] = []
     done = 0
     for start, end, spelt in names:
         parts += text[done:start], spelt
-        origins += [*range(done, start), *[start] * len(spelt)]
+        origins += [*places[done:start], *[places[start]] * len(spelt)]
         done = end
-    return Reading("".join((*parts, text[done:])), (*origins, *range(done, len(text))), True)
+    return Reading("".join((*parts, text[done:])), (*origins, *places[done:]), True)
 
 
 def _names(text: str, lexicon: Lexicon) -> list[tuple[int, int, str]]:

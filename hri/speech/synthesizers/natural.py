@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -33,19 +32,19 @@ class NaturalVoice(NetworkVoice):
         return self.description.text("model") or HEART
 
     def _made(self, lexicon: Lexicon) -> Engine:
-        network, gain, g2p, split = _loaded(self.description.text("model"))
-        return Engine(network, Reader(g2p, split, lexicon), RATE, gain)
+        network, gain, g2p = _loaded(self.description.text("model"))
+        return Engine(network, Reader(g2p, lexicon), RATE, gain)
 
 
 @lru_cache(maxsize=4)
-def _loaded(model: str) -> tuple[Network, float, Any, Callable[[str], list[str]]]:
-    """A network, its gain, what makes symbols of words, and what parts a text into sentences.
+def _loaded(model: str) -> tuple[Network, float, Any]:
+    """A network, its gain, and what makes symbols of words.
 
     Raises NotAvailable without the package or the model.
     """
     try:
         from hibari.dsp import synth
-        from hibari.tts import ASSETS, Hibari
+        from hibari.tts import ASSETS
 
         from hri.speech.synthesizers.natural_dictionaries import Pronouncer
     except ImportError as error:
@@ -54,4 +53,4 @@ def _loaded(model: str) -> tuple[Network, float, Any, Callable[[str], list[str]]
     assets = Path(ASSETS)
     vocabulary = json.loads((assets / "vocab.json").read_text(encoding="utf-8"))
     network = Network(Path(model) if model else assets / "hibari.onnx", vocabulary, synth)
-    return network, gain_of(network, TRIAL, RATE, model), Pronouncer(), Hibari.split_sentences
+    return network, gain_of(network, TRIAL, RATE, model), Pronouncer()

@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from difflib import SequenceMatcher
-from importlib.util import find_spec
-from itertools import accumulate, zip_longest
+from itertools import accumulate
 from typing import Any
 
+from hri.speech.notation.reading import Spoken, spoken
+from hri.speech.notation.sentences import sentences
 from hri.speech.pronunciation.lexicon import Lexicon
-from hri.speech.pronunciation.notation import goes_on, read_aloud
 from hri.speech.pronunciation.phones import Phones
 from hri.speech.synthesizers.espeak_text import plain, stressed, user_phones
 from hri.speech.synthesizers.natural_symbols import SPACE, symbols_of
 
 _WORD = re.compile(r"\S+")
+_LONE_GREEK = re.compile(r"(?<![\u0370-\u03ff\u2126])[\u0370-\u03ff\u2126µ](?![\u0370-\u03ff])")
+"""Signs of units and of mathematics."""
 _MARKUP = str.maketrans("[]", "()")
 """Brackets would be taken as a link that gives symbols."""
 _FOREIGN = 0.5
@@ -44,10 +46,9 @@ class Sentence:
 class Reader:
     """Reads English text; words of the user's lexicon as they are written there."""
 
-    def __init__(self, g2p: Any, split: Any, lexicon: Lexicon) -> None:
-        """`g2p` makes symbols of words, `split` sentences of a text."""
+    def __init__(self, g2p: Any, lexicon: Lexicon) -> None:
+        """`g2p` makes symbols of words."""
         self._g2p = g2p
-        self._split = split
         self._lexicon = lexicon
 
     def sentences(self, text: str, sounds: Sequence[tuple[str, Phones]] = ()) -> Iterator[Sentence]:
@@ -56,41 +57,34 @@ class Reader:
         `sounds` are phones of words, before those of the lexicon.
         """
         text, lexicon = plain(text), self._lexicon.extended(sounds)
-        done = 0
-        for sentence in _whole(self._split(text), text):
-            position = text.index(sentence, done)
-            done = position + len(sentence)
+        for begin, end in sentences(text):
+            sentence = text[begin:end]
             symbols, words = ("", ()) if is_foreign(sentence) else self._read(sentence, lexicon)
-            yield Sentence(sentence, position, symbols, words)
+            yield Sentence(sentence, begin, symbols, words)
 
     def _read(self, sentence: str, lexicon: Lexicon) -> tuple[str, tuple[int, ...]]:
-        from hibari.g2p.normalize import normalize
-
-        normal = normalize(read_aloud(sentence.translate(_MARKUP)))
-        tokens = self._g2p.tokenize(normal)
+        read = spoken(sentence.translate(_MARKUP))
+        tokens = self._g2p.tokenize(_with_letters(read))
         for token in tokens:
             if phones := user_phones(token.text, lexicon):
                 token.phonemes = symbols_of(stressed(phones))
-        origins = aligned(_WORD.findall(sentence), normal.split())
+        origins = [origin for _, origin in _words_of(read, sentence)]
         symbols: list[str] = []
         words: list[int] = []
-        spoken = self._g2p.phonemize_tokens(tokens)
-        for token, number in zip(spoken, _numbers(spoken), strict=True):
+        sounding = self._g2p.phonemize_tokens(tokens)
+        for token, number in zip(sounding, _numbers(sounding), strict=True):
             of_token = (token.phonemes or "") + (SPACE if token.whitespace else "")
             symbols.append(of_token)
             words += [origins[min(number, len(origins) - 1)]] * len(of_token)
         return "".join(symbols), tuple(words)
 
 
-def _whole(parts: Sequence[str], text: str) -> Iterator[str]:
-    """The sentences of a text, without parting it after abbreviations before a number."""
-    begin = done = 0
-    for part, after in zip_longest(parts, parts[1:], fillvalue=""):
-        begin = text.index(part, done) if begin == done else begin
-        done = text.index(part, done) + len(part)
-        if not goes_on(part, after):
-            yield text[begin:done]
-            begin = done
+def _with_letters(read: Spoken) -> str:
+    """The text with the sound of each letter A, which would be taken for the article."""
+    return "".join(
+        "[A](/ˈA/)" if sign == "A" and place in read.letters else sign
+        for place, sign in enumerate(read.text)
+    )
 
 
 def _numbers(tokens: Sequence[Any]) -> list[int]:
@@ -100,33 +94,18 @@ def _numbers(tokens: Sequence[Any]) -> list[int]:
 
 
 def words_read(text: str) -> list[tuple[str, int]]:
-    """The words that an English text is read as, each with the number of its written word.
-
-    Without hibari, prices and dates stay as they are written.
-    """
-    read = read_aloud(text)
-    if find_spec("hibari") is not None:
-        from hibari.g2p.normalize import normalize
-
-        read = normalize(read)
-    words = read.split()
-    return list(zip(words, aligned(text.split(), words), strict=True))
+    """The words that an English text is read as, each with the number of its written word."""
+    return list(_words_of(spoken(text), text))
 
 
-def aligned(written: Sequence[str], read: Sequence[str]) -> list[int]:
-    """Which written word each word that is read stands for ("$5" is read "five dollars")."""
-    matcher = SequenceMatcher(
-        None, [word.lower() for word in written], [word.lower() for word in read], autojunk=False
-    )
-    origins: list[int] = []
-    for _, begin, end, first, last in matcher.get_opcodes():
-        count, of = last - first, max(1, end - begin)
-        origins += [min(begin + place * of // count, len(written) - 1) for place in range(count)]
-    return origins
+def _words_of(read: Spoken, text: str) -> Iterator[tuple[str, int]]:
+    starts = [match.start() for match in _WORD.finditer(text)]
+    for match in _WORD.finditer(read.text):
+        yield match[0], max(0, bisect_right(starts, read.origins[match.start()]) - 1)
 
 
 def is_foreign(text: str) -> bool:
     """Whether most letters of a text are none of the Latin script."""
-    letters = [letter for letter in text if letter.isalpha()]
+    letters = [letter for letter in _LONE_GREEK.sub("", text) if letter.isalpha()]
     foreign = sum("LATIN" not in unicodedata.name(letter, "") for letter in letters)
     return foreign > _FOREIGN * len(letters)

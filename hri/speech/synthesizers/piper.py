@@ -22,6 +22,7 @@ import numpy as np
 from hri.core.errors import HriError, NotAvailable
 from hri.core.reading import parse_json, read_text
 from hri.core.signals import Prosody
+from hri.speech.notation.sentences import sentences
 from hri.speech.pronunciation.lexicon import Lexicon
 from hri.speech.pronunciation.phones import Phones
 from hri.speech.synthesizers.espeak_library import EspeakLibrary, load_espeak
@@ -50,8 +51,7 @@ voice joe, by forced alignment.
 """
 MOST_SYMBOLS = 400
 PAD, BEGIN, END = "_", "^", "$"
-_SENTENCE = re.compile(r"\S.*?(?:[.!?…]+[\"')\]]*(?=\s|$)|$)", re.DOTALL)
-_CLAUSE = re.compile(r"(.+?)([,;:.!?…]+(?=\s|$)|$)", re.DOTALL)
+_MARK = re.compile(r"([,;:.!?…])[,;:.!?…]*$")
 
 
 class PiperVoice(NetworkVoice):
@@ -170,28 +170,33 @@ class PiperReader:
     def sentences(self, text: str, sounds: Sequence[tuple[str, Phones]] = ()) -> Iterator[Sentence]:
         """The sentences of a text; phones of words are left to espeak-ng."""
         text = plain(text)
-        for match in _SENTENCE.finditer(text):
-            symbols, words = self._read(match[0])
-            yield Sentence(match[0], match.start(), symbols, words)
+        for begin, end in sentences(text):
+            sentence = text[begin:end]
+            yield Sentence(sentence, begin, *self._read(sentence))
 
     def _read(self, sentence: str) -> tuple[str, tuple[int, ...]]:
+        """Symbols, and of each the number of the written word that it belongs to."""
+        written = sentence.split()
+        read = words_read(sentence) if self._is_english else list(zip(written, count()))
         symbols: list[str] = []
         words: list[int] = []
-        before = 0
-        for clause, signs in _CLAUSE.findall(sentence):
+        clause: list[tuple[str, int]] = []
+        for number, (word, origin) in enumerate(read):
+            clause.append((word, origin))
+            mark = _MARK.search(word)
+            if mark is None and number + 1 < len(read):
+                continue
             spoken = list(self._spoken(clause))
-            for number, (word, origin) in enumerate(spoken):
-                is_last = number + 1 == len(spoken)
-                sounding = word + (signs[:1].replace("…", ".") if is_last else "") + SPACE
+            for place, (ipa, origin) in enumerate(spoken):
+                is_last = mark is not None and place + 1 == len(spoken)
+                sounding = ipa + (mark[1].replace("…", ".") if mark and is_last else "") + SPACE
                 symbols.append(sounding)
-                words += [before + origin] * len(sounding)
-            before += len(clause.split())
+                words += [origin] * len(sounding)
+            clause = []
         return "".join(symbols), tuple(words)
 
-    def _spoken(self, clause: str) -> Iterator[tuple[str, int]]:
+    def _spoken(self, read: Sequence[tuple[str, int]]) -> Iterator[tuple[str, int]]:
         """The words of a clause in IPA, each with the number of its written word."""
-        written = clause.split()
-        read = words_read(clause) if self._is_english else list(zip(written, count()))
         ipa = self._ipa(" ".join(word for word, _ in read))
         # Words that melt together, and numbers, change their count.
         counts = [1] * len(read) if len(ipa) == len(read) else [len(self._ipa(w)) for w, _ in read]

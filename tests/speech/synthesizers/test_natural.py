@@ -19,10 +19,10 @@ from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.hal.synthesizer import PLAIN
 from hri.speech.grammar import load_grammar
+from hri.speech.notation.reading import aligned
 from hri.speech.recognizers.ctc.decoder import CtcRecognizer
 from hri.speech.synthesizers.natural import NaturalVoice
 from hri.speech.synthesizers.natural_symbols import MNEMONICS, MODIFIERS, STRESSES, longest_parts
-from hri.speech.synthesizers.natural_text import aligned
 from hri.speech.synthesizers.pace import slow_file
 from tests.speech.conftest import HOUSE
 
