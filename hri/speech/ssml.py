@@ -22,7 +22,8 @@ from hri.core.signals import Phoneme, Prosody, Samples, Span, Speech
 from hri.core.xml import Element, parse_xml
 from hri.hal.drivers.resampling import resample
 from hri.hal.synthesizer import Synthesizer
-from hri.speech.grammar.numerals import in_words
+from hri.speech.notation import number_words as say
+from hri.speech.notation.abbreviations import MONTHS
 from hri.speech.pronunciation.alphabets import from_arpabet, from_ipa, from_x_sampa
 from hri.speech.pronunciation.phones import Phones
 
@@ -63,6 +64,18 @@ EMPHASES = {
 }
 LIMITS = {"rate": (0.5, 2.0), "pitch": (0.5, 2.0), "range": (0.0, 3.0), "volume": (0.0, 2.0)}
 """Of the factors of all elements around a text together."""
+VOICE_ATTRIBUTES = (
+    *("name", "gender", "age", "languages"),
+    *("variant", "required", "ordering", "onvoicefailure", "xml:lang"),
+)
+"""Those that choose a voice, and those of SSML 1.1 that make no difference here."""
+VOICES = {
+    "male": ("child", "plain", "grandpa"), "female": ("child", "warm", "grandma"),
+    "neutral": ("child", "", ""),
+}  # fmt: skip
+"""The voices of a gender: of a child, a grown person, and an old one."""
+GROWN, OLD = 13, 65
+"""Years from which a voice is one's."""
 ALPHABETS: dict[str, Callable[[str], Phones]] = {
     "ipa": from_ipa,
     "x-sampa": from_x_sampa,
@@ -70,11 +83,10 @@ ALPHABETS: dict[str, Callable[[str], Phones]] = {
 }
 DATES = ("mdy", "dmy", "ymd")
 UNITS = {"rate": "%", "pitch": "% st", "range": "% st", "volume": "% dB"}
-MONTHS = (
-    "January", "February", "March", "April", "May", "June", "July", "August", "September",
-    "October", "November", "December",
-)  # fmt: skip
 
+_BEGIN = re.compile(r"[\ufeff\s]*<(?:\?xml\s|speak[\s>])")
+_DECLARED = re.compile(r"(<\?xml[^>]{0,80}?)\s+encoding=[\"'][^\"'>]{0,40}[\"']([^>]{0,80}\?>)")
+_AGE = re.compile(r"\d{1,3}")
 _NO_SPACE_BEFORE = re.compile(r"[.,;:!?)]")
 _WORD = re.compile(r"\w(.*\w)?")
 _TIME = re.compile(r"\+?(\d{0,6}\.?\d{1,6})(ms|s)")
@@ -124,6 +136,7 @@ class Ssml:
         if len(source) > LONGEST:
             what = f"{len(source)} characters of markup"
             raise AuthoringError(Place(SOURCE), what, f"keep to {LONGEST}")
+        source = _DECLARED.sub(r"\1\2", source, count=1)  # it is decoded
         root = parse_xml(source.encode("utf-8", "replace"), SOURCE)
         if root.tag != "speak":
             raise root.error(f"<{root.tag}> is not a text to speak", "write <speak>...</speak>")
@@ -136,7 +149,7 @@ class Ssml:
 
 def is_ssml(text: str) -> bool:
     """Whether a text is meant as markup; a plain text may have any `<` elsewhere."""
-    return text.lstrip().startswith(("<speak>", "<speak "))
+    return _BEGIN.match(text) is not None
 
 
 def combined(one: Prosody, other: Prosody) -> Prosody:
@@ -364,8 +377,21 @@ def _prosody(element: Element, prosody: Prosody) -> Iterator[Placed]:
 
 
 def _voice(element: Element, prosody: Prosody) -> Iterator[Placed]:
-    element.check_attributes("name")
-    yield from _pieces(element, replace(prosody, voice=element.get("name")))
+    element.check_attributes(*VOICE_ATTRIBUTES)
+    if not element.attributes.keys() & set(VOICE_ATTRIBUTES[:4]):
+        raise element.error("<voice> asks for no voice", 'add name="..." or gender="..."')
+    wishes = " ".join((element.get("name", ""), element.get("languages", ""), _character(element)))
+    yield from _pieces(element, replace(prosody, voice=" ".join(wishes.split()) or prosody.voice))
+
+
+def _character(element: Element) -> str:
+    """The voice of a gender and an age; empty where none is asked for."""
+    gender, age = _named(element, "gender", VOICES, "neutral"), element.get("age", "").strip()
+    if age and not _AGE.fullmatch(age):
+        raise element.error(f'age is "{age}"', 'write years, such as "25"', "age")
+    years = int(age or GROWN)
+    young, grown, old = gender
+    return young if years < GROWN else old if years >= OLD else grown
 
 
 def _say_as(element: Element, prosody: Prosody) -> Iterator[Placed]:
@@ -435,21 +461,23 @@ _ELEMENTS: Mapping[str, Callable[[Element, Prosody], Iterator[Placed]]] = {
 
 
 def _characters(text: str, _: str) -> str:
-    return " ".join(in_words(c) if c.isdigit() else c.upper() for c in text if not c.isspace())
+    return " ".join(
+        say.by_digits(c) if c.isdecimal() else c.upper() for c in text if not c.isspace()
+    )
 
 
 def _digits(text: str, _: str) -> str:
     groups = re.findall(r"\d+", text)
     if not groups:
         raise ValueError("write digits")
-    return ", ".join(" ".join(in_words(digit) for digit in group) for group in groups)
+    return ", ".join(map(say.by_digits, groups))
 
 
 def _cardinal(text: str, _: str) -> str:
     if not re.fullmatch(r"-?[\d,]*\d(\.\d+)?", text):
         raise ValueError("write a number, such as 42")
-    number = text.replace(",", "")
-    return f"minus {in_words(number[1:])}" if number.startswith("-") else in_words(number)
+    sign, number = ("minus ", text[1:]) if text.startswith("-") else ("", text)
+    return sign + say.number(number)
 
 
 def _ordinal(text: str, _: str) -> str:

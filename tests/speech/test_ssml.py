@@ -212,3 +212,57 @@ def test_the_alphabets_name_the_same_sounds():
     assert from_ipa("ʃəˈvɔn") == from_x_sampa('S@"vOn') == from_arpabet("SH AH V AO1 N")
     with pytest.raises(ValueError, match="Q7"):
         from_arpabet("Q7")
+
+
+@pytest.mark.parametrize(
+    ("attributes", "voice"),
+    [
+        ('name="David" gender="male" age="25"', "David plain"),
+        ('name="en-gb"', "en-gb"),
+        ('gender="female"', "warm"),
+        ('gender="male" age="80"', "grandpa"),
+        ('age="6"', "child"),
+        ('gender="neutral" variant="2"', ""),
+        ('languages="de" required="languages"', "de"),
+    ],
+)
+def test_a_voice_is_asked_for_as_ssml_1_1_does(attributes, voice):
+    (passage,) = Ssml.parse(f"<speak><voice {attributes}>Hi.</voice></speak>").pieces
+    assert passage.prosody.voice == voice
+
+
+@pytest.mark.parametrize("attributes", ["", 'gender="man"', 'age="old"', 'variant="2"', 'sex="m"'])
+def test_a_voice_that_cannot_be_meant_is_refused(attributes):
+    with pytest.raises(AuthoringError, match=r"voice|gender|age|sex"):
+        Ssml.parse(f"<speak><voice {attributes}>Hi.</voice></speak>")
+
+
+@pytest.mark.parametrize(
+    ("text", "is_markup"),
+    [
+        ('<?xml version="1.0"?><speak>Hi.</speak>', True),
+        (' \n<speak\nversion="1.1">Hi.</speak>', True),
+        ("\ufeff<speak>Hi.</speak>", True),
+        ("<speaker> is a tag", False),
+        ("a < b", False),
+        ("<?", False),
+    ],
+)
+def test_markup_is_known_by_its_begin(text, is_markup):
+    assert is_ssml(text) == is_markup
+
+
+def test_a_declared_encoding_is_that_of_the_file_not_of_the_text():
+    source = '<?xml version="1.0" encoding="ISO-8859-1" standalone="yes"?>\n<speak>Café</speak>'
+    assert Ssml.parse(source).text == "Café"
+
+
+def test_other_xml_is_refused_by_its_name():
+    with pytest.raises(AuthoringError, match="<html> is not a text to speak"):
+        Ssml.parse('<?xml version="1.0"?><html>Hi.</html>')
+
+
+def test_large_numbers_are_read_as_numbers():
+    markup = '<speak><say-as interpret-as="cardinal">-1,234,567</say-as></speak>'
+    read = "minus one million two hundred thirty four thousand five hundred sixty seven"
+    assert Ssml.parse(markup).text == read

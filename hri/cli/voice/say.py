@@ -76,7 +76,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="E",
         help=f"emotion: neutral, {', '.join(NAMES)}, or happy, ...",
     )
-    markup = "the text is SSML; a text that begins with <speak> is, too"
+    markup = "the text is SSML; a text that begins with <speak> or <?xml is, too"
     add("--ssml", action="store_true", help=markup)
     add("--intensity", type=float, default=1.0, metavar="X", help="of the emotion, 0 to 1")
     add("--wav", type=Path, metavar="FILE", help="write the sound there instead of playing it")

@@ -92,6 +92,11 @@ def _spelt(letters: str) -> str:
     return " ".join(letters.upper())
 
 
+def _row(match: Match, scan: Scan) -> str | None:
+    """Letters with spaces between them; I and A may be words."""
+    return match[0] if set(match[0]) - set("AI ") else None
+
+
 def _versus(match: Match, scan: Scan) -> str | None:
     return "versus" if re.search(r"[A-Z]\w* $", text_before(match)) else None
 
@@ -132,6 +137,7 @@ NAMES: tuple[Rule, ...] = (
     rule(r"[A-Z]{1,4}(?:/[A-Z]{1,4}){1,3}\b", _joined),
     rule(r"([b-df-hj-np-tv-xz]{2})(?=[²³])", lambda m, s: _spelt(m[1])),
 )
+_LETTERS = rule(r"[A-Z](?: [A-Z]){1,40}(?![\w'.])", _row)
 ABBREVIATIONS: tuple[Rule, ...] = (
     rule(rf"({any_of(STREETS)})\b\.?(?![\w'])", _street),
     rule(rf"({any_of(TITLES)})\b\.?(?= (?:[A-Z]|O')[\w.'])", _title),
@@ -139,6 +145,7 @@ ABBREVIATIONS: tuple[Rule, ...] = (
     rule(rf"(?:{any_of(STATES)})\b(?!['.]\w)", _state),
     rule(rf"((?i:{any_of(BEFORE_NUMBERS)}))\. ?(?=[\d#])", _before_number),
     rule(rf"(?:{any_of(PLAIN)})(?!\w)", _plain),
+    _LETTERS,
     rule(r"v\.(?= [A-Z])", _versus),
     rule(r"(?:[A-Za-z]\.){2,8}(?:[A-Z]\b)?", _initials),
     rule(r"([A-Z])\.(?= [A-Z])", "{1}"),

@@ -148,8 +148,11 @@ class EspeakLibrary:
         """Whether a voice such as "en-us" or "en-us+f3" is there."""
         # A variant that is not there would be left out without a word.
         _, plus, variant = voice.partition("+")
-        if plus and variant not in {known.id for known in self.variants()}:
+        speakers = {known.id for known in self.variants()}
+        if plus and variant not in speakers:
             return False
+        if voice.casefold() in {speaker.casefold() for speaker in speakers}:
+            return False  # a variant without a language, which would be taken and fail
         with self._lock:
             return self._choose(voice)
 

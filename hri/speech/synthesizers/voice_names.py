@@ -1,4 +1,4 @@
-"""What a voice may be called: by its name, by a language in words, or by a character."""
+"""What a voice may be called: by its name, a language in words, a speaker, or a character."""
 
 from __future__ import annotations
 
@@ -39,13 +39,26 @@ CHARACTERS = {
 
 @lru_cache(maxsize=64)
 def voice_named(wanted: str) -> str:
-    """The voice that is meant; empty for none on this machine. Raises NotAvailable."""
+    """The voice that is meant; empty for none on this machine.
+
+    Of several, with a space between, it is the first that is here. Raises NotAvailable.
+    """
+    found = _voice_of(wanted)
+    if not found and " " in wanted:
+        found = next(filter(None, map(_voice_of, wanted.split())), "")
+    return found
+
+
+def _voice_of(wanted: str) -> str:
     library = load_espeak()
     wanted = CHARACTERS[wanted].voice if wanted in CHARACTERS else wanted
     spoken = wanted.casefold()
     fitting = [voice.id for voice in library.voices() if tongue(voice.name) == spoken]
     if fitting:
         return min(fitting, key=lambda id: (id not in _LANGUAGES_FIRST, len(id)))
+    speakers = [speaker.id for speaker in library.variants() if speaker.id.casefold() == spoken]
+    if speakers:
+        return f"{_LANGUAGES_FIRST[0]}+{speakers[0]}"
     return wanted if wanted == HEART or library.has_voice(wanted) else ""
 
 

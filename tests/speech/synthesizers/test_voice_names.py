@@ -22,6 +22,9 @@ from tests.speech.fakes import Stage
         ("German", "de"),
         ("english", "en-us"),
         ("x", ""),
+        ("David", "en-us+david"),
+        ("Nobody plain", "en-us"),
+        ("Nobody x", ""),
     ],
 )
 def test_a_voice_is_found_by_name_or_language(wanted, found):
