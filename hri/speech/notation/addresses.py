@@ -19,7 +19,7 @@ _PART = re.compile(r"[^\W\d_]+|\d+|.", re.DOTALL)
 
 def spelled_out(address: str) -> str:
     """An address with its signs in words; parts that nobody could say are spelt."""
-    parts = _PART.findall(_SCHEME.sub("", address))
+    parts = _PART.findall(_SCHEME.sub("", address).rstrip("/"))
     return " ".join(word for part in parts if (word := _part(part)))
 
 
@@ -82,12 +82,10 @@ WEB: tuple[Rule, ...] = (
     ),
 )
 NAMES: tuple[Rule, ...] = (
-    rule(r"[A-Za-z][\w-]{0,62}(?:\.[a-z][a-z0-9]{1,4}){1,6}(?![\w.]\w|\w)", _said),
+    rule(r"[A-Za-z][\w-]{0,62}(?:\.[a-z][a-z0-9]{1,20}){1,6}(?![\w.]\w|\w)", _said),
     rule(r"[A-Za-z]:\\[\w\\.-]{0,200}\w", _said),
-    rule(
-        r"[\w-]{1,60}(?:/[\w.-]{1,60}){2,12}/?(?=[\s,;:!?)]|$|\.\s)",
-        lambda m, s: _said(m, s) if re.search(r"[_.]", m[0]) else None,
-    ),
+    rule(r"[\w-]{1,60}(?:/[\w-]{1,60}){1,12}(?:\.[a-z][a-z0-9]{1,9}){1,3}(?!\w)", _said),
+    rule(r"[\w-]{1,60}(?:/\w{1,60}){0,12}/\w{1,60}_[\w/]{1,60}(?!\w)", _said),
 )
 PATHS: tuple[Rule, ...] = (
     rule(r"(?<![\w.])[~.]{0,2}/[\w.-]{1,60}(?:/[\w.-]{1,60}){0,12}/?(?<!\.)", _said),

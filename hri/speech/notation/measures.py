@@ -86,7 +86,7 @@ def _signed_length(match: Match, scan: Scan, one: str, many: str) -> str | None:
     if scan.is_quoted:
         return None
     first, _ = words_after(match)
-    has_noun = first != "" and first.lower() not in FUNCTION_WORDS
+    has_noun = first != "" and first.lower() not in FUNCTION_WORDS | {"x"}
     return f"{mixed(match[1])} {one if match[1] == '1' or has_noun else many}"
 
 

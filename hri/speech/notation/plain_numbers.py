@@ -33,7 +33,7 @@ _ZIP = re.compile(
     rf"(?:\b(?:{any_of(STATES)})\.? |\b(?:{any_of(STATES.values())}) "
     r"|(?i:\b(?:zip|postal)(?: ?code)?(?: is|:)? ))$"
 )
-_PAIRED = re.compile(r"(?i:\bflight) [A-Z][A-Z\d] $|\d[xX]$")
+_PAIRED = re.compile(r"(?i:\bflight) [A-Z][A-Z\d] $|\b(?:US|SR) $|\d[xX]$")
 _CLOCK = re.compile(r"(?i)\b(?:at|by|until|since|from|to) $")
 _VERSIONED = re.compile(
     r"(?i)\b(?:version|ver\.|release|build|firmware|python|ubuntu|debian|fedora|kernel|linux|java"

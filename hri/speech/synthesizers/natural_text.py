@@ -20,6 +20,9 @@ from hri.speech.synthesizers.natural_symbols import SPACE, symbols_of
 _WORD = re.compile(r"\S+")
 _LONE_GREEK = re.compile(r"(?<![\u0370-\u03ff\u2126])[\u0370-\u03ff\u2126µ](?![\u0370-\u03ff])")
 """Signs of units and of mathematics."""
+LONGEST_WORD = 28
+"""Letters of a word that is read as one."""
+_LONG = re.compile(rf"\S{{{LONGEST_WORD + 1},}}")
 _MARKUP = str.maketrans("[]", "()")
 """Brackets would be taken as a link that gives symbols."""
 _FOREIGN = 0.5
@@ -63,7 +66,7 @@ class Reader:
             yield Sentence(sentence, begin, symbols, words)
 
     def _read(self, sentence: str, lexicon: Lexicon) -> tuple[str, tuple[int, ...]]:
-        read = spoken(sentence.translate(_MARKUP))
+        read = _parted(spoken(sentence.translate(_MARKUP)))
         tokens = self._g2p.tokenize(_with_letters(read))
         for token in tokens:
             if phones := user_phones(token.text, lexicon):
@@ -77,6 +80,31 @@ class Reader:
             symbols.append(of_token)
             words += [origins[min(number, len(origins) - 1)]] * len(of_token)
         return "".join(symbols), tuple(words)
+
+
+def _parted(read: Spoken) -> Spoken:
+    """The same with spaces within what is longer than any word.
+
+    hibari takes time that grows with the third power of the parts of a word.
+    """
+    if not _LONG.search(read.text):
+        return read
+    text: list[str] = []
+    origins: list[int] = []
+    letters: list[int] = []
+    length = 0
+    for place, sign in enumerate(read.text):
+        origin = read.origins[place]
+        length = 0 if sign.isspace() else length + 1
+        if length > LONGEST_WORD:
+            text.append(" ")
+            origins.append(origin)
+            length = 1
+        if place in read.letters:
+            letters.append(len(text))
+        text.append(sign)
+        origins.append(origin)
+    return Spoken("".join(text), tuple(origins), frozenset(letters))
 
 
 def _with_letters(read: Spoken) -> str:

@@ -1,6 +1,7 @@
 """The natural voice: the same sound each time, with times that hold, whatever it is given."""
 
 import json
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -21,6 +22,7 @@ from hri.hal.synthesizer import PLAIN
 from hri.speech.grammar import load_grammar
 from hri.speech.notation.reading import aligned
 from hri.speech.recognizers.ctc.decoder import CtcRecognizer
+from hri.speech.synthesizers.espeak import EspeakVoice
 from hri.speech.synthesizers.natural import NaturalVoice
 from hri.speech.synthesizers.natural_symbols import MNEMONICS, MODIFIERS, STRESSES, longest_parts
 from hri.speech.synthesizers.pace import slow_file
@@ -32,10 +34,8 @@ TEXT = "I have found it! It is $5.20 at 7:30 pm, Dr. Smith."
 COMMANDS = ("go forward ten meters", "turn right", "show me a happy face", "what is your name")
 
 
-def opened(**parameters):
-    voice = NaturalVoice(
-        Description("voice", "Hri.NaturalVoice", parameters), ResourceManager((), FakeClock())
-    )
+def opened(kind=NaturalVoice, **parameters):
+    voice = kind(Description("voice", "a voice", parameters), ResourceManager((), FakeClock()))
     voice.activate()
     return voice
 
@@ -302,3 +302,36 @@ def test_long_sentences_are_parted_without_loss(symbols, most):
     parts = longest_parts(symbols, most)
     assert "".join(symbols[begin:end] for begin, end in parts) == symbols
     assert all(end - begin <= most for begin, end in parts)
+
+
+WITH_SIGNS = (
+    "You owe -$20 (or $5-$10), keep 40\N{EN DASH}60°C.",
+    "Call 1-800-555-0199 from Room 204, 12 W 34th St, at 9 a.m.",
+    "C# and CO2 at 192.168.1.100 = fun!",
+)
+
+
+@pytest.mark.parametrize("text", WITH_SIGNS)
+@pytest.mark.parametrize("kind", [NaturalVoice, EspeakVoice])
+def test_words_with_signs_have_their_times_in_every_voice(kind, text):
+    speech = opened(kind).synthesize(text)
+    heard = [word.text for word in speech.words]
+    assert heard == text.split()
+    assert all(0 <= word.start < word.end <= speech.duration for word in speech.words)
+
+
+@pytest.mark.parametrize("kind", [NaturalVoice, EspeakVoice])
+def test_signs_sound_as_the_words_that_are_said_for_them(kind):
+    voice = opened(kind)
+    written = voice.synthesize("Dial 911, pay -$20, and take 5 m² of it.")
+    read = voice.synthesize(
+        "Dial nine one one, pay minus twenty dollars, and take five square meters of it."
+    )
+    assert [one.name for one in written.phonemes] == [one.name for one in read.phonemes]
+
+
+@pytest.mark.parametrize("sign", ["a-", "aB", "'", "$"])
+def test_a_very_long_word_takes_little_time(voice, sign):
+    begun = time.process_time()
+    list(voice._engine.reader.sentences((sign * 700)[:700]))
+    assert time.process_time() - begun < 10
