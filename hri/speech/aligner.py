@@ -13,7 +13,6 @@ import numpy as np
 from hri.core.errors import HriError
 from hri.core.signals import Samples, Span, Speech
 from hri.hal.drivers.resampling import resample
-from hri.speech.grammar.numerals import in_words
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.alignment import Placed, forced, free, phonemes, placed
 from hri.speech.recognizers.ctc.conformer import FRAME, Conformer, load_network
@@ -84,11 +83,10 @@ def posteriors(sound: Samples) -> Floats:
 def spoken_words(text: str) -> Iterator[tuple[str, int]]:
     """The words that a text is read as, each with the number of the written word it stands for."""
     for read, origin in words_read(text):
-        for word in in_words(read).split():
-            straight = word.lower().replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
-            plain = unicodedata.normalize("NFKD", straight)
-            for part in _WORD.findall("".join(c for c in plain if not unicodedata.combining(c))):
-                yield part, origin
+        straight = read.lower().replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
+        plain = unicodedata.normalize("NFKD", straight)
+        for part in _WORD.findall("".join(c for c in plain if not unicodedata.combining(c))):
+            yield part, origin
 
 
 def _spans(text: str, phones: Sequence[Placed], origins: Sequence[int]) -> Iterator[Span]:

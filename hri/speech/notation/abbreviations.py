@@ -86,7 +86,7 @@ PLAIN = {
     "Vol.": "Volume", "fig.": "figure", "Fig.": "Figure", "pp.": "pages", "Ave.": "Avenue",
     "Blvd.": "Boulevard", "Rd.": "Road", "Hwy.": "Highway", "Pkwy.": "Parkway", "St.": "Street",
     "Mr.": "Mister", "Mrs.": "Mrs", "Ms.": "Miz", "Dr.": "Doctor", "Prof.": "Professor",
-    "N/A": "N A", "n/a": "N A", "I/O": "I O",
+    "WWI": "World War one", "WWII": "World War two", "N/A": "N A", "n/a": "N A", "I/O": "I O",
 }  # fmt: skip
 SPELLED = {
     "xml": "X M L", "html": "H T M L", "css": "C S S", "js": "J S", "py": "P Y", "txt": "T X T",

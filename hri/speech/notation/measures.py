@@ -11,18 +11,20 @@ from hri.speech.notation.context import (
     PAIRED_AFTER,
     is_attributive,
     text_after,
+    text_before,
     word_before,
     words_after,
 )
 from hri.speech.notation.fraction import ANY_SIGN, is_below_one, mixed
 from hri.speech.notation.quantities import NO_WORD, NUMBER, PER, POINTED, POWERS, any_of, per
-from hri.speech.notation.rule import Match, Rule, Scan, amount
+from hri.speech.notation.rule import Match, Rule, Scan, amount, rule
 from hri.speech.notation.units import UNITS
 
 TEMPERATURES = {
     "C": " Celsius", "℃": " Celsius", "F": " Fahrenheit", "℉": " Fahrenheit", "K": " Kelvin",
 }  # fmt: skip
 SIDES = {"N": " north", "S": " south", "E": " east", "W": " west"}
+_BEHIND_POWER = re.compile(r"\b10(?:[⁰¹²³⁴-⁹⁻]{1,4}|\^-?\d{1,3}) $")
 _INCHES_BEHIND = re.compile(
     r"\.?$|[.,;)]|\s*[x×]|\s(?:wide|long|tall|deep|thick|high|by|of snow|of rain)\b"
 )
@@ -37,6 +39,13 @@ def _measure(match: Match, scan: Scan) -> str | None:
     name = one if _is_single(match, written) or space == "-" else many
     stop = "." if unit.endswith(".") and not text_after(match).strip() else ""
     return f"{mixed(written)} {POWERS.get(power, '')}{name}{per(of, of_power)}{stop}"
+
+
+def _behind_power(match: Match, scan: Scan) -> str | None:
+    """(m)(²)(/s)(²)."""
+    if not _BEHIND_POWER.search(text_before(match)):
+        return None
+    return f"{POWERS.get(match[2], '')}{UNITS[match[1]][1]}{per(match[3], match[4])}"
 
 
 def _is_single(match: Match, written: str) -> bool:
@@ -93,6 +102,10 @@ def _signed_length(match: Match, scan: Scan, one: str, many: str) -> str | None:
 _ANY = rf"{POINTED}|\d{{1,4}} \d/\d{{1,2}}|\d/\d{{1,2}}|\d{{0,4}}{ANY_SIGN}"
 _POWER = r"((?:\^[23]|[²³]|(?<=[mnt])[23](?!\d))?)"
 _SMALL = r"\d{1,2}(?:\.\d{1,9})?"
+BY_NAME: tuple[Rule, ...] = (
+    rule(rf"({any_of(UNITS)}){_POWER}{PER}{NO_WORD}(?!'\w)", _behind_power),
+)
+"""A unit behind a power: 10⁸ m/s."""
 RULES: tuple[Rule, ...] = (
     amount(rf"({NUMBER})\s?° ?({_SMALL})' ?(?:({_SMALL})\" ?)?([NSEW]\b)?", _coordinate),
     amount(rf"({NUMBER})\s?°()() ?([NSEW])\b", _coordinate),

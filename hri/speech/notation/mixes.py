@@ -33,7 +33,8 @@ def _mix(match: Match, scan: Scan) -> str:
 
 def _letters(part: str, is_plate: bool) -> str:
     is_spelt = part.isupper() and (len(part) <= SPELT or is_plate)
-    return " ".join(part.upper()) if is_spelt or len(part) < SPELT else part
+    is_word = len(part) >= SPELT or (len(part) == 2 and re.search(r"[aeiou]", part))
+    return part if is_word and not is_spelt else " ".join(part.upper())
 
 
 def _number(digits: str, is_plate: bool, is_first: bool) -> str:

@@ -58,6 +58,7 @@ _DIGIT = (
 )
 _LETTER = (
     *signs.LETTERS,
+    *measures.BY_NAME,
     *addresses.WEB,
     *addresses.NAMES,
     *words.NAMES,
