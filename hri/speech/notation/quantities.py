@@ -19,7 +19,7 @@ def any_of(names: Iterable[str]) -> str:
 
 
 NO_WORD = r"(?![\w²³⁻⁺])"
-PER = rf"(?:/ ?({any_of(UNITS | AFTER_PER)})(²|\^2|³)?{NO_WORD})?"
+PER = rf"(?:/ ?([^\W\d_²³]{{1,12}})(²|\^2|³)?{NO_WORD})?"
 """What an amount is counted by, with its power: two groups."""
 
 
@@ -27,7 +27,7 @@ def per(unit: str | None, power: str | None) -> str:
     """What is said for the groups of PER."""
     if not unit:
         return ""
-    name = AFTER_PER.get(unit) or UNITS[unit][0]
+    name = UNITS[unit][0] if unit in UNITS else AFTER_PER.get(unit, unit)
     if power and unit not in LENGTHS:
         return f" per {name} {'cubed' if power == '³' else 'squared'}"
     return f" per {POWERS.get(power or '', '')}{name}"

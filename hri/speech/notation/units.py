@@ -74,14 +74,8 @@ UNITS = LENGTHS | {
     "doz": ("dozen", "dozen"),
 }  # fmt: skip
 """One and many of each."""
-AFTER_PER = {
-    "day": "day", "week": "week", "month": "month", "year": "year", "hour": "hour",
-    "night": "night",
-    "minute": "minute", "second": "second", "person": "person", "unit": "unit", "d": "day",
-    "pound": "pound", "gallon": "gallon", "liter": "liter", "item": "item", "user": "user",
-    "seat": "seat",
-}  # fmt: skip
-"""What amounts are counted by, besides units: "$20/night"."""
+AFTER_PER = {"d": "day"}
+"""Short names of what amounts are counted by, besides units: "$20/d"."""
 CURRENCIES = {
     "$": ("dollar", "dollars", "cent", "cents"), "£": ("pound", "pounds", "penny", "pence"),
     "€": ("euro", "euros", "cent", "cents"), "¥": ("yen", "yen", "sen", "sen"),
