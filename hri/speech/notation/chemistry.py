@@ -15,6 +15,7 @@ ELEMENTS = frozenset(
 )
 _ELEMENT = re.compile(r"([A-Z][a-z]?)(\d*)")
 _CHARGES = {"+": " plus", "⁺": " plus", "-": " minus", "⁻": " minus"}
+_MANY = {"²": " two", "³": " three"}
 
 
 def _formula(match: Match, scan: Scan) -> str | None:
@@ -31,10 +32,16 @@ def _formula(match: Match, scan: Scan) -> str | None:
     words: list[str] = []
     for symbol, count in parts:
         words += [*symbol.upper(), *([say.cardinal(int(count))] if count else ())]
-    return " ".join(words) + _CHARGES.get(match[2] or "", "")
+    return " ".join(words) + _charge(match[2] or "")
+
+
+def _charge(signs: str) -> str:
+    return "".join(_CHARGES.get(sign) or _MANY[sign] for sign in signs)
 
 
 RULES: tuple[Rule, ...] = (
-    rule(r"((?:[A-Z][a-z]?\d{0,3}){2,12}|[A-Z][a-z]?[234])([+⁺⁻]|-(?!\w))?(?!\w)", _formula),
+    rule(
+        r"((?:[A-Z][a-z]?\d{0,3}){2,12}|[A-Z][a-z]?[234])([+⁺⁻]|[²³][⁺⁻]|-(?!\w))?(?!\w)", _formula
+    ),
     rule(r"((?:[A-Z][a-z]?\d?){1,2})([+⁺⁻])(?![\w+])", _formula),
 )

@@ -15,6 +15,10 @@ from hri.speech.notation.rule import Match, Rule, Scan, amount, rule
 _MONTH = any_of(MONTH_OF)
 _SHORT_MONTH = any_of(name for name in MONTH_OF if name not in MONTHS)
 _SHORT_DAY = any_of(name for name in DAY_OF if name not in DAYS)
+_OF_DAY = (
+    rf",? (?:\d|at\b|to\b|and\b|morning|noon|afternoon|evening|night|(?:{_MONTH})\b)|,|\)| ?[-–]"
+)
+"""What stands behind the short name of a day: "Sun." may be the star."""
 _CENTURY = 40
 """Years of two digits up to this one are of the 21st century."""
 
@@ -102,7 +106,8 @@ NAMED: tuple[Rule, ...] = (
     ),
     rule(rf"({_SHORT_MONTH})(?:\.(?! *$)|(?=,? \d{{4}}\b))", lambda m, s: MONTH_OF[m[1]]),
     rule(
-        rf"({_SHORT_DAY})(?:\.(?! *$)|\b(?=, (?:{_MONTH})\b|, \d| \d{{1,2}}(?::|[ap]m)))",
+        rf"({_SHORT_DAY})\b(?:(?=, (?:{_MONTH})\b|, \d| \d{{1,2}}(?::|[ap]m))"
+        rf"|\.(?={_OF_DAY}))",
         lambda m, s: DAY_OF[m[1]],
     ),
 )

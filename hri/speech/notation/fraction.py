@@ -7,7 +7,7 @@ import re
 
 from hri.speech.notation import number_words as say
 from hri.speech.notation.abbreviations import MONTHS
-from hri.speech.notation.context import text_after, text_before
+from hri.speech.notation.context import SERVICES, text_after, text_before
 from hri.speech.notation.quantities import NUMBER, POINTED
 from hri.speech.notation.rule import Match, Rule, Scan, amount
 
@@ -69,6 +69,8 @@ def _slashed(match: Match, scan: Scan) -> str:
     is_early, is_day = 0 < above < 20, 1 <= above <= 12 and 1 <= below <= 31
     if re.match(r"\s*=", after) or re.search(r"=\s*$", before):
         return f"{first} divided by {second}"
+    if match[1] in SERVICES and match[2] in SERVICES:
+        return f"{say.by_digits(match[1])}, {say.by_digits(match[2])}"
     if (above, below) in _AS_NUMBERS:
         return f"{first} {second}"
     if (above == below >= 5) or (_RATED.search(before) and above <= below):

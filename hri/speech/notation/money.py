@@ -18,6 +18,11 @@ def _before(match: Match, scan: Scan) -> str:
     return _money(match, COINS[match[1]], written, scale) + per(match[5], match[6])
 
 
+def _negative(match: Match, scan: Scan) -> str:
+    """$-5."""
+    return f"minus {_before(match, scan)}"
+
+
 def _behind(match: Match, scan: Scan) -> str:
     """(5.20)(million)(M)(€)(/hr)."""
     written, scale = match[1], match[2] or match[3]
@@ -67,7 +72,8 @@ BY_SIGN: tuple[Rule, ...] = (
         r"(?![.,]?\d)",
         _range,
     ),
-    amount(rf"({_SIGN}) ?-?({POINTED}{_EUROPEAN}){_SCALE}{PER}", _before),
+    amount(rf"({_SIGN}) ?({POINTED}{_EUROPEAN}){_SCALE}{PER}", _before),
+    amount(rf"({_SIGN})[-−]({POINTED}{_EUROPEAN}){_SCALE}{PER}", _negative),
 )
 """$5, by the sign that begins it."""
 BY_NAME: tuple[Rule, ...] = (amount(rf"({_ANY}) ?({NUMBER}){_SCALE}{PER}", _before),)

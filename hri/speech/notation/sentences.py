@@ -19,11 +19,13 @@ _END = re.compile(r"(?<![.!?…])[.!?…]+[\"”’')\]]*(?=\s)|\n")
 _NEVER = frozenset("a.k.a al cf e.g eg i.e incl Mr Mrs Ms Messrs v viz vs".split())
 """Abbreviations that end no sentence."""
 _SHORT = frozenset(
-    name.rstrip(".") for names in (PLAIN, TITLES, STREETS, MONTH_OF, DAY_OF) for name in names
+    name.rstrip(".") for names in (PLAIN, TITLES, STREETS, MONTH_OF) for name in names
 )
 """Those that may end one."""
 _ONLY_BEFORE_NAMES = frozenset(TITLES) - frozenset(STREETS)
-_BEFORE_DIGITS = frozenset(BEFORE_NUMBERS) | {name.lower() for name in _SHORT - {"etc", "Jr", "Sr"}}
+_BEFORE_DIGITS = frozenset(BEFORE_NUMBERS) | {
+    name.lower() for name in (*_SHORT - {"etc", "Jr", "Sr"}, *DAY_OF)
+}
 _STARTER = re.compile(
     r"[\"“'‘(]?(?:A|After|All|An|And|Are|As|At|But|Can|Did|Do|Does|Each|Every|For|From|Go|Have|He|Her"
     r"|Here|His|How|I|I'm|If|In|Is|It|It's|Its|Let|Let's|Many|Most|My|No|Not|Now|On|Once|One|Our"

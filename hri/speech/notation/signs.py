@@ -69,8 +69,9 @@ def _letter_x(match: Match, scan: Scan) -> str | None:
 
 
 def _colon(match: Match, scan: Scan) -> str | None:
-    is_ratio = scan.is_after_amount and text_before(match)[-1:].isdigit()
-    return "to" if is_ratio and text_after(match)[:1].isdigit() else None
+    is_ratio = re.search(r"\d$", text_before(match)) and re.match(r"\d", text_after(match))
+    is_apart = re.search(r"\d $", text_before(match)) and re.match(r" \d", text_after(match))
+    return "to" if scan.is_after_amount and (is_ratio or is_apart) else None
 
 
 def _power(match: Match, scan: Scan) -> str:

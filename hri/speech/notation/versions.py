@@ -49,7 +49,9 @@ def _colons(match: Match, scan: Scan) -> str | None:
 
 
 _STAGE = r"(?:[-. ]?(alpha|beta|rc|dev|post|a|b)[-.]?(\d{1,4})?)?(?!\w)"
-_COLONS = rule(r"(?:[0-9A-Fa-f]{1,4}:{1,2}){2,7}[0-9A-Fa-f]{1,4}(?![\w:])", _colons)
+_COLONS = rule(
+    r"(?:[0-9A-Fa-f]{1,4}::|(?:[0-9A-Fa-f]{1,4}:{1,2}){2,7})[0-9A-Fa-f]{1,4}(?![\w:])", _colons
+)
 RULES: tuple[Rule, ...] = (
     rule(r"((?:\d{1,3}\.){3}\d{1,3})(?:([:/])(\d{1,5}))?(?!\w|\.\d)", _internet),
     rule(r"0[xX]([0-9A-Fa-f]{1,16})\b", lambda m, s: f"zero X {_letters_and_digits(m[1])}"),

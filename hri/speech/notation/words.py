@@ -31,6 +31,10 @@ _PLACE_BEFORE = re.compile(
 _IN_ADDRESS = re.compile(rf" {_NAME}(?: [A-Z][\w']+)? (?:{_ANY_STREET})\b")
 _BEHIND_STREET = re.compile(rf"\b(?:{_ANY_STREET})\.?,? $")
 _CITY = re.compile(r"(?:^|[\s.])[A-Z][\w'.]+, $")
+_GREETING = frozenset(
+    ("ask", "call", "dear", "good", "hello", "hey", "hi", "no", "see", "tell", "thanks", "yes")
+)
+"""Words before a title, which begin with a capital at the begin of a sentence."""
 _ALSO_WORDS = frozenset(("OK", "IN", "OR", "ME", "HI", "OH"))
 """States that are words, too."""
 _GRADED = re.compile(r"(?i)\b(?:an?|got|grade|rated|earned|gets?|is|of) $")
@@ -46,7 +50,7 @@ def _street(match: Match, scan: Scan) -> str | None:
     """A street behind its name: "Elm Dr.", not "Ask Dr. Smith"."""
     before = text_before(match)
     found = _NAME_BEFORE.search(before)
-    if found is None or found[1].lower() in FUNCTION_WORDS:
+    if found is None or found[1].lower() in FUNCTION_WORDS | _GREETING:
         return None
     starts = re.fullmatch(r"\s*[A-Z][\w']+ ", before) is not None
     has_name_behind = re.match(r" [A-Z][a-z]", text_after(match)) is not None

@@ -25,6 +25,8 @@ from hri.speech.notation.sentences import sentences
         "J. K. Rowling wrote it.| I did.",
         "Martin Luther King Jr. Day is near.",
         "Use max. 5 kg.| Add sugar, salt, etc. and stir.",
+        "We saw the Sun.| Mars is next.",
+        "Come on Sat. 5 of May.",
         "One line\n|another line",
         "It costs 3.5 euros.| Visit example.org now.",
     ],
