@@ -15,29 +15,33 @@ READINGS = Path(__file__).parent / "readings.txt"
 
 
 def table():
-    """Each kind, text and reading of the table."""
-    kind = ""
+    """For each kind the texts, and what is said for each."""
+    kinds = {}
     for line in READINGS.read_text(encoding="utf-8").splitlines():
         if line.startswith("== "):
-            kind = line[3:]
+            kind = kinds.setdefault(line[3:], {})
         elif " | " in line:
             written, _, read = line.partition(" | ")
-            yield kind, written, read
+            kind[written] = read
+    return kinds
 
 
 def words(text):
     return re.sub(r"[^\w']+", " ", text).lower().strip(" '").split()
 
 
-@pytest.mark.parametrize(("kind", "written", "read"), list(table()))
-def test_it_is_read_as_an_american_says_it(kind, written, read):
-    assert words(read_aloud(written)) == words(read), kind
+@pytest.mark.parametrize("kind", table())
+def test_it_is_read_as_an_american_says_it(kind):
+    texts = table()[kind]
+    assert {text: words(read_aloud(text)) for text in texts} == {
+        text: words(read) for text, read in texts.items()
+    }
 
 
 def test_the_table_has_many_lines_of_every_kind():
-    kinds = [kind for kind, _, _ in table()]
-    assert len(kinds) >= 400
-    assert len(set(kinds)) >= 28
+    kinds = table()
+    assert len(kinds) >= 28
+    assert sum(map(len, kinds.values())) >= 1000
 
 
 @pytest.mark.parametrize(
@@ -90,13 +94,13 @@ SIGNS = [
 
 @pytest.mark.parametrize("sign", SIGNS)
 def test_long_texts_of_one_sign_take_little_time(sign):
-    assert seconds_for(sign, 8_000) < 3
+    assert seconds_for(sign, 5_000) < 2
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("sign", ["1/", "0", "!", "a@", "H2", ". "])
+@pytest.mark.parametrize("sign", ["1/", "0", "!", ". "])
 def test_very_long_texts_take_no_more_for_each_character(sign):
-    assert seconds_for(sign, 100_000) < 12 * 3
+    assert seconds_for(sign, 100_000) < 36
 
 
 def seconds_for(sign, length):
