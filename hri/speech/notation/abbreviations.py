@@ -6,7 +6,14 @@ MONTHS = (
     "January", "February", "March", "April", "May", "June", "July", "August", "September",
     "October", "November", "December",
 )  # fmt: skip
-MONTH_OF = {name[:3]: name for name in MONTHS} | {"Sept": "September"} | {n: n for n in MONTHS}
+_MONTH_OF = {name[:3]: name for name in MONTHS} | {"Sept": "September"} | {n: n for n in MONTHS}
+MONTH_OF = _MONTH_OF | {
+    written: month
+    for name, month in _MONTH_OF.items()
+    for written in (name.upper(), name.lower())
+    if written not in ("may", "mar", "march")
+}
+"""The months by their names, whole or short, also in capitals or small letters."""
 DAYS = ("Monday", "Tuesday", "Wednesday", "Thursday", "Friday", "Saturday", "Sunday")
 DAY_OF = (
     {name[:3]: name for name in DAYS}

@@ -79,5 +79,6 @@ RULES: tuple[Rule, ...] = (
     amount(rf"(\d{{1,2}}):(\d\d):(\d\d)(?:\.(\d{{1,3}}))?{_HALF}?(?![\w:])", _with_seconds),
     amount(r"(\d{1,2}):([0-5]\d)\.(\d{1,3})(?![\w:])", _lap),
     amount(rf"(\d{{1,2}}):(\d\d){_HALF}?(?![\w:])", _time),
+    amount(rf"(\d{{1,2}})\.([0-5]\d){_HALF}(?!\w)", _time),
     amount(rf"(\d{{1,2}}){_HALF}(?!\w)", _hour),
 )

@@ -13,8 +13,12 @@ from hri.speech.notation.quantities import any_of
 from hri.speech.notation.rule import Match, Rule, Scan, amount, rule
 
 _MONTH = any_of(MONTH_OF)
-_SHORT_MONTH = any_of(name for name in MONTH_OF if name not in MONTHS)
+_SHORT_MONTH = any_of(name for name in MONTH_OF if name.capitalize() not in MONTHS)
 _SHORT_DAY = any_of(name for name in DAY_OF if name not in DAYS)
+_DAYS = DAY_OF | {
+    written: day for name, day in DAY_OF.items() for written in (name.upper(), name.lower())
+}
+"""The days in any case, as they stand in spans."""
 _OF_DAY = (
     rf",? (?:\d|at\b|to\b|and\b|morning|noon|afternoon|evening|night|(?:{_MONTH})\b)|,|\)| ?[-–]"
 )
@@ -97,11 +101,12 @@ RULES: tuple[Rule, ...] = (
     ),
 )
 NAMED: tuple[Rule, ...] = (
-    _span(DAY_OF),
+    _span(_DAYS),
     _span(MONTH_OF),
     amount(
-        rf"({_MONTH})\b\.? (\d{{1,2}})(?:st|nd|rd|th)?(?: ?[-–] ?(\d{{1,2}})(?:st|nd|rd|th)?)?"
-        r"(?:,? (\d{4})\b(?! [a-z]+s\b))?(?![\d/]|,\d|\.\d)\b",
+        rf"({_MONTH})\b(?:\.? |-)(\d{{1,2}})(?:st|nd|rd|th)?"
+        r"(?: ?[-–] ?(\d{1,2})(?:st|nd|rd|th)?)?"
+        r"(?:(?:,? |-)(\d{4})\b(?! [a-z]+s\b))?(?![\d/]|,\d|\.\d)\b",
         _month_day,
     ),
     rule(rf"({_SHORT_MONTH})(?:\.(?! *$)|(?=,? \d{{4}}\b))", lambda m, s: MONTH_OF[m[1]]),

@@ -117,6 +117,6 @@ RULES: tuple[Rule, ...] = (
         lambda m, s: _signed_length(m, s, "inch", "inches"),
     ),
     amount(rf"({NUMBER})'(?=[ ,.]|$)", lambda m, s: _signed_length(m, s, "foot", "feet")),
-    amount(rf"({_ANY})([ -]?)({any_of(UNITS)}){_POWER}{PER}{NO_WORD}(?!'\w)", _measure),
+    amount(rf"({_ANY})([ -]?)({any_of(UNITS)}){_POWER}{PER}{NO_WORD}(?!'\w|\.[A-Z])", _measure),
     amount(rf"({POINTED}) ?%", lambda m, s: f"{say.number(m[1])} percent"),
 )

@@ -34,6 +34,7 @@ def _money(match: Match, coin: tuple[str, str], written: str, scale: str | None)
     one, many, cent, cents = CURRENCIES[sign]
     written = re.sub(r",(\d\d)$", r".\1", written)  # as in Europe
     whole, _, part = written.replace(",", "").partition(".")
+    part = f"{part}0" if len(part) == 1 else part
     name = whose + (one if is_attributive(match) or (whole == "1" and not scale) else many)
     if scale:
         return f"{say.number(written)} {SCALES[scale]} {name}"

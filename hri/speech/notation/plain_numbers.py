@@ -30,7 +30,7 @@ _KNOWN_SERVICES = SERVICES - {"511", "611", "711", "811"}
 _COUNT = re.compile(r"(?i)\b(?:page|number|over|than|exactly|about|of|weighs|total|is|=) ?$")
 _SERVICE = re.compile(r" (?:call|line|operator|dispatch|emergency)")
 _ZIP = re.compile(
-    rf"(?:\b(?:{any_of(STATES)})\.? |\b(?:{any_of(STATES.values())}) "
+    rf"(?:\b(?:{any_of(STATES)})[.,]? |\b(?:{any_of(STATES.values())}),? "
     r"|(?i:\b(?:zip|postal)(?: ?code)?(?: is|:)? ))$"
 )
 _PAIRED = re.compile(r"(?i:\bflight) [A-Z][A-Z\d] $|\b(?:US|SR) $|\d[xX]$")

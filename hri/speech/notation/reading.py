@@ -40,7 +40,10 @@ from hri.speech.notation.abbreviations import (
 from hri.speech.notation.rule import LETTER, Rule, Scan
 from hri.speech.notation.units import CURRENCIES
 
-_ALIKE = str.maketrans("’‘′″‐‑‒\u00a0\u2007\u2009\u202f₀₁₂₃₄₅₆₇₈₉＋－", "'''\"---    0123456789+-")
+_ALIKE = str.maketrans(
+    "’‘′″‐‑‒\u00a0\u2007\u2009\u202f₀₁₂₃₄₅₆₇₈₉＋－∕∗∙⋅≦≧º˚\u2126\u03bc",
+    "'''\"---    0123456789+-/*××≤≥°°Ωµ",
+)
 """Characters that are read as others; one for one, so that places stay."""
 _DIGIT = (
     *addresses.WEB,

@@ -10,9 +10,10 @@ LENGTHS = {
     "µm": ("micrometer", "micrometers"),
 }  # fmt: skip
 """Those that have squares and cubes."""
-UNITS = LENGTHS | {
+_UNITS = LENGTHS | {
     "g": ("gram", "grams"), "kg": ("kilogram", "kilograms"), "mg": ("milligram", "milligrams"),
     "µg": ("microgram", "micrograms"), "mcg": ("microgram", "micrograms"),
+    "kgs": ("kilogram", "kilograms"),
     "lb": ("pound", "pounds"), "lbs": ("pound", "pounds"), "oz": ("ounce", "ounces"),
     "fl oz": ("fluid ounce", "fluid ounces"), "t": ("ton", "tons"),
     "L": ("liter", "liters"), "l": ("liter", "liters"), "mL": ("milliliter", "milliliters"),
@@ -27,7 +28,8 @@ UNITS = LENGTHS | {
     "ns": ("nanosecond", "nanoseconds"), "min": ("minute", "minutes"),
     "mins": ("minute", "minutes"), "h": ("hour", "hours"), "hr": ("hour", "hours"),
     "hrs": ("hour", "hours"), "wk": ("week", "weeks"), "wks": ("week", "weeks"),
-    "mo": ("month", "months"), "yr": ("year", "years"), "yrs": ("year", "years"),
+    "mo": ("month", "months"),
+    "mos": ("month", "months"), "yr": ("year", "years"), "yrs": ("year", "years"),
     "Hz": ("hertz", "hertz"), "kHz": ("kilohertz", "kilohertz"), "MHz": ("megahertz", "megahertz"),
     "GHz": ("gigahertz", "gigahertz"), "V": ("volt", "volts"), "mV": ("millivolt", "millivolts"),
     "kV": ("kilovolt", "kilovolts"), "A": ("amp", "amps"), "mA": ("milliamp", "milliamps"),
@@ -73,6 +75,33 @@ UNITS = LENGTHS | {
     "ha": ("hectare", "hectares"), "ac": ("acre", "acres"), "pct": ("percent", "percent"),
     "doz": ("dozen", "dozen"),
 }  # fmt: skip
+_IN_ANY_CASE = (
+    *(
+        "km",
+        "cm",
+        "mm",
+        "kg",
+        "kgs",
+        "mg",
+        "lb",
+        "lbs",
+        "oz",
+        "ft",
+        "yd",
+        "ml",
+        "mph",
+        "kmh",
+        "kph",
+    ),
+    *("Hz", "kHz", "MHz", "GHz", "kWh", "kW", "mAh", "dB", "GB", "MB", "TB", "Mbps", "Gbps", "min"),
+    *("mins", "hr", "hrs", "sec", "secs", "yrs", "psi", "rpm", "fps", "bpm", "dpi", "kcal", "tbsp"),
+    "tsp",
+)
+UNITS = {
+    written: _UNITS[unit]
+    for unit in _IN_ANY_CASE
+    for written in (unit.lower(), unit.upper(), unit.capitalize())
+} | _UNITS
 """One and many of each."""
 AFTER_PER = {"d": "day"}
 """Short names of what amounts are counted by, besides units: "$20/d"."""
