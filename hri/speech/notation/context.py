@@ -36,9 +36,9 @@ IRREGULAR = frozenset(
 MEASURES = IRREGULAR | frozenset(
     """books bytes calories cars centimeters cents characters copies days degrees dollars files
     followers gallons grams hours houses inches items kilograms kilometers letters lines
-    liters meters miles millimeters minutes months pages parts photos pictures
-    pieces pixels points pounds seats seconds steps tickets tons users volts watts weeks
-    words yards years""".split()
+    liters meters miles millimeters minutes months pages parts photos pictures pieces
+    pixels points pounds seats seconds steps tickets tons users volts watts weeks words
+    yards years""".split()
 )
 """What is counted, whatever stands before the number."""
 YEAR_NOUNS = frozenset(
@@ -54,16 +54,16 @@ YEAR_BEFORE = frozenset(
 )
 """Words before a year."""
 COUNT_BEFORE = frozenset(
-    """all almost another approximately counted equals exactly least makes most nearly only over
-    roughly some than total totaling""".split()
+    """all almost another approximately cost costs counted equals exactly least makes most nearly
+    only over paid pays roughly some than total totaling totals weigh weighs""".split()
 )
 """Words before a count."""
 TIME_PREPOSITIONS = frozenset("""after before by during in since the until""".split())
 """Words before a year that may also stand before a count."""
 PAIRED_AFTER = frozenset(
     """airbus apartment apt boeing bus cabin channel error exit flight flights freeway gate hall
-    highway http hwy interstate locker model office peugeot porsche room rooms route rte
-    status suite trail train unit""".split()
+    highway http hwy interstate locker model office peugeot porsche rm room rooms route
+    rte status ste suite trail train unit""".split()
 )
 """What has numbers that are read in pairs."""
 DIGITS_AFTER = frozenset(

@@ -16,8 +16,9 @@ SHORTEST = 7
 def _groups(match: Match, scan: Scan) -> str:
     """Digit by digit, with a pause between groups; words stay."""
     plus = "plus " if match[0].startswith("+") else ""
-    groups = re.findall(r"\d+|[A-Z]+", match[0])
-    return plus + ", ".join(say.by_digits(g) if g[0].isdecimal() else g for g in groups)
+    groups = re.findall(r"\d+|[A-Z]+|x", match[0])
+    said = ", ".join(say.by_digits(g) if g[0].isdecimal() else g for g in groups)
+    return plus + said.replace(", x, ", ", extension ")
 
 
 def _international(match: Match, scan: Scan) -> str | None:
@@ -35,7 +36,11 @@ def _spaced(match: Match, scan: Scan) -> str | None:
 
 
 RULES: tuple[Rule, ...] = (
-    amount(r"(?:\+?\d{1,3}[ .-]?)?(?:\(\d{3}\)[ -]?|\d{3}[ .-])\d{3}[ .-]\d{4}(?![\w-])", _groups),
+    amount(
+        r"(?:\+?\d{1,3}[ .-]?)?(?:\(\d{3}\)[ -]?|\d{3}[ .-])\d{3}[ .-]\d{4}"
+        r"(?: ?x ?\d{1,6})?(?![\w-])",
+        _groups,
+    ),
     rule(r"\d{3}-\d{4}(?![\w-])", _groups),
     rule(r"\+\d{1,3}(?:[ -]?\(?\d{1,5}\)?){1,6}(?![\w-])", _international),
     rule(r"1[- .]8\d\d[- .][A-Z]{2,12}(?:-[A-Z]{1,12}){0,3}\b", _groups),
