@@ -18,7 +18,7 @@ from hri.speech.synthesizers.espeak_text import plain, stressed, user_phones
 from hri.speech.synthesizers.natural_symbols import SPACE, symbols_of
 
 _WORD = re.compile(r"\S+")
-_LONE_GREEK = re.compile(r"(?<![\u0370-\u03ff\u2126])[\u0370-\u03ff\u2126µ](?![\u0370-\u03ff])")
+_SIGNS = re.compile(r"(?<![\u0370-\u03ff\u2126])[\u0370-\u03ff\u2126µº](?![\u0370-\u03ff])")
 """Signs of units and of mathematics."""
 LONGEST_WORD = 28
 """Letters of a word that is read as one."""
@@ -134,6 +134,6 @@ def _words_of(read: Spoken, text: str) -> Iterator[tuple[str, int]]:
 
 def is_foreign(text: str) -> bool:
     """Whether most letters of a text are none of the Latin script."""
-    letters = [letter for letter in _LONE_GREEK.sub("", text) if letter.isalpha()]
+    letters = [letter for letter in _SIGNS.sub("", text) if letter.isalpha()]
     foreign = sum("LATIN" not in unicodedata.name(letter, "") for letter in letters)
     return foreign > _FOREIGN * len(letters)

@@ -27,6 +27,7 @@ from hri.speech.synthesizers.natural import NaturalVoice
 from hri.speech.synthesizers.natural_symbols import MNEMONICS, MODIFIERS, STRESSES, longest_parts
 from hri.speech.synthesizers.pace import slow_file
 from tests.speech.conftest import HOUSE
+from tests.speech.notation.test_reading import table as readings
 
 hibari = pytest.importorskip("hibari", reason="no natural voice - pip install hibari-tts")
 
@@ -328,6 +329,23 @@ def test_signs_sound_as_the_words_that_are_said_for_them(kind):
         "Dial nine one one, pay minus twenty dollars, and take five square meters of it."
     )
     assert [one.name for one in written.phonemes] == [one.name for one in read.phonemes]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", readings())
+def test_every_text_of_the_table_sounds_as_the_words_that_are_said_for_it(voice, kind):
+    """But for stress, pauses, and the letter A, which written alone is the article."""
+    reader = voice._engine.reader
+
+    def sounds(text):
+        symbols = "".join(one.symbols for one in reader.sentences(text))
+        return "".join(one for one in symbols if one.isalpha() and one not in STRESSES).replace(
+            "A", "ɐ"
+        )
+
+    texts = readings()[kind]
+    wrong = {text: read for text, read in texts.items() if sounds(text) != sounds(read)}
+    assert set(wrong) <= {"Write to a.b@example.com."}
 
 
 @pytest.mark.parametrize("sign", ["a-", "aB", "'", "$"])
