@@ -24,7 +24,7 @@ def spelled_out(address: str) -> str:
 
 
 def _part(part: str) -> str:
-    if part.isdigit():
+    if part.isdecimal():
         return say.number(part) if len(part) < 3 else say.in_pairs(part)
     if part.lower() in SPELLED and (part.islower() or part.isupper()):
         return SPELLED[part.lower()]

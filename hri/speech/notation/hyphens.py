@@ -40,7 +40,7 @@ def _hyphen(match: Match, scan: Scan) -> str | None:
     if is_apart or before[-1] in _OPENING:
         is_sign = is_before_amount and not after[:1].isspace()
         return "minus" if is_sign else _before_word(before, after)
-    is_inner = after[:1].isalnum() and (before[-1].isdigit() or after[:1].isdigit())
+    is_inner = after[:1].isalnum() and (before[-1].isdecimal() or after[:1].isdecimal())
     return "" if is_inner else None
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 Match = re.Match[str]
 SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺"
-LETTER = rf"[^\W\d_{SUPERSCRIPTS}½¼¾⅐-⅟]"
+LETTER = rf"[^\W\d_{SUPERSCRIPTS}½¼¾⅐-⅟\u2460-\u24ff]"
 """A letter: numbers above the line count as such in regular expressions."""
 
 

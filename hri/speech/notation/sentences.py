@@ -68,7 +68,7 @@ def _is_end(text: str, found: re.Match[str]) -> bool:
     word = last[1] if last else ""
     if after[0].islower() or word in _NEVER or word in _ONLY_BEFORE_NAMES:
         return False
-    if after[0].isdigit() or after[0] == "#":
+    if after[0].isdecimal() or after[0] == "#":
         return word.lower() not in _BEFORE_DIGITS
     if word != "I" and (word in _SHORT or _INITIALS.fullmatch(word)):
         return _STARTER.match(after) is not None

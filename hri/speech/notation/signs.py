@@ -63,7 +63,7 @@ def _letter_x(match: Match, scan: Scan) -> str | None:
         return None
     if re.match(r" ?[\d.½¼¾]", text_after(match)):
         return _times(match, scan)
-    if not text_before(match)[-1:].isdigit():
+    if not text_before(match)[-1:].isdecimal():
         return None
     return "times" if _FACTOR.match(text_after(match)) else "X"
 
@@ -74,12 +74,16 @@ def _colon(match: Match, scan: Scan) -> str | None:
     return "to" if scan.is_after_amount and (is_ratio or is_apart) else None
 
 
+_POWERS = {"2": "squared", "3": "cubed", "-": "minus", "+": "plus"}
+
+
 def _power(match: Match, scan: Scan) -> str:
-    digits = match[1].translate(_DIGITS)
-    if digits in ("2", "3"):
-        return "squared" if digits == "2" else "cubed"
-    sign, digits = ("minus ", digits[1:]) if digits.startswith("-") else ("", digits.lstrip("+"))
-    return f"to the power of {sign}{say.number(digits) if digits.isdigit() else digits}"
+    power = match[1].translate(_DIGITS)
+    if power in _POWERS:
+        return _POWERS[power]
+    sign = "minus " if power[0] == "-" else ""
+    power = power.lstrip("+-")
+    return f"to the power of {sign}{say.number(power) if power.isdecimal() else power}"
 
 
 def _underscore(match: Match, scan: Scan) -> str:
@@ -89,7 +93,7 @@ def _underscore(match: Match, scan: Scan) -> str:
 
 def _hash(match: Match, scan: Scan) -> str:
     after = text_after(match)
-    if after[:1].isdigit():
+    if after[:1].isdecimal():
         return "number"
     return "hashtag" if after[:1].isalpha() else ""
 
@@ -153,7 +157,7 @@ RULES: tuple[tuple[str, tuple[Rule, ...]], ...] = (
         rule(r"\.([A-Za-z]{2,9})\b", _dotted),
         rule(r"\.{2,80}", "..."),
     )),
-    (SUPERSCRIPTS, (rule(rf"([{SUPERSCRIPTS}]{{1,12}})", _power),)),
+    (SUPERSCRIPTS, (rule(r"([⁻⁺]?[⁰¹²³⁴-⁹]{1,12}|[⁻⁺])", _power),)),
     ("^", (rule(r"\^ ?\(?([-+]?\d{1,9}|[a-z])\)?(?!\w)", _power), rule(r"\^", ""))),
     ("/", (rule(r"/", _slash),)),
     ("*", (rule(r"\*{1,2}", _star),)),
@@ -177,6 +181,8 @@ def alone(sign: str) -> str | None:
     """What is said for a sign that no rule reads; None for one that stays."""
     if sign in WORDS:
         return WORDS[sign]
+    if (number := unicodedata.digit(sign, None)) is not None:
+        return say.cardinal(number)  # a number in a circle
     if sign in PAUSES or sign.isspace() or unicodedata.category(sign)[0] in "LN":
         return None
     return None if unicodedata.category(sign) in ("Mn", "Mc", "Pd") else ""
