@@ -43,6 +43,7 @@ RULES: tuple[Rule, ...] = (
     ),
     rule(r"\d{3}-\d{4}(?![\w-])", _groups),
     rule(r"\+\d{1,3}(?:[ -]?\(?\d{1,5}\)?){1,6}(?![\w-])", _international),
+    rule(r"0\d{2,4}(?: \d{3,6}){1,3}(?![\w-])", _groups),
     rule(r"1[- .]8\d\d[- .][A-Z]{2,12}(?:-[A-Z]{1,12}){0,3}\b", _groups),
     rule(r"\d{4}(?:[ -]\d{4}){3}(?![\w-])", _groups),
     rule(r"\d{3} \d{3}(?!\w| \d)", _spaced),

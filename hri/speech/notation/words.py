@@ -152,5 +152,5 @@ ABBREVIATIONS: tuple[Rule, ...] = (
     _LETTERS,
     rule(r"v\.(?= [A-Z])", _versus),
     rule(r"(?:[A-Za-z]\.){2,8}(?:[A-Z]\b)?", _initials),
-    rule(r"([A-Z])\.(?= [A-Z])", "{1}"),
+    rule(r"([A-Z])\.(?= [A-Za-z])", "{1}"),
 )

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Iterator
 from dataclasses import dataclass
 
-from hri.speech.notation.reading import spoken
+from hri.speech.notation.reading import Spoken, spoken
 from hri.speech.pronunciation.lexicon import Lexicon
 from hri.speech.pronunciation.phones import VOWELS, Phones
 
@@ -57,7 +58,8 @@ def reading(text: str, lexicon: Lexicon | None = None) -> Reading:
     if lexicon is None:
         return Reading(text, tuple(range(len(text))))
     read = spoken(text)
-    names = list(_names(read.text, lexicon))
+    spelt_out = {name[0]: name for name in (*_letters(read), *_names(read.text, lexicon))}
+    names = sorted(spelt_out.values())
     if not names:
         return Reading(read.text, read.origins)
     text, places = read.text.translate(_PHONEME_BRACKETS), read.origins
@@ -80,6 +82,13 @@ def _names(text: str, lexicon: Lexicon) -> list[tuple[int, int, str]]:
             # Behind a bracket or a quote, without spaces, the library would leave it out.
             found.append((match.start(), match.end(), f" [[{mnemonics(phones)}]] "))
     return found
+
+
+def _letters(read: Spoken) -> Iterator[tuple[int, int, str]]:
+    """Where the letter A stands, which would be taken for the article."""
+    for place in read.letters:
+        if read.text[place] == "A":
+            yield place, place + 1, " [['eI]] "
 
 
 def user_phones(word: str, lexicon: Lexicon) -> Phones:

@@ -6,7 +6,7 @@ import re
 import unicodedata
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import Any
 
@@ -122,8 +122,17 @@ def _numbers(tokens: Sequence[Any]) -> list[int]:
 
 
 def words_read(text: str) -> list[tuple[str, int]]:
-    """The words that an English text is read as, each with the number of its written word."""
-    return list(_words_of(spoken(text), text))
+    """The words that an English text is read as, each with the number of its written word.
+
+    The letter A is "ay", the article is not.
+    """
+    read = spoken(text)
+    said = "".join(
+        "\0" if sign == "A" and place in read.letters else sign
+        for place, sign in enumerate(read.text)
+    )
+    words = _words_of(replace(read, text=said), text)
+    return [(word.replace("\0", "ay"), origin) for word, origin in words]
 
 
 def _words_of(read: Spoken, text: str) -> Iterator[tuple[str, int]]:

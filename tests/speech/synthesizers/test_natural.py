@@ -25,6 +25,7 @@ from hri.speech.recognizers.ctc.decoder import CtcRecognizer
 from hri.speech.synthesizers.espeak import EspeakVoice
 from hri.speech.synthesizers.natural import NaturalVoice
 from hri.speech.synthesizers.natural_symbols import MNEMONICS, MODIFIERS, STRESSES, longest_parts
+from hri.speech.synthesizers.natural_text import words_read
 from hri.speech.synthesizers.pace import slow_file
 from tests.speech.conftest import HOUSE
 from tests.speech.notation.test_reading import table as readings
@@ -329,6 +330,16 @@ def test_signs_sound_as_the_words_that_are_said_for_them(kind):
         "Dial nine one one, pay minus twenty dollars, and take five square meters of it."
     )
     assert [one.name for one in written.phonemes] == [one.name for one in read.phonemes]
+
+
+@pytest.mark.parametrize("kind", [NaturalVoice, EspeakVoice])
+def test_a_letter_is_said_by_its_name_and_the_article_is_not(kind):
+    voice = opened(kind)
+    letter = [one.name for one in voice.synthesize("Gate A4 is open.").phonemes]
+    article = [one.name for one in voice.synthesize("A gate is open.").phonemes]
+    assert letter.count("eI") == 2
+    assert article.count("eI") == 1
+    assert words_read("Gate A4") == [("Gate", 0), ("ay", 1), ("four", 1)]
 
 
 @pytest.mark.slow
