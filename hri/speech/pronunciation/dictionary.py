@@ -1,4 +1,4 @@
-"""The CMU Pronouncing Dictionary, in the version of PocketSphinx: looked up in the file itself.
+"""The CMU Pronouncing Dictionary, for hearing and for speaking: looked up in the file itself.
 
 The words are sorted by their bytes, their variants behind them ("a", "a(2)", "a's"), so a word is
 found by halving the file some twenty times, and nothing has to be read or kept.
@@ -13,11 +13,11 @@ from hri.core.errors import NotAvailable
 from hri.speech.pronunciation.phones import Phones
 
 DICTIONARY = Path(__file__).with_name("cmudict-en-us.dict")
-"""134,000 lines, sorted by bytes: a word, spaces, its phones without stress."""
+"""134,000 lines, sorted by bytes: a word, spaces, its phones with stress."""
 
 
 class Dictionary:
-    """Pronunciations of 126,000 English words, without stress."""
+    """Pronunciations of 126,000 English words, with stress."""
 
     def __init__(self, path: Path) -> None:
         with path.open("rb") as file:

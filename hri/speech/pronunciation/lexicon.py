@@ -2,7 +2,7 @@
 
 The dictionary knows one American's way of many words that others say otherwise: beside its own
 there are those of `variants.txt`, from general American and British speech ("almond" with an L, the
-broad A of "fast", "schedule" with SH).
+broad A of "fast", "schedule" with SH). It lacks some names of today; `more_names.txt` has them.
 
 A lexicon is a text file in the format of the CMU dictionary: a word, spaces, its phones. A word
 that stands in several lines may be said in several ways, the likeliest first; what a lexicon says
@@ -17,7 +17,9 @@ written and is used by the voice; a line that begins with `#` or `;` is a commen
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+import re
+import unicodedata
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Literal
 
@@ -29,20 +31,20 @@ from hri.core.reading import read_text
 from hri.core.writing import PRIVATE, write_text
 from hri.speech.pronunciation.dictionary import Dictionary, cmu_dictionary
 from hri.speech.pronunciation.guesses import Guesses
-from hri.speech.pronunciation.phones import PHONES, VOWELS, Phones
+from hri.speech.pronunciation.phones import PHONES, VOWELS, Phones, with_s, without_stress
 
 Origin = Literal["user", "dictionary", "guessed"]
 
 VARIANTS = Path(__file__).with_name("variants.txt")
 """More ways to say words of the dictionary, in the format of a lexicon."""
+MORE_NAMES = Path(__file__).with_name("more_names.txt")
+"""Names that the dictionary lacks, or says as few people do, in the format of a lexicon."""
 VARIABLE = "HRI_LEXICON"
 """Names the user's lexicon when it is not in the folder of settings."""
 MOST_VARIANTS = 8
 """Pronunciations of one word."""
 MOST_PHONES = 60
 """In one pronunciation."""
-_VOICELESS = frozenset(("P", "T", "K", "F", "TH"))
-_HISSING = frozenset(("S", "Z", "SH", "ZH", "CH", "JH"))
 
 
 class Lexicon:
@@ -54,22 +56,26 @@ class Lexicon:
         dictionary: Dictionary,
         variants: Mapping[str, tuple[Phones, ...]] | None = None,
         guesses: Guesses | None = None,
+        names: Mapping[str, tuple[Phones, ...]] | None = None,
     ) -> None:
         """`own` are the words of the user, their phones with or without stress.
 
-        `variants` are more ways to say words of the dictionary.
+        `variants` are more ways to say words of the dictionary, `names` words that it lacks, or
+        that people say in a likelier way.
         """
         self._own = own
         self._dictionary = dictionary
         self._variants = variants or {}
         self._guesses = guesses or Guesses()
+        self._names = names or {}
 
     def extended(self, sounds: Sequence[tuple[str, Phones]]) -> Lexicon:
         """This lexicon with phones for some words, instead of what it says of them."""
         if not sounds:
             return self
         own = {_folded(word): (phones,) for word, phones in sounds}
-        return Lexicon({**self._own, **own}, self._dictionary, self._variants, self._guesses)
+        parts = (self._dictionary, self._variants, self._guesses, self._names)
+        return Lexicon({**self._own, **own}, *parts)
 
     def pronunciations(self, word: str) -> tuple[Phones, ...]:
         """All ways to say a word, without stress, the likeliest first.
@@ -77,54 +83,126 @@ class Lexicon:
         Raises HriError when nobody knows how it is said.
         """
         word = _folded(word)
-        return self.known(word) or self._inflected(word) or self._guesses[word]
+        return self.known(word) or _heard(self._made(word)) or self._guesses[word]
+
+    def spoken(self, word: str) -> Phones:
+        """The likeliest way to say a word, with its stress; empty when it would be guessed."""
+        word = _folded(word)
+        return self.of_user(word) or next(iter(self._listed(word) or self._made(word)), ())
+
+    def of_user(self, word: str) -> Phones:
+        """The likeliest way to say a word as the user says it, or one of the user's with 's.
+
+        Stress is there where it is written. Empty for all other words.
+        """
+        word = self._spelled(_folded(word))
+        if own := self._own.get(word):
+            return own[0]
+        stem = self._own.get(self._spelled(word.removesuffix("'s")))
+        return with_s(stem[0]) if stem else ()
 
     def origin(self, word: str) -> Origin:
         """Who knows how a word is said."""
         word = _folded(word)
-        if word in self._own:
+        if self._spelled(word) in self._own:
             return "user"
-        return "dictionary" if word in self._dictionary else "guessed"
+        return "dictionary" if self._listed(word) else "guessed"
 
     def __contains__(self, word: str) -> bool:
         """Whether the user or the dictionary knows a word, so that it need not be guessed."""
         return self.origin(word) != "guessed"
 
-    def with_stress(self, word: str) -> tuple[Phones, ...]:
-        """What the user's lexicon says of a word, stress as it is written; empty when nothing."""
-        return self._own.get(_folded(word), ())
-
     def known(self, word: str) -> tuple[Phones, ...]:
         """What the user or the dictionary says of a word; empty when it would be guessed."""
         word = _folded(word)
-        own = self._own.get(word)
-        if own is None:
-            usual = self._dictionary.pronunciations(word)
-            return (*usual, *self._variants.get(word, ()))
-        return tuple(dict.fromkeys(tuple(map(_without_stress, phones)) for phones in own))
+        own = () if word in self._own else self._variants.get(word, ())
+        return _heard((*self._listed(word), *own))
 
-    def _inflected(self, word: str) -> tuple[Phones, ...]:
-        """A word with 's, or made of known ones with hyphens: better known than guessed."""
-        if word.endswith("'s"):
-            return tuple((*phones, *_possessive(phones[-1])) for phones in self.known(word[:-2]))
-        parts = [self.known(part) for part in word.split("-") if part]
+    def _listed(self, word: str) -> tuple[Phones, ...]:
+        """What the user or the dictionary says of a word, with stress."""
+        word = self._spelled(word)
+        if own := self._own.get(word):
+            return own
+        return (*self._names.get(word, ()), *self._dictionary.pronunciations(word))
+
+    def _spelled(self, word: str) -> str:
+        """The word as it is listed: "jose" for "josé", where that one is not."""
+        listed = (self._own, self._names, self._dictionary)
+        is_listed = word.isascii() or any(word in words for words in listed)
+        return word if is_listed else without_accents(word)
+
+    def _made(self, word: str) -> tuple[Phones, ...]:
+        """A form of a known word, or one made of known ones: better known than guessed."""
+        for stem in _stems(word):
+            if found := self._listed(stem):
+                ends_alike = stem == word.rstrip("'")
+                return found if ends_alike else tuple(map(with_s, found))
+        stem, mark, rest = word.partition("'")
+        if (end := CONTRACTIONS.get(mark + rest)) and (found := self._listed(stem)):
+            return tuple((*phones, *end) for phones in found)
+        parts = [self._part(part) for part in _PARTS.sub(r"\1 ", word).replace("-", " ").split()]
         if len(parts) > 1 and all(parts):
-            return (tuple(phone for part in parts for phone in part[0]),)
+            *before, last = parts
+            return ((*(_weaker(phone) for part in before for phone in part), *last),)
         return ()
 
+    def _part(self, part: str) -> Phones:
+        return PREFIXES.get(part) or next(iter(self._listed(part)), ())
 
-def _possessive(last: str) -> Phones:
-    if last in _HISSING:
-        return ("IH", "Z")
-    return ("S",) if last in _VOICELESS else ("Z",)
+
+CONTRACTIONS: Mapping[str, Phones] = {
+    "'d": ("D",),
+    "'ll": ("AH0", "L"),
+    "'re": ("ER0",),
+    "'ve": ("AH0", "V"),
+}
+"""Verbs at the end of a word, and how they are said."""
+PREFIXES: Mapping[str, Phones] = {
+    "mc": ("M", "AH0", "K"),
+    "o'": ("OW0",),
+    "d'": ("D",),
+}
+"""What names begin with, and how it is said."""
+_PARTS = re.compile(rf"^({'|'.join(PREFIXES)})(?=\w{{3}})")
+
+
+def _stems(word: str) -> tuple[str, ...]:
+    """What a word may be a form of: "james's", "james'", and "karens" of "james" and "karen"."""
+    if word.endswith("'s"):
+        return (word[:-2],)
+    if word.endswith("s'"):
+        return (word[:-1], word[:-2])
+    if word.endswith("s") and not word.endswith("ss"):
+        is_long = word.endswith(("ses", "zes", "xes", "ches", "shes"))
+        return (word[:-1], word[:-2]) if is_long else (word[:-1],)
+    return ()
+
+
+def _weaker(phone: str) -> str:
+    """A phone of a part before the last of a compound: the last has the main stress."""
+    return phone.replace("1", "2")
+
+
+def _heard(spoken: Iterable[Phones]) -> tuple[Phones, ...]:
+    """The different ways without stress."""
+    return tuple(dict.fromkeys(map(without_stress, spoken)))
 
 
 def _folded(word: str) -> str:
-    return word.lower().replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
+    return unicodedata.normalize("NFC", word.lower()).replace(
+        "\N{RIGHT SINGLE QUOTATION MARK}", "'"
+    )
 
 
-def _without_stress(phone: str) -> str:
-    return phone.rstrip("012")
+def without_accents(word: str) -> str:
+    """The word in plain letters: "zoe" for "zoë", "soren" for "søren"."""
+    split = unicodedata.normalize("NFKD", word.translate(_PLAIN_LETTERS))
+    return "".join(letter for letter in split if not unicodedata.combining(letter))
+
+
+_PLAIN_LETTERS = str.maketrans(
+    {"ø": "o", "ł": "l", "ß": "ss", "æ": "ae", "œ": "oe", "đ": "d", "ð": "d", "þ": "th"}
+)
 
 
 def load_lexicon(*files: Path) -> Lexicon:
@@ -134,7 +212,8 @@ def load_lexicon(*files: Path) -> Lexicon:
     own: dict[str, tuple[Phones, ...]] = {}
     for path in (*_of_user(), *files):
         own |= read_lexicon(path)
-    return Lexicon(own, cmu_dictionary(), read_lexicon(VARIANTS))
+    names = read_lexicon(MORE_NAMES)
+    return Lexicon(own, cmu_dictionary(), read_lexicon(VARIANTS), names=names)
 
 
 def user_lexicon() -> Path:
@@ -196,13 +275,13 @@ def read_phones(text: str) -> Phones:
         raise HriError(f"{what} - write some such as R OW B AA T for robot")
     for phone in phones:
         if not _is_phone(phone):
-            remedy = did_you_mean(_without_stress(phone), PHONES)
+            remedy = did_you_mean(phone.rstrip("012"), PHONES)
             raise HriError(f'no phone "{phone}" - {remedy}')
     return phones
 
 
 def _is_phone(text: str) -> bool:
-    phone = _without_stress(text.upper())
+    phone = text.upper().rstrip("012")
     stress = len(text) - len(phone)
     return phone in PHONES and stress <= (1 if phone in VOWELS else 0)
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cache
 
 Phones = tuple[str, ...]
-"""A pronunciation: names of phones, without stress."""
+"""A pronunciation: names of phones, without stress unless it is said otherwise."""
 
 _BILABIAL, _LABIODENTAL, _DENTAL, _ALVEOLAR = 1.0, 0.95, 0.9, 0.85
 _RETROFLEX, _PALATO_ALVEOLAR, _PALATAL, _VELAR, _GLOTTAL = 0.8, 0.75, 0.7, 0.6, 0.1
@@ -108,6 +108,11 @@ IPA = {
 }  # fmt: skip
 """Each phone in the International Phonetic Alphabet."""
 
+VOICELESS = frozenset(("P", "T", "K", "F", "TH"))
+"""The consonants after which an s of grammar is "s" ("cats"); after others it is "z"."""
+HISSING = frozenset(("S", "Z", "SH", "ZH", "CH", "JH"))
+"""Those after which it takes a vowel ("foxes")."""
+
 DROPPED = 0.5
 """What a phone costs that is said or heard too much; two unlike phones cost 1."""
 _ALIKE = {frozenset(("Y", "IY")), frozenset(("W", "UW")), frozenset(("R", "ER"))}
@@ -152,3 +157,15 @@ def _between_vowels(one: Vowel, other: Vowel) -> float:
 def in_ipa(phones: Phones) -> str:
     """The phones as they stand in other dictionaries: ("G", "OW") is "ɡoʊ"."""
     return "".join(IPA[phone] for phone in phones)
+
+
+def without_stress(phones: Phones) -> Phones:
+    """The phones without the digits behind vowels: ("G", "OW1") is ("G", "OW")."""
+    return tuple(phone.rstrip("012") for phone in phones)
+
+
+def with_s(phones: Phones) -> Phones:
+    """A word with the s of a plural, of a possessive, or of "she works"."""
+    if phones[-1] in HISSING:
+        return (*phones, "IH0", "Z")
+    return (*phones, "S" if phones[-1] in VOICELESS else "Z")

@@ -1,4 +1,4 @@
-"""What espeak-ng is given to read: plain text, with the names of the user's lexicon spelt out."""
+"""What espeak-ng is given to read: plain text, with names and words of two sounds spelt out."""
 
 from __future__ import annotations
 
@@ -8,8 +8,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from hri.speech.notation.reading import Spoken, spoken
+from hri.speech.pronunciation import heteronyms
 from hri.speech.pronunciation.lexicon import Lexicon
+from hri.speech.pronunciation.names import OPENING, is_name
 from hri.speech.pronunciation.phones import VOWELS, Phones
+from hri.speech.pronunciation.scripts import in_latin
 
 MNEMONICS = {
     "AA": "A:", "AE": "a", "AH": "V", "AO": "O:", "AW": "aU", "AY": "aI", "B": "b", "CH": "tS",
@@ -24,7 +27,7 @@ WEAK = {"AH": "@", "ER": "3", "IY": "i"}
 STRESSES = {"0": "", "1": "'", "2": ","}
 
 _EASILY_WEAK = ("AH", "ER", "IH")
-_WORD = re.compile(r"\w+(?:['\N{RIGHT SINGLE QUOTATION MARK}]\w+)*")
+_PART = re.compile(r"\w+(?:['\N{RIGHT SINGLE QUOTATION MARK}]\w+)*|[^\w\s]")
 _PHONEME_BRACKETS = str.maketrans("[]", "  ")
 
 
@@ -51,15 +54,16 @@ def plain(text: str) -> str:
 def reading(text: str, lexicon: Lexicon | None = None) -> Reading:
     """The text as the library gets it.
 
-    With a lexicon it is English: numbers and signs are read as the natural voice reads them, and
-    words that the lexicon holds sound as it says.
+    With a lexicon it is English: numbers and signs are read as the natural voice reads them; names,
+    and words that are said in several ways, sound as the lexicon and the words around them say.
     """
     text = plain(text)
     if lexicon is None:
         return Reading(text, tuple(range(len(text))))
     read = spoken(text)
-    spelt_out = {name[0]: name for name in (*_letters(read), *_names(read.text, lexicon))}
-    names = sorted(spelt_out.values())
+    words = _spelt(read.text, lexicon)
+    taken = {place for start, end, _ in words for place in range(start, end)}
+    names = sorted([*words, *(letter for letter in _letters(read) if letter[0] not in taken)])
     if not names:
         return Reading(read.text, read.origins)
     text, places = read.text.translate(_PHONEME_BRACKETS), read.origins
@@ -73,14 +77,25 @@ def reading(text: str, lexicon: Lexicon | None = None) -> Reading:
     return Reading("".join((*parts, text[done:])), (*origins, *places[done:]), True)
 
 
-def _names(text: str, lexicon: Lexicon) -> list[tuple[int, int, str]]:
-    """Where words of the user's lexicon stand, and how they are spelt in mnemonics."""
+def _spelt(text: str, lexicon: Lexicon) -> list[tuple[int, int, str]]:
+    """Where words stand that the library may not say right, and how they are spelt in mnemonics."""
     found = []
-    for match in _WORD.finditer(text):
-        phones = user_phones(match[0], lexicon)
-        if phones:
+    parts = list(_PART.finditer(text))
+    words = [in_latin(part[0]) for part in parts]
+    begins = True
+    for place, (part, word) in enumerate(zip(parts, words, strict=True)):
+        phones: Phones = ()
+        if word[0].isalnum():
+            phones = (
+                lexicon.of_user(word)
+                or heteronyms.said(words, place)
+                or (lexicon.spoken(word) if is_name(word, begins_sentence=begins) else ())
+            )
+        if phones or word != part[0]:
             # Behind a bracket or a quote, without spaces, the library would leave it out.
-            found.append((match.start(), match.end(), f" [[{mnemonics(phones)}]] "))
+            spelt = f"[[{mnemonics(phones)}]]" if phones else word
+            found.append((part.start(), part.end(), f" {spelt} "))
+        begins = word in OPENING
     return found
 
 
@@ -89,17 +104,6 @@ def _letters(read: Spoken) -> Iterator[tuple[int, int, str]]:
     for place in read.letters:
         if read.text[place] == "A":
             yield place, place + 1, " [['eI]] "
-
-
-def user_phones(word: str, lexicon: Lexicon) -> Phones:
-    """The likeliest phones of a word of the user's, or of one with 's; empty for other words."""
-    own = lexicon.with_stress(word)
-    if own:
-        return own[0]
-    own = (
-        lexicon.with_stress(word[:-2]) if word[-2:-1] in "'\N{RIGHT SINGLE QUOTATION MARK}" else ()
-    )
-    return (*own[0], *lexicon.pronunciations(word)[0][len(own[0]) :]) if own else ()
 
 
 def mnemonics(phones: Phones) -> str:

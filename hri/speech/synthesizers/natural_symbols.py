@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from hri.core.signals import Phoneme
-from hri.speech.pronunciation.phones import Phones
+from hri.speech.pronunciation.phones import VOWELS, Phones
 
 PAUSE = "_:"
 """espeak-ng's mnemonic of a pause."""
@@ -68,14 +68,32 @@ class Sounded:
 
 
 def symbols_of(phones: Phones) -> str:
-    """A word of the CMU dictionary's phones, stress written or not, in the voice's alphabet."""
-    return "".join(_symbol(phone) for phone in phones)
+    """A word of the CMU dictionary's phones, stress written or not, in the voice's alphabet.
+
+    The network learned American English, in which the t of "Katie" is a flap, and the last syllable
+    of "Michael" is an l without a vowel.
+    """
+    symbols = []
+    for before, phone, after in zip(("", *phones), phones, (*phones[1:], ""), strict=False):
+        if phone == "T" and _is_flap(before, after):
+            symbols.append("T")
+        elif phone in ("AH", "AH0") and after == "L" and before:
+            symbols.append("ᵊ")
+        else:
+            symbols.append(_symbol(phone))
+    return "".join(symbols)
 
 
 def _symbol(phone: str) -> str:
     name = phone.rstrip("012")
     stress = _STRESS.get(phone[len(name) :], "")
     return stress + SYMBOLS[name] if stress else WEAK.get(name, SYMBOLS[name])
+
+
+def _is_flap(before: str, after: str) -> bool:
+    """Whether a t stands between a vowel or an r and a vowel without stress."""
+    is_voiced = before == "R" or before.rstrip("012") in VOWELS
+    return is_voiced and after.rstrip("02") in VOWELS and not after.endswith("2")
 
 
 def phonemes(spoken: Iterable[Sounded]) -> Iterator[Phoneme]:

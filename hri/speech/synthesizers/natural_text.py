@@ -12,9 +12,12 @@ from typing import Any
 
 from hri.speech.notation.reading import Spoken, spoken
 from hri.speech.notation.sentences import sentences
+from hri.speech.pronunciation import heteronyms
 from hri.speech.pronunciation.lexicon import Lexicon
-from hri.speech.pronunciation.phones import Phones
-from hri.speech.synthesizers.espeak_text import plain, stressed, user_phones
+from hri.speech.pronunciation.names import OPENING, is_name
+from hri.speech.pronunciation.phones import Phones, with_s
+from hri.speech.pronunciation.scripts import in_latin
+from hri.speech.synthesizers.espeak_text import plain, stressed
 from hri.speech.synthesizers.natural_symbols import SPACE, symbols_of
 
 _WORD = re.compile(r"\S+")
@@ -23,8 +26,10 @@ _SIGNS = re.compile(r"(?<![\u0370-\u03ff\u2126])[\u0370-\u03ff\u2126µº](?![\u0
 LONGEST_WORD = 28
 """Letters of a word that is read as one."""
 _LONG = re.compile(rf"\S{{{LONGEST_WORD + 1},}}")
+_SHOUTED = re.compile(r"[^\W\d_]{2,}+")
 _MARKUP = str.maketrans("[]", "()")
 """Brackets would be taken as a link that gives symbols."""
+_POSSESSIVE = ("'s", "\N{RIGHT SINGLE QUOTATION MARK}s")
 _FOREIGN = 0.5
 """Share of letters of other scripts from which a sentence is another voice's."""
 
@@ -62,15 +67,21 @@ class Reader:
         text, lexicon = plain(text), self._lexicon.extended(sounds)
         for begin, end in sentences(text):
             sentence = text[begin:end]
-            symbols, words = ("", ()) if is_foreign(sentence) else self._read(sentence, lexicon)
+            latin = in_latin(sentence)
+            symbols, words = ("", ()) if is_foreign(latin) else self._tried(latin, lexicon)
             yield Sentence(sentence, begin, symbols, words)
 
+    def _tried(self, sentence: str, lexicon: Lexicon) -> tuple[str, tuple[int, ...]]:
+        """Nothing where hibari fails, as it does for digits of rare scripts beside letters."""
+        try:
+            return self._read(sentence, lexicon)
+        except (LookupError, TypeError, ValueError):
+            return "", ()
+
     def _read(self, sentence: str, lexicon: Lexicon) -> tuple[str, tuple[int, ...]]:
-        read = _parted(spoken(sentence.translate(_MARKUP)))
+        read = _parted(spoken(_unshouted(sentence, lexicon).translate(_MARKUP)))
         tokens = self._g2p.tokenize(_with_letters(read))
-        for token in tokens:
-            if phones := user_phones(token.text, lexicon):
-                token.phonemes = symbols_of(stressed(phones))
+        self._say(tokens, lexicon)
         origins = [origin for _, origin in _words_of(read, sentence)]
         symbols: list[str] = []
         words: list[int] = []
@@ -80,6 +91,44 @@ class Reader:
             symbols.append(of_token)
             words += [origins[min(number, len(origins) - 1)]] * len(of_token)
         return "".join(symbols), tuple(words)
+
+    def _say(self, tokens: Sequence[Any], lexicon: Lexicon) -> None:
+        """Give symbols to the words that the voice's own dictionary lacks, or should not say."""
+        words = [token.text for token in tokens]
+        begins = True
+        said: Phones = ()
+        for place, token in enumerate(tokens):
+            if token.text in _POSSESSIVE and said:
+                phones = with_s(said)[len(said) :]
+            else:
+                phones = (
+                    lexicon.of_user(token.text)
+                    or heteronyms.said(words, place, token.tag)
+                    or self._named(token, begins, lexicon)
+                )
+            if phones and not token.phonemes:
+                token.phonemes = symbols_of(stressed(phones))
+            said = () if token.whitespace else phones
+            begins = token.text[-1] in OPENING
+
+    def _named(self, token: Any, begins: bool, lexicon: Lexicon) -> Phones:
+        """What the dictionary says of a name or a word that the voice does not know."""
+        is_asked = is_name(token.text, begins_sentence=begins) or not self._knows(token)
+        return lexicon.spoken(token.text) if is_asked else ()
+
+    def _knows(self, token: Any) -> bool:
+        """Whether the voice has the word in its own dictionary, or knows how to read it."""
+        from hibari.g2p import Context
+
+        symbols, _ = self._g2p.lexicon(token, Context())
+        return symbols is not None
+
+
+def _unshouted(sentence: str, lexicon: Lexicon) -> str:
+    """A sentence all in capitals with its words in small letters, so that none is spelled."""
+    if not sentence.isupper() or len(sentence.split()) == 1:
+        return sentence
+    return _SHOUTED.sub(lambda m: m[0].capitalize() if lexicon.spoken(m[0]) else m[0], sentence)
 
 
 def _parted(read: Spoken) -> Spoken:
