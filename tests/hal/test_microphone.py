@@ -6,7 +6,7 @@ from hypothesis import given, strategies as st
 
 from hri.core.clock import FakeClock
 from hri.hal.drivers.memory import MemoryMicrophone
-from hri.hal.drivers.resampling import resample_blocks
+from hri.hal.drivers.resampling import GrowingSound, resample, resample_blocks
 from hri.hal.microphone import LONGEST_BACKLOG
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
@@ -78,3 +78,21 @@ def test_resampling_in_blocks_loses_nothing(rate, size):
     converted = np.concatenate(list(resample_blocks(blocks, rate, 16000)))
     assert abs(len(converted) - 8000) <= 1
     assert similarity(converted, tone(16000, 0.5)) > 0.999
+
+
+@given(
+    st.sampled_from([(22050, 48000), (24000, 22050), (8000, 44100), (48000, 16000), (1000, 37801)]),
+    st.lists(st.integers(1, 6000), min_size=1, max_size=12),
+)
+def test_a_growing_sound_is_what_it_would_be_as_a_whole(rates, sizes):
+    rate, wanted = rates
+    whole = np.random.default_rng(1).normal(scale=3000, size=sum(sizes)).astype(np.int16)
+    parts = np.split(whole, np.cumsum(sizes)[:-1])
+    sound = GrowingSound(parts[0], rate, wanted)
+    for part in parts[1:]:
+        sound.extend(part)
+    expected = resample(whole, rate, wanted)
+    assert len(sound.samples) == len(expected)
+    # Each conversion rounds by chance, by up to two steps.
+    assert np.abs(sound.samples.astype(int) - expected).max(initial=0) <= 5
+    assert sound.seconds == pytest.approx(len(whole) / rate)

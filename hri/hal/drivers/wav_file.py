@@ -15,8 +15,19 @@ from hri.core.reading import require_file
 from hri.core.signals import Samples
 from hri.core.writing import write_bytes
 from hri.hal.drivers.channels import CHOICES, OneChannel, channel_of
-from hri.hal.drivers.resampling import resample, resample_blocks
-from hri.hal.drivers.sound_decoder import BLOCK, LEAST_RATE, MOST_RATE, decode, joined, require_room
+from hri.hal.drivers.resampling import GrowingSound, resample_blocks
+from hri.hal.drivers.sound_decoder import (
+    BLOCK,
+    LEAST_RATE,
+    MOST_RATE,
+    Tell,
+    decode,
+    joined,
+    log,
+    require_room,
+    tell_of,
+)
+from hri.hal.drivers.unfinished_wav import finished
 from hri.hal.microphone import Microphone
 from hri.hal.speaker import Speaker
 
@@ -31,7 +42,7 @@ TAIL = 1.0
 
 
 def load_sound(
-    path: Path, wanted: int | None = None, channel: str = CHOICES[0]
+    path: Path, wanted: int | None = None, channel: str = CHOICES[0], tell: Tell = log.warning
 ) -> tuple[Samples, int]:
     """The samples of a WAV, MP3, FLAC or Ogg file as mono int16, and their rate: as `read_wav`.
 
@@ -40,27 +51,30 @@ def load_sound(
     """
     require_file(path, "sound")
     if path.suffix.lower() != ".wav":
-        return decode(path, wanted, channel)
+        return decode(path, wanted, channel, tell)
     try:
-        return read_wav(path, wanted, channel)
+        return read_wav(path, wanted, channel, tell)
     except HriError as refusal:
         try:
-            return decode(path, wanted, channel)  # numbers with a point, and other layouts
+            # Numbers with a point, and other layouts.
+            return decode(path, wanted, channel, tell)
         except HriError:
             raise refusal from None  # it says more of what is wrong
 
 
 def read_wav(
-    path: Path, wanted: int | None = None, channel: str = CHOICES[0]
+    path: Path, wanted: int | None = None, channel: str = CHOICES[0], tell: Tell = log.warning
 ) -> tuple[Samples, int]:
     """The samples of a PCM file as mono int16, and their rate: the file's own, or `wanted`.
 
-    `channel` says what becomes of several: see `hri.hal.drivers.channels`.
+    `channel` says what becomes of several: see `hri.hal.drivers.channels`. `tell` gets a line when
+    one of them is inverted, or when the recorder never wrote the length of the file.
 
     Raises HriError when it cannot be read, is empty, no WAV, compressed, or too long.
     """
+    one_channel = OneChannel(channel)
     try:
-        with wave.open(str(path), "rb") as file:
+        with finished(path) as (source, is_unfinished), wave.open(source, "rb") as file:
             rate = file.getframerate()
             if not LEAST_RATE <= rate <= MOST_RATE or file.getnframes() > LONGEST * rate:
                 raise HriError(
@@ -68,7 +82,7 @@ def read_wav(
                 )
             require_room(path, file.getnframes() * (wanted or rate) / rate)
             # Block by block: the frames of a long file would fill the memory beside its samples.
-            blocks = resample_blocks(_mono_blocks(file, channel), rate, wanted or rate)
+            blocks = resample_blocks(_mono_blocks(file, one_channel), rate, wanted or rate)
             samples = joined(path, blocks)
     except (wave.Error, EOFError, RuntimeError) as error:  # wave seeks wrongly in broken files
         why = str(error) or "it ends too early"
@@ -80,6 +94,7 @@ def read_wav(
         raise HriError(f"{path}: cannot read this WAV file: {reason} - check the path") from error
     if not len(samples):
         raise HriError(f"{path}: this WAV file holds no sound - record it again")
+    tell_of(path, tell, is_unfinished, one_channel)
     return samples, wanted or rate
 
 
@@ -120,9 +135,8 @@ def _header(rate: int, count: int) -> bytes:
     )
 
 
-def _mono_blocks(file: wave.Wave_read, channel: str) -> Iterator[Samples]:
+def _mono_blocks(file: wave.Wave_read, one_channel: OneChannel) -> Iterator[Samples]:
     channels, width = file.getnchannels(), file.getsampwidth()
-    one_channel = OneChannel(channel)
     while raw := file.readframes(BLOCK):
         whole = len(raw) // (channels * width) * channels * width
         yield one_channel.take(_as_int16(raw[:whole], width).reshape(-1, channels))
@@ -144,7 +158,8 @@ class WavMicrophone(Microphone):
 
     def _open(self) -> None:
         path = Path(self.description.text("file"))
-        self._sound, _ = load_sound(path, self.rate, channel_of(self.description))
+        channel = channel_of(self.description)
+        self._sound, _ = load_sound(path, self.rate, channel, self.manager.notice)
         self._start = self.manager.clock.now()
         self._given = 0
 
@@ -175,8 +190,7 @@ class WavSpeaker(Speaker):
         self.origin = self._clock.now()
         """Seconds of the clock at which the file begins."""
         self._written = 0
-        self._source, self._source_rate = np.zeros(0, np.int16), self.rate
-        self._sound: Samples = self._source
+        self._sound = self._nothing()
         self._heard = 0
         """Samples of the sound that are written."""
         self._begun = self.origin
@@ -184,24 +198,24 @@ class WavSpeaker(Speaker):
 
     def play(self, samples: Samples, rate: int, now: float) -> None:
         self.stop(now)
-        self._source, self._source_rate = samples, rate
-        self._sound, self._begun, self._heard = resample(samples, rate, self.rate), now, 0
+        self._sound, self._begun, self._heard = GrowingSound(samples, rate, self.rate), now, 0
 
     def extend(self, samples: Samples, now: float) -> None:
-        if len(self._sound):
-            self._begun = max(self._begun, now - len(self._sound) / self.rate)
-            # Made again as a whole, since a seam would click.
-            self._source = np.concatenate([self._source, samples])
-            self._sound = resample(self._source, self._source_rate, self.rate)
+        if self._sound.seconds:
+            self._begun = max(self._begun, now - self._sound.seconds)
+            self._sound.extend(samples)
 
     def position(self, now: float) -> float | None:
         elapsed = now - self._begun
-        return elapsed if elapsed < len(self._sound) / self.rate else None
+        return elapsed if elapsed < self._sound.seconds else None
 
     def stop(self, now: float) -> None:
         """Write the sound as far as it was heard."""
         self._write_until(now)
-        self._sound = self._sound[:0]
+        self._sound = self._nothing()
+
+    def _nothing(self) -> GrowingSound:
+        return GrowingSound(np.zeros(0, np.int16), self.rate, self.rate)
 
     def _wait(self) -> None:
         self._timer = self._clock.call_at(self._clock.now() + PUMP, self._pump)
@@ -212,12 +226,13 @@ class WavSpeaker(Speaker):
 
     def _write_until(self, now: float) -> None:
         """Write what was heard up to now, silence where nothing was."""
-        heard = self._sound[self._heard : max(0, round((now - self._begun) * self.rate))]
+        until = max(0, round((now - self._begun) * self.rate))
+        heard = self._sound.samples[self._heard : until]
         if len(heard):
             self._pad_to(self._begun + self._heard / self.rate)
             self._write(heard)
             self._heard += len(heard)
-        if self._heard >= len(self._sound):
+        if self._heard >= len(self._sound.samples):
             self._pad_to(now)
 
     def _pad_to(self, time: float) -> None:
