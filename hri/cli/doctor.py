@@ -23,6 +23,7 @@ from hri.hal.configuration import load_configuration
 from hri.hal.drive import DriveSystem, Odometry
 from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer
+from hri.hal.resource import Description, Resource
 from hri.hal.resource_manager import ResourceManager
 from hri.hal.screen import Screen
 from hri.hal.speaker import Speaker
@@ -197,31 +198,48 @@ def _choose() -> int:
     if not sys.stdin.isatty():
         raise HriError("choosing needs a terminal - run `hri doctor --choose` in one")
     chosen = load_choices()
-    for id, names in (("microphone", _sounds("input")), ("speaker", _sounds("output"))):
-        _ask(chosen, id, names)
+    for id, direction in (("microphone", "input"), ("speaker", "output")):
+        if _ask(chosen, id, _sounds(direction)):
+            print(f"  {_tried(id, chosen[id])}")
     _ask(chosen, "camera", {str(index): f"camera {index}" for index in range(4)})
     print(f"kept in {save_choices(chosen)}; run `hri doctor` to try them")
     return 0
 
 
 def _sounds(direction: str) -> dict[str, str]:
-    """Sound devices of one direction by their number."""
+    """Sound devices of one direction by their number, with the rate and channels they have."""
+    from hri.hal.drivers.portaudio import SoundFormat
     from hri.hal.drivers.sound_card import load_sounddevice
 
-    devices = load_sounddevice().query_devices()
     channels = f"max_{direction}_channels"
-    return {str(i): device["name"] for i, device in enumerate(devices) if device[channels]}
+    return {
+        str(number): f"{device['name']} ({form})"
+        for number, device in enumerate(load_sounddevice().query_devices())
+        if device[channels]
+        for form in [SoundFormat(round(device["default_samplerate"]), device[channels])]
+    }
 
 
-def _ask(chosen: dict[str, str], id: str, names: dict[str, str]) -> None:
+def _tried(id: str, device: str) -> str:
+    """How a chosen sound device is used, or why it cannot be."""
+    described = Description(id, f"Hri.{id.capitalize()}", {"device": device})
+    with ResourceManager([described], RealClock()) as resources:
+        try:
+            return resources.obtain(id, Resource).describe()
+        except NotAvailable as error:
+            return str(error)
+
+
+def _ask(chosen: dict[str, str], id: str, names: dict[str, str]) -> bool:
+    """Ask for one device; whether another was chosen."""
     print(f"\n{id} (now: {chosen.get(id, 'the default')})")
     for number, name in names.items():
         print(f"  {number}  {name}")
     while True:
         answer = input("number, or Enter to keep it: ").strip()
         if not answer:
-            return
+            return False
         if answer in names:
             chosen[id] = answer
-            return
+            return True
         print("that number is not in the list")

@@ -76,8 +76,8 @@ class _Card(SoundCardSpeaker):
 
     silent: float | None = 0.0  # not asked before the stream is there
 
-    def _wanted(self, out: Any, frames: int, stamp: object, status: object) -> None:
-        super()._wanted(out, frames, stamp, status)
+    def _give(self, out: Any, frames: int, stamp: object, status: object) -> None:
+        super()._give(out, frames, stamp, status)
         if self.silent is None and not out.any():
             self.silent = time.perf_counter() + self._stream.latency
 

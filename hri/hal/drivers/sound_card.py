@@ -4,21 +4,29 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from hri.core.errors import NotAvailable
 from hri.core.signals import Samples
 from hri.hal.drivers.channels import OneChannel, channel_of
-from hri.hal.drivers.resampling import resample
-from hri.hal.drivers.silence import silenced_libraries
+from hri.hal.drivers.portaudio import (
+    Direction,
+    Refused,
+    SoundFormat,
+    kilohertz,
+    started,
+)
+from hri.hal.drivers.resampling import GrowingSound, Resampler
 from hri.hal.microphone import Microphone
 from hri.hal.resource import Resource
 from hri.hal.speaker import Speaker
 
 LONGEST_BACKLOG = 10.0
 """Seconds of sound kept while nobody reads; older sound is dropped."""
+BLOCK = 0.02
+"""Seconds of sound that a microphone gives at once."""
 REOPEN_AFTER = 2.0
 """Seconds between attempts to find a device that went away."""
 FADE = 128
@@ -38,39 +46,40 @@ def load_sounddevice() -> Any:
 class _SoundCard(Resource):
     """What both ends share: a stream that is opened, watched, and opened again when it is lost.
 
-    PortAudio knows the devices that were there when it was loaded, so a device that is named by
-    its number may need a restart; the system's default, which sound servers keep alive, does not.
+    A device that does not take the wanted format is opened in one that it takes, and the sound is
+    converted. PortAudio knows the devices that were there when it was loaded, so a device that is
+    named by its number may need a restart; the system's default, which sound servers keep alive,
+    does not.
     """
 
     is_hardware = True
+    direction: ClassVar[Direction]
+    _wanted: SoundFormat
 
     def _open(self) -> None:
         self._sounddevice = load_sounddevice()
         self._ending = threading.Event()
         self._search: threading.Thread | None = None
         try:
-            self._stream = self._started_stream()
-        except (self._sounddevice.PortAudioError, ValueError) as error:
-            # PortAudio numbers the default device -1 when there is none.
-            why = "no device" if "-1" in str(error) else str(error).split(" [")[0]
-            raise self.not_available(why, "plug one in, or `hri doctor --choose`") from error
+            self._start()
+        except Refused as refused:
+            raise self.not_available(refused.why, refused.remedy) from refused
 
-    def _started_stream(self) -> Any:
-        stream = self._new_stream()
-        try:
-            stream.start()
-        except BaseException:
-            stream.close()
-            raise
-        return stream
+    def _start(self) -> None:
+        self._stream, self._format = started(
+            self._sounddevice, self.direction, self._device(), self._wanted, self._new_stream
+        )
 
     def _device(self) -> str | int | None:
         """The chosen device by number or part of its name; None for the system's default."""
         name = self.description.text("device")
         return (int(name) if name.isdigit() else name) or None
 
-    def _new_stream(self) -> Any:
+    def _new_stream(self, form: SoundFormat) -> Any:
         raise TypeError("a sound card driver makes its stream")
+
+    def describe(self) -> str:
+        return f"{super().describe()} at {self._format}"
 
     def _watch(self) -> bool:
         """Whether the stream lives; when it has died, a thread looks for the device."""
@@ -87,9 +96,8 @@ class _SoundCard(Resource):
         self._stream.close()
         while not self._ending.wait(REOPEN_AFTER):
             try:
-                with silenced_libraries():
-                    self._stream = self._started_stream()
-            except (self._sounddevice.PortAudioError, ValueError):
+                self._start()
+            except Refused:
                 continue
             self.manager.notice(f"{self.id}: is back")
             break
@@ -105,30 +113,39 @@ class _SoundCard(Resource):
 class SoundCardMicrophone(_SoundCard, Microphone):
     """Hears through the sound card; when it is unplugged there is silence until it is back.
 
-    With another `channel` than "mix" the device is opened in stereo, see `channels`.
+    It gives sound of its `rate`, whatever rate the device has. With another `channel` than "mix"
+    the device is opened in stereo, see `channels`.
     """
 
     parameters = ("device", "rate", "channel")
+    direction = "input"
     overruns = 0
     """How often sound was lost because the system did not take it in time; told as it doubles."""
 
     def _open(self) -> None:
         self.rate = self.description.count("rate", 16000, 1000, 400_000)
-        self._blocks: deque[Samples] = deque(maxlen=int(LONGEST_BACKLOG * self.rate / 320))
         self._channel = channel_of(self.description)
-        self._one_channel = OneChannel(self._channel)
+        self._wanted = SoundFormat(self.rate, 1 if self._channel == "mix" else 2)
         self._told_overruns = 0
+        self._has_told_inverted = False
         super()._open()
 
-    def _new_stream(self) -> Any:
+    def _new_stream(self, form: SoundFormat) -> Any:
+        self._blocks: deque[Samples] = deque(maxlen=round(LONGEST_BACKLOG / BLOCK))
+        self._one_channel = OneChannel(self._channel)
+        self._resampler = Resampler(form.rate, self.rate)
         return self._sounddevice.InputStream(
-            samplerate=self.rate,
-            blocksize=320,
-            channels=1 if self._channel == "mix" else 2,
+            samplerate=form.rate,
+            blocksize=round(BLOCK * form.rate),
+            channels=form.channels,
             dtype="int16",
             device=self._device(),
             callback=self._heard,
         )
+
+    def describe(self) -> str:
+        converted = f", converted to {kilohertz(self.rate)}"
+        return super().describe() + (converted if self._format.rate != self.rate else "")
 
     def _heard(self, data: Any, frames: int, time: object, status: Any) -> None:
         self.overruns += bool(status and status.input_overflow)
@@ -142,8 +159,12 @@ class SoundCardMicrophone(_SoundCard, Microphone):
             self.manager.notice(
                 f"{self.id}: sound was lost, {times} by now - the machine is too busy"
             )
+        if self._one_channel.is_any_inverted and not self._has_told_inverted:
+            self._has_told_inverted = True
+            what = "a channel is the opposite of the other and is turned round"
+            self.manager.notice(f"{self.id}: {what} - check its wires")
         blocks = [self._blocks.popleft() for _ in range(len(self._blocks))]
-        return np.concatenate(blocks) if blocks else np.zeros(0, np.int16)
+        return self._resampler.convert(np.concatenate([np.zeros(0, np.int16), *blocks]))
 
 
 class SoundCardSpeaker(_SoundCard, Speaker):
@@ -154,51 +175,51 @@ class SoundCardSpeaker(_SoundCard, Speaker):
     """
 
     parameters = ("device", "rate")
+    direction = "output"
 
     def _open(self) -> None:
-        self.rate = self.description.count("rate", 22050, 1000, 400_000)
+        rate = self.description.count("rate", 22050, 1000, 400_000)
+        self._wanted = SoundFormat(rate, 1)
         self._sound_lock = threading.Lock()
-        self._source, self._source_rate = np.zeros(0, np.int16), self.rate
-        self._sound: Samples = self._source
+        self._sound = GrowingSound(np.zeros(0, np.int16), rate, rate)
+        self._block: Samples = self._sound.samples
+        """What is played: the sound, or how it dies away."""
         self._played = 0
         self._begun = 0.0
         self._is_lost = False
         super()._open()
 
-    def _new_stream(self) -> Any:
+    def _new_stream(self, form: SoundFormat) -> Any:
         return self._sounddevice.OutputStream(
-            samplerate=self.rate,
+            samplerate=form.rate,
             blocksize=256,
             latency="low",
-            channels=1,
+            channels=form.channels,
             dtype="int16",
             device=self._device(),
-            callback=self._wanted,
+            callback=self._give,
         )
 
-    def _wanted(self, out: Any, frames: int, time: object, status: object) -> None:
+    def _give(self, out: Any, frames: int, time: object, status: object) -> None:
         with self._sound_lock:
-            block = self._sound[self._played : self._played + frames]
+            block = self._block[self._played : self._played + frames]
             self._played += len(block)
-        out[: len(block), 0] = block
-        out[len(block) :, 0] = 0
+        out[: len(block)] = block[:, None]
+        out[len(block) :] = 0
 
     def play(self, samples: Samples, rate: int, now: float) -> None:
-        self._source, self._source_rate = samples, rate
         self._begun, self._is_lost = now, False
-        sound = resample(samples, rate, self.rate)
+        self._sound = GrowingSound(samples, rate, self._format.rate)
         with self._sound_lock:
-            self._sound, self._played = sound, 0
+            self._block, self._played = self._sound.samples, 0
 
     def extend(self, samples: Samples, now: float) -> None:
-        if not len(self._source):
+        if not self._sound.seconds:
             return
-        # Converted again as a whole, since a seam would click.
-        self._source = np.concatenate([self._source, samples])
+        self._sound.extend(samples)
         if not self._is_lost:
-            sound = resample(self._source, self._source_rate, self.rate)
             with self._sound_lock:
-                self._sound = sound
+                self._block = self._sound.samples
 
     def position(self, now: float) -> float | None:
         if not self._watch():
@@ -206,16 +227,16 @@ class SoundCardSpeaker(_SoundCard, Speaker):
             self._fade_out()
         if self._is_lost:
             elapsed = now - self._begun
-            return elapsed if elapsed < len(self._source) / self._source_rate else None
-        latency = round(self.latency * self.rate)
+            return elapsed if elapsed < self._sound.seconds else None
+        rate = self._format.rate
         with self._sound_lock:
-            if not len(self._source) or self._played >= len(self._sound):
+            if not self._sound.seconds or self._played >= len(self._block):
                 # The last blocks are still in the card; they are short enough to count as heard.
                 return None
-            return float(max(0, self._played - latency)) / self.rate
+            return max(0, self._played - round(self.latency * rate)) / rate
 
     def stop(self, now: float) -> None:
-        self._source = self._source[:0]
+        self._sound = GrowingSound(self._block[:0], self._format.rate, self._format.rate)
         self._fade_out()
 
     @property
@@ -226,6 +247,6 @@ class SoundCardSpeaker(_SoundCard, Speaker):
     def _fade_out(self) -> None:
         """Fall silent within a few milliseconds; at once would click."""
         with self._sound_lock:
-            rest = self._sound[self._played : self._played + FADE]
-            self._sound = (rest * np.linspace(1, 0, len(rest))).astype(np.int16)
+            rest = self._block[self._played : self._played + FADE]
+            self._block = (rest * np.linspace(1, 0, len(rest))).astype(np.int16)
             self._played = 0

@@ -1,5 +1,6 @@
 """The sound card, with a PortAudio that the test turns by hand."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -12,40 +13,28 @@ from hri.hal.drivers.sound_card import SoundCardMicrophone, SoundCardSpeaker
 from hri.hal.microphone import Microphone
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
-from tests.hal.sounds import tone
-
-
-class FakePortAudio:
-    """As much of the sounddevice module as the drivers use."""
-
-    class PortAudioError(Exception):
-        pass
-
-    class Stream:
-        latency = 0.0
-        active = True
-
-        def __init__(self, callback, **settings):
-            self.callback, self.settings = callback, settings
-
-        def start(self):
-            """Runs already."""
-
-        def close(self):
-            self.active = False
-
-    InputStream = OutputStream = Stream
+from tests.hal.sound_cards import ALSA_BUSY, BUSY, Card, PortAudio, PortAudioError
+from tests.hal.sounds import similarity, tone
 
 
 @pytest.fixture
-def port_audio(monkeypatch):
-    monkeypatch.setattr(sound_card, "load_sounddevice", lambda: FakePortAudio)
+def cards(monkeypatch):
+    """Makes these cards the ones of the machine."""
+
+    def plug_in(*cards):
+        monkeypatch.setattr(sound_card, "load_sounddevice", lambda: PortAudio(*cards))
+        return cards[0] if cards else None
+
+    return plug_in
+
+
+@pytest.fixture
+def port_audio(cards):
+    cards(Card())
 
 
 def pull(speaker, frames):
-    out = np.full((frames, 1), 99, np.int16)
-    speaker._stream.callback(out, frames, None, None)
-    return out[:, 0]
+    return speaker._stream.pull(frames)[:, 0]
 
 
 def test_a_sound_is_played_block_by_block_and_cut_by_a_stop(port_audio, open_driver):
@@ -95,14 +84,140 @@ def test_a_speaker_that_goes_away_keeps_time_in_silence(port_audio, open_driver)
     assert speaker.position(9.1) is None
 
 
-def test_what_the_card_hears_is_read_once(port_audio, open_driver):
-    microphone = open_driver(SoundCardMicrophone, rate=48000, device=3)
-    assert microphone._stream.settings["samplerate"] == 48000
-    assert microphone._stream.settings["device"] == 3
-    for block in np.split(tone(48000, 0.02), 3):
-        microphone._stream.callback(block[:, None], len(block), None, None)
-    assert np.array_equal(microphone.read(0.0), tone(48000, 0.02))
+def test_what_the_card_hears_is_read_once(cards, open_driver):
+    cards(Card(), Card(rates=(48000,)))
+    microphone = open_driver(SoundCardMicrophone, rate=48000, device=1)
+    assert microphone._stream.settings["device"] == 1
+    microphone._stream.push(tone(48000, 0.06))
+    assert np.array_equal(microphone.read(0.0), tone(48000, 0.06))
     assert len(microphone.read(0.0)) == 0
+
+
+LIMITED = [
+    Card(rates=(44100,)),
+    Card(rates=(44100, 48000)),
+    Card(rates=(48000,), inputs=(2,), outputs=(2,)),
+    Card(rates=(16000, 22050), inputs=(2,), outputs=(2,)),
+    Card(rates=(96000,), inputs=(6,), outputs=(8,)),
+    Card(rates=(32000,), inputs=(1,), outputs=(1,)),
+    Card(rates=(8000,)),
+    Card(rates=(37800,), inputs=(4,), outputs=(4,)),
+]
+"""Cards that take neither the rate nor the channels that are wanted, or only one of the two."""
+
+
+@pytest.mark.parametrize("card", LIMITED, ids=str)
+def test_a_microphone_of_any_rate_and_channels_is_heard_at_the_wanted_rate(
+    card, cards, open_driver
+):
+    cards(replace(card, opened=[]))
+    microphone = open_driver(SoundCardMicrophone)
+    ear = microphone.listen(16000)
+    stream = microphone._stream
+    heard = []
+    for part in np.array_split(tone(stream.rate, 3.0), 30):
+        stream.push(part)
+        heard.append(ear.read(0.0))
+
+    whole = np.concatenate(heard)
+    assert len(whole) == pytest.approx(3 * 16000, abs=1600), "less than 0.1 s late"
+    assert similarity(whole, tone(16000, 3.0)) > 0.999, "no drift"
+    assert str(stream.rate // 1000) in microphone.describe()
+
+
+@pytest.mark.parametrize("card", LIMITED, ids=str)
+def test_a_speaker_of_any_rate_and_channels_plays_what_it_is_given(card, cards, open_driver):
+    cards(replace(card, opened=[]))
+    speaker = open_driver(SoundCardSpeaker)
+    whole = tone(24000, 1.0)
+    speaker.play(whole[:5000], 24000, 0.0)
+    for at in range(5000, len(whole), 1700):
+        speaker.extend(whole[at : at + 1700], 0.0)
+    stream = speaker._stream
+    played = stream.pull(stream.rate // 2)
+    assert speaker.position(0.0) == pytest.approx(0.5, abs=0.001)
+    played = np.concatenate([played, stream.pull(stream.rate // 2 + 100)])
+
+    assert (played == played[:, :1]).all(), "every channel"
+    expected = tone(stream.rate, 1.0).astype(int)
+    assert np.abs(played[100 : len(expected) - 100, 0] - expected[100:-100]).max() < 100
+    assert not played[len(expected) + 1 :].any()
+    assert speaker.position(0.0) is None
+    assert f"{stream.rate / 1000:g} kHz" in speaker.describe()
+
+
+def test_a_card_that_takes_what_is_wanted_is_asked_for_nothing_else(cards, open_driver):
+    card = cards(Card())
+    open_driver(SoundCardMicrophone)
+    open_driver(SoundCardSpeaker)
+    assert [(stream.rate, stream.channels) for stream in card.opened] == [(16000, 1), (22050, 1)]
+
+
+def test_a_device_that_comes_back_as_another_is_heard_on(cards, open_driver, monkeypatch):
+    monkeypatch.setattr(sound_card, "REOPEN_AFTER", 0.001)
+    old, new = Card(rates=(16000,)), Card(rates=(44100,), inputs=(2,), outputs=(2,))
+    plugged_in = [old]
+    monkeypatch.setattr(sound_card, "load_sounddevice", lambda: PortAudio(*plugged_in))
+    microphone = open_driver(SoundCardMicrophone)
+    ear = microphone.listen()
+    plugged_in[:] = [new]
+    microphone._sounddevice.cards = (new,)
+    microphone._stream.active = False
+    assert not len(ear.read(0.0))
+    while microphone._search is not None:
+        pass
+    for _ in range(3):
+        microphone._stream.push(tone(44100, 1.0))
+    assert similarity(ear.read(0.0)[:16000], tone(16000, 1.0)) > 0.99
+
+
+@pytest.mark.parametrize("driver", [SoundCardMicrophone, SoundCardSpeaker])
+@pytest.mark.parametrize(
+    ("plugged_in", "device", "told"),
+    [
+        ([], "", "m: no device - plug one in, or `hri doctor --choose`"),
+        ([Card()], "7", "m: no device 7 - plug one in, or `hri doctor --choose`"),
+        ([Card()], "Jabra", "device matching 'Jabra' - choose one: `hri doctor --choose`"),
+        ([Card(error=BUSY)], "", "m: it is busy - end the program that uses it"),
+        ([Card(error=ALSA_BUSY)], "", "m: it is busy - end the program that uses it"),
+        ([Card(error=BUSY, error_at_start=True)], "", "m: it is busy - end the program"),
+        ([Card(rates=())], "", "m: it refuses every rate (8, 11.025, 16, "),
+        ([Card(inputs=(), outputs=())], "", "- choose another: `hri doctor --choose`"),
+        (
+            [Card(error=PortAudioError("Internal PortAudio error", -9986))],
+            "",
+            "m: it does not open: Internal PortAudio error - end what else may use it",
+        ),
+        (
+            [Card(error=PortAudioError("Unanticipated", -9999, (0, -13, "Permission denied")))],
+            "",
+            "m: it may not be used - add yourself to the group audio",
+        ),
+    ],
+)
+def test_a_device_that_cannot_be_used_says_why(cards, clock, driver, plugged_in, device, told):
+    cards(*[replace(card, opened=[]) for card in plugged_in])
+    manager = ResourceManager((), clock)
+    with pytest.raises(NotAvailable) as error:
+        driver(Description("m", "Test", {"device": device}), manager).activate()
+    assert told in str(error.value)
+    assert ("plug" in str(error.value)) == ("no device" in told), "it is plugged in"
+
+
+def test_a_microphone_with_an_inverted_side_is_heard_and_told(cards, clock):
+    cards(Card(rates=(48000,), inputs=(2,)))
+    told = []
+    manager = ResourceManager((), clock, notice=told.append)
+    microphone = SoundCardMicrophone(Description("ears", "Hri.Microphone"), manager)
+    microphone.activate()
+    sound = tone(48000, 1.0)
+    microphone._stream.push(np.stack([sound, -sound], axis=1))
+    assert similarity(microphone.read(0.0), tone(16000, 1.0)) > 0.99
+    microphone.read(0.0)
+    microphone.deactivate()
+    assert told == [
+        "ears: a channel is the opposite of the other and is turned round - check its wires"
+    ]
 
 
 def test_sound_that_the_card_lost_is_told_now_and_then(port_audio, clock):
@@ -128,15 +243,3 @@ def test_a_card_that_is_not_there_is_one_line(monkeypatch):
     manager = ResourceManager([Description("m", "Evolution.WmmeAudioRecord")], RealClock())
     with pytest.raises(NotAvailable, match="PortAudio is missing - apt install libportaudio2"):
         manager.obtain("m", Microphone)
-
-
-def test_a_card_without_a_device_is_one_line(monkeypatch, manager):
-    class NoDevice(FakePortAudio):
-        @staticmethod
-        def InputStream(**settings):
-            raise FakePortAudio.PortAudioError("Error querying device -1")
-
-    monkeypatch.setattr(sound_card, "load_sounddevice", lambda: NoDevice)
-    microphone = SoundCardMicrophone(Description("m", "Hri.Microphone"), manager)
-    with pytest.raises(NotAvailable, match="m: no device - plug one in, or `hri doctor --choose`"):
-        microphone.activate()
