@@ -11,7 +11,7 @@ from hri.hal.resource import Description
 CHOICES = ("mix", "left", "right", "loudest")
 """What may be heard of a stereo sound."""
 REMEMBERED = 0.99
-"""Share of what was known of the channels that counts after so many FRAMES more."""
+"""Share of what was known of the channels that counts FRAMES later."""
 FRAMES = 320
 INVERTED, UPRIGHT = -0.5, 0.5
 """Correlation of a channel with the loudest one from which it is turned round, and back."""

@@ -65,7 +65,7 @@ class GrowingSound:
 
     def __init__(self, samples: Samples, rate: int, wanted: int) -> None:
         common = math.gcd(rate, wanted)
-        # Both rates have a sample at every so many of the source, and of the result.
+        # After this many samples of the source, and of the result, both begin at one time again.
         self._step, self._made = rate // common, wanted // common
         self._rate, self._wanted = rate, wanted
         self._tail: Samples = np.zeros(0, np.int16)
