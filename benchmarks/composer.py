@@ -7,7 +7,6 @@ from __future__ import annotations
 import json
 import os
 import random
-import signal
 import tempfile
 import time
 from collections.abc import Iterator
@@ -16,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import psutil
 
 from benchmarks.studio_robot import alive, chromium_killed, launcher, linked, opened, shown_page
 from hri.behavior.network_file import read_network
@@ -131,7 +131,7 @@ def drafts(quick: bool) -> Iterator[Row]:
             hand.edit_for(dice.uniform(0.3, 2.5))
             is_server = number % 2 == 0
             if is_server:
-                os.kill(studio.server, signal.SIGKILL)
+                psutil.Process(studio.server).kill()
             else:
                 chromium_killed()
             now = time.perf_counter()

@@ -337,7 +337,7 @@ def _killed(quick: bool) -> Iterator[Row]:
             page.wait_for_timeout(dice.uniform(0, 500))
             count, begun = len(ticks), time.perf_counter()
             if number % 2 == 0:
-                os.kill(studio.server, signal.SIGKILL)
+                psutil.Process(studio.server).kill()
                 page.get_by_text("no link", exact=True).wait_for()
                 linked(page)
             else:

@@ -29,9 +29,10 @@ def rows(
     people: Recordings | None, hear: Listen, step: int, progress: Progress, draw: int
 ) -> Iterator[Row]:
     """What `hri bench speech` measures in a checkout beside its own."""
-    yield from accuracy.rows(people, hear, step, progress, draw)
+    of_people = partial(accuracy.rows, people, hear, step, progress, draw)
+    yield from attempted("accuracy", of_people)
     yield from attempted(phrases.WHAT, partial(phrases.rows, people, hear, step, progress))
-    yield from peers.rows(people, hear, step, progress)
+    yield from attempted("peers", lambda: peers.rows(people, hear, step, progress))
     progress("feelings in the voice")
     yield from attempted(feelings.WHAT, feelings.rows)
     progress(alignment.WHAT)

@@ -24,6 +24,7 @@ from hri.behavior.ports import Input, Output
 from hri.behavior.runner import Runner
 from hri.bench.checkout import has_research, research
 from hri.bench.figures import machine, summary
+from hri.bench.table import attempt
 from hri.bench.workers import busy_processes
 from hri.core import child
 from hri.core.clock import FakeClock
@@ -66,9 +67,9 @@ def measure(seconds: float = SECONDS) -> dict[str, Any]:
         "bench": "behavior",
         "machine": machine(),
         "behaviors": BEHAVIORS,
-        "cost": cost(),
-        "ticks_at_100_hz": ticks(seconds),
-        "behave_start_s": summary(starts()),
+        "cost": attempt(cost),
+        "ticks_at_100_hz": attempt(lambda: ticks(seconds)),
+        "behave_start_s": attempt(lambda: summary(starts())),
     }
 
 

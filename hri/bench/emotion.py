@@ -15,6 +15,7 @@ from typing import Any
 
 from hri.bench.checkout import research
 from hri.bench.figures import machine, summary
+from hri.bench.table import attempt
 from hri.bench.workers import variables
 from hri.emotion.affect import Affect
 from hri.emotion.appraisal import GoalEvent
@@ -63,9 +64,9 @@ def measure() -> dict[str, Any]:
     """Take all figures."""
     return {
         "machine": machine(),
-        "microseconds": costs(),
-        f"reload_{FILES}_files_ms": reload_ms(),
-        "rates": rates(),
+        "microseconds": attempt(costs),
+        f"reload_{FILES}_files_ms": attempt(reload_ms),
+        "rates": attempt(rates),
     }
 
 

@@ -21,6 +21,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from hri.bench.figures import machine, summary
+from hri.bench.table import attempt
 from hri.bench.workers import safe_start
 from hri.core.errors import HriError
 from hri.net.client import Client
@@ -66,6 +67,10 @@ def measure(messages: int = MESSAGES, rounds: int = ROUNDS) -> dict[str, Any]:
 
 
 def _figures(of: Callable[[int, int], Measured], messages: int, rounds: int) -> dict[str, Any]:
+    return attempt(lambda: _measured(of, messages, rounds))  # type: ignore[no-any-return]
+
+
+def _measured(of: Callable[[int, int], Measured], messages: int, rounds: int) -> dict[str, Any]:
     rate, times = of(messages, rounds)
     in_ms = [1e3 * seconds for seconds in times]
     p99 = round(float(np.percentile(in_ms, 99)), 3)

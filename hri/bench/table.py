@@ -76,11 +76,28 @@ def attempted(what: str, measure: Callable[[], Iterator[Row]]) -> Iterator[Row]:
         yield from measure()
     except NotAvailable as why:
         yield skipped(what, str(why))
-    except HriError as why:
-        yield {"what": what, "failed": str(why), "passed": False}
-    except Exception as why:  # a mistake in one part must not lose the figures of the others
-        traceback.print_exc()
-        yield {"what": what, "failed": f"{type(why).__name__}: {why}", "passed": False}
+    except (KeyboardInterrupt, GeneratorExit):
+        raise
+    except BaseException as why:  # also the groups and exits of a robot that runs beside it
+        yield {"what": what, **failure(why), "passed": False}
+
+
+def attempt(measure: Callable[[], Any]) -> Any:
+    """A part of a bench without rows: its figures, or its `error` where it fails."""
+    try:
+        return measure()
+    except (KeyboardInterrupt, GeneratorExit):
+        raise
+    except BaseException as why:
+        return failure(why)
+
+
+def failure(why: BaseException) -> dict[str, str]:
+    """What is reported of a part that failed: it must not lose the figures of the others."""
+    if not isinstance(why, HriError):
+        traceback.print_exception(why)
+    told = str(why) if isinstance(why, HriError) else f"{type(why).__name__}: {why}"
+    return {"error": told, "failed": told}
 
 
 def report(bench: str, rows: Sequence[Row], quick: bool) -> dict[str, Any]:

@@ -37,9 +37,9 @@ def rows(count: int, seconds: float) -> Iterator[Row]:
     tell("frames")
     with one_thread():
         talking = frames.talking(model, count)
-        yield from frames.rows(model, talking, SIZE)
+        yield from attempted("frames", lambda: frames.rows(model, talking, SIZE))
     tell("loading")
-    yield from load_time.rows()
+    yield from attempted("loading", load_time.rows)
     tell(f"{seconds:g} s of talking")
     yield from attempted("frames dropped while talking", lambda: live.rows(seconds))
     if (compared := research("face")) is not None:

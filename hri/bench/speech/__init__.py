@@ -45,13 +45,14 @@ def measure(quick: bool = False, recordings: Path | None = None, draw: int = 0) 
 def rows(people: Recordings | None, hear: Listen, step: int = 1, draw: int = 0) -> Iterator[Row]:
     """All rows in the order of the table; every `step`th sentence and recording is taken."""
     tell = partial(print, file=sys.stderr, flush=True)
-    yield from speed_rows(people, hear, step, tell)
+    yield from attempted("speed", lambda: speed_rows(people, hear, step, tell))
     tell("start, text, voice")
     yield from attempted("start and memory of the engine", lambda: start_rows(_longest(people)))
     yield from attempted("parsing and checking", text_rows)
-    yield from speaking_rows()
+    yield from attempted("speaking", speaking_rows)
     if (compared := research("speech")) is not None:
-        yield from compared.rows(people, hear, step, tell, draw)
+        of_peers = partial(compared.rows, people, hear, step, tell, draw)
+        yield from attempted("accuracy and peers", of_peers)
 
 
 def _longest(people: Recordings | None) -> list[Clip]:
