@@ -22,7 +22,7 @@ STARTED = "recording.started"
 the clock of `t`; in a log without it, all begin at 0. Its `version`, `seed`, `app`, `personality`
 and `config` say what was run."""
 RECORDINGS = "recordings"
-"""The folder, below the current one, in which a robot records that nobody sees."""
+"""The folder, below the current one, in which earlier versions recorded what nobody saw."""
 BY_DATE = "[0-9][0-9][0-9][0-9]-[0-9][0-9]-[0-9][0-9]-*"
 """The names of recordings there: a date and a time."""
 

@@ -21,7 +21,6 @@ from hri.cli.terminal.streams import unfailing_output
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
 from hri.core.realtime import become_realtime
-from hri.core.recorded import RECORDINGS
 from hri.drive.behaviors import CommandGate
 from hri.emotion.persistence import memory_file
 from hri.emotion.personality import load_personality
@@ -41,6 +40,7 @@ from hri.speech.recognizers.typed import TypedRecognizer
 from hri.task.context import TaskContext
 
 SENSES = ("microphone", "camera", "screen", "speaker")
+UNSEEN = "no screen: --studio shows the face in a browser, --record DIR keeps a film of the run"
 CALM_SECONDS = 2.0
 LONGEST_TASK = 600.0
 """Seconds to wait for running tasks after the end of input."""
@@ -132,9 +132,9 @@ def _run(options: argparse.Namespace, ending: Ending) -> int:
     mention_kept(options, narrator)
     session = Session(robot, options, narrator, ending)
     try:
-        is_unseen = {"microphone", "camera", "screen"} <= open_senses(robot)
-        if robot.record is None and is_unseen and not options.headless and not options.fast:
-            robot.record = Path(RECORDINGS) / f"{robot.clock.wall():%Y-%m-%d-%H-%M-%S}"
+        is_unseen = "screen" in open_senses(robot)
+        if is_unseen and not (options.headless or options.fast or options.studio or options.record):
+            narrator.tell(UNSEEN)
         if studio is not None:
             studio.start()
             show_address(studio, options, narrator.tell)
