@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from hri.core.errors import HriError
 from hri.core.geometry import after_move
 from hri.drive.navigation_tasks import go_to_point
 from hri.hal.camera import Camera
 from hri.hal.drive import Odometry
 from hri.task.context import TaskContext
+from hri.task.opening import opened
 from hri.task.task import task
 from hri.vision.point_and_go import floor_seen
 
@@ -20,14 +20,10 @@ async def point_and_go(context: TaskContext, x: float, y: float, camera_id: str 
     along the straight line to there. Fails when it does not get there, and for a pixel that shows
     no floor.
     """
-    resources, now = context.resources, context.clock.now()
-    camera = resources.obtain(camera_id, Camera) if camera_id else resources.find(Camera)
-    if camera is None:
-        raise HriError("no camera in the configuration - add one")
-    odometry = resources.obtain("odometry", Odometry)
-    try:
+    async with (
+        opened(context, Camera, camera_id) as camera,
+        opened(context, Odometry, "odometry") as odometry,
+    ):
+        now = context.clock.now()
         goal = after_move(odometry.pose(now), *floor_seen(camera, x, y, now))
-    finally:
-        resources.release(odometry)
-        resources.release(camera)
     await go_to_point(context, goal)

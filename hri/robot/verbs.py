@@ -136,7 +136,7 @@ async def ask(
         async with answers_of(context, grammar) as allowed:
             return await _ask(context, question, timeout, retries, _HeardAnswer(allowed))
     if not context.behaviors:
-        listener_of(context)
+        await listener_of(context)
     return await _ask(context, question, timeout, retries, _plain_answer)
 
 
@@ -225,7 +225,7 @@ class _HeardAnswer:
         if event.name == "speech.rejected" and sure and unsure:
             question = f"Which {_in_words(unsure[0])}?"
             return _Again(question, _HeardAnswer(self._grammar, {**self._sure, **sure}))
-        heard = listener_of(context).last_utterance
+        heard = context.behavior(Listener).last_utterance
         if event.name != "speech.heard" or heard is None:
             return None
         if heard.rule not in self._grammar.public_rules:  # it interrupts; it may answer as well

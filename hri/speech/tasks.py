@@ -23,6 +23,7 @@ from hri.speech.ssml import Ssml
 from hri.speech.turn import QUESTION
 from hri.speech.voice import Saying
 from hri.task.context import TaskContext
+from hri.task.opening import opened
 from hri.task.queue import EventQueue
 from hri.task.task import task
 
@@ -43,7 +44,7 @@ async def say(context: TaskContext, text: str | Ssml) -> None:
 
     Sentences of several tasks come one after the other.
     """
-    voice = voice_of(context)
+    voice = await voice_of(context)
     async with context.claim("voice"):
         await _until_done(context, voice, voice.say(text))
 
@@ -54,7 +55,7 @@ async def play(context: TaskContext, path: Path | str, text: str = "") -> None:
     `text` is what it says, where that is known. When cancelled, it is cut. Raises HriError for a
     file that cannot be read.
     """
-    voice = voice_of(context)
+    voice = await voice_of(context)
     async with context.claim("voice"):
         saying = voice.play(path, text)
         await _until_done(context, voice, saying)
@@ -82,7 +83,7 @@ async def wait_for_speech(
 
     None when nothing of that kind is heard in `timeout` seconds.
     """
-    listener = listener_of(context)
+    listener = await listener_of(context)
     end = context.clock.now() + timeout
     with context.queue("speech.heard") as queue:
         while (event := await next_heard(context, queue, end)) is not None:
@@ -112,7 +113,7 @@ async def answers_of(context: TaskContext, grammar: str) -> AsyncIterator[Gramma
     The interrupting rules of those below stay in force. Raises HriError for a grammar that is not
     there or cannot be used.
     """
-    listener = listener_of(context)
+    listener = await listener_of(context)
     layer = listener.push(grammar)
     try:
         while not listener.is_in_force(layer):
@@ -125,28 +126,40 @@ async def answers_of(context: TaskContext, grammar: str) -> AsyncIterator[Gramma
         listener.pop(layer)
 
 
-def voice_of(context: TaskContext) -> Voice:
+async def voice_of(context: TaskContext) -> Voice:
     """The voice that runs, else one that is started now. Raises HriError without a device."""
-    voice = context.find_behavior(Voice)
-    if voice is None:
-        ids = {"voice_id": _id(context, Synthesizer), "speaker_id": _id(context, Speaker)}
+    if (running := context.find_behavior(Voice)) is not None:
+        return running
+    ids = {"voice_id": _id(context, Synthesizer), "speaker_id": _id(context, Speaker)}
+    async with (
+        opened(context, Synthesizer, ids["voice_id"]),
+        opened(context, Speaker, ids["speaker_id"]),
+    ):
+        if (started := context.find_behavior(Voice)) is not None:
+            return started  # by another task, meanwhile
         voice = Voice("voice", **ids)
         _start(context, voice)
         if (listener := context.find_behavior(Listener)) is not None:
             _let_tell(voice, listener)
-    return voice
+        return voice
 
 
-def listener_of(context: TaskContext) -> Listener:
+async def listener_of(context: TaskContext) -> Listener:
     """The ears that run, else some that are started now. Raises HriError without a device."""
-    listener = context.find_behavior(Listener)
-    if listener is None:
-        microphone, recognizer = _id(context, Microphone), _id(context, Recognizer)
-        listener = Listener("listener", microphone_id=microphone, recognizer_id=recognizer)
+    if (running := context.find_behavior(Listener)) is not None:
+        return running
+    ids = {"microphone_id": _id(context, Microphone), "recognizer_id": _id(context, Recognizer)}
+    async with (
+        opened(context, Recognizer, ids["recognizer_id"]),
+        opened(context, Microphone, ids["microphone_id"]),
+    ):
+        if (started := context.find_behavior(Listener)) is not None:
+            return started
+        listener = Listener("listener", **ids)
         if (voice := context.find_behavior(Voice)) is not None:
             _let_tell(voice, listener)
         _start(context, listener, (f"board.{QUESTION}", listener.question))
-    return listener
+        return listener
 
 
 def _let_tell(voice: Voice, listener: Listener) -> None:

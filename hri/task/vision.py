@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from hri.core.errors import HriError, NotAvailable
+from hri.core.errors import NotAvailable
 from hri.core.signals import Frame
 from hri.hal.camera import Camera
 from hri.task.context import TaskContext
+from hri.task.opening import opened
 from hri.task.task import task
 
 __all__ = ["GetImage", "SwitchCamera"]
@@ -18,16 +19,13 @@ LOOK_EVERY = 0.02
 @task("Hri.GetImage")
 async def GetImage(context: TaskContext, camera_id: str = "") -> Frame:
     """The next picture of a camera, of the first one without an id; fails when none comes."""
-    camera = _camera(context, camera_id)
-    try:
+    async with opened(context, Camera, camera_id) as camera:
         with context.clock.move_on_after(TIMEOUT):
             while (frame := camera.read(context.clock.now())) is None:
                 if not camera.is_on:
                     context.fail(f"{camera.id} is switched off - switch it on")
                 await context.clock.sleep(LOOK_EVERY)
             return frame
-    finally:
-        context.resources.release(camera)
     context.fail(f"{camera.id} gave no picture within {TIMEOUT:g} s - unplug it and plug it in")
 
 
@@ -37,17 +35,8 @@ async def SwitchCamera(context: TaskContext, on: bool, camera_id: str = "") -> N
 
     It stays off for everyone until it is turned on. Fails when it cannot be opened again.
     """
-    camera = _camera(context, camera_id)
-    try:
-        camera.switch(on)
-    except NotAvailable as error:
-        context.fail(str(error))
-    finally:
-        context.resources.release(camera)
-
-
-def _camera(context: TaskContext, id: str) -> Camera:
-    camera = context.resources.obtain(id, Camera) if id else context.resources.find(Camera)
-    if camera is None:
-        raise HriError("no camera in the configuration - add one")
-    return camera
+    async with opened(context, Camera, camera_id) as camera:
+        try:
+            await context.blocking(camera.switch, on)
+        except NotAvailable as error:
+            context.fail(str(error))

@@ -85,7 +85,7 @@ async def learn_object(
     """
     if not is_name(name):
         context.fail(f'"{name}" is not a valid name for an object - {NAME_REMEDY}')
-    camera = context.resources.obtain(camera_id, Camera)
+    camera = await context.blocking(context.resources.obtain, camera_id, Camera)
     lesson: Service[_Picture | str, _Progress] = context.clock.service(
         partial(_Lesson, name), THINKING_S
     )
