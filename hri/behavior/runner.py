@@ -414,13 +414,16 @@ class Runner:
         `waited_since`: the deadline of a tick that began late; None for one that took too long.
         """
         self.statistics.missed += skipped
-        self.statistics.slowest, cause = "", "something else held the loop up"
+        self.statistics.slowest, cause, what = "", "something else held the loop up", ""
         if waited_since is not None and self.context.held_up_at >= waited_since:
-            cause = f"{self.context.held_up_by} held the loop up"
+            what = self.context.held_up_by
+            cause = f"{what} held the loop up"
         elif waited_since is None and self._ran:
             behavior, timing, _ = max(self._ran, key=lambda ran: ran[1].last)
             timing.missed += 1
             self.statistics.slowest, cause = behavior.id, f"slowest was {behavior.id}"
+            what = behavior.id
+        self.statistics.causes[what] += skipped
         now = self.context.clock.now()
         if now >= self._tell_after:
             self._tell_after = now + BETWEEN_REPORTS

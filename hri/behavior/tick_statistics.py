@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import deque
+from collections import Counter, deque
 from dataclasses import dataclass, field
 
 
@@ -38,6 +38,8 @@ class Statistics:
     """How long after its deadline each tick began."""
     ticks: int = 0
     missed: int = 0
+    causes: Counter[str] = field(default_factory=Counter)
+    """How many ticks were missed by cause: a behavior, what held the loop up, or "" for neither."""
     slowest: str = ""
     """What took longest in the last missed interval: a behavior, or "" when the tick began late."""
     failures: int = 0

@@ -6,7 +6,6 @@ import sys
 from collections import Counter
 from typing import TextIO
 
-from hri.behavior.tick_statistics import Statistics
 from hri.cli.terminal.streams import let_go
 from hri.core.origin import KEYBOARD
 from hri.core.quoting import message_line
@@ -45,12 +44,11 @@ LINES = {
 }
 
 
-VERDICTS = (
-    (0.1, "this machine is too slow for it: raise its invocation_interval, or end other programs"),
-    (0.01, "it may stutter: end other programs"),
-    (0.0, "nobody notices that"),
-)
-"""The verdict for a network that missed at least this share of its ticks."""
+HARMFUL = 0.05
+"""Share of a network's ticks, once it is ready, that must have been missed to be told. With fewer,
+every output is one interval late now and then, which is less than what devices and people vary by:
+a face of 25 pictures a second drops one a second, and the base stops by its own watchdog.
+"""
 
 
 class Narrator:
@@ -63,6 +61,8 @@ class Narrator:
         self._label = ""
         self._pose: tuple[float, float] | None = None
         self._first_frame: float | None = None
+        self._at_start: dict[str, tuple[int, Counter[str]]] = {}
+        """Of each network, the ticks and the missed ones by the time that it was ready."""
         self._is_unread = False
         behaviors = robot.context.behaviors.values()
         self._listener = next((b for b in behaviors if isinstance(b, Listener)), None)
@@ -85,6 +85,10 @@ class Narrator:
         while self._renderer is not None and not self._renderer.frames:
             await context.clock.sleep(0.02)
         self._first_frame = context.clock.now()
+        # While models load, ticks are missed that nobody waits for.
+        for runner in self.robot.runners:
+            statistics = runner.statistics
+            self._at_start[runner.network.name] = statistics.ticks, statistics.causes.copy()
         is_new = not self._counts["speech.heard"] and self._takes_greetings()
         hint = "say hello, or ask what you can say - " if is_new else ""
         self.tell(f"ready: {hint}Ctrl-C ends it")
@@ -130,8 +134,12 @@ class Narrator:
             frames = self._renderer.frames if self._renderer is not None else 0
             self.tell(f"{frames / max(lived, 0.1):.1f} frames a second")
         for runner in self.robot.runners:
-            if runner.statistics.missed:
-                self.tell(missed_ticks(runner.network.name, runner.statistics))
+            ticks, causes = self._at_start.get(runner.network.name, (0, Counter()))
+            statistics = runner.statistics
+            if line := late(
+                runner.network.name, statistics.ticks - ticks, statistics.causes - causes
+            ):
+                self.tell(line)
         if self.robot.recording is not None:
             files = "events.jsonl, face.mp4, robot.wav, timeline.png, feelings.svg, recording.json"
             self.tell(f"recorded in {self.robot.recording.where}: {files}")
@@ -149,13 +157,20 @@ def _why(event: Event) -> str:
     return ": ".join(str(reason) for reason in reasons if reason)
 
 
-def missed_ticks(network: str, statistics: Statistics) -> str:
-    """How many ticks a network missed, and what that means."""
-    missed, due = statistics.missed, statistics.ticks + statistics.missed
-    share = missed / due
-    verdict = next(words for least, words in VERDICTS if share >= least)
-    told = f"missed ticks: {network} {missed} of {due} ({share:.1%}) - {verdict}"
-    return f"{told}; the slowest was {statistics.slowest}" if statistics.slowest else told
+def late(network: str, ticks: int, causes: Counter[str]) -> str:
+    """A line for a network that missed enough ticks to be noticed; "" for others.
+
+    `causes` are the missed ones, by what was late (`Statistics.causes`).
+    """
+    missed = causes.total()
+    if not missed or missed < HARMFUL * (ticks + missed):
+        return ""
+    what, count = causes.most_common(1)[0]
+    told = f"{network} ran late: {missed} of {ticks + missed} ticks missed"
+    if what:
+        remedy = f"make {what} faster, or raise the invocation_interval of {network}"
+        return f"{told}, {count} of them because of {what} - {remedy}"
+    return f"{told}, most because this machine is busy - end other programs"
 
 
 class _Known(dict[str, object]):

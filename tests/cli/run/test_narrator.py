@@ -1,14 +1,15 @@
 """What the terminal tells of what happens."""
 
 import io
+from collections import Counter
 
 import pytest
 
-from hri.behavior.tick_statistics import Statistics
-from hri.cli.run.narrator import Narrator, missed_ticks
+from hri.cli.run.narrator import Narrator, late
 from hri.core.clock import FakeClock
 from hri.core.origin import KEYBOARD, STUDIO, caused_by
 from hri.robot import Robot
+from hri.testing import live_for
 
 
 @pytest.fixture
@@ -36,22 +37,47 @@ def test_what_is_ignored_is_told_with_why_it_does_not_count(told):
 
 
 @pytest.mark.parametrize(
-    ("ticks", "missed", "told"),
+    ("ticks", "causes", "told"),
     [
-        (11895, 105, "moving 105 of 12000 (0.9%) - nobody notices that"),
-        (950, 50, "moving 50 of 1000 (5.0%) - it may stutter"),
-        (50, 50, "moving 50 of 100 (50.0%) - this machine is too slow for it"),
+        (11895, {"gate": 105}, ""),
+        (970, {"": 30}, ""),
+        (0, {}, ""),
+        (
+            950,
+            {"gate": 40, "": 10},
+            "moving ran late: 50 of 1000 ticks missed, 40 of them because of gate - make gate"
+            " faster, or raise the invocation_interval of moving",
+        ),
+        (
+            50,
+            {"": 30, "gate": 20},
+            "moving ran late: 50 of 100 ticks missed, most because this machine is busy"
+            " - end other programs",
+        ),
     ],
 )
-def test_missed_ticks_come_with_a_verdict(ticks, missed, told):
-    assert missed_ticks("moving", Statistics(ticks=ticks, missed=missed)).startswith(
-        f"missed ticks: {told}"
-    )
+def test_missed_ticks_are_told_when_they_matter_with_what_was_late(ticks, causes, told):
+    assert late("moving", ticks, Counter(causes)) == told
 
 
-def test_the_slowest_behavior_of_a_missed_tick_is_named():
-    statistics = Statistics(ticks=9, missed=1, slowest="gate")
-    assert missed_ticks("moving", statistics).endswith("; the slowest was gate")
+def test_ticks_missed_while_it_starts_are_not_counted():
+    robot = Robot(clock=FakeClock(), notice=lambda line: None)
+    out = io.StringIO()
+    narrator = Narrator(robot, out)
+    narrator._renderer = None
+
+    async def job(context):
+        (*_, runner) = robot.runners
+        runner.statistics.causes["loading"] += 1000
+        await narrator.greet(context)
+        runner.statistics.causes["gate"] += 1000
+        robot.finish()
+
+    live_for(robot, 0.5, job)
+    narrator.summary()
+    assert "because of gate" in out.getvalue()
+    assert "loading" not in out.getvalue()
+    assert "1000 of" in out.getvalue()
 
 
 def test_of_several_mistakes_the_first_is_printed(told):
