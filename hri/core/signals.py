@@ -66,6 +66,8 @@ class Utterance:
     """Seconds from where the pause was long enough to the result."""
     command: str = ""
     """The same words without courtesies, names, and free words around the command."""
+    level_db: float | None = None
+    """dB against full scale of its loudest tenth of a second; None for what was typed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,6 +90,8 @@ class Rejection:
     """The names of the tags on which they do not agree: what is left to be asked."""
     latency: float = 0.0
     """Seconds from where the pause was long enough to the result."""
+    level_db: float | None = None
+    """dB against full scale of its loudest tenth of a second; None for what was typed."""
 
 
 @dataclass(frozen=True, slots=True)

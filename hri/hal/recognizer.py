@@ -55,6 +55,8 @@ class Segment:
     """Seconds at its end in which no voice was found any more."""
     noise_db: float | None = None
     """Level of the noise before it, dB against full scale; None when nothing is known of it."""
+    level_db: float | None = None
+    """Level of its loudest tenth of a second, likewise, before anything was amplified."""
     origin: str = ""
     """Who typed it, as `hri.core.origin` has it; empty for what was said."""
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from hri.core.signals import HeardWord, Rejection, Utterance
 from hri.hal.recognizer import Alternative, Hypothesis, Segment
+from hri.speech.automatic_level import too_quiet
 from hri.speech.grammar import Grammar
 from hri.speech.grammar.matching import Parse, parse, refusal
 from hri.speech.grammar.words import listed
@@ -32,6 +33,9 @@ FAR_BELOW = 0.2
 
 LIKELY = 0.05
 """Share from which a sentence may be what was said, when the likely ones are compared."""
+
+UNCLEAR = ("no speech", "unlike the sound", "low confidence")
+"""Reasons that a sound which is too quiet may have."""
 
 MOST_EXPECTED = 6
 """Words that are named of those which might have followed."""
@@ -68,10 +72,20 @@ def judge(
         reason, detail = "low confidence", _as_likely(doubts[0].text)
     if reason == "not in grammar":
         detail = _departure(grammar, hypothesis.text)
+    if reason in UNCLEAR:
+        detail = too_quiet(segment.level_db) or detail
     if turn.is_speaking and reason:
         reason = "robot speaking"
     if reason or found is None:
-        rejection = Rejection(reason, listed(hypothesis.text), confidence, start, end, detail)
+        rejection = Rejection(
+            reason,
+            listed(hypothesis.text),
+            confidence,
+            start,
+            end,
+            detail,
+            level_db=segment.level_db,
+        )
         if reason != "low confidence" or found is None:
             return rejection
         likely = [found, *_likely(grammar, hypothesis.alternatives)]
@@ -86,6 +100,7 @@ def judge(
         words=words,
         alternatives=hypothesis.alternatives,
         command=_command(grammar, found),
+        level_db=segment.level_db,
     )
 
 

@@ -1,7 +1,7 @@
 """Where a voice begins and ends: samples in, finished pieces of speech out.
 
 Every frame of 20 ms is asked whether a detector takes it for a voice, and how far it stands out of
-what else there is to hear:
+what else there is to hear, both of the sound as loud as `automatic_level` makes it:
 
 - The noise is the least level of the last two seconds (minimum statistics: R. Martin, "Noise power
   spectral density estimation based on optimal smoothing and minimum statistics", IEEE Trans. Speech
@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from hri.core.signals import Samples
 from hri.hal.recognizer import Segment
+from hri.speech.automatic_level import AutomaticLevel
 
 FRAME = 0.02
 """Seconds that are judged at once."""
@@ -132,6 +133,8 @@ class _Piece:
     """Frames up to the last one that stands out of the noise."""
     near: int
     """Frames up to the last near one."""
+    level: float = -120.0
+    """Of its loudest, as it came in, dB against full scale."""
 
     @property
     def samples(self) -> Samples:
@@ -180,6 +183,7 @@ class Endpointer:
         self._is_voice = self._detector(self.rate)
         self._noise = NoiseLevel()
         self._background = Background()
+        self._automatic = AutomaticLevel()
         self._rest: Samples = np.zeros(0, np.int16)
         kept = round(PRE_ROLL / FRAME) + BEGIN_WINDOW
         self._before: deque[tuple[Samples, float]] = deque(maxlen=kept)
@@ -217,7 +221,7 @@ class Endpointer:
         """The piece that is still open; the next sound starts again."""
         segments = []
         if self._piece is not None:
-            samples = np.concatenate([self._piece.samples, self._rest])
+            samples = np.concatenate([self._piece.samples, self._automatic.rest(self._rest)])
             if len(samples) >= LEAST * self.rate:
                 segments.append(self._segment(self._piece, samples))
         self._begin_stream()
@@ -225,12 +229,16 @@ class Endpointer:
 
     def _take(self, frame: Samples, power: float, time: float) -> Segment | None:
         """Judge the frame that ends at `time`; the piece that ends with it."""
+        frame = self._automatic.take(frame, _decibels(power))
+        gain_db = self._automatic.gain_db
+        power *= 10.0 ** (gain_db / 10.0)
         noise = self._noise.update(power)
         # The detector learns from each frame, so it is asked in any case.
         is_voice = self._is_voice(frame)
         if self._piece is None:
             self._look_for_voice(frame, is_voice, _decibels(power), noise, time)
             return None
+        self._piece.level = max(self._piece.level, self._noise.level - gain_db)
         self._recent.append(is_voice and _decibels(power) > noise + STAY_MARGIN)
         self._follow(self._piece, frame, is_voice, noise)
         return self._finished(self._piece) if self._is_over(self._piece) else None
@@ -249,6 +257,7 @@ class Endpointer:
         kept = round(PRE_ROLL / FRAME) + len(recent) - recent.index(True)
         frames = list(self._before)[-kept:]
         begun, count = time - len(frames) * FRAME, len(frames)
+        noise -= self._automatic.gain_db
         room = np.empty(round(LONGEST * self.rate) + count * self._size, np.int16)
         self._number += 1
         self._piece = _Piece(self._number, begun, noise, room, 0, [], QUIETEST, count, count)
@@ -297,6 +306,7 @@ class Endpointer:
             number=piece.number,
             quiet=piece.quiet,
             noise_db=round(piece.noise_db, 1),
+            level_db=round(piece.level, 1),
         )
 
     def _finished(self, piece: _Piece) -> Segment:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Protocol
 
 from hri.core.signals import Rejection, Samples, Utterance
+from hri.hal.drivers.recording_level import audible
 from hri.hal.drivers.resampling import resample
 from hri.hal.recognizer import Hypothesis, Recognizer, Segment
 from hri.speech.acceptance import STRICTNESS, judge
@@ -48,15 +49,18 @@ def hear(
 
     `engine` has been started with the grammar, and keeps nothing of the recording. `turn` says
     which rules are active; without one, all do. `stopwatch` measures the latencies. `tell_partial`
-    is told the words so far while a piece goes on; without it no work is spent on them.
+    is told the words so far while a piece goes on; without it no work is spent on them. A quiet
+    recording is heard as if it were as loud as a usual voice.
     """
-    sound = resample(samples, rate, engine.rate)
+    loud_enough, gain_db = audible(samples, rate)
+    sound = resample(loud_enough, rate, engine.rate)
     rules = None if turn is None else turn.rules(grammar)
     step = round(STEP * engine.rate)
     for first in range(0, len(sound), step):
         block = sound[first : first + step]
         for segment in engine.listen(block, (first + len(block)) / engine.rate):
-            yield understand(engine, grammar, segment, strictness, turn, stopwatch)
+            piece = _as_recorded(segment, gain_db)
+            yield understand(engine, grammar, piece, strictness, turn, stopwatch)
         open_segment = engine.open_segment
         if open_segment is None:
             continue
@@ -65,7 +69,15 @@ def hear(
         elif open_segment.quiet >= SILENT_AFTER:
             engine.advance(open_segment, rules)
     for segment in engine.flush():
-        yield understand(engine, grammar, segment, strictness, turn, stopwatch)
+        piece = _as_recorded(segment, gain_db)
+        yield understand(engine, grammar, piece, strictness, turn, stopwatch)
+
+
+def _as_recorded(segment: Segment, gain_db: float) -> Segment:
+    """A piece with the level that it had before a quiet recording was amplified."""
+    if segment.level_db is None or not gain_db:
+        return segment
+    return replace(segment, level_db=round(segment.level_db - gain_db, 1))
 
 
 def understand(

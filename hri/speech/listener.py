@@ -469,4 +469,5 @@ def _own_words(heard: Utterance) -> Rejection:
         end=heard.end,
         detail="its own words",
         latency=heard.latency,
+        level_db=heard.level_db,
     )

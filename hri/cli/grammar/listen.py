@@ -8,7 +8,6 @@ import math
 import shutil
 import sys
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import Any, TextIO
@@ -23,11 +22,13 @@ from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Rejection, Samples, Utterance
 from hri.hal.audio_level import QUIETEST
 from hri.hal.drivers.channels import CHOICES
+from hri.hal.drivers.recording_level import loudest
 from hri.hal.drivers.wav_file import load_sound
 from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer, Segment
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
+from hri.speech.automatic_level import too_quiet
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.tags import spell_tags
 from hri.speech.hearing import Heard, hear, understand
@@ -43,8 +44,9 @@ examples:
 
 The objects: file, start_s and end_s (seconds from its beginning), accepted, text, rule, tags,
 confidence, reason (empty, or why it was not accepted), latency_s, and with low confidence sure (the
-tags that are certain nevertheless) and unsure (the names of those that are not). Put FILE before
---wav, which takes all the paths that follow it.
+tags that are certain nevertheless) and unsure (the names of those that are not), level_dbfs (of the
+loudest tenth of a second; null for typed lines). Put FILE before --wav, which takes all the paths
+that follow it.
 
 Status 0: everything was accepted. 1: something was not. 2: a file is wrong."""
 
@@ -54,8 +56,6 @@ TICK = 0.1
 """Seconds between reads of the microphone."""
 LONGEST_LINE = 1000
 """Characters of a typed line; a longer one counts as several."""
-NOTHING = Rejection("no speech")
-"""The result for a recording without speech."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -111,11 +111,18 @@ def _hear_files(
         heard = list(
             hear(samples, rate, engine, grammar, options.strictness, turn, stopwatch=perf_counter)
         )
-        for one in heard or [replace(NOTHING, end=len(samples) / rate)]:
+        for one in heard or [_nothing(samples, rate)]:
             show(str(path), one)
             if isinstance(one, Rejection):
                 status = max(status, 1)
     return status
+
+
+def _nothing(samples: Samples, rate: int) -> Rejection:
+    """The result for a recording without speech."""
+    level = round(loudest(samples, rate), 1)
+    detail = too_quiet(level)
+    return Rejection("no speech", end=len(samples) / rate, detail=detail, level_db=level)
 
 
 def _hear_lines(grammar: Grammar, turn: Turn, strictness: float, show: Show) -> int:
@@ -230,6 +237,7 @@ def _show_json(file: str, heard: Heard) -> None:
         "latency_s": round(heard.latency, 4),
         "sure": dict(rejected.sure) if rejected else {},
         "unsure": list(rejected.unsure) if rejected else [],
+        "level_dbfs": heard.level_db,
     }
     print(json.dumps(line), flush=True)
 

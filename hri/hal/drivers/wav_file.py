@@ -15,6 +15,7 @@ from hri.core.reading import require_file
 from hri.core.signals import Samples
 from hri.core.writing import write_bytes
 from hri.hal.drivers.channels import CHOICES, OneChannel, channel_of
+from hri.hal.drivers.recording_level import audible
 from hri.hal.drivers.resampling import GrowingSound, resample_blocks
 from hri.hal.drivers.sound_decoder import (
     BLOCK,
@@ -152,14 +153,15 @@ def _as_int16(raw: bytes, width: int) -> Samples:
 
 
 class WavMicrophone(Microphone):
-    """Hears a file from the moment it is opened, then silence."""
+    """Hears a file from the moment it is opened, then silence; a quiet one as loud as a voice."""
 
     parameters = ("file", "channel")
 
     def _open(self) -> None:
         path = Path(self.description.text("file"))
         channel = channel_of(self.description)
-        self._sound, _ = load_sound(path, self.rate, channel, self.manager.notice)
+        sound, _ = load_sound(path, self.rate, channel, self.manager.notice)
+        self._sound, _ = audible(sound, self.rate)
         self._start = self.manager.clock.now()
         self._given = 0
 

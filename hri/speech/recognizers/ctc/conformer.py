@@ -19,9 +19,8 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.core.signals import Samples
 from hri.speech.recognizers.ctc.classes import CLASSES
-from hri.speech.recognizers.ctc.features import BANDS, BINS, WIDTH, log_mel, padded
+from hri.speech.recognizers.ctc.features import BANDS, BINS, WIDTH, Sound, log_mel, padded
 from hri.speech.recognizers.ctc.weights import Tensor, find_weights, read_tensors, take
 
 FRAME = 0.02
@@ -60,7 +59,7 @@ class Conformer:
         self._head = take(tensors, "head.matrix", DIMENSION, len(CLASSES))
         self._head_bias = take(tensors, "head.bias", len(CLASSES))
 
-    def posteriors(self, samples: Samples) -> NDArray[np.float32]:
+    def posteriors(self, samples: Sound) -> NDArray[np.float32]:
         """Natural logs of the probabilities of CLASSES, shape [frames, 40], of 16 kHz sound.
 
         A frame every FRAME seconds, the first at 0: 1 + n // 320 of them for n samples, none for

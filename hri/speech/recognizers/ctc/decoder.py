@@ -25,7 +25,7 @@ from hri.speech.recognizers.ctc.confidence import (
 from hri.speech.recognizers.ctc.conformer import FRAME, load_network
 from hri.speech.recognizers.ctc.habits import Habits
 from hri.speech.recognizers.ctc.lattice import Path
-from hri.speech.recognizers.ctc.loudness import noise_of, sounding
+from hri.speech.recognizers.ctc.loudness import leveled, noise_of, sounding
 from hri.speech.recognizers.ctc.phone_graph import Floats, Indices, compile
 from hri.speech.recognizers.ctc.posterior_stream import PosteriorStream
 from hri.speech.recognizers.ctc.ranking import ranked
@@ -104,7 +104,7 @@ class CtcRecognizer(EndpointedRecognizer):
             if segment.quiet >= SILENT_AFTER:
                 return listed(self._whole(segment, segment.samples, active, self._search).text)
             progress = self._progress_of(segment, active, self._search)
-            new = segment.samples[progress.taken :]
+            new = leveled(segment.samples)[progress.taken :]
             progress.taken += len(new)
             progress.search.advance(scores_of(progress.stream.push(new)))
             return listed(" ".join(progress.search.partial()))
@@ -140,9 +140,10 @@ class CtcRecognizer(EndpointedRecognizer):
         early = self._early
         if early is None or not early.holds_for(segment, samples, rules):
             self._progress = None  # Its search is used for the whole.
-            part = sounding(samples)
-            heard = self._network.posteriors(samples[part])
-            found = decoded(search, self._rivals, heard, rules, noise_of(samples))
+            sound = leveled(samples)
+            part = sounding(sound)
+            heard = self._network.posteriors(sound[part])
+            found = decoded(search, self._rivals, heard, rules, noise_of(sound))
             hypothesis = later(found, part.start / self.rate)
             early = Early(samples, segment.end - segment.quiet, rules, hypothesis)
             self._early = early

@@ -22,7 +22,11 @@ _LEAST = 1e-10
 _WINDOW = (np.hanning(WIDTH + 1)[:WIDTH] / _FULL_SCALE).astype(np.float32)
 
 
-def padded(samples: Samples) -> NDArray[np.float32]:
+Sound = NDArray[np.float32] | Samples
+"""In steps of 16 bits; what was amplified may be louder than they can count."""
+
+
+def padded(samples: Sound) -> NDArray[np.float32]:
     """The sound with half a window mirrored at both ends, where its first and last frames lie."""
     return np.pad(samples.astype(np.float32), WIDTH // 2, mode="reflect")
 

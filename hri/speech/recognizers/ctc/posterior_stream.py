@@ -17,10 +17,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.core.signals import Samples
 from hri.speech.recognizers.ctc.classes import CLASSES
 from hri.speech.recognizers.ctc.conformer import STRIDE, Conformer
-from hri.speech.recognizers.ctc.features import HOP, WIDTH
+from hri.speech.recognizers.ctc.features import HOP, WIDTH, Sound
 
 CHUNK = 25
 """Frames (0.5 s) that are settled at once."""
@@ -44,7 +43,7 @@ class PosteriorStream:
         self._is_begun = False
         self._is_first = True
 
-    def push(self, samples: Samples) -> NDArray[np.float32]:
+    def push(self, samples: Sound) -> NDArray[np.float32]:
         """Take 16 kHz sound; the posteriors [frames, 40] that are settled by it, often none."""
         self._sound = np.concatenate([self._sound, samples.astype(np.float32)])
         if not self._begin():
