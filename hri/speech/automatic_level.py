@@ -34,9 +34,11 @@ VERY_QUIET_DB = -60.0
 
 
 def too_quiet(level_db: float | None) -> str:
-    """What to tell of a voice that was not understood, by its level; "" when that is no reason."""
+    """What to tell of a voice that was not understood, by its level; "" for one loud enough."""
     if level_db is None or level_db >= VERY_QUIET_DB:
         return ""
+    if level_db <= ZEROS_DB:
+        return "no sound at all - unmute the microphone, or choose another"
     return f"very quiet ({level_db:.0f} dBFS) - speak up, or raise the input level"
 
 

@@ -97,6 +97,7 @@ def test_what_is_too_quiet_to_be_understood_says_so(hearing):
         )
     assert loudest(murmur, RATE) == pytest.approx(max(one.level_db for one in found), abs=2)
     assert too_quiet(-30.0) == too_quiet(None) == ""
+    assert too_quiet(-120.0).startswith("no sound at all - unmute")
 
 
 def stream(sound):

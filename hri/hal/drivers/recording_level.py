@@ -10,7 +10,7 @@ from hri.core.signals import Samples
 
 QUIET_DB = -40.0
 """Level of the loudest tenth of a second, dB against full scale, below which one is amplified."""
-USUAL_DB = -18.0
+USUAL_DB = -25.0
 """The same of a voice of usual loudness."""
 MOST_DB = 60.0
 SILENCE_DB = -120.0
