@@ -126,7 +126,20 @@ class Behavior:
                 if isinstance(declared, Output):
                     declared.attribute = name
                 declared.name = declared.name or name
+                cls._check_declared(name, declared)
                 tables[type(declared)][declared.name] = declared
+
+    @classmethod
+    def _check_declared(cls, name: str, declared: Input[Any] | Output[Any] | Param[Any]) -> None:
+        """Raise TypeError where one attribute is to be two things, or one output has two."""
+        former = getattr(super(cls, cls), name, None)
+        if isinstance(former, (Input, Output, Param)) and type(former) is not type(declared):
+            what = f"{cls.__name__}.{name} is the {type(former).__name__} of a base class"
+            raise TypeError(f"{what} - rename this {type(declared).__name__}")
+        other = cls.outputs.get(declared.name)
+        if isinstance(declared, Output) and other is not None and other.attribute != name:
+            what = f'{cls.__name__} declares the output "{declared.name}" as {name}, too'
+            raise TypeError(f"{what} - call both {other.attribute}")
 
     def __init__(self, id: str = "", **parameters: Any) -> None:
         self.id = id or type(self).__name__

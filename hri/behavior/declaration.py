@@ -16,10 +16,11 @@ TYPES: dict[str, Any] = {"string": "", "number": 0.0, "integer": 0, "boolean": F
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter: its type is one of TYPES, its default a text as networks write it."""
+    """A parameter: its default is a text, as networks write it."""
 
     name: str
     type: str
+    """One of TYPES; empty for that of its driver, or a string."""
     default: str
     description: str = ""
     minimum: float = -math.inf
@@ -30,13 +31,13 @@ class Parameter:
     def declare(self) -> Param[Any]:
         """The declaration for a class. Raises ValueError when the default does not fit."""
         declared = Param(
-            TYPES[self.type],
+            TYPES[self.type or "string"],
             self.description,
             minimum=self.minimum,
             maximum=self.maximum,
             among=self.choices,
         )
-        if self.default or self.type == "string":
+        if self.default or self.type in ("", "string"):
             declared.default = declared.parse(self.default)
         return declared
 
@@ -64,3 +65,9 @@ class Schema:
     parameters: tuple[Parameter, ...] = ()
     inputs: tuple[Port, ...] = ()
     outputs: tuple[Port, ...] = ()
+    place: Place = field(default=NOWHERE, compare=False, repr=False)
+
+    @property
+    def brings_class(self) -> bool:
+        """Whether its library is a Python file, which holds the class of its driver."""
+        return self.library.endswith(".py")

@@ -11,7 +11,7 @@ from typing import Any
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.board import BOARD, BoardSink, BoardSource
-from hri.behavior.ports import ANY, GENERIC, Input, InputPort, Output, OutputPort
+from hri.behavior.ports import ANY, Input, InputPort, Output, OutputPort, means_same
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 from hri.core.xml import Element
 
@@ -126,7 +126,7 @@ class Network:
         if sends.datatype != takes.datatype and ANY not in (sends.datatype, takes.datatype):
             what = f"{source} is {sends.datatype}, but {target} takes {takes.datatype}"
             raise AuthoringError(place, what, "link ports of the same datatype")
-        if sends.semantic != takes.semantic and GENERIC not in (sends.semantic, takes.semantic):
+        if not means_same(sends.semantic, takes.semantic):
             what = f"{source} means {sends.semantic}, {target} wants {takes.semantic}"
             self.warnings.append(Remark(place, what))
         port = sender.output_port(output)

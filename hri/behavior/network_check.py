@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from hri.behavior.board import DECLARED, BoardSink, BoardSource
 from hri.behavior.library.sharing import Share, Shared
 from hri.behavior.network import Link, Network, Remark
-from hri.behavior.ports import ANY, GENERIC
+from hri.behavior.ports import ANY, GENERIC, means_same
 from hri.core.errors import AuthoringError
 
 
@@ -106,6 +106,6 @@ def _check_slots(networks: list[Network]) -> None:
                 raise AuthoringError(use.link.place, what, "link ports of the same datatype")
         if use.semantic != GENERIC:
             other = meant.setdefault(use.slot, use)
-            if other.semantic != use.semantic:
+            if not means_same(other.semantic, use.semantic):
                 what = f"{use.port} means {use.semantic}, {other} means {other.semantic}"
                 use.network.warnings.append(Remark(use.link.place, f"board.{use.slot}: {what}"))

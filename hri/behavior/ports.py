@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 from typing import Any, Generic, TypeVar, overload
 
-from hri.core import signals
+from hri.core import registry, signals
 from hri.core.errors import did_you_mean
 from hri.core.expression import evaluate
 from hri.core.origin import OUTSIDE
@@ -19,6 +19,13 @@ GENERIC = "Evolution.Generic"
 LINEAR_VELOCITY = "Evolution.LinearVelocity"
 ANGULAR_VELOCITY = "Evolution.AngularVelocity"
 """Meanings of ports; a generic one fits all others."""
+
+
+def means_same(one: str, other: str) -> bool:
+    """Whether two meanings fit: they are alike, or one is generic. `Hri.` is `Evolution.` here."""
+    meanings = {registry.canonical(one), registry.canonical(other)}
+    return len(meanings) == 1 or registry.canonical(GENERIC) in meanings
+
 
 DBL_MAX = sys.float_info.max
 """What ports of 2003 carry, instead of infinity, when nothing is in range."""

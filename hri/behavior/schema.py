@@ -24,6 +24,7 @@ from typing import Any
 from hri.behavior.behavior import Behavior
 from hri.behavior.declaration import TYPES, Parameter, Port, Schema
 from hri.behavior.ports import DATATYPES, GENERIC, Input, Output, Param
+from hri.behavior.schema_match import type_of_parameter
 from hri.core import registry
 from hri.core.errors import AuthoringError, did_you_mean
 from hri.core.xml import Element, format_xml, load_xml
@@ -53,7 +54,8 @@ def schema_of(cls: type[Behavior], type_name: str = "") -> Schema:
 def subclass(driver: type[Behavior], schema: Schema) -> type[Behavior]:
     """A class with the ports and parameters of a schema, and the code of its driver.
 
-    Raises AuthoringError when a parameter or a port does not fit.
+    `hri.behavior.schema_match.check_match` has compared the two. Raises AuthoringError when the
+    driver uses the name of a new part for something else.
     """
     for kind in ("parameters", "inputs", "outputs"):
         for part in getattr(schema, kind):
@@ -64,12 +66,14 @@ def subclass(driver: type[Behavior], schema: Schema) -> type[Behavior]:
     for parameter in schema.parameters:
         members[parameter.name] = _declare(parameter, driver.parameters.get(parameter.name))
     for port in schema.inputs:
-        members[port.name] = Input(port.datatype, port.description, port.semantic_type)
+        members[port.name] = _declare_input(port, driver.inputs.get(port.name))
     for port in schema.outputs:
         is_shared = port.name in driver.inputs or port.name in members
-        members[f"{port.name}_out" if is_shared else port.name] = Output(
-            port.datatype, port.description, port.semantic_type, name=port.name
-        )
+        attribute = f"{port.name} (output)" if is_shared else port.name
+        if own := driver.outputs.get(port.name):
+            attribute = own.attribute
+        meaning = _meaning(port, own)
+        members[attribute] = Output(port.datatype, port.description, meaning, name=port.name)
     members["category"] = schema.category
     cls: type[Behavior] = type(schema.type.rpartition(".")[2], (driver,), members)
     whole = schema_of(cls, schema.type)
@@ -86,18 +90,26 @@ def _declare(parameter: Parameter, inherited: Param[Any] | None) -> Param[Any]:
     """A parameter as the schema has it; one of the driver keeps its type and range."""
     if inherited is None:
         return parameter.declare()
-    try:
-        default = inherited.parse(parameter.default)
-    except ValueError as error:
-        what, _, remedy = str(error).partition(" - ")
-        raise AuthoringError(parameter.place, f"{parameter.name}: {what}", remedy) from error
     return Param(
-        default,
+        inherited.parse(parameter.default),
         parameter.description or inherited.doc,
         minimum=inherited.minimum,
         maximum=inherited.maximum,
         among=inherited.among,
     )
+
+
+def _declare_input(port: Port, inherited: Input[Any] | None) -> Input[Any]:
+    is_optional = inherited is not None and inherited.is_optional
+    meaning = _meaning(port, inherited)
+    return Input(port.datatype, port.description, meaning, is_optional=is_optional)
+
+
+def _meaning(port: Port, inherited: Input[Any] | Output[Any] | None) -> str:
+    """What the schema says that a port means; where that is generic, what the driver says."""
+    if inherited is None or port.semantic_type != GENERIC:
+        return port.semantic_type
+    return inherited.semantic
 
 
 def load_schema(path: Path) -> Schema:
@@ -135,6 +147,7 @@ def load_schema(path: Path) -> Schema:
         parameters=tuple(found["Parameter"]),
         inputs=tuple(found["Inputs"]),
         outputs=tuple(found["Outputs"] + found["Output"]),
+        place=root.place,
     )
 
 
@@ -151,8 +164,8 @@ def _read_name(element: Element, seen: set[str]) -> str:
 def _read_parameter(element: Element, seen: set[str]) -> Parameter:
     element.check((), ("name", "type", "default", "description", "minimum", "maximum", "choices"))
     name = _read_name(element, seen)
-    kind = element.get("type", "string")
-    if kind not in TYPES:
+    kind = element.get("type", "")
+    if kind and kind not in TYPES:
         raise element.error(f'the type "{kind}"', did_you_mean(kind, TYPES), "type")
     parameter = Parameter(
         name,
@@ -220,10 +233,9 @@ def _parameter_element(parameter: Parameter) -> Element:
 
 
 def _parameter(declared: Param[Any]) -> Parameter:
-    kind = next(name for name, empty in TYPES.items() if type(empty) is type(declared.default))
     return Parameter(
         declared.name,
-        kind,
+        type_of_parameter(declared),
         Param.text(declared.default),
         declared.doc,
         declared.minimum,

@@ -40,8 +40,9 @@ class Keeper(Behavior):
 """
 SCHEMA = (
     '<BehaviorSchema type="My.{0}" driver="My.{0}" library="../../tracks.py"><{1}>'
-    '<Port name="track" datatype="{2}" description="what is followed"/></{1}></BehaviorSchema>'
+    '<Port name="track" datatype="{2}" description="what is followed"/></{1}>{3}</BehaviorSchema>'
 )
+X = '<Outputs><Port name="x" datatype="double"/></Outputs>'
 NETWORK = (
     '<BehaviorNetwork><Behavior id="finder" type="My.Finder"/><Behavior id="keeper"'
     ' type="My.Keeper"/><Behavior id="show" type="Hri.InputCollector"/>'
@@ -62,7 +63,7 @@ def folder(tmp_path, monkeypatch):
 
 def schema(folder, name, ports, datatype):
     path = folder / "behavior" / "My" / f"{name}.xml"
-    path.write_text(SCHEMA.format(name, ports, datatype))
+    path.write_text(SCHEMA.format(name, ports, datatype, X if name == "Keeper" else ""))
 
 
 def network(folder, source="finder.track"):
