@@ -32,9 +32,10 @@ from hri.drive.polar_histogram import (
     valleys,
 )
 from hri.drive.progress import Progress
-from hri.drive.velocity_limits import safe_speed
+from hri.drive.velocity_limits import PRUDENCE, safe_speed
 from hri.drive.walker_tracker import WalkerTracker
 from hri.hal.motion import REST
+from hri.hal.motion_profile import velocity_for
 
 PERSON_RADIUS = 0.25
 """Meters that a standing person takes."""
@@ -48,6 +49,12 @@ TARGET_COST, HEADING_COST, LAST_COST = 5.0, 2.0, 2.0
 """What each radian off the goal, off the heading and off the last choice costs, as in VFH+."""
 FACING = 0.05
 """Radians off a heading that count as facing it."""
+TURN_DECELERATION = 1.0
+"""Radians a second squared with which it slows down before a heading."""
+LATENCY_S = 0.1
+"""Seconds for which a velocity goes on, in a network that ticks ten times a second."""
+HOMING = 0.15
+"""Meters from the goal within which it goes straight there, where that is free."""
 AHEAD_ANGLES: Array = np.radians((0.0, 6.0, -6.0, 12.0, -12.0))
 """Directions that the governor looks at, radians from straight ahead, that one first."""
 CLOSEST = 0.2
@@ -101,6 +108,8 @@ class Manner:
     """How long it remembers what it saw."""
     near: float = 0.1
     """Meters from the goal that count as there."""
+    aim: float = math.inf
+    """Where it is there, it goes on to so many meters, as long as the goal lies ahead."""
 
 
 def towards(pose: Pose2D, goal: Pose2D) -> tuple[float, float]:
@@ -109,12 +118,19 @@ def towards(pose: Pose2D, goal: Pose2D) -> tuple[float, float]:
     return math.atan2(y, x), math.hypot(x, y)
 
 
-def turn_to(pose: Pose2D, heading: float, rate: float) -> Twist:
-    """Turn on the spot to a heading; rest when it is reached."""
+def is_reached(pose: Pose2D, goal: Pose2D, manner: Manner) -> bool:
+    """Whether the robot is as near to a goal as it is meant to come."""
+    direction, distance = towards(pose, goal)
+    is_ahead = abs(wrapped(direction - pose.heading)) <= ON_THE_SPOT
+    return distance <= manner.near and (distance <= manner.aim or not is_ahead)
+
+
+def turn_to(pose: Pose2D, heading: float, rate: float, facing: float = FACING) -> Twist:
+    """Turn on the spot to a heading; rest when it is reached, within `facing` radians."""
     off = wrapped(heading - pose.heading)
-    if abs(off) < FACING:
+    if abs(off) <= facing:
         return REST
-    return Twist(0.0, min(max(TURN_GAIN * off, -rate), rate))
+    return Twist(0.0, velocity_for(off, rate, TURN_DECELERATION, LATENCY_S))
 
 
 def straight_to(pose: Pose2D, goal: Pose2D, manner: Manner, ahead: float = math.inf) -> Twist:
@@ -122,15 +138,17 @@ def straight_to(pose: Pose2D, goal: Pose2D, manner: Manner, ahead: float = math.
 
     `ahead` is the fastest that what is ahead allows, m/s.
     """
-    direction, distance = towards(pose, goal)
-    if distance <= manner.near:
+    if is_reached(pose, goal, manner):
         return REST
+    direction, distance = towards(pose, goal)
     off = wrapped(direction - pose.heading)
     angular = min(max(TURN_GAIN * off, -manner.turn_rate), manner.turn_rate)
     if abs(off) > ON_THE_SPOT:
         return Twist(0.0, angular)
-    # At the goal it is to stand: sqrt(2 a d).
-    braking = math.sqrt(2 * manner.deceleration * max(0.0, distance - manner.near / 2))
+    # At the goal it is to stand; it turns toward it faster than it gets there.
+    braking = velocity_for(distance, manner.speed, PRUDENCE * manner.deceleration, LATENCY_S)
+    if distance * abs(math.sin(off)) > min(manner.near, manner.aim) / 2:
+        braking = min(braking, TURN_GAIN / 2 * distance)
     return Twist(min(manner.speed * math.cos(off), braking, ahead), angular)
 
 
@@ -197,10 +215,9 @@ class Avoidance:
 
         The heading of the goal does not count.
         """
-        _, distance = towards(pose, goal)
         self._seen, self._fresh = self.memory.points, self.memory.since(now - DOUBT_S)
         ways = free_ways(pose, self._seen, self._reach, self._discs)
-        if distance <= self.manner.near:
+        if is_reached(pose, goal, self.manner):
             self._progress.rest()
             self._route = None
             twist = REST
@@ -211,9 +228,16 @@ class Avoidance:
         elif now < self._backing_until:
             twist = back_off(pose.heading, ways)
         else:
-            twist = self._forth(now, pose, ways, goal, distance)
+            self._note_progress(now, pose)
+            is_last_bit = towards(pose, goal)[1] <= HOMING and self.is_open(pose, goal)
+            twist = self._home(pose, goal) if is_last_bit else self._forth(now, pose, goal, ways)
         self._is_moving = twist.linear > 0
         return twist
+
+    def is_open(self, pose: Pose2D, goal: Pose2D) -> bool:
+        """Whether nothing stands on the straight way to a goal."""
+        direction, distance = towards(pose, goal)
+        return self._free(pose, np.array([direction - pose.heading]), self._reach) >= distance
 
     @property
     def side(self) -> int:
@@ -242,11 +266,19 @@ class Avoidance:
     def _reach(self) -> float:
         return self.mechanics.radius + self.manner.margin
 
-    def _forth(self, now: float, pose: Pose2D, ways: Array, goal: Pose2D, distance: float) -> Twist:
+    def _note_progress(self, now: float, pose: Pose2D) -> None:
         if self._progress.is_stuck(now, pose):
             self._progress.rest()
             self._route = None
             self._backing_until = now + BACKING_S
+
+    def _home(self, pose: Pose2D, goal: Pose2D) -> Twist:
+        """The last bit of the way."""
+        self._route = None
+        return straight_to(pose, goal, self.manner, self._governed(pose))
+
+    def _forth(self, now: float, pose: Pose2D, goal: Pose2D, ways: Array) -> Twist:
+        """Along the route, or around what is in its way."""
         direction, way = self._lead(now, pose, goal)
         is_free = self._histogram.update(ways, way)
         if not is_free[sector(direction)]:
@@ -256,6 +288,7 @@ class Avoidance:
             direction = best
         self._chosen = direction
         direction += self._weave(now, direction)
+        _, distance = towards(pose, goal)
         course = Pose2D(
             pose.x + distance * math.cos(direction), pose.y + distance * math.sin(direction)
         )

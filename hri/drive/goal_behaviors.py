@@ -47,7 +47,7 @@ class _Going(_FromPose, ABC):
 
     max_linear = Param(_MANNER.speed, "meters a second", minimum=0.02, maximum=2)
     max_angular = Param(_MANNER.turn_rate, "radians a second", minimum=0.05, maximum=6)
-    near = Param(_MANNER.near, "meters from the goal that count as there", minimum=0.02, maximum=1)
+    near = Param(_MANNER.near, "meters from the goal that count as there", minimum=0.005, maximum=1)
     faces = Param(False, "turn to the heading of the goal when it is there")
 
     goal = Input[Pose2D]("pose", "where to go, in the frame of the odometry; nothing: stay")

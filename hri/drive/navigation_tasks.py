@@ -16,6 +16,7 @@ from hri.core.clock import Worker
 from hri.core.errors import HriError
 from hri.core.geometry import after_move, wrapped
 from hri.core.signals import Event, People, Pose2D, Twist
+from hri.drive.arrival import Arrival
 from hri.drive.avoidance import ROUTE, Avoidance, Manner, turn_to
 from hri.drive.following import (
     Ending,
@@ -41,6 +42,18 @@ from hri.task.context import TaskContext
 from hri.task.task import task
 from hri.task.units import UNIT_ANGLE, UNIT_DISTANCE, UNIT_TIME, in_si
 
+USUAL = Manner()
+"""How it follows and wanders."""
+EXACT, CLOSE = 0.01, 0.1
+"""Meters from a place that count as there, where there is room and where there is not."""
+AIM = 0.003
+"""Meters from a place at which it stops, if it does not pass beside it; it rolls out a little."""
+ARRIVED = "drive.arrived"
+"""The board slot with the goal of the last relative move, and the pose in which it ended."""
+STILL = 0.005
+"""Meters and radians that a robot which nobody moved is off its last pose at most."""
+LEAST_NEAR = 0.005
+"""Meters; nearer it does not get for sure."""
 PATIENCE_S = 40.0
 """Seconds in which it must get nearer to a goal; else it gives up."""
 NEARER = 0.1
@@ -53,32 +66,51 @@ SEARCH_RATE = 0.6
 """Radians a second while it looks around: slow enough to see faces on the way."""
 
 
-async def go_to(context: TaskContext, goal: Pose2D, *, faces: bool = False) -> bool:
+async def go_to(
+    context: TaskContext, goal: Pose2D, *, faces: bool = False, near: float | None = None
+) -> bool:
     """Go to a place of the odometry frame, around what is in the way; whether it got there.
 
-    With `faces` it turns to the heading of the goal in the end. Raises ValueError for a goal that
-    is not finite.
+    With `faces` it turns to the heading of the goal in the end, to 0.6 degrees. `near` is how many
+    meters count as there; without it 1 cm, or 10 cm where things stand too close. Raises ValueError
+    for a goal that is not finite, and a `near` below 5 mm.
     """
-    return not await _why_not_gone_to(context, goal, faces)
+    return not await _why_not_gone_to(context, goal, faces, near)
 
 
-async def _why_not_gone_to(context: TaskContext, goal: Pose2D, faces: bool) -> str:
+async def _why_not_gone_to(
+    context: TaskContext, goal: Pose2D, faces: bool, near: float | None
+) -> str:
     """Go to a place; a sentence that says why it did not get there, empty when it did."""
     if not all(map(math.isfinite, (goal.x, goal.y, goal.heading))):
         raise ValueError(f"cannot go to {goal} - give finite numbers")
-    with _traveler(context) as traveler:
+    manner = _exact(near)
+    with _traveler(context, manner) as traveler:
         patience = Patience(PATIENCE_S, NEARER)
+        arrival = Arrival(goal, CLOSE if near is None else 0.0)
         is_there = False
 
         def steer(now: float, pose: Pose2D) -> Twist | None:
             nonlocal is_there
-            twist, is_there = traveler.toward(now, pose, goal, faces)
+            twist, is_there = traveler.toward(now, pose, goal, False)
+            is_open = traveler.is_open(pose, goal)
+            if arrival.is_at(now, pose, is_reached=is_there, is_open=is_open):
+                twist = arrival.turn(now, pose, manner.turn_rate) if faces else REST
+                is_there = twist == REST
             distance = math.dist((pose.x, pose.y), (goal.x, goal.y))
             return None if is_there or patience.is_over(now, distance) else twist
 
         with piloting(context) as pilot:
             await pilot.lead(steer)
         return "" if is_there else await traveler.why_not(context, goal)
+
+
+def _exact(near: float | None) -> Manner:
+    """How it goes to a place that is given, as near as is asked for."""
+    near = EXACT if near is None else near
+    if not near >= LEAST_NEAR:
+        raise ValueError(f"cannot come as near as {near} m - give at least {LEAST_NEAR} m")
+    return Manner(near=near, aim=AIM)
 
 
 async def follow(
@@ -217,35 +249,60 @@ async def wander(context: TaskContext, seconds: float = math.inf, seed: int = 0)
 
 @task("Hri.GoTo")
 async def go_to_task(
-    context: TaskContext, x: float, y: float, heading: float | None = None
+    context: TaskContext, x: float, y: float, heading: float | None = None, near: float = 0.0
 ) -> None:
     """Go to a place of the odometry frame, in default units, around what is in the way.
 
-    With a heading it turns there in the end. Fails when it does not get there.
+    With a heading it turns there in the end. `near` is the distance that counts as there; 0 is 1 cm
+    where there is room, else 10 cm. Fails when it does not get there.
     """
     place = in_si(UNIT_DISTANCE, x), in_si(UNIT_DISTANCE, y)
     faces = heading is not None
     goal = Pose2D(*place, in_si(UNIT_ANGLE, heading or 0.0))
-    if why := await checked(_why_not_gone_to(context, goal, faces)):
-        context.fail(why)
+    await go_to_point(context, goal, faces=faces, near=_in_m(near))
 
 
 @task("Hri.GoBy")
-async def go_by(context: TaskContext, x: float, y: float) -> None:
+async def go_by(context: TaskContext, x: float, y: float, near: float = 0.0) -> None:
     """Go to a point of the robot's own frame, x ahead and y left, around what is in the way.
 
-    In the end it faces along the straight line to there, whatever way it took. Fails when it does
-    not get there.
+    In the end it faces along the straight line to there, whatever way it took. `near` is as for
+    `go_to_task`. The next move starts from that place, not from where the robot stands beside it:
+    errors of many moves do not add up. Fails when it does not get there.
     """
     with _traveler(context) as traveler:
-        start = traveler.pose(context.clock.now())
-    await go_to_point(context, after_move(start, *(in_si(UNIT_DISTANCE, way) for way in (x, y))))
+        pose = traveler.pose(context.clock.now())
+    arrived = context.board.slot(ARRIVED)
+    goal = after_move(_start(pose, arrived.value), *(in_si(UNIT_DISTANCE, way) for way in (x, y)))
+    await go_to_point(context, goal, near=_in_m(near))
+    with _traveler(context) as traveler:
+        now = context.clock.now()
+        arrived.set((goal, traveler.pose(now)), now)
 
 
-async def go_to_point(context: TaskContext, goal: Pose2D) -> None:
-    """Go to a place and face as it says. Fails the task when it does not get there."""
-    if why := await checked(_why_not_gone_to(context, goal, faces=True)):
+def _start(pose: Pose2D, arrived: tuple[Pose2D, Pose2D] | None) -> Pose2D:
+    """Where a move starts: at the end of the last one, if the robot has not moved since."""
+    if arrived is None:
+        return pose
+    goal, stood = arrived
+    has_moved = math.dist((pose.x, pose.y), (stood.x, stood.y)) > STILL
+    return pose if has_moved or abs(wrapped(pose.heading - stood.heading)) > STILL else goal
+
+
+async def go_to_point(
+    context: TaskContext, goal: Pose2D, *, faces: bool = True, near: float | None = None
+) -> None:
+    """Go to a place, and face as it says. Fails the task when it does not get there.
+
+    Raises HriError for a goal that is no place, and a `near` (meters) that is too small.
+    """
+    if why := await checked(_why_not_gone_to(context, goal, faces, near)):
         context.fail(why)
+
+
+def _in_m(near: float) -> float | None:
+    """A distance in default units, in meters; None for 0."""
+    return in_si(UNIT_DISTANCE, near) or None
 
 
 @task("Hri.FollowPerson")
@@ -283,7 +340,7 @@ def _refuse_nan(*values: float) -> None:
 class _Traveler:
     """Sensors and steering, for as long as a verb lasts."""
 
-    def __init__(self, context: TaskContext) -> None:
+    def __init__(self, context: TaskContext, manner: Manner) -> None:
         resources = context.resources
         self._slot = context.board.slot(PEOPLE)
         self._route = context.board.slot(ROUTE)
@@ -296,7 +353,7 @@ class _Traveler:
         except HriError:
             self.release(context)
             raise
-        self._manner = Manner()
+        self._manner = manner
         self._avoidance = Avoidance(self._mechanics, self._manner)
 
     def following(self, distance: float, target: Target) -> Following:
@@ -322,6 +379,10 @@ class _Traveler:
         if is_at and faces:
             twist = turn_to(pose, goal.heading, self._manner.turn_rate)
         return twist, is_at and twist == REST
+
+    def is_open(self, pose: Pose2D, goal: Pose2D) -> bool:
+        """Whether nothing stands on the straight way to a goal."""
+        return self._avoidance.is_open(pose, goal)
 
     async def why_not(self, context: TaskContext, goal: Pose2D) -> str:
         """What kept it from getting to a goal, and what to do."""
@@ -353,9 +414,9 @@ async def _worked_out(context: TaskContext, job: Callable[[], float]) -> float:
 
 
 @contextmanager
-def _traveler(context: TaskContext) -> Iterator[_Traveler]:
+def _traveler(context: TaskContext, manner: Manner = USUAL) -> Iterator[_Traveler]:
     see_to_gate(context)
-    traveler = _Traveler(context)
+    traveler = _Traveler(context, manner)
     try:
         yield traveler
     finally:
