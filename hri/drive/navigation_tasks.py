@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 
 from hri.core.clock import Worker
@@ -29,6 +30,7 @@ from hri.drive.following import (
 )
 from hri.drive.goal_behaviors import PEOPLE
 from hri.drive.mechanics import mechanics_of, range_sensors
+from hri.drive.nominal_pose import nominal_pose, note_arrival
 from hri.drive.own_gate import see_to_gate
 from hri.drive.progress import Approach, Patience
 from hri.drive.target import Someone, Target
@@ -48,10 +50,6 @@ EXACT, CLOSE = 0.01, 0.1
 """Meters from a place that count as there, where there is room and where there is not."""
 AIM = 0.003
 """Meters from a place at which it stops, if it does not pass beside it; it rolls out a little."""
-ARRIVED = "drive.arrived"
-"""The board slot with the goal of the last relative move, and the pose in which it ended."""
-STILL = 0.005
-"""Meters and radians that a robot which nobody moved is off its last pose at most."""
 LEAST_NEAR = 0.005
 """Meters; nearer it does not get for sure."""
 PATIENCE_S = 40.0
@@ -102,7 +100,14 @@ async def _why_not_gone_to(
 
         with piloting(context) as pilot:
             await pilot.lead(steer)
-        return "" if is_there else await traveler.why_not(context, goal)
+        if not is_there:
+            return await traveler.why_not(context, goal)
+        now = context.clock.now()
+        stands = traveler.pose(now)
+        note_arrival(
+            context.board, goal if faces else replace(goal, heading=stands.heading), stands, now
+        )
+        return ""
 
 
 def _exact(near: float | None) -> Manner:
@@ -110,7 +115,7 @@ def _exact(near: float | None) -> Manner:
     near = EXACT if near is None else near
     if not near >= LEAST_NEAR:
         raise ValueError(f"cannot come as near as {near} m - give at least {LEAST_NEAR} m")
-    return Manner(near=near, aim=AIM)
+    return Manner(near=near, aim=AIM if near <= EXACT else near)
 
 
 async def follow(
@@ -259,7 +264,7 @@ async def go_to_task(
     place = in_si(UNIT_DISTANCE, x), in_si(UNIT_DISTANCE, y)
     faces = heading is not None
     goal = Pose2D(*place, in_si(UNIT_ANGLE, heading or 0.0))
-    await go_to_point(context, goal, faces=faces, near=_in_m(near))
+    await go_to_point(context, goal, faces=faces, near=in_m(near))
 
 
 @task("Hri.GoBy")
@@ -272,21 +277,9 @@ async def go_by(context: TaskContext, x: float, y: float, near: float = 0.0) -> 
     """
     with _traveler(context) as traveler:
         pose = traveler.pose(context.clock.now())
-    arrived = context.board.slot(ARRIVED)
-    goal = after_move(_start(pose, arrived.value), *(in_si(UNIT_DISTANCE, way) for way in (x, y)))
-    await go_to_point(context, goal, near=_in_m(near))
-    with _traveler(context) as traveler:
-        now = context.clock.now()
-        arrived.set((goal, traveler.pose(now)), now)
-
-
-def _start(pose: Pose2D, arrived: tuple[Pose2D, Pose2D] | None) -> Pose2D:
-    """Where a move starts: at the end of the last one, if the robot has not moved since."""
-    if arrived is None:
-        return pose
-    goal, stood = arrived
-    has_moved = math.dist((pose.x, pose.y), (stood.x, stood.y)) > STILL
-    return pose if has_moved or abs(wrapped(pose.heading - stood.heading)) > STILL else goal
+    start = nominal_pose(context.board, pose)
+    goal = after_move(start, *(in_si(UNIT_DISTANCE, way) for way in (x, y)))
+    await go_to_point(context, goal, near=in_m(near))
 
 
 async def go_to_point(
@@ -300,7 +293,7 @@ async def go_to_point(
         context.fail(why)
 
 
-def _in_m(near: float) -> float | None:
+def in_m(near: float) -> float | None:
     """A distance in default units, in meters; None for 0."""
     return in_si(UNIT_DISTANCE, near) or None
 

@@ -18,9 +18,10 @@ from contextlib import contextmanager
 from typing import ClassVar
 
 from hri.core.errors import HriError
-from hri.core.geometry import wrapped
+from hri.core.geometry import along_arc, wrapped
 from hri.core.signals import Pose2D, Twist
 from hri.drive.behaviors import COMMAND, MOTION, CommandGate
+from hri.drive.nominal_pose import nominal_pose, note_arrival
 from hri.drive.own_gate import see_to_gate
 from hri.drive.progress import Patience
 from hri.hal.drive import DriveSystem, Odometry, Stop, longest_move, too_long
@@ -148,6 +149,10 @@ class _Way(ABC):
         """Take note of how far it got."""
 
     @abstractmethod
+    def end(self, start: Pose2D) -> Pose2D:
+        """Where it leads from there."""
+
+    @abstractmethod
     def steered(self, pose: Pose2D, braking: Twist) -> Twist:
         """What to ask the base for on the way; `braking` is what the gate slows down with."""
 
@@ -160,7 +165,7 @@ class _Way(ABC):
 
 
 class _Straight(_Way):
-    near = 0.005
+    near = 0.002
     deceleration, unit = 0.3, "m/s²"
     _start: Pose2D | None = None
 
@@ -169,13 +174,16 @@ class _Straight(_Way):
         ahead, left = math.cos(start.heading), math.sin(start.heading)
         self.gone = (pose.x - start.x) * ahead + (pose.y - start.y) * left
 
+    def end(self, start: Pose2D) -> Pose2D:
+        return along_arc(start, self.goal, 0.0)
+
     def steered(self, pose: Pose2D, braking: Twist) -> Twist:
         astray = wrapped((self._start or pose).heading - pose.heading)
         return Twist(self._toward_goal(braking.linear), _HEADING_GAIN * astray)
 
 
 class _Turn(_Way):
-    near = math.radians(0.5)
+    near = math.radians(0.2)
     deceleration, unit = 1.0, "rad/s²"
     _last: Pose2D | None = None
 
@@ -183,6 +191,9 @@ class _Turn(_Way):
         # Counted on, through whole turns.
         self.gone += wrapped(pose.heading - (self._last or pose).heading)
         self._last = pose
+
+    def end(self, start: Pose2D) -> Pose2D:
+        return along_arc(start, 0.0, self.goal)
 
     def steered(self, pose: Pose2D, braking: Twist) -> Twist:
         return Twist(0.0, self._toward_goal(braking.angular))
@@ -202,16 +213,25 @@ class Pilot:
     async def follow(self, way: _Way) -> float:
         """Steer until the goal is near or comes no nearer; how far it got."""
         patience = Patience(_PATIENCE_S, way.near)
+        board = self._context.board
+        start = nominal_pose(board, self._pose())
+        way.look(start)
+        is_there = False
 
         def steer(now: float, pose: Pose2D) -> Twist | None:
+            nonlocal is_there
             way.look(pose)
             remaining = abs(way.goal - way.gone)
-            if remaining <= way.near or patience.is_over(now, remaining):
+            is_there = remaining <= way.near
+            if is_there or patience.is_over(now, remaining):
                 return None
             return way.steered(pose, self._gate.braking)
 
         await self.lead(steer)
-        way.look(self._pose())
+        pose = self._pose()
+        way.look(pose)
+        if is_there:
+            note_arrival(board, way.end(start), pose, self._clock.now())
         return way.gone  # the caller sees whether it is the whole way
 
     async def lead(self, steer: Callable[[float, Pose2D], Twist | None]) -> bool:

@@ -31,6 +31,8 @@ T = TypeVar("T")
 
 NEARLY = 0.9
 """A motion that got less far, as a share of its goal, has failed."""
+UNNOTICED = {"m": 0.005, "rad": 0.02}
+"""What may be missing at the end of a small motion, of which half must be gone."""
 
 
 @task("Hri.DriveMoveDelta")
@@ -106,7 +108,9 @@ async def _gone(
     """Wait for a motion. Fails the task when it did not get to its goal."""
     async with context.claim("drive"):
         gone = await checked(motion())
-    if gone * math.copysign(1.0, goal) < NEARLY * abs(goal):
+    whole = abs(goal)
+    missing = whole - gone * math.copysign(1.0, goal)
+    if missing > max((1 - NEARLY) * whole, min(UNNOTICED[unit], whole / 2)):
         context.fail(f"got {gone:.2f} of {goal:.2f} {unit} far - clear the way and try again")
 
 

@@ -68,10 +68,10 @@ def test_tasks_are_called_like_functions(clock):
 
 def test_a_script_goes_to_a_place_with_no_network_around_it(clock):
     find_task("Hri.GoBy")(30, 0)
-    assert pose().x == pytest.approx(0.3, abs=0.15)
+    assert pose().x == pytest.approx(0.3, abs=0.01)
     assert clock.now() < 15
     find_task("Hri.GoBy")(20, 0)
-    assert pose().x == pytest.approx(0.5, abs=0.2)
+    assert pose().x == pytest.approx(0.5, abs=0.01)
 
 
 @pytest.mark.proves("T04", "C05", "C06")
