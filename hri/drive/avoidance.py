@@ -109,7 +109,7 @@ class Manner:
     near: float = 0.1
     """Meters from the goal that count as there."""
     aim: float = math.inf
-    """Where it is there, it goes on to so many meters, as long as the goal lies ahead."""
+    """Where it is there, it goes on until it is this near, meters, as long as the goal is ahead."""
 
 
 def towards(pose: Pose2D, goal: Pose2D) -> tuple[float, float]:

@@ -287,7 +287,7 @@ async def go_to_point(
 ) -> None:
     """Go to a place, and face as it says. Fails the task when it does not get there.
 
-    Raises HriError for a goal that is no place, and a `near` (meters) that is too small.
+    Raises HriError for a goal that is not finite, and a `near` (meters) that is too small.
     """
     if why := await checked(_why_not_gone_to(context, goal, faces, near)):
         context.fail(why)

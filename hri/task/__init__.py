@@ -13,7 +13,8 @@ claims          who may use the drive and the voice
 context         TaskContext: what a task may use
 events          events as text; conditions: combinations; thresholds: events on values of ports
 primitive       tasks that are a network
-units           the units of the tasks in navigation, net, resource, speech, util, vision
+units           the units of the tasks
+face, navigation, net, resource, speech, util, vision    all tasks of the library, by subject
 """
 
 from hri.task.context import TaskContext

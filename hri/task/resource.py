@@ -6,9 +6,12 @@ from hri.core.errors import HriError, did_you_mean
 from hri.hal.resource import Resource
 from hri.hal.resource_manager import ResourceManager
 from hri.task.context import TaskContext
+from hri.task.library import tasks_by_name
 from hri.task.task import task
 
 __all__ = ["FindResource", "GetResource"]
+
+__getattr__, __dir__ = tasks_by_name(__name__, *__all__)
 
 
 @task("Hri.FindResource")

@@ -9,9 +9,12 @@ from hri.core.quantities import millisecond
 from hri.core.signals import Event
 from hri.task.context import TaskContext
 from hri.task.events import parse_query
+from hri.task.library import tasks_by_name
 from hri.task.task import task
 
 __all__ = ["RaiseEvent", "Wait", "WaitForEvent"]
+
+__getattr__, __dir__ = tasks_by_name(__name__, *__all__)
 
 
 @task("Hri.Wait")

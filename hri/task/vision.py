@@ -1,4 +1,13 @@
-"""Tasks that see: GetImage, SwitchCamera."""
+"""Tasks that see.
+
+GetImage(camera_id="")               the next picture
+SwitchCamera(on, camera_id="")
+WaitForPerson(looking=False, within=0, timeout=inf)
+LookAt(person="", seconds=0)
+FindObject(name, distance=0), FollowObject(name, distance=0, seconds=0)    default units
+WaitForObject(name="", timeout=inf)
+LearnObject(name, seconds=5, camera_id="camera"), ForgetObject(name)
+"""
 
 from __future__ import annotations
 
@@ -6,10 +15,23 @@ from hri.core.errors import NotAvailable
 from hri.core.signals import Frame
 from hri.hal.camera import Camera
 from hri.task.context import TaskContext
+from hri.task.library import tasks_by_name
 from hri.task.opening import opened
 from hri.task.task import task
 
-__all__ = ["GetImage", "SwitchCamera"]
+__all__ = [  # noqa: F822
+    "FindObject",
+    "FollowObject",
+    "ForgetObject",
+    "GetImage",
+    "LearnObject",
+    "LookAt",
+    "SwitchCamera",
+    "WaitForObject",
+    "WaitForPerson",
+]
+
+__getattr__, __dir__ = tasks_by_name(__name__, *__all__)
 
 TIMEOUT = 5.0
 """Seconds for a camera to give a picture."""

@@ -1,6 +1,5 @@
 """Spellings of tasks and events that programs of 2003 bring along."""
 
-from hri.task import navigation, net, speech
 from hri.task.primitive import Primitive, primitive
 from hri.task.task import find_task, task
 from tests.task.stage import Stage
@@ -39,9 +38,3 @@ def test_termination_requested_may_be_called():
         return [before, context.termination_requested(), bool(context.termination_requested)]
 
     assert Stage().run(looks) == [False, True, True]
-
-
-def test_the_tasks_of_a_module_can_be_listed():
-    for module in (navigation, net, speech):
-        assert dir(module) == sorted(module.__all__)
-    assert "Speak" in dir(speech)

@@ -9,6 +9,7 @@ from functools import partial
 import pytest
 import trio
 
+from hri.core import registry
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.core.signals import Frame
@@ -21,6 +22,7 @@ from hri.task import (
     UNIT_DISTANCE,
     Parallel,
     TaskStatus,
+    face,
     find_task,
     get_task_manager,
     navigation,
@@ -96,13 +98,49 @@ def test_the_first_camera_is_found_and_takes_a_picture(clock):
         vision.GetImage("camera9")
 
 
+CATEGORIES = (face, navigation, net, resource, speech, util, vision)
+
+
 @pytest.mark.proves("T05")
-def test_a_category_knows_its_tasks():
-    for category in (navigation, net, resource, speech, util, vision):
-        for name in category.__all__:
-            assert isinstance(getattr(category, name), TaskType), name
-    with pytest.raises(AttributeError, match=r'no task "Speek" - did you mean "Speak"\?'):
-        speech.Speek  # noqa: B018
+@pytest.mark.parametrize("category", CATEGORIES)
+def test_a_category_knows_its_tasks_and_shows_nothing_else(category):
+    assert dir(category) == sorted(category.__all__)
+    for name in dir(category):
+        assert isinstance(getattr(category, name), TaskType), name
+    with pytest.raises(AttributeError, match=r"has no task \"Nothing\" - known are: "):
+        category.Nothing  # noqa: B018
+    assert not hasattr(category, "__path__")
+
+
+@pytest.mark.proves("T05")
+def test_each_task_of_the_library_is_in_one_category():
+    known = sorted(name.partition(".")[2] for name in registry.known("hri.tasks"))
+    listed = sorted(name for category in CATEGORIES for name in dir(category))
+    assert listed == sorted(set(known))
+
+
+@pytest.mark.parametrize(
+    ("category", "name", "meant"),
+    [
+        (speech, "Speek", "Speak"),
+        (navigation, "goto", "GoTo"),
+        (navigation, "FollowPersn", "FollowPerson"),
+        (vision, "FindObjekt", "FindObject"),
+        (vision, "getImage", "GetImage"),
+        (util, "wait", "Wait"),
+    ],
+)
+def test_a_misspelt_task_is_told_its_name(category, name, meant):
+    with pytest.raises(AttributeError, match=rf'no task "{name}" - did you mean "{meant}"\?'):
+        getattr(category, name)
+
+
+@pytest.mark.proves("T05", "C02")
+def test_a_script_goes_to_a_place_by_its_module(clock):
+    navigation.GoTo(5, 5)
+    assert (pose().x, pose().y) == pytest.approx((0.05, 0.05), abs=0.01)
+    with pytest.raises(HriError, match=r"Hri\.GoTo: .* it takes"):
+        navigation.GoTo()
 
 
 @pytest.mark.proves("T04", "T08", "T26")
