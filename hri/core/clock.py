@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from datetime import datetime, timedelta
+from datetime import UTC, datetime, timedelta
 from typing import Generic, TypeVar
 
 import trio
@@ -226,6 +226,13 @@ class Clock(ABC):
             token.run_sync_soon(lambda: self._changed.set())
         except trio.RunFinishedError:
             return  # the loop has ended meanwhile
+
+
+def since_1970(clock: Clock) -> float:
+    """Seconds since 1970, for people and other programs, as `Clock.wall` has them."""
+    wall = clock.wall()
+    # What a fake clock shows is the same everywhere on earth.
+    return (wall.replace(tzinfo=UTC) if clock.is_fake else wall).timestamp()
 
 
 class RealClock(Clock):

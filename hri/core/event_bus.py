@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
-from hri.core.clock import Clock
+from hri.core.clock import Clock, since_1970
 from hri.core.errors import HriError
 from hri.core.origin import BRIDGE, caused_by, origin
 from hri.core.signals import Event
@@ -64,8 +64,7 @@ class EventBus:
         """Call all listeners whose pattern matches, now; a failing one does not affect the
         others. It has the origin of what goes on now (`hri.core.origin`).
         """
-        now = self.clock.now()
-        return self._tell(Event(name, now, properties, origin=origin(), is_raised=True))
+        return self._tell(Event(name, properties=properties, origin=origin()))
 
     def raise_from_outside(self, event: Event) -> Event:
         """Raise an event of another program, now and marked as such.
@@ -73,11 +72,11 @@ class EventBus:
         Raises HriError as `check_from_outside` does.
         """
         check_from_outside(event)
-        event = replace(event, time=self.clock.now(), is_from_outside=True, is_raised=True)
         with caused_by(BRIDGE):
-            return self._tell(replace(event, origin=BRIDGE))
+            return self._tell(replace(event, is_from_outside=True, origin=BRIDGE))
 
     def _tell(self, event: Event) -> Event:
+        event = replace(event, time=self.clock.now(), since_1970=since_1970(self.clock))
         for subscription in tuple(self.subscriptions):
             if matches(subscription.pattern, event.name):
                 subscription.tell(event)

@@ -532,8 +532,8 @@ class Event:
     """Whether another program raised it, over the network: nothing that the robot has sensed."""
     origin: str = ""
     """Who caused it from outside, as `hri.core.origin` has it; empty for the robot itself."""
-    is_raised: bool = field(default=False, compare=False, repr=False)
-    """Whether it has happened, so that others have it."""
+    since_1970: float = field(default=0.0, compare=False, repr=False)
+    """Seconds since 1970 at which it was raised, for people; 0 before."""
 
     def set_property(self, name: str, value: float | str) -> None:
         """Give a property to an event that will be raised; a text like "3.0" becomes a number.
@@ -541,7 +541,7 @@ class Event:
         Raises HriError once it has been raised, for a name that cannot be written, and for what is
         not a finite number or a text.
         """
-        if self.is_raised or not isinstance(self.properties, dict):
+        if self.since_1970 or not isinstance(self.properties, dict):
             remedy = "make an event of that name, and set its properties"
             raise HriError(f"{self.name} has been raised and does not change - {remedy}")
         self.properties[checked_name(name)] = plain_value(name, value)

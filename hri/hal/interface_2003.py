@@ -1,6 +1,10 @@
 """Interfaces by the names of 2003, for `obtain("drive", "IDriveSystem")`.
 
-A name stands for an interface only where its numbers mean what they meant in 2003.
+A name stands for an interface only where its numbers mean what they meant in 2003. Those of your
+own are classes with an id, which the driver derives from, as in 2003:
+
+class ICompass(Resource):
+    INTERFACE_ID = "Examples.ICompass"
 """
 
 from __future__ import annotations
@@ -65,27 +69,43 @@ class IDriveSystem:
         return self.drive.halt(how)
 
 
+def _itself(resource: Any) -> Any:
+    return resource
+
+
 _INTERFACES: Mapping[str, tuple[type[Resource], Callable[[Any], Any]]] = {
-    "ICamera": (Camera, lambda camera: camera),
+    "ICamera": (Camera, _itself),
     "IDriveSystem": (DriveSystem, IDriveSystem),
-    "IStream": (Stream, lambda stream: stream),
+    "IStream": (Stream, _itself),
 }
 """For each name: the class that a resource must have, and what is handed out for it."""
 
 
-def interface_named(name: str) -> tuple[type[Resource], Callable[[Any], Any]]:
-    """The class that a resource must have for a name, and what makes the interface from it.
+def interface_named(name: str, resource: Resource) -> Callable[[Any], Any]:
+    """What makes the interface of that name from a resource, which need not be open.
 
-    The name may carry a namespace: "Evolution.IDriveSystem". Raises HriError for an unknown one.
+    The name may carry a namespace: "Evolution.IDriveSystem". An id of a driver's own goes before
+    ours. Raises HriError for an unknown one, and for one that the driver does not have.
     """
-    found = _INTERFACES.get(name.rpartition(".")[2])
-    if found is None:
-        remedy = did_you_mean(name.rpartition(".")[2], _INTERFACES)
+    own, last = own_interfaces(type(resource)), name.rpartition(".")[2]
+    if name in own:
+        return _itself
+    needed, made = _INTERFACES.get(last, (None, _itself))
+    if needed is None:
+        remedy = did_you_mean(name if own else last, (*own, *_INTERFACES))
         raise HriError(
             f'no interface of 2003 is called "{name}" here - {remedy}; or give the class itself, '
-            "such as RangeSensor"
+            "such as RangeSensor, or your class an INTERFACE_ID"
         )
-    return found
+    if not isinstance(resource, needed):
+        what = f'"{resource.id}" is a {type(resource).__name__}, not a {needed.__name__}'
+        raise HriError(f"{what} - check the id")
+    return made
+
+
+def own_interfaces(driver: type[Resource]) -> dict[str, type]:
+    """The interfaces that a driver derives from and that have an id, by it."""
+    return {vars(cls)["INTERFACE_ID"]: cls for cls in driver.__mro__ if "INTERFACE_ID" in vars(cls)}
 
 
 def resource_of(handed: Resource | IDriveSystem) -> Resource:

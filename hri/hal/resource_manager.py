@@ -111,12 +111,12 @@ class ResourceManager:
         """The open resource of that id, its stand-in where it is not there; adds a user.
 
         `interface` is a class, or a name of 2003: `obtain("drive", "IDriveSystem")` hands out the
-        drive in centimeters. Raises HriError for an unknown id, an unknown or a wrong interface,
-        NotAvailable when neither the device nor a stand-in can be opened.
+        drive in centimeters; also the INTERFACE_ID of a class that the driver derives from. Raises
+        HriError for an unknown id, an unknown or a wrong interface, NotAvailable when neither the
+        device nor a stand-in can be opened.
         """
         if isinstance(interface, str):
-            needed, made = interface_named(interface)
-            return made(self.obtain(id, needed))
+            return self._obtain_named(id, interface)
         resource = self._reserved(id)
         if not isinstance(resource, interface):
             self.release(resource)
@@ -124,6 +124,15 @@ class ResourceManager:
                 f'"{id}" is a {type(resource).__name__}, not a {interface.__name__} - check the id'
             )
         return resource
+
+    def _obtain_named(self, id: str, name: str) -> Any:
+        interface_named(name, self._resource(self.known_id(id)))  # refused before it is opened
+        resource = self._reserved(id)
+        try:
+            return interface_named(name, resource)(resource)
+        except HriError:
+            self.release(resource)
+            raise
 
     def release(self, resource: Resource | IDriveSystem) -> None:
         """Give back what `obtain` gave; the last user's release deactivates it."""

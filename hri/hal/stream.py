@@ -3,6 +3,7 @@
 from abc import abstractmethod
 from enum import Enum
 
+from hri.core.errors import HriError
 from hri.hal.resource import Resource
 
 
@@ -22,8 +23,8 @@ class Stream(Resource):
         """The next bytes, at most `count`; fewer at the end."""
 
     @abstractmethod
-    def write(self, data: bytes) -> None:
-        """Write all of it."""
+    def write(self, data: bytes | str) -> None:
+        """Write all of it, a text as UTF-8. Raises HriError for anything else."""
 
     @abstractmethod
     def seek(self, origin: Seek, offset: int) -> None:
@@ -33,3 +34,12 @@ class Stream(Resource):
     @abstractmethod
     def position(self) -> int:
         """Bytes from the beginning."""
+
+
+def as_bytes(data: bytes | str) -> bytes:
+    """What a driver writes for it; a text becomes UTF-8. Raises HriError for anything else."""
+    if isinstance(data, str):
+        return data.encode("utf-8", "surrogateescape")
+    if not isinstance(data, (bytes, bytearray, memoryview)):
+        raise HriError(f"a stream cannot write {data!r:.60} - give bytes or a text")
+    return bytes(data)

@@ -15,11 +15,10 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from datetime import UTC
 from typing import Any
 from urllib.parse import quote, unquote
 
-from hri.core.clock import Clock
+from hri.core.clock import Clock, since_1970
 from hri.core.errors import HriError
 from hri.core.properties import NUMBER, checked_name, plain_value
 from hri.core.signals import Event
@@ -47,13 +46,15 @@ def event(name: str, /, **properties: Any) -> Event:
 def write_event(event: Event, clock: Clock | None = None) -> str:
     """The text form, properties sorted by name.
 
-    The time is 0 for an event that was not raised; with a `clock`, that on which it was raised, it
-    is in seconds since 1970. Raises HriError for what the form cannot hold.
+    The time is 0 for an event that was not raised, else in seconds since 1970, as coarse as 2003
+    wrote it. A `clock` is needed only for an event that a program made with the time of that clock.
+    Raises HriError for what the form cannot hold.
     """
     checked_name(event.name)
-    seconds = event.time if clock is None else _since_1970(event, clock)
-    # Since 1970 as 2003 wrote it, which is too coarse for a time that is read again.
-    time = f"{seconds:g}" if clock is not None else _exact(f"{seconds:g}", seconds)
+    seconds = event.since_1970
+    if clock is not None and not seconds:
+        seconds = since_1970(clock) - (clock.now() - event.time)
+    time = f"{seconds:g}" if seconds else _exact(f"{event.time:g}", event.time)
     parts = [f"{{Event {event.name} [time {time}]"]
     for name in sorted(event.properties):
         checked_name(name)
@@ -157,13 +158,6 @@ def _plain(quoted: str) -> str:
         return unquote(quoted, errors="surrogatepass")
     except UnicodeDecodeError:
         return unquote(quoted)
-
-
-def _since_1970(event: Event, clock: Clock) -> float:
-    wall = clock.wall()
-    # What a fake clock shows is the same everywhere on earth.
-    origin = wall.replace(tzinfo=UTC) if clock.is_fake else wall
-    return origin.timestamp() - (clock.now() - event.time)
 
 
 def _check_length(text: str) -> None:

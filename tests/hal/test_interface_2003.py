@@ -11,7 +11,7 @@ from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError
 from hri.hal.camera import Camera
 from hri.hal.drive import DriveSystem, Odometry, Stop
-from hri.hal.resource import Description
+from hri.hal.resource import Description, Resource
 from hri.hal.resource_manager import ResourceManager
 
 WORLD = Description("world", "Hri.SimulatedWorld", {"voice": "mute"})
@@ -139,3 +139,55 @@ def test_the_longest_move_is_a_parameter_of_the_drive(
 def test_a_longest_move_that_is_none_is_refused_at_load() -> None:
     with made(longest_move="-1") as resources, pytest.raises(AuthoringError, match="longest_move"):
         resources.check()
+
+
+class ICompass:
+    """An interface of one's own, beside the base of drivers."""
+
+    INTERFACE_ID = "Examples.ICompass"
+
+
+class INorth(Resource):
+    """Another, which derives from it."""
+
+    INTERFACE_ID = "Examples.INorth"
+
+
+class Compass(ICompass, INorth):
+    """A driver of both."""
+
+
+class OwnStream(Resource):
+    """As the tutorial of the guide has it: not the stream of the library."""
+
+    INTERFACE_ID = "Examples.IStream"
+
+
+@pytest.fixture
+def own(resources: ResourceManager) -> ResourceManager:
+    for id, driver in (("c0", Compass), ("output", OwnStream)):
+        resources.substitute(id, driver(Description(id, "Mine.Driver"), resources))
+    return resources
+
+
+@pytest.mark.proves("H18")
+@pytest.mark.parametrize("name", ["Examples.ICompass", "Examples.INorth"])
+def test_an_interface_of_ones_own_is_obtained_by_its_id(own: ResourceManager, name: str) -> None:
+    compass = own.obtain("c0", name)
+    assert isinstance(compass, Compass)
+    assert compass.reservations == 1
+    own.release(compass)
+    assert not compass.is_active
+
+
+@pytest.mark.proves("H18")
+def test_an_id_of_ones_own_goes_before_that_of_the_library(own: ResourceManager) -> None:
+    assert isinstance(own.obtain("output", "Examples.IStream"), OwnStream)
+    with pytest.raises(HriError, match='"output" is a OwnStream, not a Stream'):
+        own.obtain("output", "Evolution.IStream")
+
+
+def test_a_misspelt_id_of_ones_own_is_told_the_right_one(own: ResourceManager) -> None:
+    with pytest.raises(HriError, match=r'did you mean "Examples\.ICompass"\?'):
+        own.obtain("c0", "Examples.IKompass")
+    assert not own.opened(Compass)

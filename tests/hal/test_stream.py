@@ -24,6 +24,16 @@ def test_testing_is_written(tmp_path, open_driver):
     assert (tmp_path / "output.txt").read_bytes() == b"Testing"
 
 
+def test_a_text_is_written_as_in_2003(tmp_path, open_driver):
+    stream = open_driver(FileStream, file_path=tmp_path / "output.txt")
+    stream.write("Größe ")
+    stream.write(bytearray(b"9"))
+    with pytest.raises(HriError, match="cannot write 5 - give bytes or a text"):
+        stream.write(5)
+    stream.deactivate()
+    assert (tmp_path / "output.txt").read_text(encoding="utf-8") == "Größe 9"
+
+
 @pytest.mark.parametrize(("truncate", "after"), [("true", b"new"), ("false", b"old new")])
 def test_truncate_says_whether_the_file_is_kept(tmp_path, open_driver, truncate, after):
     (tmp_path / "f").write_bytes(b"old ")

@@ -1,4 +1,5 @@
 import string
+from datetime import UTC
 
 import pytest
 from hypothesis import given, strategies as st
@@ -8,6 +9,7 @@ from hri.core.errors import HriError
 from hri.core.event_bus import EventBus
 from hri.core.signals import Event
 from hri.task.events import event, parse_event, parse_query, write_event, write_query
+from tests.task.stage import Stage
 
 SHOOT = (
     '{Event Examples.PhotoEvent.Shoot [time 0] (count: 3.000000) (delay: 1.000000) (name: "a_")}'
@@ -42,9 +44,26 @@ def test_a_raised_event_has_the_seconds_since_1970():
     clock.advance(5.0)
     done = EventBus(clock).raise_event("Examples.PhotoEvent.Done", name="a_")
     clock.advance(7.0)
-    assert write_event(done, clock) == (
-        '{Event Examples.PhotoEvent.Done [time 1.05593e+09] (name: "a_")}'
-    )
+    written = '{Event Examples.PhotoEvent.Done [time 1.05593e+09] (name: "a_")}'
+    assert write_event(done) == write_event(done, clock) == written
+    assert done.since_1970 == pytest.approx(clock.wall().replace(tzinfo=UTC).timestamp() - 7.0)
+
+
+@pytest.mark.proves("T16")
+def test_an_event_that_a_task_receives_has_the_seconds_since_1970():
+    stage = Stage()
+
+    async def received(context) -> str:
+        context.clock.call_at(2.0, lambda: context.manager.raise_event(event("Mine.Done", n=1)))
+        return write_event(await context.wait_for("Mine.*"))
+
+    assert stage.run(received) == "{Event Mine.Done [time 1.05593e+09] (n: 1.000000)}"
+
+
+@pytest.mark.proves("T16")
+def test_an_event_of_another_program_has_the_seconds_since_1970():
+    raised = EventBus(FakeClock()).raise_from_outside(parse_query("Door.Opened"))
+    assert write_event(raised) == "{Event Door.Opened [time 1.05593e+09]}"
 
 
 @pytest.mark.proves("T15", "E2")

@@ -16,7 +16,7 @@ async def PhotoEventTest(context: TaskContext) -> None:
     context.manager.raise_event(shoot)
 
     done = await context.task.wait_for_event("Examples.PhotoEvent.Done")
-    print("test_event - received event:", write_event(done, context.clock))
+    print("test_event - received event:", write_event(done))
 
     end = event("Examples.PhotoEvent.End")
     print("test_event - raising event:", write_event(end))

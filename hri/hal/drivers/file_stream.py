@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 
 from hri.core.errors import HriError
-from hri.hal.stream import Seek, Stream
+from hri.hal.stream import Seek, Stream, as_bytes
 
 _WHENCE = {Seek.ABSOLUTE: os.SEEK_SET, Seek.RELATIVE: os.SEEK_CUR, Seek.END: os.SEEK_END}
 
@@ -36,8 +36,8 @@ class FileStream(Stream):
             raise ValueError(f"{count} bytes - read 0 or more")
         return self._file.read(count)
 
-    def write(self, data: bytes) -> None:
-        self._file.write(data)
+    def write(self, data: bytes | str) -> None:
+        self._file.write(as_bytes(data))
 
     def seek(self, origin: Seek, offset: int) -> None:
         try:
