@@ -48,9 +48,9 @@ class BlockingVerbs(ABC):
         answer: bool | Utterance | None = self.run(verbs.ask, question, timeout, grammar, retries)
         return answer
 
-    def listen(self, timeout: float = float("inf")) -> Utterance | None:
-        """The next thing heard."""
-        heard: Utterance | None = self.run(verbs.listen, timeout)
+    def listen(self, timeout: float = float("inf"), grammar: str = "") -> Utterance | None:
+        """The next thing heard, by a grammar (name or path) that is in force meanwhile."""
+        heard: Utterance | None = self.run(verbs.listen, timeout, grammar)
         return heard
 
     def show(self, expression: str, seconds: float = 4.0) -> None:

@@ -107,9 +107,15 @@ async def why(context: TaskContext, about: str = "") -> str:
     return context.behavior(EmotionModel).why_words(about)
 
 
-async def listen(context: TaskContext, timeout: float = float("inf")) -> Utterance | None:
-    """The next thing heard; None when nothing is heard in time."""
-    return await wait_for_speech(context, "", timeout)
+async def listen(
+    context: TaskContext, timeout: float = float("inf"), grammar: str = ""
+) -> Utterance | None:
+    """The next thing heard; None when nothing is heard in time.
+
+    With the name or path of a `grammar`, that one is in force meanwhile; raises HriError for one
+    that cannot be used.
+    """
+    return await wait_for_speech(context, "", timeout, grammar)
 
 
 async def ask(

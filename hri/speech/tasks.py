@@ -77,12 +77,16 @@ def hears_people(context: TaskContext) -> bool:
 
 
 async def wait_for_speech(
-    context: TaskContext, rules: str = "", timeout: float = float("inf")
+    context: TaskContext, rules: str = "", timeout: float = float("inf"), grammar: str = ""
 ) -> Utterance | None:
     """The next thing heard by one of these rules, spaces between; by any when none is named.
 
-    None when nothing of that kind is heard in `timeout` seconds.
+    None when nothing of that kind is heard in `timeout` seconds. With the name or path of a
+    `grammar`, that one is in force meanwhile; raises HriError for one that cannot be used.
     """
+    if grammar:
+        async with answers_of(context, grammar):
+            return await wait_for_speech(context, rules, timeout)
     listener = await listener_of(context)
     end = context.clock.now() + timeout
     with context.queue("speech.heard") as queue:

@@ -166,6 +166,21 @@ def test_a_question_without_a_network_hears_its_answer(clock):
     assert speech.Ask("Do you like me?", timeout=5) is True
 
 
+def test_a_script_chooses_what_may_be_heard(clock, tmp_path):
+    path = tmp_path / "base.jsgf"
+    path.write_text(
+        "#JSGF V1.0;\ngrammar base;\npublic <go> = go (forward {dir=1} | back {dir=-1});\n"
+    )
+    world = get_task_manager().context.resources.obtain("world", SimulatedWorld)
+    world.say("go back", clock.now() + 1.0)
+    heard = speech.Listen(8, str(path))
+    assert (heard.text, heard.rule, dict(heard.tags)) == ("go back", "go", {"dir": -1})
+    world.say("go forward", clock.now() + 1.0)
+    assert speech.WaitForSpeech("go", 8, str(path)).tags["dir"] == 1
+    with pytest.raises(HriError, match="nowhere"):
+        speech.Listen(1, "nowhere")
+
+
 @pytest.mark.proves("T09", "T12")
 def test_installed_tasks_and_events(clock):
     manager = get_task_manager()
