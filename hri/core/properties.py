@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from contextlib import suppress
 from typing import Any
 
 from hri.core.errors import HriError
@@ -21,8 +22,10 @@ def plain_value(name: str, value: Any) -> float | str:
         if not NUMBER.fullmatch(value) or not math.isfinite(float(value)):
             return value
         return float(value)
-    if isinstance(value, (int, float)) and math.isfinite(value):
-        return float(value)
+    if isinstance(value, (int, float)):
+        with suppress(OverflowError):
+            if math.isfinite(number := float(value)):
+                return number
     raise HriError(f"the property {name} is {value!r:.40} - give a finite number or a text")
 
 

@@ -445,6 +445,8 @@ class FoundObject:
     """Radians from the robot's straight ahead to the left."""
     elevation: float = 0.0
     """Radians from the robot's straight ahead up."""
+    attributes: Mapping[str, float | str] = field(default_factory=dict, hash=False)
+    """What its set says of it: numbers and texts by name."""
 
 
 @dataclass(frozen=True, slots=True)

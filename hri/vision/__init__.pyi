@@ -7,5 +7,9 @@ from .camera_view import CameraView as CameraView
 from .gestures.gesture_behaviors import HeadGestures as HeadGestures
 from .head_pose import head_pose as head_pose
 from .naming import FaceNames as FaceNames
+from .objects.learning import ObjectLearner as ObjectLearner
+from .objects.model_file import load_models as load_models, save_models as save_models
+from .objects.object_model import ModelSet as ModelSet
+from .objects.recognizer import ObjectRecognizer as ObjectRecognizer
 from .point_and_go import PointAndGo as PointAndGo
 from .tasks import look_at as look_at, people_of as people_of, wait_for_person as wait_for_person

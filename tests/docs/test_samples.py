@@ -77,6 +77,23 @@ def test_the_base_reports_drives_and_comes_back(capsys):
     assert printed.count("battery ") == printed.count("range_front ") == 3
 
 
+@pytest.mark.proves("P08", "R08")
+def test_a_program_teaches_a_set_by_pictures_and_recognizes_by_it(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    teaching = load("objrec/teach.py")
+    teaching.main([])
+    told = capsys.readouterr().out
+    found = re.findall(r"room.jpg: (\w+) at \(\d+, \d+\), (\d+) cm away, (\S+) euros", told)
+    assert {(name, price) for name, _, price in found} == {("coffee", "1.50"), ("rocket", "2.00")}
+    assert all(30 < int(distance) < 200 for _, distance, _ in found)
+    assert (tmp_path / "cards.mdl").stat().st_mode & 0o77 == 0
+    page = (paths.house() / "docs" / "objects.md").read_text()
+    program = (SAMPLES / "objrec/teach.py").read_text()
+    for block in re.findall(r"```python\n(.*?)```", page, re.DOTALL):
+        for line in block.splitlines():
+            assert line.strip() in program, line
+
+
 @pytest.mark.proves("P08")
 def test_the_screen_shows_each_expression(monkeypatch, capsys):
     pictures = []

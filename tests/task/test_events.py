@@ -127,6 +127,8 @@ def test_what_cannot_be_written_is_refused():
         event("two words")
     with pytest.raises(HriError, match="give a finite number or a text"):
         write_event(Event("a", 0.0, {"tags": {}}))
+    with pytest.raises(HriError, match="give a finite number or a text"):
+        event("a", count=10**400)
 
 
 @pytest.mark.proves("T23")

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import argparse
 
-from hri.cli.object import check, learn, list, merge, remove, show, split, test
+from hri.cli.object import attribute, check, learn, list, merge, remove, show, split, test
 
 COMMANDS = {
     "learn": (learn, "learn an object from pictures, a video or the camera"),
     "list": (list, "list the objects of a set"),
     "show": (show, "draw the views of an object, with their features"),
+    "attribute": (attribute, "set or list what is noted of an object"),
     "test": (test, "recognize objects in pictures"),
     "check": (check, "report objects that are too plain or look like others"),
     "remove": (remove, "remove objects from a set"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 
+from hri.cli.object.attribute import attribute_lines
 from hri.cli.object.options import add_set, loaded
 
 
@@ -22,16 +23,18 @@ def run(options: argparse.Namespace) -> int:
             "features": sum(len(view.features) for view in model.views),
             "size_known": any(view.scale > 0 for view in model.views),
             "learned": model.learned,
+            "attributes": dict(model.attributes),
         }
         for model in models.objects
     ]
     if options.json:
         print(json.dumps({"method": models.method, "objects": rows}))
         return 0
-    for row in rows:
+    for row, model in zip(rows, models.objects, strict=True):
         size = "size known" if row["size_known"] else "size unknown"
         print(
             f"{row['name']:20} {row['views']:2} views  {row['features']:5} features"
-            f"  {size:12}  {row['learned']}".rstrip()
+            f"  {size:12}  {row['learned']}".rstrip(),
+            *attribute_lines(model.attributes),
         )
     return 0

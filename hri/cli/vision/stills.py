@@ -201,6 +201,7 @@ def object_rows(still: StillImage, found: Iterable[FoundObject]) -> list[Row]:
             "outline": [[*_point(still, x, y).values()] for x, y in one.outline],
             "distance_m": _number(one.distance),
             "confidence": round(one.confidence, 3),
+            "attributes": dict(one.attributes),
         }
         for one in found
     ]

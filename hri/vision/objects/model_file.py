@@ -2,11 +2,12 @@
 
 The container is a ZIP archive that is stored without compression; one that another tool deflated
 is read, too. `model_set.json` in it has the
-keys `format` (1), `method` and `objects`; an object has `name`, `learned` and `views`; a view has
-`picture`, `points` and `descriptors` (names of entries of the archive), `outline` (pairs of
-pixels), `scale` (meters to a pixel) and `source`. A picture is a JPEG; points are rows of two
-float32, descriptors rows of uint8, both without any header. All of it, each entry as often as it is
-named and each picture as it is decoded, has at most `LARGEST` bytes.
+keys `format` (1), `method` and `objects`; an object has `name`, `learned`, `views` and perhaps
+`attributes` (numbers and texts by name); a view has `picture`, `points` and `descriptors` (names of
+entries of the archive), `outline` (pairs of pixels), `scale` (meters to a pixel) and `source`. A
+picture is a JPEG; points are rows of two float32, descriptors rows of uint8, both without any
+header. All of it, each entry as often as it is named and each picture as it is decoded, has at most
+`LARGEST` bytes.
 
 A file of text is a list of names instead, one a line, with comments from "#": its objects have the
 labels of these names (`printed_label`), which things of the simulated room bear.
@@ -39,6 +40,7 @@ from hri.hal.drivers.image_size import count_scans, read_header
 from hri.vision.objects.cutout import whole
 from hri.vision.objects.learning import MOST_VIEWS, view_of
 from hri.vision.objects.local_features import METHODS, SIFT, Features
+from hri.vision.objects.object_attributes import Attributes, checked_attributes
 from hri.vision.objects.object_model import ModelSet, ObjectModel, View
 from hri.vision.objects.printed_label import SIZE, WIDTH, printed_label
 
@@ -121,7 +123,8 @@ def save_models(path: Path, models: ModelSet) -> None:
                 _write_view(archive, f"{number:04d}-{index:02d}", view)
                 for index, view in enumerate(model.views)
             ]
-            objects.append({"name": model.name, "learned": model.learned, "views": views})
+            more = {"attributes": dict(model.attributes)} if model.attributes else {}
+            objects.append({"name": model.name, "learned": model.learned, "views": views} | more)
         manifest = {"format": FORMAT, "method": models.method, "objects": objects}
         text = json.dumps(manifest, ensure_ascii=False).encode(errors="replace")
         _put(archive, MANIFEST, text)
@@ -223,7 +226,17 @@ class _Reader:
         self._require(is_day and learned.isprintable(), f"{name}: learned")
         is_list = isinstance(views, list) and 0 < len(views) <= MOST_VIEWS
         self._require(is_list, f"{name}: views")
-        return ObjectModel(name, tuple(self._view(name, each) for each in views), learned)
+        attributes = self._attributes(name, data.get("attributes", {}))
+        return ObjectModel(
+            name, tuple(self._view(name, each) for each in views), learned, attributes
+        )
+
+    def _attributes(self, name: str, data: Any) -> Attributes:
+        self._require(isinstance(data, dict), f"{name}: attributes")
+        try:
+            return checked_attributes(data)
+        except HriError as error:
+            raise self._error(f"{name}: {error}") from error
 
     def _view(self, name: str, data: Any) -> View:
         self._require(isinstance(data, dict), f"{name}: a view is not a table")

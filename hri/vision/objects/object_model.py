@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +47,8 @@ class ObjectModel:
     views: tuple[View, ...]
     learned: str = ""
     """The day on which it was learned, such as "2026-11-23"."""
+    attributes: Mapping[str, float | str] = field(default_factory=dict, hash=False)
+    """Whatever a program wants to know of it; see `object_attributes`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,9 +64,14 @@ class ModelSet:
         return next((model for model in self.objects if model.name == name), None)
 
     def with_object(self, model: ObjectModel) -> ModelSet:
-        """This set with an object more; one of the same name is replaced where it stands."""
-        if self.find(model.name) is None:
+        """This set with an object more; one of the same name is replaced where it stands.
+
+        It hands on its attributes to one that has none.
+        """
+        former = self.find(model.name)
+        if former is None:
             return ModelSet(self.method, (*self.objects, model))
+        model = replace(model, attributes=model.attributes or former.attributes)
         others = (model if one.name == model.name else one for one in self.objects)
         return ModelSet(self.method, tuple(others))
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import cv2
@@ -84,6 +84,7 @@ class ObjectRecognizer:
         Objects without texture are found by color and shape, or by shape and `embedding`.
         """
         self._view = view or CameraView()
+        self._attributes = {model.name: model.attributes for model in models.objects}
         self._plain = PlainRecognizer(
             [model for model in models.objects if all(one.is_plain for one in model.views)],
             self._view,
@@ -112,6 +113,7 @@ class ObjectRecognizer:
         size = image.shape[1], image.shape[0]
         found = [self._described(seen, size) for seen in self._seen(image)]
         found += [one for one in self._plain.recognize(image) if not _is_covered(one, found)]
+        found = [replace(one, attributes=self._attributes[one.name]) for one in found]
         return tuple(sorted(found, key=lambda one: -one.confidence))
 
     def _seen(self, image: Image) -> Iterator[_Seen]:

@@ -125,6 +125,42 @@ def test_the_objects_of_a_set_are_listed_shown_and_checked(home, capsys):
     assert "2 objects, all told apart" in capsys.readouterr().out
 
 
+def test_what_is_noted_of_an_object_is_set_shown_and_told_where_it_is_seen(home, capsys):
+    save_models(own_models(), learned("cup", "tea"))
+    assert hri_object("attribute", "cup", "owner=Ann Lee", "price=3.50", "spare=1") == 0
+    assert capsys.readouterr().out.splitlines() == ["owner=Ann Lee", "price=3.5", "spare=1"]
+    assert hri_object("attribute", "cup", "spare=", "price=4") == 0
+    capsys.readouterr()
+    assert hri_object("list", "--json") == 0
+    first, second = json.loads(capsys.readouterr().out)["objects"]
+    assert (first["attributes"], second["attributes"]) == ({"owner": "Ann Lee", "price": 4.0}, {})
+    assert hri_object("list") == 0
+    assert "owner=Ann Lee price=4\n" in capsys.readouterr().out
+    assert hri_object("show", "cup", "--out", home / "cup.png") == 0
+    assert "owner=Ann Lee\nprice=4\n" in capsys.readouterr().out
+    there = picture(home / "there.png", standing("cup", 0.7))
+    assert hri_object("test", there, "--json") == 0
+    (found,) = json.loads(capsys.readouterr().out)["objects"]
+    assert found["attributes"] == {"owner": "Ann Lee", "price": 4.0}
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("cup", "owner"), '"owner" is not an attribute - write KEY=VALUE'),
+        (("cup", "none="), 'no attribute "none" to take away - it has: none'),
+        (("cup", "a b=1"), "is not a valid name"),
+        (("cub", "a=1"), 'did you mean "cup"?'),
+    ],
+)
+def test_a_note_that_cannot_be_is_refused_and_changes_nothing(home, capsys, words, message):
+    save_models(own_models(), learned("cup"))
+    before = own_models().read_bytes()
+    assert hri_object("attribute", *words) == 2
+    assert message in capsys.readouterr().err
+    assert own_models().read_bytes() == before
+
+
 def test_an_object_is_removed_and_a_wrong_name_changes_nothing(home, capsys):
     save_models(own_models(), learned("cup", "key"))
     assert hri_object("remove", "cup", "kex") == 2

@@ -6,6 +6,7 @@ import stat
 import struct
 import zipfile
 import zlib
+from dataclasses import replace
 
 import cv2
 import numpy as np
@@ -25,6 +26,7 @@ from hri.vision.objects.model_file import (
     own_models,
     save_models,
 )
+from hri.vision.objects.object_attributes import checked_attributes
 from hri.vision.objects.object_model import ModelSet
 from hri.vision.objects.recognizer import ObjectRecognizer
 from tests.vision.objects.pictures import VIEW, learned, standing
@@ -70,6 +72,35 @@ def test_the_same_set_is_the_same_file_and_private(written, tmp_path):
     save_models(again, learned("cup", "key"))
     assert again.read_bytes() == written.read_bytes()
     assert stat.S_IMODE(os.stat(again).st_mode) == 0o600
+
+
+def test_attributes_are_kept_and_go_with_what_is_recognized(written, tmp_path):
+    models, path = load_models(written), tmp_path / "noted.mdl"
+    cup, *others = models.objects
+    noted = replace(cup, attributes=checked_attributes({"owner": "Ann", "price": "3.5", "n": 2}))
+    save_models(path, replace(models, objects=(noted, *others)))
+    again = load_models(path)
+    assert again.objects[0].attributes == {"owner": "Ann", "price": 3.5, "n": 2.0}
+    found = {one.name: one for one in ObjectRecognizer(again).recognize(cup.views[0].picture)}
+    assert found["cup"].attributes == {"owner": "Ann", "price": 3.5, "n": 2.0}
+    relearned = again.with_object(replace(cup, learned="2026-01-01")).find("cup")
+    assert relearned.attributes["owner"] == "Ann"
+
+
+@pytest.mark.parametrize(
+    ("attributes", "message"),
+    [
+        ({"": 1}, "not a valid name"),
+        ({"a=b": 1}, "write NAME=VALUE"),
+        ({"a" * 61: 1}, "too long"),
+        ({"a": float("nan")}, "finite number or a text"),
+        ({"a": None}, "finite number or a text"),
+        ({"a": "x" * 1001}, "shorten it"),
+    ],
+)
+def test_what_is_no_attribute_is_refused(attributes, message):
+    with pytest.raises(HriError, match=message):
+        checked_attributes(attributes)
 
 
 def test_a_list_of_names_has_their_labels(tmp_path):
@@ -135,6 +166,10 @@ def everywhere(key, value):
     return change
 
 
+def noted(attributes):
+    return lambda manifest: manifest["objects"][0].update(attributes=attributes)
+
+
 DAMAGE = {
     "another format": (lambda m: m.update(format=2), "its format is 2, not 1"),
     "another method": (lambda m: m.update(method="surf"), "method 'surf'"),
@@ -155,6 +190,11 @@ DAMAGE = {
     "an outline far away": (everywhere("outline", [[1e9, 0]] * 4), "cup: outline"),
     "a scale without sense": (everywhere("scale", float("nan")), "cup: scale"),
     "a source that is a number": (everywhere("source", 5), "cup: source"),
+    "attributes that are a list": (noted([1]), "cup: attributes"),
+    "an attribute that is a list": (noted({"a": [1]}), "cup: the property a is .*give a finite"),
+    "an attribute of two lines": (noted({"a": "b\nc"}), "cup: the attribute a is not a line"),
+    "an attribute of two words": (noted({"a b": 1}), "cup: .*is not a valid name"),
+    "too many attributes": (noted({f"a{n}": n for n in range(51)}), "cup: 51 attributes"),
 }
 
 
