@@ -20,6 +20,7 @@ from hri.core.signals import Frame, Pose2D, RangeReading, Twist
 from hri.hal.audio_level import AudioLevel
 from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
+from hri.hal.button import Button
 from hri.hal.camera import Camera
 from hri.hal.cliff_sensor import CliffSensor
 from hri.hal.drive import Odometry
@@ -103,6 +104,33 @@ class BumperSwitch(DeviceBehavior):
         if pressed and not self._was_pressed:
             self._events.raise_event("bumper.pressed", bumper=self.bumper_id)
         self._was_pressed = pressed
+        self.is_pressed.send(pressed)
+
+
+class ButtonSwitch(DeviceBehavior):
+    """Sends whether a button is pressed; raises `button.pressed` and `button.released`.
+
+    The latter has the `seconds` for which it was held, for what a long press does.
+    """
+
+    is_sensor = True
+    button_id = Param("button", "id of the button")
+    is_pressed = Output[bool]("boolean", "true while it is held down")
+
+    def start(self, context: Context) -> None:
+        super().start(context)
+        self._button = self.obtain(self.button_id, Button)
+        self._events = context.events
+        self._pressed_at: float | None = None
+
+    def compute(self, now: float, dt: float) -> None:
+        pressed = self._button.is_pressed(now)
+        if pressed and self._pressed_at is None:
+            self._pressed_at = now
+            self._events.raise_event("button.pressed", button=self.button_id)
+        elif not pressed and self._pressed_at is not None:
+            held, self._pressed_at = round(now - self._pressed_at, 3), None
+            self._events.raise_event("button.released", button=self.button_id, seconds=held)
         self.is_pressed.send(pressed)
 
 

@@ -2,6 +2,7 @@ from .audio_file import AudioFilePlayer as AudioFilePlayer, AudioFileRecorder as
 from .audio_level import AudioLevel as AudioLevel
 from .battery import Battery as Battery
 from .bumper import Bumper as Bumper
+from .button import Button as Button
 from .camera import Camera as Camera
 from .cliff_sensor import CliffSensor as CliffSensor
 from .configuration import Configuration as Configuration, load_configuration as load_configuration

@@ -13,6 +13,7 @@ from hri.core.geometry import placed
 from hri.core.signals import Frame, Pose2D, RangeReading, Samples, Twist
 from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
+from hri.hal.button import Button
 from hri.hal.camera import Camera
 from hri.hal.cliff_sensor import CliffSensor
 from hri.hal.drive import Odometry
@@ -180,6 +181,13 @@ class SimulatedBumper(InWorld, Bumper):
 
     def is_pressed(self, now: float) -> bool:
         return self.world.is_bumped(now)
+
+
+class SimulatedButton(InWorld, Button):
+    """A button that the visitor, a script or a test presses."""
+
+    def is_pressed(self, now: float) -> bool:
+        return self.world.is_button_pressed(self.id, now)
 
 
 class SimulatedBattery(InWorld, Battery):

@@ -56,6 +56,7 @@ DEEDS: dict[str, Deed] = {
     "approach": lambda world, person, meters, now: world.stand_at(person, float(meters), now),
     "move_away": lambda world, person, meters, now: world.stand_at(person, float(meters), now),
     "bump": lambda world, person, _, now: world.bump(now),
+    "press": lambda world, person, button, now: world.press(str(button), now),
     "battery": lambda world, person, level, now: world.set_battery(float(level), now),
 }
 """What a step can do, by its key in the file."""

@@ -36,6 +36,10 @@ class Visitor:
         """Push against the base, so that its bumper is pressed."""
         self._world.bump(self._clock.now() + after)
 
+    def press(self, button: str = "button", after: float = 0.0, seconds: float = 0.3) -> None:
+        """Hold the button of that id down for some seconds."""
+        self._world.press(button, self._clock.now() + after, seconds)
+
     def enter(self, after: float = 0.0) -> None:
         """Come in."""
         self._person.enter(self._clock.now() + after)

@@ -29,6 +29,8 @@ from hri.simulation.room import Circle, Room
 from hri.simulation.sight import Sighting, seen
 from hri.simulation.world_file import Item, PersonStart, WorldLayout, find_layout, load_layout
 
+PRESS_TIME = 0.3
+"""Seconds for which someone presses a button."""
 BUMP_TIME = 0.3
 """Seconds that someone who pushes against the base presses the bumper."""
 _NEAREST = 1.0
@@ -189,6 +191,14 @@ class SimulatedWorld(Resource):
         is_pushed = any(at <= now < at + BUMP_TIME for at in self._bumps)
         return is_pushed or self.base.is_touching
 
+    def press(self, button: str, at: float, seconds: float = PRESS_TIME) -> None:
+        """Let someone hold the button of that id down for some seconds."""
+        self._presses.append((button, at, at + seconds))
+
+    def is_button_pressed(self, button: str, now: float) -> bool:
+        """Whether someone presses the button of that id."""
+        return any(id == button and start <= now < end for id, start, end in self._presses)
+
     def battery_level(self, now: float) -> float:
         """0 (empty) to 1 (full)."""
         self.advance(now)
@@ -290,6 +300,8 @@ class SimulatedWorld(Resource):
         self.sound = Sound(self.seed_for("noise"), layout.noise_db)
         self._charge = Charge(_start_level(self.description))
         self._bumps: list[float] = []
+        self._presses: list[tuple[str, float, float]] = []
+        """Button, when it begins, when it ends."""
 
     def _clearance(self, x: float, y: float, time: float) -> float:
         return self._room_at(time).clearance(x, y)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from hri.hal.audio_level import AudioLevel
 from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
+from hri.hal.button import Button
 from hri.hal.camera import Camera
 from hri.hal.cliff_sensor import CliffSensor
 from hri.hal.drive import DriveSystem, Odometry
@@ -24,6 +25,7 @@ KINDS: Mapping[str, type[Resource]] = {
     "audio_level": AudioLevel,
     "battery": Battery,
     "bumper": Bumper,
+    "button": Button,
     "camera": Camera,
     "cliff": CliffSensor,
     "drive": DriveSystem,

@@ -16,6 +16,7 @@ DEVICES = {
     "drive": "Hri.SimulatedDrive",
     "odometry": "Hri.SimulatedOdometry",
     "bumper": "Hri.SimulatedBumper",
+    "button": "Hri.SimulatedButton",
     "battery": "Hri.SimulatedBattery",
     "range": "Hri.SimulatedRangeSensor",
     "cliff": "Hri.SimulatedCliffSensor",

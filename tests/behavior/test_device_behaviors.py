@@ -8,6 +8,7 @@ from hypothesis import given, strategies as st
 from hri.behavior.device_behaviors import (
     BatteryLevel,
     BumperSwitch,
+    ButtonSwitch,
     CameraFrames,
     CliffEdge,
     ImageDisplay,
@@ -43,6 +44,7 @@ DEVICES = {
     "drive": ("Hri.SimulatedDrive", {}),
     "odometry": ("Hri.SimulatedOdometry", {}),
     "bumper": ("Hri.SimulatedBumper", {}),
+    "button": ("Hri.SimulatedButton", {}),
     "battery": ("Hri.SimulatedBattery", {}),
     "range": ("Hri.SimulatedRangeSensor", {"x": "20", "noise": "0", "max_range": "2"}),
     "behind": ("Hri.SimulatedRangeSensor", {"yaw": "pi"}),
@@ -78,6 +80,7 @@ SENSORS = [
     CameraFrames,
     RangeSensorReading,
     BumperSwitch,
+    ButtonSwitch,
     CliffEdge,
     BatteryLevel,
     MicrophoneLevel,
@@ -135,6 +138,18 @@ def test_a_bumper_tells_when_it_is_pressed_and_raises_one_event(lent):
     events = run_for(1.0, [BumperSwitch()], lent)
     assert [event.name for event in events] == ["bumper.pressed"]
     assert events[0].time == pytest.approx(0.3)
+
+
+def test_a_button_tells_while_it_is_pressed_and_how_long_it_was(lent):
+    world = lent.resources.obtain("world", SimulatedWorld)
+    world.press("button", 0.25, seconds=1.0)
+    world.press("other", 0.1)
+    switch = ButtonSwitch()
+    events = run_for(2.0, [switch], lent)
+    assert [event.name for event in events] == ["button.pressed", "button.released"]
+    assert [event.properties["button"] for event in events] == ["button", "button"]
+    assert events[1].time - events[0].time == pytest.approx(1.0, abs=0.11)
+    assert events[1].properties["seconds"] == pytest.approx(1.0, abs=0.11)
 
 
 def test_a_cliff_sensor_tells_whether_the_floor_ends_below_it(lent):

@@ -10,6 +10,8 @@ from hri.cli.main import main
 from hri.core import paths
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError
+from hri.hal.configuration import load_configuration
+from hri.hal.resource_manager import ResourceManager
 from hri.robot import Robot
 from hri.speech.recognizers.typed import TypedRecognizer
 from hri.testing import live_for
@@ -49,6 +51,24 @@ def test_the_timer_of_the_page_rings(copied):
     said, names = said_by(copied / "kitchen", {1.0: "set a timer for three seconds"}, 7)
     assert said == ["Okay, I will tell you.", "3 seconds are over."]
     assert {"timer.ended", "gesture.ended"} <= names
+
+
+def test_the_bell_of_the_page_rings_when_its_button_is_pressed(copied):
+    robot = Robot(str(copied / "bell"), "simulated", clock=FakeClock(), devices=TYPED)
+    robot.visitor.press(after=1.0)
+    events = live_for(robot, 3.0, *robot.app.load_tasks())
+    said = [event.properties["text"] for event in events if event.name == "speech.said"]
+    assert said == ["Someone is at the door."]
+    assert {"button.pressed", "button.released"} <= {event.name for event in events}
+
+
+def test_the_devices_of_the_page_are_ones_that_a_configuration_takes(tmp_path):
+    devices = re.findall(r'^<Device id="button".*$', PAGE, re.MULTILINE)
+    assert len(devices) == 2
+    for device in devices:
+        path = tmp_path / "devices.xml"
+        path.write_text(f"<Resources><Devices>{device}</Devices></Resources>")
+        ResourceManager(load_configuration(path).devices, FakeClock()).check()
 
 
 def test_what_a_sentence_means_is_as_shown(copied, capsys):

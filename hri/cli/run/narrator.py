@@ -39,6 +39,7 @@ LINES = {
     "drive.refused": "refused   {words}",
     "drive.faulty": "faulty    {words}",
     "bumper.pressed": "bumped",
+    "button.pressed": "pressed   {button}",
     "battery.lowered": "battery   low",
     "microphone.muted": "muted     {muted}",
 }

@@ -160,6 +160,13 @@ class SerialPort(Port):
         with suppress(OSError):
             self._opened.rts = is_on
 
+    def is_clear_to_send(self, now: float) -> bool:
+        """Whether the wire "clear to send" is asserted. Raises NotAvailable when it has gone."""
+        try:
+            return bool(self._opened.cts)
+        except OSError as error:
+            raise self._lost(error, now) from error
+
     def fileno(self) -> int:
         """Its descriptor, to wait for. Raises NotAvailable while it is closed."""
         return int(self._opened.fileno())
