@@ -1,5 +1,6 @@
 """`hri new`: creates a small working driver, behavior, task, primitive, app or face. The folders of
-`templates/` work unchanged, under the name `thing`; a new one is a renamed copy.
+`templates/` and `driver_templates/` work unchanged, under the name `thing`; a new one is a renamed
+copy.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from hri.core.errors import HriError
 from hri.core.writing import new_folder
 
 TEMPLATES = Path(__file__).with_name("templates")
+DRIVER_TEMPLATES = Path(__file__).with_name("driver_templates")
 NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
 
 
@@ -66,6 +68,35 @@ KINDS = {
 FROM = {("app", "companion"): "companion_app"}
 """The kinds that accept --from."""
 
+RANGE_SENSOR = "range_sensor"
+_LISTED = "HRI_PATH=. hri devices --config ./devices.xml"
+DRIVERS = {
+    RANGE_SENSOR: KINDS["driver"],
+    "base": Kind(
+        "a base with its serial protocol, under the supervisor, and a configuration", (_LISTED,)
+    ),
+    "battery": Kind("a battery with its spec and a configuration that names it", (_LISTED,)),
+    "button": Kind("a button with its spec and a configuration that names it", (_LISTED,)),
+    "camera": Kind(
+        "a camera with its spec and a configuration that names it",
+        (_LISTED, "HRI_PATH=. test_camera --config ./devices.xml"),
+    ),
+    "display": Kind("a display with its spec and a configuration that names it", (_LISTED,)),
+    "microphone": Kind("a microphone with its spec and a configuration that names it", (_LISTED,)),
+    "voice": Kind("a voice with its spec and a configuration that names it", (_LISTED,)),
+}
+"""What a driver can be of: the choices of --kind."""
+
+
+@dataclass(frozen=True)
+class Template:
+    """What is copied."""
+
+    folder: Path
+    word: str
+    """What it makes, for messages."""
+    kind: Kind
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     named = [kind for kind in KINDS if kind not in FROM.values()]
@@ -80,12 +111,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="for an app: contain all of the companion, and add to it",
     )
     parser.add_argument(
+        "--kind",
+        dest="driver",
+        choices=DRIVERS,
+        help=f"for a driver: of what ({RANGE_SENSOR})",
+    )
+    parser.add_argument(
         "--to", type=Path, default=Path(), metavar="DIR", help="where to put its folder (here)"
     )
 
 
 def run(options: argparse.Namespace) -> int:
-    kind, name = _kind_of(options), _module_name(options.name)
+    template, name = _template(options), _module_name(options.name)
     if not NAME.fullmatch(name):
         remedy = "start with a letter, then letters, digits and _: wave_hand"
         raise HriError(f'"{options.name}" is not a name - {remedy}')
@@ -94,48 +131,54 @@ def run(options: argparse.Namespace) -> int:
     folder: Path = options.to / name
     if folder.exists():
         raise HriError(f"{folder}: already exists - choose another name, or --to another folder")
-    _refuse_taken(name, kind)
+    _refuse_taken(name, template)
     with new_folder(folder) as new:
-        _write(kind, name, new)
-    print(f"{folder}: {KINDS[kind].about}. Next:\n\n  cd {folder}")
+        _write(template, name, new)
+    print(f"{folder}: {template.kind.about}. Next:\n\n  cd {folder}")
     print("  python -m pytest    # if it is missing: pip install pytest")
-    for step in KINDS[kind].steps:
+    for step in template.kind.steps:
         print(f"  {_renamed(step, name)}")
     return 0
 
 
-def _kind_of(options: argparse.Namespace) -> str:
-    """The kind, with --from or without. Raises HriError for kinds that do not accept it."""
-    if options.base is None:
-        return str(options.kind)
-    if (options.kind, options.base) not in FROM:
-        raise HriError(f"{options.kind} does not accept --from - leave it out")
-    return FROM[options.kind, options.base]
+def _template(options: argparse.Namespace) -> Template:
+    """What is asked for. Raises HriError for kinds that do not accept --from or --kind."""
+    kind, base, driver = options.kind, options.base, options.driver
+    if base is not None and (kind, base) not in FROM:
+        raise HriError(f"{kind} does not accept --from - leave it out")
+    if driver is not None and kind != "driver":
+        raise HriError(f"{kind} does not accept --kind - leave it out")
+    if driver not in (None, RANGE_SENSOR):
+        return Template(DRIVER_TEMPLATES / driver, driver, DRIVERS[driver])
+    key = FROM.get((kind, base), kind)
+    return Template(TEMPLATES / key, key, KINDS[key])
 
 
-def _refuse_taken(name: str, kind: str) -> None:
+def _refuse_taken(name: str, template: Template) -> None:
     """Refuse a name that would hide a module, or a word that the new code uses. Raises HriError."""
     if keyword.iskeyword(name) or importlib.util.find_spec(name) is not None:
         what = f'"{name}" is a word or an installed module of Python'
         raise HriError(f'{what} - choose another name, such as "my_{name}"')
     taken = {name, _class_name(name)}
-    code = [path.read_text("utf-8") for path in _files(kind) if path.suffix in (".py", ".xml")]
+    code = [path.read_text("utf-8") for path in _files(template) if path.suffix in (".py", ".xml")]
     # Only a name that becomes an identifier in the code can clash with one.
     if any(taken & set(re.findall(r"\w+", text)) for text in code if "thing" in text.lower()):
-        raise HriError(f'"{name}" is a word of the new {kind} itself - choose another name')
+        raise HriError(
+            f'"{name}" is a word of the new {template.word} itself - choose another name'
+        )
 
 
-def _write(kind: str, name: str, folder: Path) -> None:
-    for path in _files(kind):
-        target = folder / _renamed(str(path.relative_to(TEMPLATES / kind)), name)
+def _write(template: Template, name: str, folder: Path) -> None:
+    for path in _files(template):
+        target = folder / _renamed(str(path.relative_to(template.folder)), name)
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(_renamed(path.read_text("utf-8"), name), "utf-8")
-    if kind == "face":
+    if template.word == "face":
         shutil.copytree(paths.find("faces", "robot"), folder / "faces" / name)
 
 
-def _files(kind: str) -> list[Path]:
-    found = sorted((TEMPLATES / kind).rglob("*"))
+def _files(template: Template) -> list[Path]:
+    found = sorted(template.folder.rglob("*"))
     return [path for path in found if path.is_file() and path.suffix != ".pyc"]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import importlib.util
 import sys
 from collections.abc import Iterator
@@ -55,13 +56,28 @@ def _told(path: Path) -> Iterator[None]:
         raise HriError(f"{path}: {type(error).__name__}: {error} - fix this file") from error
 
 
+OF_FILE = "hri_file_"
+"""Begins the name of a module that `load_class` makes of a file; its path follows."""
+
+
+def class_named(module: str, name: str) -> Any:
+    """A class of a module, or of the file that such a module was made of in another process.
+
+    Raises what importing raises, and `load_class`.
+    """
+    if module.startswith(OF_FILE):
+        return load_class(Path(module.removeprefix(OF_FILE)), name)
+    return getattr(importlib.import_module(module), name)
+
+
 def load_class(path: Path, name: str) -> Any:
     """A class of a file; each file is run once: twice would make two classes of each.
 
     Raises what `load_module` raises, HriError when it has no such class.
     """
     path = path.resolve()
-    module = sys.modules.get(f"hri_file_{path}") or load_module(f"hri_file_{path}", path)
+    called = f"{OF_FILE}{path}"
+    module = sys.modules.get(called) or load_module(called, path)
     found = vars(module).get(name)
     if not isinstance(found, type):
         classes = [key for key, value in vars(module).items() if isinstance(value, type)]

@@ -9,7 +9,10 @@ from pathlib import Path
 import pytest
 
 from hri.cli.main import main
-from hri.cli.new import FROM, KINDS, TEMPLATES
+from hri.cli.new import DRIVER_TEMPLATES, DRIVERS, FROM, KINDS, RANGE_SENSOR, TEMPLATES
+from hri.core.python_file import load_class, load_module
+from hri.core.signals import Twist
+from hri.drive.supervisor.process import Settings
 
 pytestmark = pytest.mark.proves("P15")
 
@@ -23,11 +26,15 @@ def folder(tmp_path, monkeypatch):
 def words_for(kind, name):
     """What is typed to begin one."""
     made_from = {made: [begun, name, "--from", base] for (begun, base), made in FROM.items()}
+    made_from |= {kind: ["driver", name, "--kind", kind] for kind in OF_DRIVERS}
     return ["new", *made_from.get(kind, [kind, name])]
 
 
+OF_DRIVERS = sorted(set(DRIVERS) - {RANGE_SENSOR})
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", [*KINDS, *OF_DRIVERS])
 def test_the_tests_of_what_is_new_pass_at_once(kind, folder, capsys):
     (folder / "mine").mkdir()
     assert main([*words_for(kind, f"wave_{kind}"), "--to", "mine"]) == 0
@@ -45,7 +52,7 @@ def test_the_tests_of_what_is_new_pass_at_once(kind, folder, capsys):
     assert "1 passed" in done.stdout
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", [*KINDS, *OF_DRIVERS])
 def test_nothing_is_left_of_the_name_of_the_template(kind, folder):
     main(words_for(kind, "parrot"))
     for path in (folder / "parrot").rglob("*"):
@@ -103,6 +110,51 @@ def test_a_new_driver_is_listed_by_hri_devices(folder, monkeypatch, capsys):
     assert "My.Parrot" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("kind", OF_DRIVERS)
+def test_a_new_driver_of_each_kind_passes_its_own_test(kind, folder, monkeypatch, request):
+    """What the slow test runs as its user does, run in this process."""
+    main(words_for(kind, f"my_{kind}"))
+    made = folder / f"my_{kind}"
+    monkeypatch.syspath_prepend(made)
+    test = load_module(f"test_my_{kind}_once", made / f"test_my_{kind}.py")
+    request.addfinalizer(lambda: sys.modules.pop(f"my_{kind}", None))
+    (check,) = (value for name, value in vars(test).items() if name.startswith("test_"))
+    check(monkeypatch)
+
+
+@pytest.mark.parametrize("kind", OF_DRIVERS)
+def test_a_new_driver_of_each_kind_is_listed_by_hri_devices(kind, folder, monkeypatch, capsys):
+    main(words_for(kind, "parrot"))
+    monkeypatch.setenv("HRI_PATH", "parrot")
+    assert main(["devices", "--config", "parrot/devices.xml"]) == 0
+    out = capsys.readouterr().out
+    assert "My.Parrot" in out
+    assert "unknown" not in out
+
+
+def test_a_driver_is_of_a_range_sensor_unless_told_otherwise(folder):
+    main(["new", "driver", "one"])
+    main(["new", "driver", "two", "--kind", "range_sensor"])
+    assert (folder / "one/one.py").read_text().replace("One", "Two") == (
+        folder / "two/two.py"
+    ).read_text()
+
+
+def test_only_a_driver_is_of_a_kind(folder, capsys):
+    assert main(["new", "task", "parrot", "--kind", "camera"]) == 2
+    assert "task does not accept --kind" in capsys.readouterr().err
+
+
+def test_the_supervisor_finds_a_base_that_is_in_a_file(folder):
+    main(["new", "driver", "robin", "--kind", "base"])
+    bus = load_class(folder / "robin/robin.py", "Robin")
+    named = f"{bus.protocol.__module__}:{bus.protocol.__qualname__}"
+    for name in [name for name in sys.modules if name.endswith("robin.py")]:
+        del sys.modules[name]  # as in the process of the supervisor
+    made = Settings(named, "/dev/ttyUSB0", -1).make()
+    assert made.velocity(Twist(0.1, 0.0)) == b"v 100 100\n"
+
+
 def test_a_new_face_passes_the_check(folder, capsys):
     main(["new", "face", "parrot"])
     assert main(["face", "check", "parrot/faces/parrot"]) == 0
@@ -149,3 +201,4 @@ def test_a_folder_that_is_not_there_is_one_line(where, folder, capsys):
 
 def test_every_kind_has_its_template():
     assert {path.name for path in Path(TEMPLATES).iterdir()} == set(KINDS)
+    assert {path.name for path in Path(DRIVER_TEMPLATES).iterdir()} == set(OF_DRIVERS)

@@ -9,7 +9,6 @@ started it is gone or hangs up, after it has stopped the base.
 from __future__ import annotations
 
 import gc
-import importlib
 import json
 import os
 import select
@@ -22,6 +21,7 @@ from typing import Any, Self
 
 from hri.core.clock import Clock, RealClock
 from hri.core.errors import NotAvailable
+from hri.core.python_file import class_named
 from hri.core.signals import Pose2D
 from hri.drive.bases.protocol import BaseProtocol
 from hri.drive.supervisor.base_rules import Rules
@@ -78,8 +78,8 @@ class Settings:
 
     def make(self) -> BaseProtocol:
         """A new protocol. Raises AuthoringError for wrong parameters."""
-        module, _, name = self.base.partition(":")
-        kind: type[BaseProtocol] = getattr(importlib.import_module(module), name)
+        module, _, name = self.base.rpartition(":")
+        kind: type[BaseProtocol] = class_named(module, name)
         return kind.described(Description(self.id, name, self.parameters))
 
 
