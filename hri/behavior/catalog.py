@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from hri.behavior.behavior import Behavior
@@ -14,6 +15,8 @@ from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 from hri.core.python_file import load_class
 
 GROUP = "hri.behaviors"
+COMPILED = re.compile(r"\.(so|dll|dylib)$|^lib\w+$")
+"""Libraries of 2003, whose code is not Python."""
 
 
 def find_behavior(type_name: str) -> type[Behavior]:
@@ -98,5 +101,7 @@ def _driver(schema: Schema) -> type[Behavior]:
     if registry.canonical(schema.driver) in registry.known(GROUP):
         driver: type[Behavior] = registry.find(GROUP, schema.driver)
         return driver
-    remedy = registry.meant(GROUP, schema.driver)
+    compiled = 'write its class in Python, and name that file as the library: library="./name.py"'
+    otherwise = compiled if COMPILED.search(schema.library) else ""
+    remedy = registry.meant(GROUP, schema.driver, otherwise)
     raise HriError(f'unknown driver "{schema.driver}" - {remedy}')

@@ -98,7 +98,9 @@ def _elsewhere(name: str, kind: str, cls: type[Behavior]) -> str:
     """What to do about a name that the class does not have there."""
     for other, noun in KINDS.items():
         if other != kind and name in getattr(cls, other):
-            return f"its {noun} has that name: move it there"
+            both = f'{name}_out = Output(..., name="{name}")'
+            more = "" if "parameters" in (kind, other) else f", or let the class have both: {both}"
+            return f"its {noun} has that name: move it to that{more}"
     return did_you_mean(name, getattr(cls, kind))
 
 

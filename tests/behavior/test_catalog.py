@@ -91,6 +91,7 @@ def test_a_python_file_beside_the_schema_brings_its_own_class(folder):
         ({"driver": "Mine.Wave", "library": "wave.py"}, "class Wave: pass", "is not a Behavior"),
         ({"driver": "Mine.Wave", "library": "wave.py"}, "1 / 0", "division by zero"),
         ({"driver": "Mine.Wave", "library": "wave.py"}, "class Wave(:", "wave.py:1:"),
+        ({"driver": "Mine.Quux", "library": "./libQuux.so"}, WAVE, "write its class in Python"),
         ({"type_name": "Mine.Other"}, WAVE, 'the schema of "Mine.Other"'),
         (
             {

@@ -130,7 +130,7 @@ def test_a_meaning_has_two_spellings(write):
         ),
         (
             LIMIT + LOUD + ports(VELOCITY, VELOCITY + "\n" + RANGE),
-            '4:1: StopCrashBehavior has no output "range_sensor" - its input has that name:',
+            '4:1: StopCrashBehavior has no output "range_sensor" - its input has that name: move',
         ),
         (
             LIMIT + LOUD + ports(VELOCITY + "\n" + RANGE.replace("double", "string"), VELOCITY),
@@ -168,7 +168,7 @@ def test_a_meaning_has_two_spellings(write):
         ),
         (
             '\n<Parameter name="range_sensor" type="number" default="1"/>',
-            '2:1: StopCrashBehavior has no parameter "range_sensor" - its input has that name:',
+            '2:1: StopCrashBehavior has no parameter "range_sensor" - its input has that name: move',
         ),
     ],
 )

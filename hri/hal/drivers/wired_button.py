@@ -34,7 +34,7 @@ class Contact(ABC):
 
     @abstractmethod
     def look(self, now: float) -> tuple[bool, bool]:
-        """Whether it is closed now, and whether it was closed anew since the last look."""
+        """Whether it is closed now, and whether it has been closed again since the last look."""
 
     @abstractmethod
     def close(self) -> None:
