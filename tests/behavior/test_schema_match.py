@@ -168,7 +168,7 @@ def test_a_meaning_has_two_spellings(write):
         ),
         (
             '\n<Parameter name="range_sensor" type="number" default="1"/>',
-            '2:1: StopCrashBehavior has no parameter "range_sensor" - its input has that name: move',
+            '2:1: StopCrashBehavior has no parameter "range_sensor" - its input has that name',
         ),
     ],
 )
