@@ -14,6 +14,8 @@ from hri.core.signals import Pose2D
 
 ARRIVED = "drive.arrived"
 """The board slot with the place that the last motion led to, and the pose in which it ended."""
+EXACT, EXACT_ANGLE = 0.02, 0.05
+"""Meters and radians from its goal at which a motion has led there."""
 STILL = 0.005
 """Meters and radians that a robot which nobody moved is off its last pose at most."""
 
@@ -30,5 +32,7 @@ def nominal_pose(board: Board, pose: Pose2D) -> Pose2D:
 
 
 def note_arrival(board: Board, goal: Pose2D, pose: Pose2D, now: float) -> None:
-    """A motion to a goal has ended at `pose`."""
-    board.slot(ARRIVED).set((goal, pose), now)
+    """A motion to a goal has ended at `pose`; one that ended far from it ended where it is."""
+    is_exact = math.dist((pose.x, pose.y), (goal.x, goal.y)) <= EXACT
+    is_facing = abs(wrapped(pose.heading - goal.heading)) <= EXACT_ANGLE
+    board.slot(ARRIVED).set((goal if is_exact and is_facing else pose, pose), now)

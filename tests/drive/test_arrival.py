@@ -186,6 +186,16 @@ def test_a_move_of_a_robot_that_was_carried_starts_where_it_stands() -> None:
         assert nominal_pose(board, elsewhere) == elsewhere
 
 
+def test_a_move_after_one_that_did_not_get_to_its_place_starts_where_it_ended(
+    tmp_path: Path,
+) -> None:
+    trip = Trip(tmp_path)
+    trip.go_to(4.0, 3.0, near=30.0)
+    stands = trip.base.odometry.x
+    trip.stage.run(tasks_2003.drive_move_delta, 10.0)
+    assert trip.base.odometry.x == pytest.approx(stands + 0.1, abs=0.005)
+
+
 @given(
     st.floats(0.01, 2.0),
     st.floats(-math.pi, math.pi),
