@@ -61,8 +61,10 @@ class MalleableBehavior(Behavior):
             raise HriError(
                 f'{self.id}: the tag "{control.TAG}" is the bridge\'s own - take another'
             )
-        ports: dict[str, Input[Any] | Output[Any]] = {**self.inputs, **self.outputs}
-        for name, port in ports.items():
+        # Not by name alone: an input and an output may share one.
+        ports: list[Input[Any] | Output[Any]] = [*self.inputs.values(), *self.outputs.values()]
+        for port in ports:
+            name = port.name
             checked_name(name)
             if port.datatype not in values.FORMS:
                 travels = ", ".join(values.FORMS)

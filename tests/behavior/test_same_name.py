@@ -1,11 +1,14 @@
 """An input and an output of one name are two ports."""
 
+import pytest
+
 from hri.behavior.behavior import Behavior
 from hri.behavior.catalog import find_behavior
 from hri.behavior.network import Network
 from hri.behavior.ports import Input, Output
 from hri.behavior.runner import Runner
 from hri.behavior.schema import schema_of
+from hri.core.errors import HriError
 from hri.testing import context
 
 SCHEMA = """<BehaviorSchema type="Mine.Talk" driver="Evolution.MalleableBehavior">
@@ -47,3 +50,12 @@ def test_a_schema_may_give_both_ports_one_name(tmp_path, monkeypatch):
     behavior.check()
     behavior.output_port("text").send(2.0)
     assert behavior.text.value is None
+
+
+def test_of_both_ports_of_one_name_the_datatype_must_travel(tmp_path, monkeypatch):
+    folder = tmp_path / "behavior" / "Mine"
+    folder.mkdir(parents=True)
+    (folder / "Talk.xml").write_text(SCHEMA.replace('"string"', '"image"'))
+    monkeypatch.setenv("HRI_PATH", str(tmp_path))
+    with pytest.raises(HriError, match="talk.text is image, which does not travel"):
+        find_behavior("Mine.Talk")("talk").check()
