@@ -57,5 +57,5 @@ def test_of_both_ports_of_one_name_the_datatype_must_travel(tmp_path, monkeypatc
     folder.mkdir(parents=True)
     (folder / "Talk.xml").write_text(SCHEMA.replace('"string"', '"image"'))
     monkeypatch.setenv("HRI_PATH", str(tmp_path))
-    with pytest.raises(HriError, match="talk.text is image, which does not travel"):
+    with pytest.raises(HriError, match=r"talk\.text is image, which does not travel"):
         find_behavior("Mine.Talk")("talk").check()
