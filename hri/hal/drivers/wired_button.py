@@ -14,7 +14,7 @@ from hri.hal.drivers.gpio_line import GpioLine, Pull
 from hri.hal.drivers.serial_port import SerialPort
 from hri.hal.resource import Description
 
-log = logging.getLogger("hri.button")
+log = logging.getLogger("hri.resources")
 
 PRESSED, RELEASED = ("1", "pressed"), ("0", "released")
 """What a board says at a serial port, as a line of text."""
