@@ -20,7 +20,7 @@ from hri.hal.configuration import Configuration, load_configuration
 from hri.hal.resource import Description, Resource
 from hri.hal.resource_manager import ResourceManager
 
-PATIENCE = 5.0
+PATIENCE = 8.0
 """Seconds after which a device that does not open counts as missing."""
 
 

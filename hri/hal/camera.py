@@ -292,7 +292,11 @@ class Camera(Resource):
                 self.manager.notice(f"{self.id}: is back")
         elif now - self._log.seen > STALL and not self._log.is_lost:
             self._log.is_lost = True
-            self._tell(f"no picture for {STALL:g} s - waiting for it; see that it is plugged in")
+            self._tell(self._why_silent(now))
+
+    def _why_silent(self, now: float) -> str:
+        """What people are told when no picture came for three seconds: "what - remedy"."""
+        return f"no picture for {STALL:g} s - waiting for it; see that it is plugged in"
 
     def _tell(self, what: str) -> None:
         """One line for people, each only once until the camera is well again."""

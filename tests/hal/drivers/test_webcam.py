@@ -2,7 +2,9 @@
 
 import os
 import threading
+import time
 
+import cv2
 import numpy as np
 import pytest
 
@@ -167,3 +169,195 @@ def test_off_releases_the_device_and_on_finds_it_again(open_driver):
     camera.switch(True)
     assert len(films) == 2
     assert not films[1].is_released
+
+
+PICTURE = (True, np.full((48, 64, 3), (255, 0, 0), np.uint8))
+FAILED = (False, None)
+
+
+class Stranger:
+    """A camera that gives these readings, and then the last one for ever."""
+
+    def __init__(self, *readings, then=PICTURE):
+        self.readings, self.then = list(readings), then
+        self.releases = 0
+
+    def read(self):
+        reading = self.readings.pop(0) if self.readings else self.then
+        return reading() if callable(reading) else reading
+
+    def release(self):
+        self.releases += 1
+
+
+class Hang:
+    """Never answers."""
+
+    def __init__(self):
+        self.has_begun = threading.Event()
+
+    def __call__(self):
+        self.has_begun.set()
+        threading.Event().wait()
+
+
+@pytest.fixture
+def strange(open_driver, manager, monkeypatch):
+    """Opens a webcam of these captures, one after the other; None is one that is not found."""
+    for name in ("FIRST_PAUSE", "TRY_AGAIN", "FAREWELL"):
+        monkeypatch.setattr(f"hri.hal.drivers.webcam.{name}", 0.001)
+    told = []
+    manager.notice = told.append
+
+    def opened(*captures):
+        left = list(captures)
+
+        class Strange(Webcam):
+            notices = told
+
+            def _find(self):
+                capture = left.pop(0) if left else Stranger()
+                return capture() if callable(capture) else capture
+
+        return open_driver(Strange)
+
+    return opened
+
+
+def next_frame(camera, clock):
+    """The next picture; the time stands still while it is waited for."""
+    clock.advance(0.1)
+    deadline = time.perf_counter() + 20.0
+    while (frame := camera.read(clock.now())) is None:
+        assert time.perf_counter() < deadline, "no picture"
+    return frame
+
+
+ODD = {
+    "empty": np.zeros((0, 0, 3), np.uint8),
+    "no rows": np.zeros((0, 64, 3), np.uint8),
+    "two channels": np.zeros((48, 64, 2), np.uint8),
+    "five channels": np.zeros((48, 64, 5), np.uint8),
+    "one dimension": np.zeros(48, np.uint8),
+    "four dimensions": np.zeros((1, 48, 64, 3), np.uint8),
+    "fractions": np.zeros((48, 64, 3), np.float64),
+    "negative": np.zeros((48, 64, 3), np.int16),
+    "objects": np.full((48, 64, 3), None),
+    "a tuple": (1, 2),
+    "a text": "picture",
+    "a number": 3,
+}
+
+
+@pytest.mark.parametrize("count", [1, 5, 40])
+def test_first_readings_that_fail_are_tried_again(strange, clock, count):
+    camera = strange(Stranger(*[FAILED] * count))
+    assert (camera.width, camera.height) == (64, 48)
+    assert next_frame(camera, clock).width == 64
+    assert camera.notices == []
+
+
+def test_a_camera_that_is_found_but_gives_nothing_is_one_line(strange):
+    with pytest.raises(NotAvailable, match="Strange: it gives no picture - see what else uses it"):
+        strange(*[Stranger(then=FAILED)] * 1000)
+
+
+@pytest.mark.parametrize("name", ODD)
+def test_an_odd_picture_is_passed_over_at_first_and_later(strange, clock, name):
+    capture = Stranger((True, ODD[name]))
+    camera = strange(capture)
+    assert (camera.width, camera.height) == (64, 48)
+    next_frame(camera, clock)
+    capture.then = True, ODD[name]
+    while not camera.notices:
+        clock.advance(1e-6)
+        camera.read(clock.now())
+    capture.then = PICTURE
+    assert next_frame(camera, clock).image.shape == (48, 64, 3)
+    (notice,) = camera.notices
+    assert "it is passed over; check the device and its settings" in notice
+    assert capture.releases == 0
+
+
+@pytest.mark.parametrize(
+    ("kind", "channels"), [(np.uint8, 3), (np.uint8, 4), (np.uint16, 3), (np.uint16, 4)]
+)
+def test_the_colors_are_in_order_whatever_comes_with_them(strange, clock, kind, channels):
+    scale = 1 if kind == np.uint8 else 256
+    picture = np.full((48, 64, channels), np.array([255, 9, 3, 0][:channels]) * scale, kind)
+    camera = strange(Stranger(then=(True, picture)))
+    assert tuple(next_frame(camera, clock).image[0, 0]) == (3, 9, 255)
+
+
+def broken(words="it broke"):
+    raise cv2.error(words)
+
+
+@pytest.mark.parametrize("capture", [Stranger(then=broken), broken])
+def test_an_exception_at_opening_is_one_line(strange, capture):
+    with pytest.raises(NotAvailable, match="Strange: error: it broke - see what") as caught:
+        strange(*[capture] * 1000)
+    assert len(str(caught.value).splitlines()) == 1
+
+
+def test_a_camera_that_fails_later_is_told_of_once_and_opened_again(strange, clock):
+    failing = [Stranger(FAILED, broken) for _ in range(3)]
+    first = Stranger()
+    camera = strange(first, *failing, None, broken)
+    next_frame(camera, clock)
+    first.then = broken
+    while not failing[-1].releases:
+        camera.read(clock.now())
+    assert next_frame(camera, clock).width == 64
+    assert first.releases == 1
+    remedy = "it is opened again; if that goes on, unplug it and plug it in again"
+    assert camera.notices == [f"Strange: error: it broke - {remedy}"]
+
+
+HANGS = "it hangs - unplug it and plug it in again"
+
+
+@pytest.mark.parametrize("where", ["finding", "reading"])
+def test_a_camera_that_hangs_at_opening_is_given_up_and_works_when_it_is_well(
+    strange, monkeypatch, where
+):
+    hang = Hang()
+    monkeypatch.setattr("hri.hal.drivers.webcam.PATIENCE", 0.02)
+    with pytest.raises(NotAvailable, match=f"Strange: {HANGS}"):
+        strange(hang if where == "finding" else Stranger(then=hang))
+    monkeypatch.undo()
+    assert strange().width == 64
+
+
+@pytest.mark.parametrize("where", ["finding", "reading"])
+def test_a_camera_that_hangs_later_is_told_of_and_opened_anew(strange, clock, where):
+    first, hangs = Stranger(), [Hang(), Hang()]
+    camera = strange(first, hangs[1] if where == "finding" else Stranger(then=hangs[1]))
+    next_frame(camera, clock)
+    first.then = hangs[0]
+    for hang in hangs:
+        assert hang.has_begun.wait(20.0)
+        for _ in range(60):
+            clock.advance(0.1)
+            camera.read(clock.now())
+    next_frame(camera, clock)
+    silent = f"Strange: no picture for 3 s: {HANGS}"
+    assert camera.notices == [silent, "Strange: is back"]
+
+
+def test_a_camera_that_always_hangs_is_not_asked_by_ever_more_threads(strange, clock):
+    first, hangs = Stranger(), [Hang() for _ in range(10)]
+    camera = strange(first, *hangs[1:])
+    next_frame(camera, clock)
+    first.then = hangs[0]
+    for hang in hangs[:5]:
+        assert hang.has_begun.wait(20.0)
+        clock.advance(6.0)
+        camera.read(clock.now())
+    for _ in range(20):
+        clock.advance(6.0)
+        camera.read(clock.now())
+    assert len(camera._given_up) == 4
+    assert not hangs[5].has_begun.is_set()
+    assert camera.notices == [f"Strange: no picture for 3 s: {HANGS}"]
+    camera.deactivate()
