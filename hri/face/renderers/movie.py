@@ -12,7 +12,9 @@ from PIL import Image as Picture
 from hri.core.errors import HriError
 from hri.core.signals import Image
 from hri.core.writing import replacing
-from hri.hal.drivers.mp4 import is_whole
+from hri.hal.drivers.mp4 import check_size, is_whole
+from hri.hal.drivers.scaling import by_area
+from hri.hal.picture import fitted
 
 MOST_PICTURES = 100_000
 """Nearly an hour at 30 a second."""
@@ -31,14 +33,16 @@ WEBP_QUALITY = 85
 def write_movie(
     path: Path, pictures: Iterable[Image], rate: float, mode: int | None = None
 ) -> None:
-    """Write pictures of one size, `rate` a second, as the suffix says: .mp4, .webp or .gif.
+    """Write pictures, `rate` a second, as the suffix says: .mp4, .webp or .gif.
 
-    Pictures are taken one at a time, so they may be drawn on the way. An MP4 (MPEG-4 part 2) has no
-    sound, and leaves out the last line of an odd side. WebP and GIF repeat for ever. `mode` sets
-    the permissions of the file, such as PRIVATE for a film of people.
+    Pictures are taken one at a time, so they may be drawn on the way. The first one gives the size;
+    one of another size is fitted into it, with black bars. An MP4 (MPEG-4 part 2) has no sound, and
+    leaves out the last line of an odd side. WebP and GIF repeat for ever. `mode` sets the
+    permissions of the file, such as PRIVATE for a film of people.
 
-    Raises HriError for another suffix, a rate out of range, no picture at all, too many, or a file
-    that cannot be written; one that was there before stays as it was.
+    Raises HriError for another suffix, a rate out of range, no picture at all, too many, a size
+    that an MP4 cannot have, or a file that cannot be written; one that was there before stays as it
+    was.
     """
     check_movie(path, rate)
     suffix = path.suffix.lower()
@@ -58,12 +62,19 @@ def check_movie(path: Path, rate: float) -> None:
 
 
 def _bounded(path: Path, pictures: Iterable[Image]) -> Iterator[Image]:
-    """The pictures. Raises HriError when there are none, or too many."""
-    number = 0
+    """The pictures, in the size of the first.
+
+    Raises HriError when there are none, or too many, and for a size that the file cannot have.
+    """
+    number, height, width = 0, 0, 0
     for number, picture in enumerate(pictures, start=1):
         if number > MOST_PICTURES:
             raise HriError(f"{path}: more than {MOST_PICTURES} pictures - make it shorter")
-        yield picture
+        if number == 1:
+            height, width = picture.shape[:2]
+            if path.suffix.lower() == ".mp4":
+                check_size(path, width, height)
+        yield fitted(picture, width, height, by_area)
     if not number:
         raise HriError(f"{path}: no pictures - let it last longer than one of them")
 

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import Image
+from hri.hal.drivers.scaling import by_area
 from hri.hal.picture import fitted
 from hri.hal.screen import Screen
 
@@ -83,11 +84,7 @@ def _fitted(image: Image, size: tuple[int, int]) -> Image:
     width, height = size
     if not (1 <= width <= LARGEST and 1 <= height <= LARGEST):
         raise HriError(f"a display of {width}x{height} - give sides from 1 to {LARGEST} pixels")
-    return fitted(image, width, height, _shrunk)
-
-
-def _shrunk(image: Image, columns: int, rows: int) -> NDArray[np.uint8]:
-    return np.asarray(cv2.resize(image, (columns, rows), interpolation=cv2.INTER_AREA), np.uint8)
+    return fitted(image, width, height, by_area)
 
 
 def _bayer(size: int) -> NDArray[np.uint8]:

@@ -19,6 +19,8 @@ from hri.core.growing import GrowingFile, log
 from hri.core.signals import Image
 from hri.core.writing import PRIVATE, NotWritten, delete_leftovers, name_beside
 from hri.hal.drivers import mp4
+from hri.hal.drivers.scaling import by_area
+from hri.hal.picture import fitted
 
 FRAGMENT_S = 1.0
 """Seconds of a fragment, which is what a killed program loses."""
@@ -26,10 +28,13 @@ _BEGINNING = mp4.file_type()
 
 
 class GrowingMovie:
-    """Appends pictures of one size to an MP4 file (MPEG-4 part 2) with a constant rate."""
+    """Appends pictures to an MP4 file (MPEG-4 part 2) with a constant rate."""
 
     def __init__(self, path: Path, size: tuple[int, int], rate: float) -> None:
-        """`size` is width and height. Raises HriError when the file cannot be written."""
+        """`size` is width and height. Raises HriError for one that an MP4 cannot have, and when the
+        file cannot be written.
+        """
+        mp4.check_size(path, *size)
         self._size, self._rate = size, rate
         self._file = GrowingFile(path)
         with suppress(NotWritten):
@@ -44,11 +49,12 @@ class GrowingMovie:
         self._coding = b""
 
     def write(self, picture: Image) -> None:
-        """Append an RGB picture."""
+        """Append an RGB picture; one of another size is fitted into it, with black bars."""
         if self._file.has_ended:
             return
         if self._writer is None:
             self._writer = self._begun()
+        picture = fitted(picture, *self._size, by_area)
         self._writer.write(cv2.cvtColor(picture, cv2.COLOR_RGB2BGR))
         self._pending += 1
         # The very first picture is there at once.

@@ -14,12 +14,25 @@ from dataclasses import dataclass, field
 from itertools import groupby
 from pathlib import Path
 
+from hri.core.errors import HriError
+
 TICKS = 1000
 """Parts of a picture's time, of which times are whole numbers."""
 _UNITY = struct.pack(">9I", 0x10000, 0, 0, 0, 0x10000, 0, 0, 0, 0x40000000)
 """The matrix that leaves a picture as it is."""
 _KEY, _OTHER = 0x02000000, 0x01010000
 """Flags of a picture that stands alone, and of one that builds on those before."""
+
+
+LEAST_SIDE, MOST_SIDE = 2, 8191
+"""Pixels of a side of a picture that MPEG-4 part 2 can code (ISO/IEC 14496-2: 13 bits a side)."""
+
+
+def check_size(path: Path, width: int, height: int) -> None:
+    """Raises HriError for pictures of a size that the film `path` cannot have."""
+    if not LEAST_SIDE <= min(width, height) <= max(width, height) <= MOST_SIDE:
+        what = f"{path}: pictures of {width} x {height} pixels make no MP4"
+        raise HriError(f"{what} - take sides of {LEAST_SIDE} to {MOST_SIDE} pixels")
 
 
 def box(name: str, *parts: bytes) -> bytes:

@@ -16,7 +16,8 @@ from hri.core.signals import Frame, Image
 from hri.hal.camera import FIELD_OF_VIEW, Camera
 from hri.hal.drivers.growing_movie import GrowingMovie
 from hri.hal.drivers.image_size import picture_size
-from hri.hal.picture import LARGEST_SIDE, MOST_PIXELS
+from hri.hal.drivers.scaling import by_area
+from hri.hal.picture import LARGEST_SIDE, MOST_PIXELS, as_picture, fitted
 from hri.hal.screen import Screen
 
 WIDTH, HEIGHT = cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FRAME_HEIGHT
@@ -197,7 +198,7 @@ class VideoFileScreen(Screen):
             return
         try:
             # On fake time the encoder is waited for: every picture counts.
-            self._pictures.put((image, repeats), block=self.manager.clock.is_fake)
+            self._pictures.put((as_picture(image), repeats), block=self.manager.clock.is_fake)
             self._count += repeats
         except queue.Full:
             return
@@ -205,9 +206,7 @@ class VideoFileScreen(Screen):
     def _encode(self) -> None:
         while (item := self._pictures.get()) is not None:
             image, repeats = item
-            if image.shape[:2] != (self.height, self.width):
-                size = (self.width, self.height)
-                image = np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA), np.uint8)
+            image = fitted(image, self.width, self.height, by_area)
             for _ in range(repeats):
                 self._movie.write(image)
 

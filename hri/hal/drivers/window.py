@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from hri.core.signals import Image
+from hri.hal.drivers.scaling import by_area
+from hri.hal.picture import fitted
 from hri.hal.screen import Screen
 
 UNSEEN = ("dummy", "offscreen")
@@ -29,6 +31,7 @@ def has_display() -> bool:
 class Window(Screen):
     """A window; closing it, or Escape, ends the program that watches `is_closed`.
 
+    A picture of another size is fitted into it, with black bars.
     With `key_repeat` a held key repeats with that period, seconds.
     """
 
@@ -61,8 +64,9 @@ class Window(Screen):
         self._is_closed = False
 
     def show(self, image: Image, time: float) -> None:
-        height, width = image.shape[:2]
-        picture = self._pygame.image.frombuffer(image.tobytes(), (width, height), "RGB")
+        image = fitted(image, self.width, self.height, by_area)
+        size = self.width, self.height
+        picture = self._pygame.image.frombuffer(image.tobytes(), size, "RGB")
         self._surface.blit(picture, (0, 0))
         self._pygame.display.flip()
         self._take_events()

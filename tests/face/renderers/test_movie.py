@@ -9,6 +9,7 @@ from PIL import Image as Picture
 from hri.core.errors import HriError
 from hri.core.signals import Image
 from hri.face.renderers.movie import write_movie
+from hri.hal.drivers.growing_movie import GrowingMovie
 
 COUNT, RATE = 8, 30.0
 COLORS = np.linspace((20, 200, 60), (220, 40, 120), COUNT).round().astype(np.uint8)
@@ -97,3 +98,54 @@ def test_a_gif_that_would_fill_the_memory_is_refused(
 def test_no_pictures_are_no_movie(tmp_path: Path) -> None:
     with pytest.raises(HriError, match="no pictures"):
         write_movie(tmp_path / "clip.mp4", [], RATE)
+
+
+def frames_of(path: Path) -> list[Image]:
+    """The pictures of a film, RGB."""
+    if path.suffix == ".mp4":
+        capture, found = cv2.VideoCapture(str(path)), []
+        while (read := capture.read())[0]:
+            found.append(read[1][..., ::-1])
+        capture.release()
+        return found
+    with Picture.open(path) as clip:
+        count = clip.n_frames  # type: ignore[attr-defined]
+        found = []
+        for number in range(count):
+            clip.seek(number)
+            found.append(np.asarray(clip.convert("RGB")))
+        return found
+
+
+@pytest.mark.parametrize("suffix", [".mp4", ".webp", ".gif"])
+@pytest.mark.parametrize("other", [(96, 128), (24, 32), (64, 48), (48, 640), (480, 16), (47, 65)])
+def test_pictures_of_other_sizes_are_fitted_into_the_first(
+    tmp_path: Path, suffix: str, other: tuple[int, int]
+) -> None:
+    path = tmp_path / f"clip{suffix}"
+    sizes, lights = [(48, 64)] * 2 + [other] * 3 + [(48, 64)] * 2, range(60, 200, 20)
+    shown = zip(sizes, lights, strict=True)
+    write_movie(path, (np.full((*size, 3), light, np.uint8) for size, light in shown), 10.0)
+    found = frames_of(path)
+    assert len(found) == len(sizes)
+    for frame, light in zip(found, lights, strict=True):
+        assert frame.shape == (48, 64, 3)
+        assert np.abs(frame[24, 31:33].astype(int) - light).max() < 40
+    scale = min(48 / other[0], 64 / other[1])
+    lit = (found[3][..., 0] > 50).sum()
+    assert lit == pytest.approx(other[0] * scale * other[1] * scale, rel=0.2, abs=100)
+
+
+@pytest.mark.parametrize("size", [(1, 1), (1, 50), (50, 1), (2, 8192)])
+def test_a_size_that_an_mp4_cannot_have_is_the_reason(
+    tmp_path: Path, size: tuple[int, int]
+) -> None:
+    path, picture = tmp_path / "clip.mp4", np.zeros((*size, 3), np.uint8)
+    what = (
+        f"clip.mp4: pictures of {size[1]} x {size[0]} pixels make no MP4 - take sides of 2 to 8191"
+    )
+    with pytest.raises(HriError, match=what):
+        write_movie(path, [picture], RATE)
+    with pytest.raises(HriError, match=what):
+        GrowingMovie(path, (size[1], size[0]), RATE)
+    assert not list(tmp_path.iterdir())

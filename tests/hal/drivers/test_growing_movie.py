@@ -60,6 +60,15 @@ def test_a_film_is_an_ordinary_one_when_it_is_closed(movie, tmp_path):
     assert os.listdir(tmp_path) == ["face.mp4"]
 
 
+def test_pictures_of_other_sizes_are_fitted_into_the_film(movie, tmp_path):
+    for number in range(20):
+        small = picture(number)
+        large = small.repeat(3, axis=0).repeat(3, axis=1)
+        movie.write((small, large, small[::2, ::2])[number % 3])
+    movie.close()
+    assert numbers(tmp_path / "face.mp4") == list(range(20))
+
+
 def test_a_film_whose_program_was_killed_is_seen_up_to_a_second_before(movie, tmp_path):
     shoot(movie, 45)
     assert numbers(tmp_path / "face.mp4") == list(range(41))

@@ -29,6 +29,29 @@ def test_a_picture_is_shown_as_it_is(open_window):
     assert np.array_equal(shown, image)
 
 
+@pytest.mark.parametrize("size", [(48, 64), (96, 128), (24, 32), (8, 400), (400, 8), (1, 1)])
+def test_a_picture_of_any_size_is_seen_whole(open_window, size):
+    screen = open_window(width=64, height=48)
+    screen.show(np.full((48, 64, 3), 99, np.uint8), 0.0)
+    height, width = size
+    quarters = np.zeros((*size, 3), np.uint8)
+    for number, (top, left) in enumerate([(0, 0), (0, 1), (1, 0), (1, 1)], start=1):
+        quarters[top * height // 2 :, left * width // 2 :] = 60 * number
+    screen.show(quarters, 0.1)
+    shown = pygame.surfarray.array3d(pygame.display.get_surface()).swapaxes(0, 1)
+    assert shown.shape == (48, 64, 3)
+    lit = np.argwhere(shown[..., 0] > 0)
+    (top, left), (bottom, right) = lit.min(axis=0), lit.max(axis=0)
+    scale = min(48 / height, 64 / width)
+    assert bottom - top + 1 == pytest.approx(max(1, height * scale), abs=1)
+    assert right - left + 1 == pytest.approx(max(1, width * scale), abs=1)
+    assert (top + bottom) / 2 == pytest.approx(23.5, abs=1)
+    assert (left + right) / 2 == pytest.approx(31.5, abs=1)
+    if min(size) > 8:
+        assert shown[top, left, 0] == 60
+        assert shown[bottom, right, 0] == 240
+
+
 def test_keys_are_told_once_and_closing_is_seen(open_window):
     screen, image = open_window(width=64, height=48), np.zeros((48, 64, 3), np.uint8)
     pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=pygame.K_SPACE))
