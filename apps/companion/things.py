@@ -11,6 +11,7 @@ from hri.core.signals import FoundObject
 from hri.robot.finding import find_object
 from hri.task.context import TaskContext
 from hri.vision.objects.object_tasks import (
+    NoCamera,
     NothingShown,
     forget_object,
     learn_object,
@@ -27,6 +28,7 @@ AHEAD = math.radians(15)
 WORDS: Mapping[str, str] = {
     "learned": "Now I know your {thing}.",
     "nothing_shown": "I don't see your {thing}. Hold it up close, and say: this is my {thing}.",
+    "no_camera": "I have no camera to see your {thing} with.",
     "not_learned": "I could not see enough of your {thing}. Hold it nearer, in more light.",
     "sees": "I see {things}.",
     "sees_nothing": "I see nothing that I know.",
@@ -44,6 +46,8 @@ async def learn(context: TaskContext, companion: Companion, thing: str) -> None:
     """Look at what is held up, and say whether that was enough."""
     try:
         await learn_object(context, thing, LOOKING_S)
+    except NoCamera:
+        companion.tell("no_camera", thing=thing)
     except NothingShown:
         companion.tell("nothing_shown", thing=thing)
     except HriError:

@@ -163,6 +163,23 @@ def test_an_empty_room_teaches_nothing(tmp_path):
     assert not own_models().exists()
 
 
+def test_a_stand_in_for_a_missing_camera_teaches_nothing(tmp_path, monkeypatch):
+    room = Room(tmp_path, "objects.mdl")
+    room.put("my cup", 1.9, 2.0)
+
+    async def learn(context):
+        monkeypatch.setattr(type(room.clock), "is_fake", False)
+        try:
+            await object_tasks.learn_object(context, "cup")
+        finally:
+            monkeypatch.setattr(type(room.clock), "is_fake", True)
+
+    monkeypatch.setattr(room.context.resources, "stand_in_of", {"camera": "simulated"}.get)
+    with pytest.raises(object_tasks.NoCamera, match="camera: a simulated one stands in for it"):
+        room.run(learn)
+    assert not own_models().exists()
+
+
 def test_a_camera_that_is_off_teaches_nothing(tmp_path):
     room = Room(tmp_path, "objects.mdl")
     room.context.resources.obtain("camera", object_tasks.Camera).switch(False)

@@ -15,7 +15,7 @@ from pathlib import Path
 from hri.cli.terminal.messages import Within
 from hri.core import paths
 from hri.core.clock import Clock
-from hri.core.errors import HriError
+from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Frame, Image
 from hri.hal.camera import Camera
 from hri.hal.choices import apply_choices, load_choices
@@ -67,14 +67,18 @@ def add_view(parser: argparse.ArgumentParser) -> None:
 @contextmanager
 def opened_camera(options: argparse.Namespace, clock: Clock) -> Iterator[Camera]:
     """The camera that the options choose; on a fake clock files are read as fast as possible.
-    Raises HriError for a bad file, NotAvailable when there is no camera.
+    Raises HriError for a bad file, NotAvailable when there is no camera: no stand-in is used that
+    the options do not ask for.
     """
     pace = "fast" if clock.is_fake else "real"
     # Standard output is for results, perhaps as JSON.
     notice = partial(print, file=sys.stderr)
     with ResourceManager(_devices(options, pace), clock, notice) as resources:
         resources.check()
-        camera = resources.obtain("camera", Camera)
+        try:
+            camera = resources.obtain("camera", Camera)
+        except NotAvailable as error:
+            raise NotAvailable(f"{error}; --simulated shows a simulated room") from error
         if options.simulated:
             person = resources.obtain("world", SimulatedWorld).person
             for name, at in SHOW:
@@ -107,8 +111,9 @@ def _devices(options: argparse.Namespace, pace: str) -> list[Description]:
     devices = list(apply_choices(configuration.devices, load_choices()))
     if all(device.id != "camera" for device in devices):
         raise HriError(f'{options.config}: no device "camera" - add one, or give --video FILE')
+    own = {**view, "stand_in": ""}
     return [
-        replace(device, parameters={**device.parameters, **view})
+        replace(device, parameters={**device.parameters, **own})
         if device.id == "camera"
         else device
         for device in devices

@@ -40,6 +40,10 @@ class NothingShown(TaskFailed):
     """The pictures show no object, but someone's face or the room: nothing of them is kept."""
 
 
+class NoCamera(TaskFailed):
+    """A simulated camera stands in for one that is missing: what it sees is nothing to keep."""
+
+
 @task("Hri.WaitForObject")
 async def wait_for_object(
     context: TaskContext, name: str = "", timeout: float = float("inf")
@@ -81,11 +85,15 @@ async def learn_object(
     It goes to the own set of the user and replaces one of the same name. Raises `object.learning`
     (`object`, `views`, `is_new`, `reason`, `mistaken`) for each picture that is looked at. Fails
     when no picture shows enough of it, or the camera gives none; with NothingShown when pictures
-    show someone's face or the room instead.
+    show someone's face or the room instead; with NoCamera when, in real time, a simulated camera
+    stands in for one that is missing.
     """
     if not is_name(name):
         context.fail(f'"{name}" is not a valid name for an object - {NAME_REMEDY}')
     camera = await context.blocking(context.resources.obtain, camera_id, Camera)
+    if context.resources.stand_in_of(camera_id) is not None and not context.clock.is_fake:
+        context.resources.release(camera)
+        raise NoCamera(f"{camera_id}: a simulated one stands in for it - plug one in")
     lesson: Service[_Picture | str, _Progress] = context.clock.service(
         partial(_Lesson, name), THINKING_S
     )

@@ -201,3 +201,44 @@ def test_frames_of_a_watcher_are_left_as_they_were():
     frame = Frame(GRAY.copy(), 0.0, 0)
     Watcher(see, nod_once_a_second).look(frame)
     assert np.array_equal(frame.image, GRAY)
+
+
+MISSING = """<Resources><Devices>
+  <DeviceBus id="world" type="Hri.SimulatedWorld">
+    <Device id="simulated_camera" type="Hri.SimulatedCamera"/>
+  </DeviceBus>
+  <Device id="camera" type="Hri.Webcam">
+    <Parameter name="device" value="/dev/no-such-camera"/>
+    <Parameter name="stand_in" value="simulated_camera"/>
+  </Device>
+</Devices></Resources>"""
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["object", "learn", "cup", "--camera"],
+        ["object", "learn", "cup", "--camera", "/dev/no-such-camera"],
+        ["color", "learn", "cup", "--camera"],
+        ["color", "learn", "cup", "--camera", "/dev/no-such-camera"],
+        ["gesture"],
+        ["gesture", "--camera", "/dev/no-such-camera"],
+        ["watch"],
+        ["watch", "--out", "film.mp4"],
+        ["watch", "--camera", "/dev/no-such-camera"],
+    ],
+)
+def test_a_camera_that_is_missing_is_an_error_and_nothing_is_learned(
+    tmp_path, monkeypatch, capsys, words
+):
+    for name in ("XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME"):
+        monkeypatch.setenv(name, str(tmp_path / "home"))
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "missing.xml").write_text(MISSING)
+    assert main([*words, "--config", "missing.xml", "--seconds", "0.5"]) == 2
+    told = capsys.readouterr().err.splitlines()
+    assert told == [
+        "camera: no camera /dev/no-such-camera - plug one in, or `hri doctor --choose`;"
+        " --simulated shows a simulated room"
+    ]
+    assert os.listdir(tmp_path) == ["missing.xml"]
