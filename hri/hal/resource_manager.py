@@ -47,6 +47,10 @@ class ResourceManager:
         self.clock = clock
         self.is_to_repeat = clock.is_fake
         """Whether nothing that is measured on this machine may decide."""
+        self.waits_for_devices = False
+        """Whether, in real time, what is missing is waited for, as a service does: nothing
+        simulated stands in, and microphones, speakers, cameras and screens are taken when they
+        come."""
         self.descriptions = {description.id: description for description in descriptions}
         self.notice = notice
         self.dimensions = next(iter(shapes), NO_SHAPE)
@@ -250,15 +254,19 @@ class ResourceManager:
                 raise NotAvailable(f"{id}: {type} needs real time - use its stand-in")
             resource.reserve()
         except NotAvailable as error:
-            return self._replacement(resource.description, error)
+            return self._replacement(resource, error)
         with self._lock:
             if resource not in self._open:
                 self._open.append(resource)
         return resource
 
-    def _replacement(self, description: Description, error: NotAvailable) -> Resource:
+    def _replacement(self, missing: Resource, error: NotAvailable) -> Resource:
+        is_to_wait = self.waits_for_devices and not self.clock.is_fake
+        if is_to_wait and (waiting := self._waiting(missing, error)) is not None:
+            return waiting
+        description = missing.description
         stand_in = description.text("stand_in")
-        if not stand_in:
+        if not stand_in or (is_to_wait and self._is_simulated(stand_in)):
             raise error
         replacement = self._reserved(stand_in)
         with self._lock:
@@ -267,6 +275,21 @@ class ResourceManager:
         if is_news and not self.clock.is_fake:
             self.notice(f"{error} (using {stand_in} instead)")
         return replacement
+
+    def _waiting(self, missing: Resource, error: NotAvailable) -> Resource | None:
+        """What waits for a device, from now on in its place; None where none does."""
+        from hri.hal.awaited import awaited  # only a service needs it
+
+        if (waiting := awaited(missing)) is None:
+            return None
+        with self._lock:
+            if self._resources[missing.id] is missing:
+                self._resources[missing.id] = waiting
+        waiting.report(error)
+        return self._reserved(missing.id)
+
+    def _is_simulated(self, id: str) -> bool:
+        return self.driver_of(self._description(id)).is_simulated
 
     def _resource(self, id: str) -> Resource:
         """The one object of that id; its driver is not opened here."""

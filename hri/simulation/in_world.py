@@ -22,6 +22,7 @@ OWN_IDS = ("world", "simulated_world")
 class InWorld(Resource):
     """A device of the simulated world."""
 
+    is_simulated = True
     world: SimulatedWorld
 
     def _open(self) -> None:

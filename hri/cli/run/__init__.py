@@ -19,7 +19,7 @@ from hri.cli.terminal.ending import Ending
 from hri.cli.terminal.messages import LineFormatter, Within
 from hri.cli.terminal.streams import unfailing_output
 from hri.core.clock import FakeClock, RealClock
-from hri.core.errors import HriError
+from hri.core.errors import HriError, NotAvailable
 from hri.core.realtime import become_realtime
 from hri.drive.behaviors import CommandGate
 from hri.emotion.persistence import memory_file
@@ -42,9 +42,11 @@ from hri.task.context import TaskContext
 SENSES = ("microphone", "camera", "screen", "speaker")
 UNSEEN = "no screen: --studio shows the face in a browser, --record DIR keeps a film of the run"
 CALM_SECONDS = 2.0
+"""Seconds of calm before a run from files ends."""
 LONGEST_TASK = 600.0
 """Seconds to wait for running tasks after the end of input."""
-"""Seconds of calm before a run from files ends."""
+BEGIN_AGAIN = 5.0
+"""Seconds until a service begins again for which something was missing."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -77,6 +79,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add("--personality", default="neutral", metavar="NAME", help="from emotions/personalities")
     add("--face", default="robot", metavar="NAME", help="from faces/")
     add("--captions", action="store_true", help="show captions below the face")
+    add(
+        "--service",
+        action="store_true",
+        help="for systemd: wait for devices that are missing, and live until asked to end",
+    )
     add("--demo", action="store_true", help="a simulated person visits for two minutes")
     add("--studio", action="store_true", help="serve a page on which to see and steer the robot")
     add_studio_options(parser)
@@ -92,9 +99,23 @@ def run(options: argparse.Namespace) -> int:
     ending = Ending()
     with unfailing_output(), ending.kept_for_later():
         if options.repeat is None:
-            return _run(options, ending)
+            return (_serve if options.service else _run)(options, ending)
         with repeated(options, add_options, print) as recorded:
             return _run(recorded, ending)
+
+
+def _serve(options: argparse.Namespace, ending: Ending) -> int:
+    """Run, and begin again while something is missing without which nothing can run."""
+    told = ""
+    while not ending.is_asked:
+        try:
+            return _run(options, ending)
+        except NotAvailable as error:
+            if (line := f"{error} (waiting for it)") != told:
+                told = line
+                print(line, file=sys.stderr, flush=True)
+            ending.pause(BEGIN_AGAIN)
+    return 0
 
 
 def _run(options: argparse.Namespace, ending: Ending) -> int:
@@ -125,6 +146,7 @@ def _run(options: argparse.Namespace, ending: Ending) -> int:
         doors=doors_of(options),
     )
     robot.resources.is_to_repeat |= is_to_repeat(options)
+    robot.resources.waits_for_devices = options.service
     robot.command, robot.sources = options.command, inputs(options)
     tasks = robot.app.load_tasks()
     studio = studio_of(robot, options) if options.studio else None
@@ -164,6 +186,10 @@ def check_files(options: argparse.Namespace) -> None:
     """Refuse bad files and conflicting options before anything starts. Raises HriError."""
     if options.demo and options.keep:
         what = "--demo --keep: the visitor of a demo is simulated, and is not kept among people"
+        raise HriError(f"{what} - leave out one of the two")
+    if options.service and (options.demo or options.fast):
+        with_it = "--demo" if options.demo else "--fast"
+        what = f"--service {with_it}: a service meets real people in real time"
         raise HriError(f"{what} - leave out one of the two")
     load_app(options.app)
     if options.audio is not None:
@@ -257,7 +283,7 @@ class Session:
 
     async def prepare(self, context: TaskContext) -> None:
         """Let the visitor in, or keep the simulated room empty for real people."""
-        if self.options.audio is not None:
+        if self.options.audio is not None or self.options.service:
             return
         resources = self.robot.resources
         is_deaf = resources.stand_in_of("microphone") is not None
@@ -275,15 +301,15 @@ class Session:
                 person.starts_present = False
 
     async def end_when_over(self, context: TaskContext) -> None:
-        """End after the duration, after the visit, or at the end of the input files. Then tasks
-        started by commands or events, such as a timer, may finish.
+        """End after the duration, after the visit, or at the end of the input files; a service only
+        after the duration. Then tasks started by commands or events, such as a timer, may finish.
         """
         clock = context.clock
         end, why = self._end_time()
         calm_since = spent_since = clock.now()
         while clock.now() < end:
             await clock.sleep(min(0.1, end - clock.now()))
-            if not self._is_spent():
+            if self.options.service or not self._is_spent():
                 calm_since = spent_since = clock.now()
                 continue
             waits = bool(context.manager.installed) and clock.now() - spent_since < LONGEST_TASK

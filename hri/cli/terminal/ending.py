@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import signal
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from queue import Empty, SimpleQueue
 from types import FrameType
 
 import trio
@@ -22,6 +23,12 @@ class Ending:
 
     def __init__(self) -> None:
         self.is_asked = False
+        self._asked: SimpleQueue[int] = SimpleQueue()  # unlike an Event, for signal handlers, too
+
+    def pause(self, seconds: float) -> None:
+        """Wait, but not longer than until the program is asked to end."""
+        with suppress(Empty):
+            self._asked.get(timeout=seconds)
 
     @contextmanager
     def kept_for_later(self) -> Iterator[None]:
@@ -35,6 +42,7 @@ class Ending:
 
     def _ask(self, number: int, frame: FrameType | None) -> None:
         self.is_asked = True
+        self._asked.put(number)
 
     async def wait(self, end: Callable[[], object]) -> None:
         """Call `end` each time the program is asked to end, also if it was before."""

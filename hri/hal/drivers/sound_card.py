@@ -32,12 +32,15 @@ REOPEN_AFTER = 2.0
 FADE = 128
 """Samples in which a sound that is cut dies away."""
 INSTALL = "apt install libportaudio2"
+_LOADING = threading.Lock()
+"""Held while it is imported: a thread that waits for an import that fails gets half a module."""
 
 
 def load_sounddevice() -> Any:
     """The sounddevice module. Raises NotAvailable with the command that installs PortAudio."""
     try:
-        import sounddevice
+        with _LOADING:
+            import sounddevice
     except OSError as error:
         raise NotAvailable(f"sound card: PortAudio is missing - {INSTALL}") from error
     return sounddevice
