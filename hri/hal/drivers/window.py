@@ -9,6 +9,7 @@ from typing import Any
 
 from hri.core.signals import Image
 from hri.hal.drivers.scaling import by_area
+from hri.hal.drivers.silence import silenced_libraries
 from hri.hal.picture import fitted
 from hri.hal.screen import Screen
 
@@ -49,13 +50,14 @@ class Window(Screen):
         if self.description.text("fullscreen") == "true":
             flags |= pygame.FULLSCREEN
         try:
-            pygame.display.init()
+            with silenced_libraries():  # of Wayland
+                pygame.display.init()
+            if pygame.display.get_driver() in UNSEEN:  # where SDL cannot open a second window
+                raise pygame.error("SDL finds no display")
             self._surface: Any = pygame.display.set_mode((self.width, self.height), flags)
         except pygame.error as error:
-            raise self.not_available(str(error), "connect a display, or set DISPLAY") from error
-        if pygame.display.get_driver() in UNSEEN:
             pygame.display.quit()
-            raise self.not_available("no display", "connect one, or set DISPLAY")
+            raise self.not_available(str(error), "connect a display, or set DISPLAY") from error
         pygame.display.set_caption(self.description.text("title", "hri"))
         repeat = self.description.number_within("key_repeat", 0.0, 0.0, 10.0)
         if repeat:
