@@ -62,3 +62,84 @@ def test_the_fixture_comes_with_the_installation(pytester: pytest.Pytester) -> N
     first.stdout.fnmatch_lines(["*no picture *golden/mine/black.png*--update-goldens*"])
     pytester.runpytest_inprocess("-q", "--update-goldens").assert_outcomes(passed=1)
     pytester.runpytest_inprocess("-q").assert_outcomes(passed=1)
+
+
+OTHER = """
+import pytest
+
+def pytest_addoption(parser):
+    parser.addoption("--update-goldens", action="store_true", help="of the other")
+
+@pytest.fixture
+def golden():
+    return "the other"
+"""
+TESTS = """
+import numpy as np
+
+def test_theirs(golden):
+    assert golden == "the other"
+
+def test_ours(hri_golden):
+    hri_golden.check("black", np.zeros((8, 8, 3), np.uint8))
+"""
+
+
+def by_option(pytester: pytest.Pytester) -> list[str]:
+    """Loaded before ours."""
+    pytester.makepyfile(other=OTHER)
+    return ["-p", "other"]
+
+
+def as_installed(pytester: pytest.Pytester, name: str) -> list[str]:
+    """Installed beside ours; which of them comes first goes by the name."""
+    pytester.makepyfile(**{f"{name}_other": OTHER})
+    about = pytester.path / f"{name}_other-1.dist-info"
+    about.mkdir()
+    (about / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}-other\nVersion: 1\n")
+    (about / "entry_points.txt").write_text(f"[pytest11]\n{name} = {name}_other\n")
+    return []
+
+
+def by_conftest(pytester: pytest.Pytester) -> list[str]:
+    """Named by the project."""
+    pytester.makepyfile(other=OTHER)
+    pytester.makeconftest('pytest_plugins = ["other"]')
+    return []
+
+
+@pytest.mark.parametrize("way", ["option", "aaa", "zzz", "conftest"])
+def test_it_gives_way_to_another_plugin_with_the_same_names(
+    pytester: pytest.Pytester, way: str
+) -> None:
+    pytester.syspathinsert()
+    ways = {"option": by_option, "conftest": by_conftest}
+    more = ways[way](pytester) if way in ways else as_installed(pytester, way)
+    pytester.makepyfile(test_both=TESTS)
+    words = ["-q", "-p", "no:cacheprovider", *more]
+    first = pytester.runpytest_inprocess(*words)
+    first.assert_outcomes(passed=1, failed=1)
+    first.stdout.fnmatch_lines(["*no picture *golden/both/black.png*--update-goldens*"])
+    pytester.runpytest_inprocess(*words, "--update-goldens").assert_outcomes(passed=2)
+    pytester.runpytest_inprocess(*words).assert_outcomes(passed=2)
+
+
+def test_a_conftest_has_an_option_and_a_fixture_of_its_own_that_builds_on_ours(
+    pytester: pytest.Pytester,
+) -> None:
+    pytester.makeconftest(
+        """
+        import pytest
+
+        def pytest_addoption(parser):
+            parser.addoption("--update-goldens", action="store_true")
+
+        @pytest.fixture
+        def golden(golden):
+            golden.check("black", __import__("numpy").zeros((8, 8, 3), "uint8"))
+            return "mine"
+        """
+    )
+    pytester.makepyfile(test_mine="def test_mine(golden):\n    assert golden == 'mine'")
+    pytester.runpytest_inprocess("-q", "--update-goldens").assert_outcomes(passed=1)
+    pytester.runpytest_inprocess("-q").assert_outcomes(passed=1)
