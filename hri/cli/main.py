@@ -11,6 +11,7 @@ from hri.cli.terminal.exit_status import status_of
 from hri.cli.terminal.messages import OptionParser
 from hri.core.errors import did_you_mean
 from hri.core.quoting import message_line
+from hri.core.systems import REMEDY, is_windows, require_posix
 
 COMMANDS = {
     "companion": ("hri.cli.companion", "start the companion (same as `run companion`)"),
@@ -45,6 +46,11 @@ COMMANDS = {
 }
 """Each command is a module with `add_arguments(parser)` and `run(options) -> exit status`."""
 
+POSIX_ONLY = frozenset((
+    "bench", "companion", "devices", "doctor", "drive", "forget", "run", "soak", "studio", "token",
+))  # fmt: skip
+"""Commands that Windows cannot run."""
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command. Returns its exit status; an HriError becomes one line."""
@@ -69,6 +75,8 @@ def _answer(words: list[str]) -> int:
 
 
 def _run(name: str, words: Sequence[str]) -> int:
+    if name in POSIX_ONLY:
+        require_posix(f"hri {name}")
     module = importlib.import_module(COMMANDS[name][0])
     parser = OptionParser(prog=f"hri {name}", description=COMMANDS[name][1])
     module.add_arguments(parser)
@@ -86,8 +94,15 @@ def _overview() -> str:
             *lines,
             "",
             "  behave NETWORK.xml runs a single behavior network.",
+            *_left_out(),
         ]
     )
+
+
+def _left_out() -> list[str]:
+    if not is_windows():
+        return []
+    return ["", f"Not on Windows: {', '.join(sorted(POSIX_ONLY))} - {REMEDY}."]
 
 
 if __name__ == "__main__":

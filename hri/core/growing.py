@@ -6,13 +6,13 @@ full the file ends with its last whole record, and one line says so; the robot g
 
 from __future__ import annotations
 
-import fcntl
 import logging
 import os
 from contextlib import suppress
 from pathlib import Path
 
 from hri.core.errors import HriError
+from hri.core.open_files import AT_ONCE, BINARY, lock
 from hri.core.writing import not_written, reason_of, write_all
 
 log = logging.getLogger("hri.recording")
@@ -27,7 +27,7 @@ class GrowingFile:
         self.size = 0
         """Bytes of the whole records."""
         try:
-            self._handle: int | None = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o666)
+            self._handle: int | None = os.open(path, os.O_WRONLY | os.O_CREAT | BINARY, 0o666)
         except OSError as error:
             raise not_written(path, error) from error
         try:
@@ -38,7 +38,7 @@ class GrowingFile:
 
     def _begin(self, handle: int) -> None:
         try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            lock(handle)
         except BlockingIOError:
             remedy = "choose another place"
             raise HriError(f"{self.path}: another program is writing it - {remedy}") from None
@@ -89,11 +89,11 @@ class GrowingFile:
 def is_growing(path: Path) -> bool:
     """Whether a program is writing the file now."""
     try:
-        handle = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+        handle = os.open(path, os.O_RDONLY | AT_ONCE | BINARY)
     except OSError:
         return False
     try:
-        fcntl.flock(handle, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        lock(handle, is_shared=True)
     except BlockingIOError:
         return True
     except OSError:  # a file system without locks

@@ -71,9 +71,11 @@ def _is_open(status: os.stat_result) -> bool:
 
 def _is_own_group(group: int) -> bool:
     """Whether it is the group that many systems make for each user, with nobody else in it."""
-    import grp
-    import pwd
-
+    try:
+        import grp
+        import pwd
+    except ImportError:  # a system without groups
+        return False
     try:
         user, members = pwd.getpwuid(os.getuid()), grp.getgrgid(group)
     except KeyError:

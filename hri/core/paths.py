@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import os
-import pwd
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -49,7 +48,7 @@ def house() -> Path:
 def search_folders() -> Iterator[Path]:
     """The folders of HRI_PATH, then of EVOLUTION_CONFIG_PATH, then the built-in folder."""
     for variable in VARIABLES:
-        for folder in os.environ.get(variable, "").split(":"):
+        for folder in os.environ.get(variable, "").split(os.pathsep):
             if folder:
                 yield expanded(folder)
     yield house()
@@ -182,11 +181,19 @@ def home() -> Path:
 
     Raises HriError when there is none.
     """
-    with suppress(KeyError):  # a user whom the system does not list
-        for named in (os.environ.get("HOME", ""), pwd.getpwuid(os.getuid()).pw_dir):
+    with suppress(KeyError, RuntimeError):  # a user whom the system does not list
+        for named in (os.environ.get("HOME", ""), _listed_home()):
             if Path(named).is_absolute():
                 return Path(named)
     raise HriError("no home folder - set HOME to a folder of yours")
+
+
+def _listed_home() -> str:
+    try:
+        import pwd
+    except ImportError:  # Windows
+        return str(Path.home())
+    return pwd.getpwuid(os.getuid()).pw_dir
 
 
 def expanded(path: Path | str) -> Path:

@@ -10,6 +10,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from hri.core import paths
+from hri.core.open_files import AT_ONCE, BINARY
 from hri.core.writing import PRIVATE, make_folder, not_written
 
 PRIVATE_FOLDER = 0o700
@@ -105,7 +106,7 @@ def private_file(path: Path) -> None:
     For what a library opens and writes itself. Raises NotWritten.
     """
     try:
-        os.close(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC | os.O_NONBLOCK, PRIVATE))
+        os.close(os.open(path, os.O_WRONLY | os.O_CREAT | AT_ONCE | BINARY, PRIVATE))
     except OSError as error:
         raise not_written(path, error) from error
     close_to_others(path)

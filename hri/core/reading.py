@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any, BinaryIO, NoReturn, TextIO
 
 from hri.core.errors import AuthoringError, HriError, Place
+from hri.core.open_files import AT_ONCE, BINARY
 from hri.core.paths import exists
 
 LARGEST_FILE = 4_000_000
@@ -48,7 +49,7 @@ def opened(path: Path, what: str, largest: int | None = LARGEST_FILE) -> Iterato
 def _open_regular(path: Path, what: str) -> BinaryIO:
     try:
         # Without waiting: a pipe that nobody writes to would keep us forever.
-        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+        descriptor = os.open(path, os.O_RDONLY | AT_ONCE | BINARY)
     except ValueError as error:  # no name that a file can have
         raise HriError(f"{path}: cannot read this {what}: {error} - check the path") from error
     if not stat.S_ISREG(os.fstat(descriptor).st_mode):

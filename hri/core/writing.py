@@ -8,16 +8,16 @@ Files that grow while a robot runs, such as recordings, cannot be written this w
 from __future__ import annotations
 
 import errno
-import fcntl
 import os
 import secrets
 import shutil
 import stat
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from hri.core.errors import HriError
+from hri.core.open_files import AT_ONCE, BINARY, MAY_RENAME_OPEN, NO_LINK, lock
 
 PRIVATE = 0o600
 """Permissions of a file that only its owner may read."""
@@ -102,7 +102,7 @@ def _linked(new: Path, target: Path) -> bool:
         return False
     except OSError:  # a file system without links, where a file may be seen before it is whole
         try:
-            handle = os.open(target, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, PRIVATE)
+            handle = os.open(target, os.O_WRONLY | os.O_CREAT | os.O_EXCL | BINARY, PRIVATE)
         except FileExistsError:
             return False
         try:
@@ -118,10 +118,10 @@ def append_line(path: Path, line: str, mode: int = PRIVATE) -> None:
     Half a line that was left at the end stands alone from then on. Raises NotWritten.
     """
     with _refusing(path):
-        handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_CLOEXEC, mode)
+        handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND | BINARY, mode)
         try:
             size = os.fstat(handle).st_size
-            is_torn = size > 0 and os.pread(handle, 1, size - 1) != b"\n"
+            is_torn = size > 0 and _last_byte(handle) != b"\n"
             before = "\n" if is_torn else ""
             try:
                 write_all(handle, f"{before}{line}\n".encode())
@@ -130,6 +130,11 @@ def append_line(path: Path, line: str, mode: int = PRIVATE) -> None:
                 raise
         finally:
             os.close(handle)
+
+
+def _last_byte(handle: int) -> bytes:
+    os.lseek(handle, -1, os.SEEK_END)
+    return os.read(handle, 1)
 
 
 @contextmanager
@@ -222,16 +227,20 @@ def _beside(path: Path, mode: int | None, suffix: str) -> Iterator[tuple[int, Pa
     """A new file and its handle; it replaces the other when all goes well, and else is deleted."""
     target = _resolved(path)
     handle, new = _made_beside(target, mode, suffix)
-    try:
-        yield handle, new
-        os.fsync(handle)
-        os.replace(new, target)
-    except BaseException:
-        with suppress(OSError):
-            new.unlink(missing_ok=True)
-        raise
-    finally:
-        os.close(handle)
+    with ExitStack() as stack:
+        stack.callback(os.close, handle)
+        try:
+            yield handle, new
+            os.fsync(handle)
+            if not MAY_RENAME_OPEN:
+                stack.close()
+            os.replace(new, target)
+        except BaseException:
+            if not MAY_RENAME_OPEN:
+                stack.close()
+            with suppress(OSError):
+                new.unlink(missing_ok=True)
+            raise
     _flush(target.parent)
 
 
@@ -254,16 +263,16 @@ def _made_beside(target: Path, mode: int | None, suffix: str) -> tuple[int, Path
     with suppress(NotWritten):  # someone else's, in a folder of all
         delete_leftovers(target)
     handle, new = _made_locked(target, 0o666 if mode is None else mode & 0o777, suffix)
-    if before is not None:
+    if before is not None and hasattr(os, "fchown"):
         with suppress(OSError):  # only the superuser may give files away
             os.fchown(handle, before.st_uid, before.st_gid)
-    if mode is not None:
+    if mode is not None and hasattr(os, "fchmod"):
         os.fchmod(handle, mode)
     return handle, new
 
 
 def _made_locked(target: Path, mode: int, suffix: str) -> tuple[int, Path]:
-    flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC
+    flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | BINARY
     while True:
         new = name_beside(target, suffix)
         handle = os.open(new, flags, mode)
@@ -292,7 +301,7 @@ def write_all(handle: int, data: bytes) -> None:
 def _is_ours(handle: int) -> bool:
     """Lock a new file; false when another writer took it for an abandoned one before that."""
     try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        lock(handle)
     except BlockingIOError:
         return False
     except OSError:  # a file system without locks, where nothing is taken for abandoned
@@ -316,11 +325,11 @@ def _if_abandoned(file: Path, act: Callable[[Path], object]) -> bool:
     The lock is held meanwhile, so that a writer that just made the file notices.
     """
     try:
-        handle = os.open(file, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
+        handle = os.open(file, os.O_RDONLY | NO_LINK | AT_ONCE | BINARY)
     except OSError:
         return False
     try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        lock(handle)
     except OSError:
         os.close(handle)
         return False
@@ -335,7 +344,7 @@ def _if_abandoned(file: Path, act: Callable[[Path], object]) -> bool:
 def _flush(entry: Path) -> None:
     """Let a file, or the names in a folder, survive a pulled plug, where the system can."""
     with suppress(OSError):
-        handle = os.open(entry, os.O_RDONLY | os.O_CLOEXEC)
+        handle = os.open(entry, os.O_RDONLY | BINARY)
         try:
             os.fsync(handle)
         finally:

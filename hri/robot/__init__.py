@@ -30,6 +30,7 @@ from hri.core.event_bus import EventBus
 from hri.core.latest import Board
 from hri.core.registry import canonical
 from hri.core.signals import Event
+from hri.core.systems import require_posix
 from hri.drive.behaviors import CommandGate
 from hri.emotion.behaviors import EmotionModel
 from hri.hal.choices import apply_choices, load_choices
@@ -80,8 +81,9 @@ class Robot(BlockingVerbs):
         recording; where it holds one, another folder beside it is taken. Words that were rejected
         are written there only with `record_rejected`. `doors` says what may come in over the
         network, beside what the app and the configuration say.
-        Raises HriError or AuthoringError.
+        Raises HriError or AuthoringError; NotAvailable on Windows.
         """
+        require_posix("a robot")
         self.app = load_app(app)
         self.clock = clock or RealClock()
         self._config = paths.find("config", config)

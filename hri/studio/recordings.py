@@ -18,6 +18,7 @@ from typing import Any, BinaryIO
 
 from hri.core.errors import HriError
 from hri.core.growing import is_growing
+from hri.core.open_files import AT_ONCE, BINARY, NO_LINK
 from hri.core.paths import expanded
 from hri.core.reading import parse_json
 from hri.core.recorded import EVENTS, FILES, RECORDINGS, SOUND, STARTED
@@ -75,7 +76,7 @@ def folder_of(place: str) -> Path:
 def opened(folder: Path, name: str) -> BinaryIO:
     """A file of a recording, to read. Raises HriError unless it is a regular file, and no link."""
     path = folder / name
-    flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
+    flags = os.O_RDONLY | NO_LINK | AT_ONCE | BINARY
     try:
         descriptor = os.open(path, flags)
     except OSError as error:

@@ -12,9 +12,10 @@ from types import FrameType
 
 import trio
 
-ASKING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-"""Signals that ask a program to end."""
-_AT_ONCE = (signal.SIGTERM, signal.SIGHUP)
+_HANGUP = (signal.SIGHUP,) if hasattr(signal, "SIGHUP") else ()
+ASKING = (signal.SIGINT, signal.SIGTERM, *_HANGUP)
+"""Signals that ask a program to end; Windows has no SIGHUP."""
+_AT_ONCE = (signal.SIGTERM, *_HANGUP)
 """Signals that would end a program that has no handler yet; Ctrl-C raises an exception instead."""
 
 
@@ -54,5 +55,7 @@ class Ending:
 
 
 def _heeded(numbers: tuple[signal.Signals, ...]) -> list[signal.Signals]:
-    is_without_terminal = signal.getsignal(signal.SIGHUP) is signal.SIG_IGN  # by `nohup`
-    return [n for n in numbers if n != signal.SIGHUP or not is_without_terminal]
+    def is_ignored(number: signal.Signals) -> bool:
+        return number in _HANGUP and signal.getsignal(number) is signal.SIG_IGN  # by `nohup`
+
+    return [number for number in numbers if not is_ignored(number)]
