@@ -295,16 +295,18 @@ class Companion:
 
     def _be_quiet(self, seconds: float) -> None:
         """Say nothing for so long, and show that it listens."""
-        self.silent_until = self.context.clock.now() + seconds
+        self.silent_until = self.voice.quiet_until = self.context.clock.now() + seconds
         self._settle()
 
     def _sleep(self, tags: dict[str, Any]) -> None:
         self.is_asleep = True
+        self.voice.quiet_until = math.inf
         self.motion.stop()
         self._settle()
 
     def _wake(self, tags: dict[str, Any]) -> None:
         self.is_asleep = False
+        self.voice.quiet_until = self.silent_until
         self._settle()
 
     def _eyes(self, tags: dict[str, Any]) -> None:

@@ -39,6 +39,7 @@ from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.robot.app import App, load_app
 from hri.robot.blocking_verbs import BlockingVerbs
+from hri.robot.failures import FailureTeller
 from hri.robot.provenance import RunRecord, Setup, version
 from hri.robot.recording import Recording
 from hri.robot.sources import authored
@@ -46,7 +47,7 @@ from hri.simulation.visitor import Visitor
 from hri.simulation.world import SimulatedWorld
 from hri.task import script
 from hri.task.task_manager import TaskManager
-from hri.task.task_run import Job
+from hri.task.task_run import Job, tell_failure
 from hri.task.thread import LoopThread
 
 __all__ = ["App", "Job", "Robot", "load_app"]
@@ -154,6 +155,7 @@ class Robot(BlockingVerbs):
                 self.recording = self._begun(self.record)
             self.runners = [self.networks.start(network) for network in self._authored]
             self.events.subscribe("speech.heard", self._obey_stop)
+            teller = FailureTeller(self.context)
             async with trio.open_nursery() as nursery:
                 self.tasks.live_in(nursery)
                 nursery.start_soon(self.clock.drive)
@@ -162,7 +164,7 @@ class Robot(BlockingVerbs):
                     # Announced last: whoever reads it can end this run like any other.
                     jobs = (self.recording.watch, *jobs, self.recording.announce)
                 for job in jobs:
-                    self.clock.soon(partial(nursery.start_soon, self.tasks.run, job))
+                    self.clock.soon(partial(nursery.start_soon, self._run, job, teller))
                 self._ready()
                 await self._finished.wait()
                 self.lived = self.clock.now()
@@ -174,6 +176,17 @@ class Robot(BlockingVerbs):
             raise
         finally:
             self.close()
+
+    async def _run(self, job: Job, teller: FailureTeller) -> None:
+        """Run what the robot lives for; what nobody foresaw is said before it ends of that."""
+        try:
+            await self.tasks.run(job)
+        except HriError:
+            raise
+        except Exception as error:
+            tell_failure(self.events, job, error)
+            await teller.finish()
+            raise
 
     def _begun(self, folder: Path) -> Recording:
         """The recording of this robot, begun. Raises HriError where it cannot be written."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -102,6 +103,9 @@ class Voice(Behavior):
     voice = Param("", "whose voice: a name, a language or a character (`hri voices`)")
     speaker_id = Param("speaker", "resource that plays it")
     latency_s = Param(0.05, "time that making the sound takes on a fake clock", minimum=0.0)
+
+    quiet_until = -math.inf
+    """Seconds of the clock until which it was asked to be quiet; for whoever speaks unasked."""
 
     def start(self, context: Context) -> None:
         self._events = context.events

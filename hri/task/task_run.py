@@ -12,11 +12,12 @@ from typing import Any, Protocol
 import trio
 
 from hri.core.errors import HriError, first_of
-from hri.core.event_bus import Subscription, matches
+from hri.core.event_bus import EventBus, Subscription, matches
 from hri.core.signals import Event
 from hri.hal.pending import Interrupted
 from hri.task.aside import Loop
 from hri.task.claims import Leave
+from hri.task.failure import with_place
 from hri.task.hold_up import CURRENT
 from hri.task.queue import EventQueue
 
@@ -87,15 +88,15 @@ class Task:
     async def run(self, context: Lender) -> None:
         """Run the job to its end; called once, by whoever made it.
 
-        A failure is kept in `error`, told to the log and raised as the event `task.failed`.
+        A failure is kept in `error`, told to the log with its file and line, and raised as the
+        event `task.failed`.
         """
         try:
             await self.run_through(context)
         except Interrupted as error:
             log.info("%s was interrupted: %s", self.name, error)
         except Exception as error:
-            log.error("%s failed: %s", self.name, error, exc_info=_surprise(error))
-            self._manager.events.raise_event("task.failed", task=self.name, error=str(error))
+            tell_failure(self._manager.events, self._job, error, _surprise(error))
 
     async def run_through(self, context: Lender) -> Any:
         """Run the job to its end and give its result; its failure is raised here, too."""
@@ -186,6 +187,14 @@ def name_of(job: Job) -> str:
     if isinstance(job, partial):
         return name_of(job.func)
     return getattr(job, "__name__", "task")
+
+
+def tell_failure(
+    events: EventBus, job: Job, error: Exception, traceback: Exception | None = None
+) -> None:
+    """Tell the log of a failed task, with file and line, and raise `task.failed`."""
+    log.error("%s failed: %s", name_of(job), with_place(error, job), exc_info=traceback)
+    events.raise_event("task.failed", task=name_of(job), error=str(error))
 
 
 def _unwrapped(error: Exception) -> Exception:

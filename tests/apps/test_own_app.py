@@ -192,6 +192,52 @@ def test_a_task_that_fails_is_named(put):
     assert [event.properties["task"] for event in named(events, "task.failed")] == ["timer"]
 
 
+FAILS = "async def timer(context, seconds: float):\n    raise ValueError('no clock')\n"
+
+
+def test_a_task_that_fails_says_so_and_the_log_names_file_and_line(put, caplog):
+    folder = put({**TIMER, "tasks.py": FAILS})
+    events = live(robot_of(folder), 8, {1.0: "set a timer for four seconds"})
+    assert "Sorry, my task timer failed." in said(events)
+    assert caplog.messages == [f"timer failed: {folder / 'tasks.py'}:2: no clock"]
+
+
+def test_a_task_that_fails_again_and_again_is_told_of_once_a_minute(put):
+    orders = dict.fromkeys((1.0, 6.0, 11.0, 66.0), "set a timer for four seconds")
+    events = live(robot_of(put({**TIMER, "tasks.py": FAILS})), 72, orders)
+    assert said(events).count("Sorry, my task timer failed.") == 2
+    assert len(named(events, "task.failed")) == 4
+
+
+@pytest.mark.parametrize("order", ["be quiet", "go to sleep"])
+def test_who_was_asked_for_quiet_does_not_say_that_a_task_failed(put, order):
+    app = 'extends = "companion"\n[on]\n"door.rung" = "timer"\n'
+    tasks = FAILS.replace("seconds: float", "seconds: float = 1.0")
+    robot = robot_of(put({**TIMER, "app.toml": app, "tasks.py": tasks}))
+    ring = robot.events.raise_event
+    events = live(robot, 9, {1.0: order}, {6.0: lambda: ring("door.rung")})
+    assert len(named(events, "task.failed")) == 1
+    assert not [words for words in said(events) if "failed" in words]
+
+
+def test_a_task_of_the_app_that_ends_the_robot_is_told_of_before(put, caplog):
+    app = 'extends = "companion"\ntasks = ["brood"]\n'
+    tasks = TIMER["tasks.py"] + (
+        "async def brood(context):\n    await context.clock.sleep(1.0)\n    return {}['thoughts']\n"
+    )
+    folder = put({**TIMER, "app.toml": app, "tasks.py": tasks})
+    robot = robot_of(folder)
+    spoken = []
+    robot.events.subscribe("speech.finished", lambda event: spoken.append(event.properties))
+    with pytest.raises(ExceptionGroup) as caught:
+        live(robot, 20)
+    assert caught.group_contains(KeyError, match="thoughts")
+    assert [(one["text"], one["cut"]) for one in spoken] == [
+        ("Sorry, my task brood failed.", False)
+    ]
+    assert f"brood failed: {folder / 'tasks.py'}:6: 'thoughts'" in caplog.messages
+
+
 def test_a_task_that_an_event_may_lack_something_for_is_refused(put):
     app = 'extends = "companion"\n[on]\n"door.rung" = "timer"\n'
     with pytest.raises(HriError, match="timer needs seconds, which an event may lack - give"):
@@ -444,4 +490,4 @@ def test_a_deed_that_fails_leaves_the_others_of_a_new_app(tmp_path, monkeypatch)
     robot = robot_of(tmp_path / "rover")
     events = live(robot, 8, {1.0: "count to three", 3.0: "hello"})
     assert [event.properties["task"] for event in named(events, "task.failed")] == ["count"]
-    assert said(events) == ["Hello, I am rover."]
+    assert said(events) == ["Sorry, my task count failed.", "Hello, I am rover."]
