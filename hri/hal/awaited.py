@@ -16,7 +16,7 @@ from hri.core.signals import Frame, Image, Samples
 from hri.hal.camera import Camera, Footage
 from hri.hal.drivers.memory import SilentSpeaker
 from hri.hal.drivers.resampling import Resampler
-from hri.hal.drivers.sound_devices import list_anew
+from hri.hal.drivers.sound_devices import list_again
 from hri.hal.microphone import Microphone
 from hri.hal.resource import Description, Resource, Resources
 from hri.hal.screen import Screen
@@ -27,7 +27,7 @@ LOOK_AGAIN = 2.0
 FAREWELL = 2.0
 """Seconds that closing waits for an attempt; one that hangs closes its device by itself."""
 _SOUND = threading.Lock()
-"""Held while a sound device is tried: PortAudio begins anew for it."""
+"""Held while a sound device is tried: PortAudio starts again for it."""
 
 
 def awaited(device: Resource) -> Awaited | None:
@@ -114,7 +114,7 @@ class _AwaitedSound(Awaited):
     def _attempt(self) -> bool:
         with _SOUND:
             if not self._is_in_use():
-                list_anew()
+                list_again()
             return super()._attempt()
 
     def _is_in_use(self) -> bool:
@@ -171,7 +171,7 @@ class AwaitedSpeaker(_AwaitedSound, Speaker):
 
 
 class AwaitedCamera(Awaited, Camera):
-    """Sees nothing until the camera is there, which turns its pictures and tells its faults."""
+    """Sees nothing until the camera is there, which turns its pictures and reports its faults."""
 
     def __init__(self, device: Camera) -> None:
         own = ("mirror", "rotate")

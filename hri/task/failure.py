@@ -1,4 +1,4 @@
-"""Where a task failed: the line that its author can mend."""
+"""Where a task failed: the line that its author can fix."""
 
 from __future__ import annotations
 

@@ -83,7 +83,7 @@ WAITING = "late: not there - plug it in (waiting for it)"
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
     monkeypatch.setattr("hri.hal.awaited.LOOK_AGAIN", 0.002)
-    monkeypatch.setattr("hri.hal.awaited.list_anew", lambda: None)
+    monkeypatch.setattr("hri.hal.awaited.list_again", lambda: None)
 
 
 def until(condition):

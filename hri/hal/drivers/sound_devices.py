@@ -7,7 +7,7 @@ from hri.hal.drivers.silence import silenced_libraries
 from hri.hal.drivers.sound_card import load_sounddevice
 
 
-def list_anew() -> None:
+def list_again() -> None:
     """Let PortAudio begin again, so that it knows what was plugged in since; ends all streams.
 
     Does nothing where it is missing.

@@ -29,7 +29,7 @@ PATIENCE = 5.0
 TRY_AGAIN = 0.05
 """Seconds between a reading that failed and the next one."""
 TRIES_AT_FIRST, TRIES = 60, 6
-"""Readings in a row that may fail before the first picture, and later; then it is opened anew."""
+"""Readings in a row that may fail before the first picture, and later; then it is opened again."""
 MOST_GIVEN_UP = 4
 """Threads that may hang at once; while there are as many, none is added."""
 REPLUG = "unplug it and plug it in again"
@@ -38,7 +38,7 @@ REPLUG = "unplug it and plug it in again"
 class Webcam(Camera):
     """The newest picture wins; a camera that is unplugged is looked for until it is back.
 
-    One that hangs is given up, and opened anew, after five seconds.
+    One that hangs is given up, and opened again, after five seconds.
     """
 
     parameters = (
@@ -86,8 +86,9 @@ class Webcam(Camera):
         return NotAvailable(f"Failure opening {self.path} - see what else uses it, or replug it")
 
     def _read(self, now: float) -> Frame | None:
-        if self._filming.fault:
-            self._tell(f"{self._filming.fault} - it is opened again; if that goes on, {REPLUG}")
+        if fault := self._filming.fault:
+            self._filming.fault = ""
+            self._tell(f"{fault} - it is opened again; if that goes on, {REPLUG}")
         if self._filming.waited(now) > PATIENCE and self._hanging() < MOST_GIVEN_UP:
             self._give_up()
             self._filming = _Filming(
@@ -132,12 +133,12 @@ class Webcam(Camera):
         return capture
 
     def _close(self) -> None:
-        self._filming.ending.set()
+        self._give_up()
         self._filming.join(timeout=FAREWELL)
 
 
 SIZE_ONLY = -1
-"""Number of the first picture, which only tells the size."""
+"""Number of the first picture, which only shows the size."""
 
 
 class _Filming(threading.Thread):
@@ -158,7 +159,7 @@ class _Filming(threading.Thread):
         self.was_found = False
         """Whether the camera could be opened."""
         self.fault = ""
-        """The last exception of the camera."""
+        """The last exception of the camera that nobody was told of."""
         self.sequence = sequence
         """Number of the next picture."""
         self._find, self._clock = find, clock
