@@ -22,6 +22,8 @@ from hri.hal.resource import Description, Resource, Resources
 from hri.hal.screen import Screen
 from hri.hal.speaker import Speaker
 
+WAITING = " (waiting for it)"
+"""Ends the line about a device that is waited for."""
 LOOK_AGAIN = 2.0
 """Seconds between attempts to open a device."""
 FAREWELL = 2.0
@@ -58,7 +60,7 @@ class Awaited(Resource):
 
     def report(self, error: Exception) -> None:
         """Tell people why it is missing; each reason once, until it is there."""
-        line = f"{error} (waiting for it)"
+        line = f"{error}{WAITING}"
         if line not in self._reported:
             self._reported.add(line)
             self.manager.notice(line)

@@ -6,6 +6,7 @@ import argparse
 import logging
 import math
 import sys
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
@@ -25,6 +26,7 @@ from hri.drive.behaviors import CommandGate
 from hri.emotion.persistence import memory_file
 from hri.emotion.personality import load_personality
 from hri.face.model import load_face
+from hri.hal.awaited import WAITING
 from hri.hal.camera import Camera
 from hri.hal.drivers.video_file import check_video
 from hri.hal.drivers.wav_file import load_sound
@@ -106,19 +108,25 @@ def run(options: argparse.Namespace) -> int:
 
 def _serve(options: argparse.Namespace, ending: Ending) -> int:
     """Run, and begin again while something is missing without which nothing can run."""
-    told = ""
+    told: set[str] = set()
+
+    def tell_once(line: str) -> None:
+        if line not in told or not line.endswith(WAITING):
+            told.add(line)
+            print(line, flush=True)
+
     while not ending.is_asked:
         try:
-            return _run(options, ending)
+            return _run(options, ending, tell_once)
         except NotAvailable as error:
-            if (line := f"{error} (waiting for it)") != told:
-                told = line
-                print(line, file=sys.stderr, flush=True)
+            tell_once(f"{error}{WAITING}")
             ending.pause(BEGIN_AGAIN)
     return 0
 
 
-def _run(options: argparse.Namespace, ending: Ending) -> int:
+def _run(
+    options: argparse.Namespace, ending: Ending, notice: Callable[[str], object] = print
+) -> int:
     # Missed ticks are summed up at the end; only failures are logged at once.
     handler = logging.StreamHandler()
     handler.setFormatter(LineFormatter("%(levelname)s - %(message)s"))
@@ -141,6 +149,7 @@ def _run(options: argparse.Namespace, ending: Ending) -> int:
             "face": {"face": options.face},
             "renderer": {"face": options.face, "captions": options.captions},
         },
+        notice=notice,
         record=options.record,
         record_rejected=options.record_rejected,
         doors=doors_of(options),

@@ -66,7 +66,8 @@ def test_what_makes_no_sense_with_it_is_refused(other, capsys):
 def test_it_begins_again_until_all_is_there_that_it_cannot_do_without(monkeypatch, capsys):
     lacking = ["no base", "no base", "no other", "no base"]
 
-    def begin(options, ending):
+    def begin(options, ending, notice):
+        notice("no camera (waiting for it)")
         if lacking:
             raise NotAvailable(f"{lacking.pop(0)} - plug it in")
         return 0
@@ -74,15 +75,15 @@ def test_it_begins_again_until_all_is_there_that_it_cannot_do_without(monkeypatc
     monkeypatch.setattr(run, "_run", begin)
     monkeypatch.setattr(run, "BEGIN_AGAIN", 0.0)
     assert main(["companion", "--service"]) == 0
-    assert capsys.readouterr().err.splitlines() == [
+    assert capsys.readouterr().out.splitlines() == [
+        "no camera (waiting for it)",
         "no base - plug it in (waiting for it)",
         "no other - plug it in (waiting for it)",
-        "no base - plug it in (waiting for it)",
     ]
 
 
 def test_a_mistake_is_not_waited_for(monkeypatch):
-    def begin(options, ending):
+    def begin(options, ending, notice):
         raise HriError("a mistake - mend it")
 
     monkeypatch.setattr(run, "_run", begin)
@@ -90,7 +91,7 @@ def test_a_mistake_is_not_waited_for(monkeypatch):
 
 
 def test_it_ends_while_it_waits_when_it_is_asked_to(monkeypatch):
-    def begin(options, ending):
+    def begin(options, ending, notice):
         signal.raise_signal(signal.SIGTERM)
         raise NotAvailable("no base - plug it in")
 
