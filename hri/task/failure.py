@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import sysconfig
+import os
 import traceback
 from collections.abc import Callable
 from pathlib import Path
@@ -10,9 +10,10 @@ from types import CodeType
 
 _OWN = Path(__file__).parents[1]
 """The package `hri`."""
-_INSTALLED = tuple(
-    Path(sysconfig.get_path(name)) for name in ("stdlib", "platstdlib", "purelib", "platlib")
-)
+_LIBRARY = Path(os.__file__).parent
+"""That of Python."""
+_INSTALLED = ("site-packages", "dist-packages")
+"""Names of the folders of installed packages."""
 
 
 def place_of(error: BaseException, job: Callable[..., object] | None = None) -> str:
@@ -42,7 +43,9 @@ def _code_of(job: object) -> CodeType | None:
 
 
 def _is_authored(file: Path) -> bool:
-    return not any(file.is_relative_to(folder) for folder in (_OWN, *_INSTALLED))
+    if file.name.startswith("<") or any(name in file.parts for name in _INSTALLED):
+        return False
+    return not (file.is_relative_to(_OWN) or file.is_relative_to(_LIBRARY))
 
 
 def with_place(error: Exception, job: Callable[..., object] | None = None) -> str:
