@@ -69,6 +69,25 @@ def test_pictures_of_other_sizes_are_fitted_into_the_film(movie, tmp_path):
     assert numbers(tmp_path / "face.mp4") == list(range(20))
 
 
+def test_a_screen_that_films_takes_pictures_of_every_kind_and_refuses_what_is_none(
+    open_driver, clock, tmp_path
+):
+    path = tmp_path / "face.mp4"
+    screen = open_driver(VideoFileScreen, file=path, width=SIZE[0], height=SIZE[1], rate=RATE)
+    shown = picture(5)
+    wide = np.pad(shown, ((24, 24), (0, 0), (0, 0))).repeat(2, axis=0)
+    for number, image in enumerate((shown, shown[..., 0], shown.astype(np.uint16) * 256, wide)):
+        screen.show(image, number / RATE)
+    for odd in (np.zeros((0, 64, 3), np.uint8), np.zeros((48, 64, 2), np.uint8), shown / 255):
+        with pytest.raises(ValueError, match=r"a picture of|pixels of the kind"):
+            screen.show(odd, 1.0)
+    screen.show(shown, 0.4)
+    screen.deactivate()
+    found = numbers(path)
+    assert len(found) == 5
+    assert [found[0], found[1], found[2], found[4]] == [5] * 4
+
+
 def test_a_film_whose_program_was_killed_is_seen_up_to_a_second_before(movie, tmp_path):
     shoot(movie, 45)
     assert numbers(tmp_path / "face.mp4") == list(range(41))

@@ -70,6 +70,14 @@ def test_without_a_display_it_is_not_there(manager, monkeypatch):
         Window(Description("screen", "Hri.Screen"), manager).activate()
 
 
+def test_where_sdl_finds_no_display_it_may_be_tried_again(manager, monkeypatch):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "offscreen")
+    monkeypatch.setattr(window, "has_display", lambda: True)
+    for _ in range(3):
+        with pytest.raises(NotAvailable, match="screen: SDL finds no display - connect"):
+            Window(Description("screen", "Hri.Screen"), manager).activate()
+
+
 @pytest.mark.parametrize("driver", [Window, OffscreenScreen])
 @pytest.mark.parametrize("value", ["0", "-640", "1e9", "15", "320.5", "many"])
 def test_a_size_out_of_range_is_refused(manager, driver, value):
