@@ -15,6 +15,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from hri.core.native_path import native_path
 from hri.core.picture_writer import write_picture
 from hri.core.signals import Image
 
@@ -68,7 +69,8 @@ class Golden:
             self.folder.mkdir(parents=True, exist_ok=True)
             write_picture(path, seen)
             return
-        read = cv2.imread(str(path))
+        with native_path(path) as file:
+            read = cv2.imread(file)
         assert read is not None, f"no picture {path} - run pytest --update-goldens, look at it"
         approved = np.asarray(cv2.cvtColor(read, cv2.COLOR_BGR2RGB), np.uint8)
         what = difference(seen, approved)

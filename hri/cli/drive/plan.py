@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import cv2
 import numpy as np
 
+from hri.core.quoting import escaped
 from hri.core.signals import Image, Pose2D
 from hri.simulation.people.person import RADIUS as PERSON_RADIUS
 from hri.simulation.room import Box, Circle, Obstacle, Wall
@@ -141,11 +142,11 @@ class Plan:
             case _:
                 color, thick = (WAY, 2) if name == "robot's way" else (PERSON_WAY, 1)
                 cv2.line(picture, (x + 3, y), (x + SIGN - 4, y), color, thick, cv2.LINE_AA)
-        cv2.putText(picture, MEANING.get(name, name), (x + SIGN, y + 5), *WORDS)
+        cv2.putText(picture, escaped(MEANING.get(name, name)), (x + SIGN, y + 5), *WORDS)
 
     def _titled(self, picture: Image, time: float) -> Image:
         text = f"{self.run.title}   {time:.1f} s".strip()
-        cv2.putText(picture, text, (8, 18), *WORDS)
+        cv2.putText(picture, escaped(text), (8, 18), *WORDS)
         return picture
 
     def _obstacle(self, picture: Image, obstacle: Obstacle) -> None:

@@ -10,6 +10,7 @@ import cv2
 from PIL import Image as Picture
 
 from hri.core.errors import HriError
+from hri.core.native_path import native_path
 from hri.core.signals import Image
 from hri.core.writing import replacing
 from hri.hal.drivers.mp4 import check_size, is_whole
@@ -83,7 +84,9 @@ def _write_mp4(path: Path, pictures: Iterator[Image], rate: float) -> None:
     first = next(pictures)
     height, width = first.shape[:2]
     path.write_bytes(bytes(ROOM))  # OpenCV's own complaints do not say why
-    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"mp4v"), rate, (width, height))
+    code = cv2.VideoWriter.fourcc(*"mp4v")
+    with native_path(path) as name:
+        writer = cv2.VideoWriter(name, code, rate, (width, height))
     try:
         if not writer.isOpened():
             raise HriError("OpenCV cannot write MP4 here - write .webp in its place")

@@ -16,6 +16,7 @@ import cv2
 import numpy as np
 
 from hri.core.growing import GrowingFile, log
+from hri.core.native_path import native_path
 from hri.core.signals import Image
 from hri.core.writing import PRIVATE, NotWritten, delete_leftovers, name_beside
 from hri.hal.drivers import mp4
@@ -66,7 +67,8 @@ class GrowingMovie:
         with suppress(OSError):  # OpenCV meets it again
             self._scratch.touch(PRIVATE)
         code = cv2.VideoWriter.fourcc(*"mp4v")
-        return cv2.VideoWriter(str(self._scratch), code, self._rate, self._size)
+        with native_path(self._scratch) as name:
+            return cv2.VideoWriter(name, code, self._rate, self._size)
 
     def close(self) -> None:
         """Make an ordinary MP4 of it; a second call does nothing.

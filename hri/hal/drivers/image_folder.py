@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 
 from hri.core.errors import HriError
+from hri.core.native_path import native_path
 from hri.core.signals import Frame, Image
 from hri.hal.camera import FIELD_OF_VIEW, Camera
 from hri.hal.drivers.image_size import picture_size
@@ -53,7 +54,8 @@ class ImageFolderCamera(Camera):
     def _load(self, path: Path) -> Image | None:
         try:
             size = picture_size(path)  # raises before a giant is decoded
-            picture = cv2.imread(str(path), cv2.IMREAD_COLOR) if size is not None else None
+            with native_path(path) as name:
+                picture = cv2.imread(name, cv2.IMREAD_COLOR) if size is not None else None
         except (HriError, cv2.error) as error:
             self._refuse(f"{path.name}: {error}")
             return None

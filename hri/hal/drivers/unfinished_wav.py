@@ -13,6 +13,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
+from hri.core.native_path import native_path
+
 RIFF_SIZE = 4
 """Place of the size of the file, which counts what comes after it."""
 FIRST_CHUNK = 12
@@ -32,7 +34,8 @@ def finished(path: Path) -> Iterator[tuple[str | BinaryIO, bool]]:
     with path.open("rb") as file:
         sizes = _missing_sizes(file, length)
     if not sizes:
-        yield str(path), False
+        with native_path(path) as name:
+            yield name, False
         return
     patches = {place: struct.pack("<I", min(size, LARGEST)) for place, size in sizes.items()}
     with io.BufferedReader(_Patched(path, patches)) as whole:

@@ -11,6 +11,7 @@ import cv2
 import numpy as np
 
 from hri.core.errors import HriError
+from hri.core.native_path import native_path
 from hri.core.reading import require_file
 from hri.core.signals import Frame, Image
 from hri.hal.camera import FIELD_OF_VIEW, Camera
@@ -48,7 +49,7 @@ def _opened(path: Path) -> cv2.VideoCapture:
     require_file(path, "video or image")
     is_film = picture_size(path) is None  # raises before a giant is decoded
     # OpenCV's own readers of pictures decode those of other formats before they tell their size.
-    capture = cv2.VideoCapture(str(path), cv2.CAP_FFMPEG if is_film else cv2.CAP_ANY)
+    capture = _capture(path, cv2.CAP_FFMPEG if is_film else cv2.CAP_ANY)
     width, height = (capture.get(way) for way in (WIDTH, HEIGHT))
     if width * height > MOST_PIXELS or max(width, height) > LARGEST_SIDE:
         capture.release()
@@ -60,12 +61,17 @@ def _opened(path: Path) -> cv2.VideoCapture:
     if not readable or picture is None or max(picture.shape[:2]) > LARGEST_SIDE:
         raise HriError(f"{path}: not a readable video or image - try an MP4, AVI, PNG or JPEG")
     del picture  # it may be large, and is decoded once more
-    return cv2.VideoCapture(str(path))
+    return _capture(path)
+
+
+def _capture(path: Path, reader: int = cv2.CAP_ANY) -> cv2.VideoCapture:
+    with native_path(path) as name:
+        return cv2.VideoCapture(name, reader)
 
 
 def _is_still(path: Path) -> bool:
     """Whether there is a single picture; a file that does not say how many may have more."""
-    capture = cv2.VideoCapture(str(path))
+    capture = _capture(path)
     has_more = capture.get(cv2.CAP_PROP_FRAME_COUNT) > 1 or (capture.grab() and capture.grab())
     capture.release()
     return not has_more

@@ -16,6 +16,7 @@ import numpy as np
 from hri.core.clock import Clock
 from hri.core.errors import NotAvailable
 from hri.core.latest import Latest
+from hri.core.native_path import native_path
 from hri.core.signals import Frame
 from hri.hal.camera import FIELD_OF_VIEW, STALL, Camera
 from hri.hal.picture import LARGEST_SIDE, as_picture
@@ -122,7 +123,8 @@ class Webcam(Camera):
         if device.isdigit():
             capture = cv2.VideoCapture(int(device))
         else:
-            capture = cv2.VideoCapture(device, cv2.CAP_V4L2)
+            with native_path(device) as name:
+                capture = cv2.VideoCapture(name, cv2.CAP_V4L2)
         if not capture.isOpened():
             capture.release()
             return None

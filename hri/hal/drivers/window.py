@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from hri.core.quoting import escaped
 from hri.core.signals import Image
 from hri.hal.drivers.scaling import by_area
 from hri.hal.drivers.silence import silenced_libraries
@@ -58,7 +59,7 @@ class Window(Screen):
         except pygame.error as error:
             pygame.display.quit()
             raise self.not_available(str(error), "connect a display, or set DISPLAY") from error
-        pygame.display.set_caption(self.description.text("title", "hri"))
+        pygame.display.set_caption(escaped(self.description.text("title", "hri")))
         repeat = self.description.number_within("key_repeat", 0.0, 0.0, 10.0)
         if repeat:
             pygame.key.set_repeat(round(repeat * 1000))

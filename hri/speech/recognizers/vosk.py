@@ -12,6 +12,7 @@ from typing import Any
 from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.models import models_folder
+from hri.core.native_path import native_path
 from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, HeardWord, Hypothesis, Segment
 from hri.speech.engine_models import DOWNLOADS, find_vosk
@@ -63,7 +64,8 @@ class VoskRecognizer(EndpointedRecognizer):
             if self._model is None:
                 vosk.SetLogLevel(-1)
                 try:
-                    self._model = vosk.Model(model_path=str(self._path))
+                    with native_path(self._path) as name:
+                        self._model = vosk.Model(model_path=name)
                 except Exception as error:  # That is the class it raises.
                     remedy = "unpack the model again"
                     raise self.not_available(f"{self._path}: {error}", remedy) from error

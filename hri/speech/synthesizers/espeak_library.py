@@ -9,6 +9,7 @@ from __future__ import annotations
 import _ctypes
 import ctypes
 import ctypes.util
+import os
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -320,7 +321,7 @@ def _find() -> tuple[str, bytes | None]:
     try:
         import espeakng_loader
 
-        return espeakng_loader.get_library_path(), espeakng_loader.get_data_path().encode()
+        return espeakng_loader.get_library_path(), os.fsencode(espeakng_loader.get_data_path())
     except (ImportError, OSError):
         found = ctypes.util.find_library("espeak-ng")
         if found is None:

@@ -16,7 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hri.core.errors import NotAvailable
+from hri.core.errors import HriError, NotAvailable
+from hri.core.native_path import native_path
 from hri.core.signals import Prosody
 from hri.speech.synthesizers.natural_symbols import Sounded, longest_parts
 
@@ -197,9 +198,12 @@ def session_of(path: Path, output: str) -> Any:
         with TemporaryDirectory() as folder:  # a session keeps bytes for good, but closes a file
             model = Path(folder) / "model.onnx"
             model.write_bytes(path.read_bytes() + _output(output))
-            session = onnxruntime.InferenceSession(model, options, ["CPUExecutionProvider"])
+            with native_path(model) as name:
+                session = onnxruntime.InferenceSession(name, options, ["CPUExecutionProvider"])
     except OSError as error:
         raise NotAvailable(f"{path}: {error.strerror} - see `hri voices`") from error
+    except HriError as error:
+        raise NotAvailable(str(error)) from error
     except Exception as error:  # onnxruntime's own, one class for each status
         raise NotAvailable(f"{path}: not a model of this kind of voice - take another") from error
     return session

@@ -10,6 +10,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from hri.core.native_path import native_path
 from hri.core.signals import FaceBox, Image
 from hri.vision.detectors.face import FoundFace, merged
 from hri.vision.detectors.preprocessing import gray_picture
@@ -28,7 +29,8 @@ class HaarDetector:
     """Finds upright faces that look toward the camera, within about 20 degrees."""
 
     def __init__(self) -> None:
-        self._cascade = cv2.CascadeClassifier(str(FOLDER / CASCADE))
+        with native_path(FOLDER / CASCADE) as name:
+            self._cascade = cv2.CascadeClassifier(name)
 
     def find(self, image: Image, turn: int = 0) -> list[FoundFace]:
         """All faces, the surest first; none for an invalid picture."""

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.core.native_path import native_path
 from hri.core.signals import Image
 
 SIDE = 224
@@ -28,7 +29,8 @@ class Embedding:
         if not paths.exists(path):
             raise HriError(f"{path}: not found - {REMEDY}")
         try:
-            self._network = cv2.dnn.readNetFromONNX(str(path))
+            with native_path(path) as name:
+                self._network = cv2.dnn.readNetFromONNX(name)
             self.describe(np.zeros((SIDE, SIDE, 3), np.uint8))
         except cv2.error as error:
             reason = str(error.err or error).strip().splitlines()[0]
