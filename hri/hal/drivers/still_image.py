@@ -1,27 +1,37 @@
-"""A picture from a file, upright as its camera was held."""
+"""The reader of pictures of any kind: in colors, and upright as the camera was held.
+
+docs/vision.md has a table of what becomes of each kind.
+"""
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
+from typing import IO, Any
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image as PillowImage, ImageOps
+from PIL import Image as PillowImage, ImageCms, ImageOps
 
+from hri.core import paths
 from hri.core.errors import HriError
-from hri.core.reading import require_file
+from hri.core.reading import opened
 from hri.core.signals import Image
-from hri.hal.drivers.image_size import picture_size
+from hri.hal.drivers.image_size import FORMATS, Header, read_header, require_size
+from hri.hal.drivers.other_pictures import AGAIN, DAMAGED, kind_of
+from hri.hal.drivers.pixel_depth import STRIP, as_bytes, white_of
+from hri.hal.drivers.silence import silenced_libraries
 
 ORIENTATION = 0x0112
 """Tag of EXIF 2.3, section 4.6.4: how the stored picture is to be turned and mirrored."""
 REMEDY = "name a JPEG or PNG"
-STRIP = 256
-"""Rows that are converted at once."""
 
 Point = tuple[float, float]
+Mask = NDArray[np.uint8]
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,13 +39,17 @@ class StillImage:
     """A picture as it is to be looked at, and how it is stored."""
 
     image: Image
-    """Uint8, [height, width, 3], RGB, upright."""
-    alpha: NDArray[np.uint8] | None
+    """Uint8, [height, width, 3], RGB, upright; what is transparent lies over white."""
+    alpha: Mask | None
     """How opaque it is, [height, width]; None without such a channel."""
     orientation: int
     """1 to 8, of EXIF."""
-    stored_size: tuple[int, int]
-    """Width and height in the file."""
+
+    @property
+    def stored_size(self) -> tuple[int, int]:
+        """Width and height in the file."""
+        height, width = self.image.shape[:2]
+        return (height, width) if self.orientation > 4 else (width, height)
 
     def stored(self, x: float, y: float) -> Point:
         """Where a point of the upright picture is in the stored one, pixels."""
@@ -52,34 +66,132 @@ _STORED: Mapping[int, Callable[[float, float, int, int], Point]] = {
     7: lambda x, y, width, height: (width - y, height - x),
     8: lambda x, y, width, height: (width - y, x),
 }
+_UPRIGHT: Mapping[int, Callable[[NDArray[Any]], NDArray[Any]]] = {
+    1: lambda stored: stored,
+    2: np.fliplr,
+    3: lambda stored: np.rot90(stored, 2),
+    4: np.flipud,
+    5: lambda stored: stored.swapaxes(0, 1),
+    6: lambda stored: np.rot90(stored, -1),
+    7: lambda stored: np.rot90(stored, 2).swapaxes(0, 1),
+    8: np.rot90,
+}
 
 
 def read_still(path: Path) -> StillImage:
-    """Read a picture. Raises HriError when it cannot be read or is too large."""
-    require_file(path, "picture")
-    if picture_size(path) is None:
-        raise HriError(f"{path}: not a readable picture - {REMEDY}")
-    try:
-        with PillowImage.open(path) as stored:
-            size = stored.size
-            orientation = stored.getexif().get(ORIENTATION, 1)
-            ImageOps.exif_transpose(stored, in_place=True)
-            image, alpha = _pixels(stored)
-    except (OSError, ValueError, SyntaxError, EOFError) as error:  # Pillow raises all of these
-        raise HriError(f"{path}: not a readable picture: {error} - {REMEDY}") from error
-    return StillImage(image, alpha, orientation if orientation in _STORED else 1, size)
+    """Read a picture, of an animation the first.
+
+    Raises HriError when it cannot be read to its end, or is too large.
+    """
+    if not paths.exists(path):
+        raise HriError(f"{path}: no such file - check the path")
+    with opened(path, "picture", None) as file:
+        header = read_header(file)
+        if header is None or header.is_preview:
+            file.seek(0)
+            raise HriError(f"{path}: {kind_of(file)}")
+        require_size(path, file, header)
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                return (_of_opencv if header.is_deep_color else _of_pillow)(file, header)
+        except Exception as error:  # of what Pillow raises for broken files there is no list
+            why = f"{error} - {REMEDY}"
+            if "truncated" in why.lower():
+                why = f"{DAMAGED} - {AGAIN}"
+            raise HriError(f"{path}: not a readable picture: {why}") from error
 
 
-def _pixels(picture: PillowImage.Image) -> tuple[Image, NDArray[np.uint8] | None]:
-    """The colors and the opacity, strip by strip: a large picture is in the memory only twice."""
-    has_alpha = "A" in picture.getbands() or "transparency" in picture.info
+def _of_pillow(file: IO[bytes], header: Header) -> StillImage:
+    with PillowImage.open(file, formats=FORMATS) as stored:
+        orientation = stored.getexif().get(ORIENTATION, 1)
+        ImageOps.exif_transpose(stored, in_place=True)  # a TIFF is upright when it is loaded
+        pixels = _deep_gray(stored, header) if header.bits > 8 else _colors(stored)
+    return _still(pixels, orientation)
+
+
+def _still(pixels: NDArray[np.uint8], orientation: int) -> StillImage:
+    """A picture from upright pixels with three channels, or with opacity as the fourth."""
+    orientation = orientation if orientation in _STORED else 1
+    if pixels.shape[2] == 3:
+        return StillImage(pixels, None, orientation)
+    alpha = np.ascontiguousarray(pixels[..., 3])
+    return StillImage(over_white(pixels[..., :3], alpha), alpha, orientation)
+
+
+def over_white(colors: NDArray[np.uint8], alpha: Mask) -> Image:
+    """Colors, [height, width, 3], as they are seen over white: a transparent one is not."""
+    seen = np.empty(colors.shape, np.uint8)
+    for top in range(0, len(colors), STRIP):
+        rows = slice(top, top + STRIP)
+        opaque = alpha[rows, :, None].astype(np.uint16)
+        seen[rows] = (colors[rows] * opaque + 255 * (255 - opaque) + 127) // 255
+    return seen
+
+
+def _colors(picture: PillowImage.Image) -> NDArray[np.uint8]:
+    """Pixels of 8 bits, strip by strip: a large picture is in the memory only twice."""
+    has_alpha = picture.mode[-1] in "Aa" or "transparency" in picture.info
+    mode = "RGBA" if has_alpha else "RGB"
     width, height = picture.size
-    image = np.empty((height, width, 3), np.uint8)
-    alpha = np.empty((height, width), np.uint8) if has_alpha else None
+    pixels = np.empty((height, width, len(mode)), np.uint8)
     for top in range(0, height, STRIP):
         strip = picture.crop((0, top, width, min(height, top + STRIP)))
-        pixels = np.asarray(strip.convert("RGBA" if has_alpha else "RGB"), np.uint8)
-        image[top : top + STRIP] = pixels[..., :3]
-        if alpha is not None:
-            alpha[top : top + STRIP] = pixels[..., 3]
-    return image, alpha
+        if strip.mode == "LAB":
+            strip = ImageCms.applyTransform(strip, _from_lab()) or strip
+        pixels[top : top + STRIP] = np.asarray(strip.convert(mode), np.uint8)
+    return pixels
+
+
+@cache
+def _from_lab() -> ImageCms.ImageCmsTransform:
+    """From CIE L*a*b* to sRGB."""
+    lab, rgb = (ImageCms.createProfile(space) for space in ("LAB", "sRGB"))
+    return ImageCms.buildTransform(lab, rgb, "LAB", "RGB")
+
+
+def _deep_gray(picture: PillowImage.Image, header: Header) -> NDArray[np.uint8]:
+    """Pixels from one channel of 16 or 32 bits."""
+    samples = np.asarray(picture)
+    if samples.dtype == np.int32 and header.bits == 32 and not header.is_signed:
+        samples = samples.view(np.uint32)  # Pillow has integers with a sign alone
+    channels = [_as_bytes(samples, header, header.white)] * 3
+    if isinstance(key := picture.info.get("transparency"), int):
+        channels.append(np.where(samples == key, 0, 255).astype(np.uint8))
+    return np.dstack(channels)
+
+
+def _of_opencv(file: IO[bytes], header: Header) -> StillImage:
+    """What Pillow would cut to 8 bits, or does not know."""
+    data = np.frombuffer(file.read(), np.uint8)
+    with silenced_libraries():
+        samples = cv2.imdecode(data, cv2.IMREAD_UNCHANGED)
+    del data
+    if samples is None:
+        raise ValueError("truncated")
+    if 8 * samples.itemsize != header.bits:  # it changes what it cannot give
+        raise ValueError(f"{header.channels} channels of {header.bits} bits are not known")
+    orientation = header.orientation
+    if header.format == "PNG":  # a TIFF is upright when it is decoded
+        orientation = _orientation(file)
+        samples = _UPRIGHT.get(orientation, _UPRIGHT[1])(samples)
+    samples = samples.reshape(*samples.shape[:2], -1)
+    colors = _as_bytes(samples[..., :3], header)
+    channels = [
+        colors[..., number] for number in ((2, 1, 0) if colors.shape[2] == 3 else (0, 0, 0))
+    ]
+    if samples.shape[2] == 4:
+        channels.append(_as_bytes(samples[..., 3], header))
+    return _still(np.dstack(channels), orientation)
+
+
+def _orientation(file: IO[bytes]) -> int:
+    with PillowImage.open(file, formats=FORMATS) as stored:
+        return int(stored.getexif().get(ORIENTATION, 1))
+
+
+def _as_bytes(
+    samples: NDArray[Any], header: Header, white: float | None = None
+) -> NDArray[np.uint8]:
+    white = white or white_of(samples, header.bits - header.is_signed)
+    return as_bytes(samples, white, header.is_negative)

@@ -5,19 +5,23 @@ from __future__ import annotations
 import math
 import queue
 import threading
+from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from hri.core.errors import HriError
 from hri.core.native_path import native_path
-from hri.core.reading import require_file
+from hri.core.reading import opened, require_file
 from hri.core.signals import Frame, Image
 from hri.hal.camera import FIELD_OF_VIEW, Camera
 from hri.hal.drivers.growing_movie import GrowingMovie
-from hri.hal.drivers.image_size import picture_size
+from hri.hal.drivers.image_size import read_header
 from hri.hal.drivers.scaling import by_area
+from hri.hal.drivers.still_image import read_still
 from hri.hal.picture import LARGEST_SIDE, MOST_PIXELS, as_picture, fitted
 from hri.hal.screen import Screen
 
@@ -35,21 +39,37 @@ MOST_AT_ONCE = 60
 """Pictures that are passed over in one go; a reader who was away for long catches up later."""
 WHOLE = 0.95
 """Part of the pictures that a file promises; with fewer it was cut short."""
+NEXT, MUCH = b"\xff\xd9\xff\xd8\xff", 20_000_000
+"""Between two pictures of a film that is made of JPEGs alone, and bytes in which it must come."""
 PACES = ("real", "fast")
 """How a file is shown: at its own pace, or each picture as soon as it is asked for."""
 
 
 def check_video(path: Path) -> None:
     """Raises HriError unless the file is a video or an image that can be decoded."""
-    _opened(path).release()
+    if _still_of(path) is None:
+        _opened(path).release()
+
+
+def _still_of(path: Path) -> Image | None:
+    """The picture in a file that is one; None for a film. Raises HriError."""
+    require_file(path, "video or image")
+    with opened(path, "video or image", None) as file:
+        header = read_header(file)
+        file.seek(0)
+        has_more = header is not None and header.format == "JPEG" and NEXT in file.read(MUCH)
+    if header is None:
+        return None
+    if header.is_animated or has_more:
+        with suppress(HriError):  # of some animations FFmpeg knows the first picture at most
+            _opened(path).release()
+            return None
+    return read_still(path).image
 
 
 def _opened(path: Path) -> cv2.VideoCapture:
-    """A file before its first picture, which is sure to be there. Raises HriError."""
-    require_file(path, "video or image")
-    is_film = picture_size(path) is None  # raises before a giant is decoded
-    # OpenCV's own readers of pictures decode those of other formats before they tell their size.
-    capture = _capture(path, cv2.CAP_FFMPEG if is_film else cv2.CAP_ANY)
+    """A film before its first picture, which is sure to be there. Raises HriError."""
+    capture = _capture(path)
     width, height = (capture.get(way) for way in (WIDTH, HEIGHT))
     if width * height > MOST_PIXELS or max(width, height) > LARGEST_SIDE:
         capture.release()
@@ -64,17 +84,23 @@ def _opened(path: Path) -> cv2.VideoCapture:
     return _capture(path)
 
 
-def _capture(path: Path, reader: int = cv2.CAP_ANY) -> cv2.VideoCapture:
+def _capture(path: Path) -> cv2.VideoCapture:
+    # OpenCV's own readers of pictures decode them before they tell their size.
     with native_path(path) as name:
-        return cv2.VideoCapture(name, reader)
+        return cv2.VideoCapture(name, cv2.CAP_FFMPEG)
 
 
-def _is_still(path: Path) -> bool:
-    """Whether there is a single picture; a file that does not say how many may have more."""
+def _single_of(path: Path) -> Image | None:
+    """The picture of a film of only one, which need not say how many it has."""
     capture = _capture(path)
-    has_more = capture.get(cv2.CAP_PROP_FRAME_COUNT) > 1 or (capture.grab() and capture.grab())
+    _, picture = capture.read()
+    has_more = capture.get(cv2.CAP_PROP_FRAME_COUNT) > 1 or capture.grab()
     capture.release()
-    return not has_more
+    return None if has_more or picture is None else _in_rgb(picture)
+
+
+def _in_rgb(picture: NDArray[Any]) -> Image:
+    return np.asarray(cv2.cvtColor(picture, cv2.COLOR_BGR2RGB), np.uint8)
 
 
 class _Timing:
@@ -114,22 +140,32 @@ class VideoFileCamera(Camera):
         path = Path(self.description.text("file"))
         self.is_recording = self.description.choice("pace", "real", PACES) == "fast"
         self.field_of_view = self.description.number_within("field_of_view", *FIELD_OF_VIEW)
-        self._capture = _opened(path)
-        width, height = int(self._capture.get(WIDTH)), int(self._capture.get(HEIGHT))
-        self._take_size(np.empty((height, width), np.uint8))
-        self._is_still = _is_still(path)
-        self._timing = _Timing(self._capture)
         self._start = self.manager.clock.now()
         self._number = -1
-        self._still: Image | None = None
         self._due: float | None = None
         """Seconds from the start to the next picture; None at the end."""
+        self._capture = cv2.VideoCapture()
+        self._still = _still_of(path)
+        if self._still is None:
+            self._begin(path)
+        if self._still is not None:
+            self._take_size(self._still)
+
+    def _begin(self, path: Path) -> None:
+        """Open a film; one of a single picture is a still."""
+        self._capture = _opened(path)
+        self._still = _single_of(path)
+        if self._still is not None:
+            return
+        width, height = int(self._capture.get(WIDTH)), int(self._capture.get(HEIGHT))
+        self._take_size(np.empty((height, width), np.uint8))
+        self._timing = _Timing(self._capture)
         self._grab()
 
     def _read(self, now: float) -> Frame | None:
         elapsed = now - self._start + SLACK
-        if self._is_still:
-            return self._read_still(elapsed)
+        if self._still is not None:
+            return self._read_still(self._still, elapsed)
         for _ in range(MOST_AT_ONCE):
             if self._due is None or (self._due > elapsed and not self.is_recording):
                 return None
@@ -155,22 +191,18 @@ class VideoFileCamera(Camera):
 
     def _retrieve(self) -> Image | None:
         readable, picture = self._capture.retrieve()
-        if not readable or picture is None:
-            return None
-        return np.asarray(cv2.cvtColor(picture, cv2.COLOR_BGR2RGB), np.uint8)
+        return _in_rgb(picture) if readable and picture is not None else None
 
-    def _read_still(self, elapsed: float) -> Frame | None:
-        if self._still is None:
-            self._still, self._number = self._retrieve(), -1
+    def _read_still(self, still: Image, elapsed: float) -> Frame | None:
         due = int(elapsed * STILL_RATE)
-        if due <= self._number or self._still is None:
+        if due <= self._number:
             return None
         self._number = due
-        return Frame(self._still, self._start + due / STILL_RATE, due)
+        return Frame(still, self._start + due / STILL_RATE, due)
 
     @property
     def has_ended(self) -> bool:
-        return self._due is None or self._is_still
+        return self._due is None or self._still is not None
 
     def _close(self) -> None:
         self._capture.release()

@@ -37,9 +37,10 @@ def find_bodies(image: Image) -> list[tuple[FaceBox, float]]:
     """Boxes of bodies in pixels, each with how sure it is, 0 to 1; the surest first."""
     scale = min(1.0, WIDEST / max(image.shape[:2]))
     gray = cv2.cvtColor(image, cv2.COLOR_RGB2GRAY)
-    small = cv2.resize(gray, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
-    if small.shape[1] < SMALLEST[0] or small.shape[0] < SMALLEST[1]:
+    size = round(image.shape[1] * scale), round(image.shape[0] * scale)
+    if size[0] < SMALLEST[0] or size[1] < SMALLEST[1]:
         return []
+    small = cv2.resize(gray, size, interpolation=cv2.INTER_AREA)
     found, weights = _detector().detectMultiScale(
         small, winStride=STRIDE, padding=PADDING, scale=STEP
     )

@@ -33,15 +33,6 @@ def test_an_orientation_that_nobody_knows_is_ignored(tmp_path):
     assert read_still(stored(tmp_path / "a.png", 77)).orientation == 1
 
 
-@pytest.mark.parametrize("mode", ["L", "P", "1", "CMYK", "RGBA"])
-def test_pictures_of_any_kind_are_read_in_colors(tmp_path, mode):
-    path = stored(tmp_path / ("a.tif" if mode == "CMYK" else "a.png"), mode=mode)
-    still = read_still(path)
-    assert still.image.shape == (30, 40, 3)
-    assert still.image.dtype == np.uint8
-    assert (still.alpha is not None) == (mode == "RGBA")
-
-
 def test_what_is_not_a_picture_is_refused_in_a_line(tmp_path):
     cut, text = tmp_path / "cut.png", tmp_path / "text.jpg"
     cv2.imwrite(str(cut), np.random.default_rng(0).integers(0, 255, (200, 200, 3)))
