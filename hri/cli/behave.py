@@ -24,6 +24,7 @@ from hri.cli.terminal.streams import unfailing_output
 from hri.core.clock import Clock, FakeClock, RealClock
 from hri.core.errors import HriError, did_you_mean
 from hri.core.event_bus import EventBus
+from hri.core.quoting import report
 from hri.core.realtime import become_realtime
 from hri.hal.resource import Resource
 from hri.hal.resource_manager import ResourceManager
@@ -140,7 +141,7 @@ def _behave(options: argparse.Namespace, ending: Ending) -> int:
         _tell_timings(runner)
     _tell_outcome(runner.statistics, clock.now() - began)
     for plot in plots:
-        print(plot.write())
+        report(str(plot.write()))
     return 1 if runner.statistics.failures else 0
 
 
@@ -149,7 +150,7 @@ def _tell_outcome(statistics: Statistics, seconds: float) -> None:
     count = f"{statistics.ticks} tick{'s' * (statistics.ticks != 1)} in {seconds:.1f} s"
     missed = f"{statistics.missed} missed" if statistics.missed else "none missed"
     failed = f"{statistics.failures} failures" if statistics.failures else "no failures"
-    print(f"behave: {count}, {missed}, {failed}", file=sys.stderr)
+    report(f"behave: {count}, {missed}, {failed}", file=sys.stderr)
 
 
 def _tell_timings(runner: Runner) -> None:

@@ -15,6 +15,7 @@ from hri.cli.probe import Answer, ask_ports
 from hri.core import paths
 from hri.core.clock import RealClock
 from hri.core.errors import AuthoringError, HriError
+from hri.core.quoting import report
 from hri.hal.camera import Camera
 from hri.hal.configuration import Configuration, load_configuration
 from hri.hal.resource import Description, Resource
@@ -61,7 +62,8 @@ def run(options: argparse.Namespace) -> int:
     if options.json:
         print(json.dumps([asdict(device) for device in found], indent=2))
     else:
-        print(_table(found))
+        for line in _table(found).split("\n"):
+            report(line)
     return 0
 
 
@@ -71,7 +73,8 @@ def _probe(ports: Sequence[str], as_json: bool) -> int:
         print(json.dumps([asdict(answer) for answer in answers], indent=2))
     elif answers:
         rows = [("port", "base", ""), *((a.port, a.type or "-", _heard(a)) for a in answers)]
-        print(_aligned(rows))
+        for line in _aligned(rows).split("\n"):
+            report(line)
     else:
         print("no serial port found - plug the base in")
     return 0

@@ -16,6 +16,7 @@ from hri.cli.diagnostics import without_stand_ins
 from hri.core import paths
 from hri.core.clock import RealClock
 from hri.core.errors import HriError, NotAvailable
+from hri.core.quoting import report
 from hri.core.signals import Samples, Twist
 from hri.hal.camera import Camera
 from hri.hal.choices import load_choices, save_choices
@@ -91,7 +92,7 @@ class Doctor:
             except NotAvailable as error:
                 finding = Diagnosis(False, str(error).removeprefix(f"{name}: "))
             mark = "ok     " if finding.is_well else "MISSING"
-            print(f"{name:<11} {mark}  {finding.says}", flush=True)
+            report(f"{name:<11} {mark}  {finding.says}", flush=True)
             failures += not finding.is_well
         if failures:
             print(f"\n{failures} missing: the companion still runs, with stand-ins.")
@@ -200,9 +201,9 @@ def _choose() -> int:
     chosen = load_choices()
     for id, direction in (("microphone", "input"), ("speaker", "output")):
         if _ask(chosen, id, _sounds(direction)):
-            print(f"  {_tried(id, chosen[id])}")
+            report(f"  {_tried(id, chosen[id])}")
     _ask(chosen, "camera", {str(index): f"camera {index}" for index in range(4)})
-    print(f"kept in {save_choices(chosen)}; run `hri doctor` to try them")
+    report(f"kept in {save_choices(chosen)}; run `hri doctor` to try them")
     return 0
 
 
@@ -232,9 +233,10 @@ def _tried(id: str, device: str) -> str:
 
 def _ask(chosen: dict[str, str], id: str, names: dict[str, str]) -> bool:
     """Ask for one device; whether another was chosen."""
-    print(f"\n{id} (now: {chosen.get(id, 'the default')})")
+    print()
+    report(f"{id} (now: {chosen.get(id, 'the default')})")
     for number, name in names.items():
-        print(f"  {number}  {name}")
+        report(f"  {number}  {name}")
     while True:
         answer = input("number, or Enter to keep it: ").strip()
         if not answer:

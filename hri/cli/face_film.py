@@ -14,6 +14,7 @@ from pathlib import Path
 
 from hri.cli.terminal.progress_line import progress
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.core.signals import Image, Samples
 from hri.core.writing import replacing
 from hri.face import FaceModel
@@ -51,7 +52,9 @@ class FaceFilm:
         sound = scene.sound()
         if sound is not None and not add_sound(path, *sound):
             beside = "add --wav FILE" if wav is None else f"play {wav} beside it"
-            print(f"{path} is silent - {beside}; an .mp4 holds its sound where ffmpeg is installed")
+            report(
+                f"{path} is silent - {beside}; an .mp4 holds its sound where ffmpeg is installed"
+            )
 
     def _pictures(self, scene: Scene, model: FaceModel) -> Iterator[Image]:
         from hri.face.renderers.captions import add_caption

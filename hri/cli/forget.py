@@ -7,6 +7,7 @@ import sys
 
 from hri.cli.terminal.progress_line import waiting
 from hri.core.errors import HriError, did_you_mean
+from hri.core.quoting import report
 from hri.robot import kept
 from hri.robot.kept import Trace
 
@@ -36,7 +37,7 @@ def run(options: argparse.Namespace) -> int:
     status = 0
     for trace in found:
         try:
-            print(_forgotten(trace, options.yes))
+            report(_forgotten(trace, options.yes))
         except HriError as error:
             print(error, file=sys.stderr)
             status = 2

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from hri.cli.terminal.exit_status import status_of
 from hri.cli.terminal.messages import OptionParser
 from hri.core.errors import did_you_mean
-from hri.core.quoting import message_line
+from hri.core.quoting import message_line, report
 from hri.core.systems import REMEDY, is_windows, require_posix
 
 COMMANDS = {
@@ -65,7 +65,7 @@ def _answer(words: list[str]) -> int:
     if words[0] == "--version":
         from importlib.metadata import version
 
-        print(f"hri {version('hri')}")
+        report(f"hri {version('hri')}")
         return 0
     if words[0] not in COMMANDS:
         remedy = did_you_mean(words[0], COMMANDS)

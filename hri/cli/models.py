@@ -8,6 +8,7 @@ from pathlib import Path
 
 from hri.core import paths
 from hri.core.models import Catalog, Download, Model, Packaged, bring, fetch, fetched, models_folder
+from hri.core.quoting import report
 from hri.speech import engine_models as speech
 from hri.vision import face_models as vision
 
@@ -40,9 +41,9 @@ def _list(options: argparse.Namespace) -> int:
     width = max(map(len, (*known, *own)))
     for model in CATALOG.models:
         state = _state(model)
-        print(f"{model.name:<{width}}  {state:<20}  {model.about} ({model.license})")
+        report(f"{model.name:<{width}}  {state:<20}  {model.about} ({model.license})")
     for name in own:
-        print(f"{name:<{width}}  {'here':<20} installed by you")
+        report(f"{name:<{width}}  {'here':<20} installed by you")
     return 0
 
 
@@ -65,14 +66,14 @@ def _fetch(options: argparse.Namespace) -> int:
     else:
         model = CATALOG.download(options.name)
         if not CATALOG.is_here(model):
-            print(f"{model.name}: {model.size / 1e6:.1f} MB from {model.url}", file=sys.stderr)
+            report(f"{model.name}: {model.size / 1e6:.1f} MB from {model.url}", file=sys.stderr)
         place = fetch(model, _ProgressLine(options.name))
-    print(place)
+    report(str(place))
     return 0
 
 
 def _path(options: argparse.Namespace) -> int:
-    print(CATALOG.find(options.name) if options.name else models_folder())
+    report(str(CATALOG.find(options.name) if options.name else models_folder()))
     return 0
 
 

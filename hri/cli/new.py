@@ -15,6 +15,7 @@ from pathlib import Path
 
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.core.writing import new_folder
 
 TEMPLATES = Path(__file__).with_name("templates")
@@ -134,10 +135,12 @@ def run(options: argparse.Namespace) -> int:
     _refuse_taken(name, template)
     with new_folder(folder) as new:
         _write(template, name, new)
-    print(f"{folder}: {template.kind.about}. Next:\n\n  cd {folder}")
+    report(f"{folder}: {template.kind.about}. Next:")
+    print()
+    report(f"  cd {folder}")
     print("  python -m pytest    # if it is missing: pip install pytest")
     for step in template.kind.steps:
-        print(f"  {_renamed(step, name)}")
+        report(f"  {_renamed(step, name)}")
     return 0
 
 

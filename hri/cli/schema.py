@@ -11,6 +11,7 @@ from hri.behavior.declaration import Schema
 from hri.behavior.schema import schema_of, write_schema
 from hri.core import registry
 from hri.core.errors import HriError, NotAvailable
+from hri.core.quoting import report
 from hri.core.writing import make_folder, write_text
 
 
@@ -46,4 +47,4 @@ def _export(schema: Schema, folder: Path | None) -> None:
     path = folder / "behavior" / f"{schema.type.replace('.', '/')}.xml"
     make_folder(path.parent)
     write_text(path, write_schema(schema))
-    print(path)
+    report(str(path))

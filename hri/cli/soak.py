@@ -7,6 +7,7 @@ import argparse
 from hri.bench.companion_soak import CompanionSoak
 from hri.bench.network_soak import Soak
 from hri.cli.terminal.messages import Within
+from hri.core.quoting import report
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -32,7 +33,7 @@ def run(options: argparse.Namespace) -> int:
     told, faults = _companion(options) if options.companion else _network(options)
     print(told)
     for fault in faults[:20]:
-        print(f"FAULT: {fault}")
+        report(f"FAULT: {fault}")
     print("failed" if faults else "passed")
     return 1 if faults else 0
 

@@ -11,6 +11,7 @@ from hri.behavior.writer import save_network
 from hri.cli import run as run_app
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.robot.app import NETWORK
 
 
@@ -36,4 +37,4 @@ def _begin(name: str) -> None:
         return
     if path.parent.is_dir():
         save_network(Network(path.stem), path)
-        print(f"{path}: a new network, still empty")
+        report(f"{path}: a new network, still empty")

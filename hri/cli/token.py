@@ -6,6 +6,7 @@ import argparse
 import os
 import sys
 
+from hri.core.quoting import report
 from hri.core.token import VARIABLE, new_token, own_token
 
 
@@ -21,5 +22,5 @@ def run(options: argparse.Namespace) -> int:
     token = new_token() if options.new else own_token()
     print(f'header = "Authorization: Bearer {token}"' if options.curl else token)
     if options.new and os.environ.get(VARIABLE):
-        print(f"{VARIABLE} is set and takes precedence - unset {VARIABLE}", file=sys.stderr)
+        report(f"{VARIABLE} is set and takes precedence - unset {VARIABLE}", file=sys.stderr)
     return 0

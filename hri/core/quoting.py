@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from typing import TextIO
 
 LONGEST_QUOTE = 80
 """Characters between two quotation marks of a message."""
@@ -21,6 +22,11 @@ def escaped(text: str) -> str:
     appear as Python spells them: ``\\x1b``, ``\\u202e``.
     """
     return text if text.isprintable() else "".join(map(_shown, text))
+
+
+def report(text: str, file: TextIO | None = None, *, flush: bool = False) -> None:
+    """Print a result as one line, in which no name or text of a file can command the terminal."""
+    print(escaped(text), file=file, flush=flush)
 
 
 def quoted(text: str, most: int = LONGEST_QUOTE) -> str:

@@ -17,6 +17,7 @@ from hri.core.clock import Clock, RealClock
 from hri.core.errors import HriError, NotAvailable, did_you_mean
 from hri.core.geometry import Pose3D
 from hri.core.python_file import load_class
+from hri.core.quoting import report
 from hri.hal.choices import apply_choices, load_choices
 from hri.hal.configuration import load_configuration, spec_folders
 from hri.hal.ids_2003 import IDS
@@ -37,7 +38,7 @@ class ResourceManager:
         self,
         descriptions: Iterable[Description],
         clock: Clock,
-        notice: Callable[[str], object] = print,
+        notice: Callable[[str], object] = report,
         shapes: Iterable[Shape] = (),
         trusted: tuple[str, ...] = (),
     ) -> None:

@@ -28,6 +28,7 @@ from hri.core.clock import Clock, RealClock
 from hri.core.errors import HriError, first_of
 from hri.core.event_bus import EventBus
 from hri.core.latest import Board
+from hri.core.quoting import report
 from hri.core.registry import canonical
 from hri.core.signals import Event
 from hri.core.systems import require_posix
@@ -69,7 +70,7 @@ class Robot(BlockingVerbs):
         seed: int = 0,
         devices: Sequence[Description] = (),
         parameters: dict[str, dict[str, Any]] | None = None,
-        notice: Callable[[str], object] = print,
+        notice: Callable[[str], object] = report,
         record: Path | str | None = None,
         record_rejected: bool = False,
         doors: Doors | None = None,

@@ -21,6 +21,7 @@ from hri.core.errors import HriError
 from hri.core.event_bus import EventBus
 from hri.core.event_log import NOTHING, EventLog, read_events
 from hri.core.privacy import close_to_others, private_file
+from hri.core.quoting import report
 from hri.core.recorded import EVENTS, FACE, SOUND, STARTED, STREAMS, claim, parts
 from hri.core.signals import Event
 from hri.core.whereabouts import note
@@ -65,7 +66,7 @@ class Recording:
         record: RunRecord,
         events: EventBus,
         resources: ResourceManager,
-        notice: Callable[[str], object] = print,
+        notice: Callable[[str], object] = report,
         *,
         with_rejected: bool = False,
     ) -> None:

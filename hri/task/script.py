@@ -22,6 +22,7 @@ from hri.behavior.doors import Doors
 from hri.core.clock import Clock, RealClock
 from hri.core.errors import HriError
 from hri.core.event_bus import EventBus
+from hri.core.quoting import report
 from hri.core.signals import Event
 from hri.hal.resource_manager import ResourceManager
 from hri.hal.speaker import Speaker
@@ -101,7 +102,7 @@ def print_what_nobody_hears(context: TaskContext) -> None:
     def show(event: Event) -> None:
         speakers = context.resources.opened(Speaker)
         if not any(speaker.is_hardware for speaker in speakers):
-            print(f"said: {event.properties['text']}", flush=True)
+            report(f"said: {event.properties['text']}", flush=True)
 
     if not context.clock.is_fake:
         context.events.subscribe("speech.said", show)

@@ -14,6 +14,7 @@ from hri.cli.terminal.messages import OptionParser
 from hri.core import paths
 from hri.core.clock import Clock, FakeClock, RealClock
 from hri.core.errors import NotAvailable
+from hri.core.quoting import report
 from hri.hal.choices import apply_choices, load_choices
 from hri.hal.configuration import Configuration, load_configuration
 from hri.hal.resource import Resource
@@ -87,7 +88,7 @@ def obtained(
         try:
             device = resources.obtain(id, interface)
         except NotAvailable as error:
-            print(f"Initializing...{error}", file=sys.stderr)
+            report(f"Initializing...{error}", file=sys.stderr)
             missing += 1
         else:
             if device not in opened:

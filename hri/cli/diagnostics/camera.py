@@ -10,6 +10,7 @@ from pathlib import Path
 from hri.cli import diagnostics
 from hri.cli.terminal.messages import Within
 from hri.core.errors import HriError, NotAvailable
+from hri.core.quoting import report
 from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE
 from hri.hal.camera import Camera
@@ -52,11 +53,13 @@ def _test(options: argparse.Namespace) -> int:
         _make_folder(options.out)
         cameras, failures = diagnostics.obtained(resources, ids, Camera)
         print("*** test_camera ***")
-        print(f"Obtained cameras: {', '.join(camera.id for camera in cameras)}")
+        report(f"Obtained cameras: {', '.join(camera.id for camera in cameras)}")
         if not cameras:
             print("none of them is available - see the lines above", file=sys.stderr)
             return 1
-        print(f"Frame count: {options.frames}. Pause time: {options.pause_time:g} sec.", flush=True)
+        report(
+            f"Frame count: {options.frames}. Pause time: {options.pause_time:g} sec.", flush=True
+        )
         for number in range(1, options.frames + 1):
             if number > 1:
                 resources.clock.advance(options.pause_time)
@@ -80,7 +83,7 @@ def _make_folder(folder: Path) -> None:
 def _take_picture(camera: Camera, number: int, options: argparse.Namespace) -> None:
     frame = camera.take()
     path = options.out / f"{camera.id}_{number:03d}.jpg"
-    print(f"Writing file {path}", flush=True)
+    report(f"Writing file {path}", flush=True)
     write_picture(path, frame.image, options.quality, PRIVATE)
     note("pictures", path)
 

@@ -12,6 +12,7 @@ from hri.cli import diagnostics
 from hri.core.clock import Clock
 from hri.core.errors import HriError
 from hri.core.geometry import seen_from
+from hri.core.quoting import report
 from hri.hal.drive import DriveSystem, Odometry
 from hri.hal.resource_manager import ResourceManager
 
@@ -61,7 +62,7 @@ def _test(options: argparse.Namespace) -> int:
         if not drives:
             return 1
         print("*** test_drive_system ***")
-        print(f"Obtained drive system: {ids[0]}", flush=True)
+        report(f"Obtained drive system: {ids[0]}", flush=True)
         steps = Steps(drives[0], _odometry(resources), resources.clock)
         failures = sum(not _passes(name, step) for name, step in steps.table())
     return 1 if failures else 0
@@ -80,7 +81,7 @@ def _passes(name: str, step: Callable[[], None]) -> bool:
     try:
         step()
     except (HriError, TimeoutError) as error:
-        print(f"FAILED ({error})", flush=True)
+        report(f"FAILED ({error})", flush=True)
         return False
     print("passed", flush=True)
     return True

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from hri.cli import diagnostics
 from hri.cli.terminal.messages import Within
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.core.signals import RangeReading
 from hri.hal.range_sensor import RangeSensor
 
@@ -47,7 +48,7 @@ def _test(options: argparse.Namespace) -> int:
             raise HriError(f"{options.config}: no range sensor in it - add one, or name another")
         sensors, missing = diagnostics.obtained(resources, ids, RangeSensor)
         print("*** test_range_sensor ***")
-        print(f"Obtained range sensors: {', '.join(sensor.id for sensor in sensors)}")
+        report(f"Obtained range sensors: {', '.join(sensor.id for sensor in sensors)}")
         if not sensors:
             print("none of them is available - see the lines above", file=sys.stderr)
             return 1
@@ -55,7 +56,7 @@ def _test(options: argparse.Namespace) -> int:
             if count > 0:
                 resources.clock.advance(options.pause_time)
             for sensor in sensors:
-                print(told(sensor.id, sensor.read(resources.clock.now())), flush=True)
+                report(told(sensor.id, sensor.read(resources.clock.now())), flush=True)
     return 1 if missing else 0
 
 

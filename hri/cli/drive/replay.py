@@ -11,6 +11,7 @@ from hri.cli.drive.recorded import read_run
 from hri.cli.terminal.messages import Within
 from hri.cli.terminal.progress_line import progress, waiting
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.hal.drivers.image_size import write_picture
 from hri.simulation.trips import DEFAULT_POLICY, POLICIES
 
@@ -49,7 +50,7 @@ def run(options: argparse.Namespace) -> int:
             write_picture(out, plan.whole())
         else:
             _write_film(out, plan, options.speed)
-    print(f"{out}: {plan.run.title or options.run}")
+    report(f"{out}: {plan.run.title or options.run}")
     return 0
 
 

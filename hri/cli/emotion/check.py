@@ -14,7 +14,7 @@ import hri
 from hri.cli.emotion.list import personality_names
 from hri.core import paths
 from hri.core.errors import HriError
-from hri.core.quoting import message_line
+from hri.core.quoting import message_line, report
 from hri.emotion import personality, stimulus
 from hri.emotion.display import load_display
 from hri.emotion.reachability import (
@@ -54,7 +54,7 @@ def run(options: argparse.Namespace) -> int:
         print(message_line(str(warning)))
     count = sum(len(spec.expects) for spec in stimuli.values())
     told = f"{len(unmet)} of {count} expectations not met" if unmet else "fine"
-    print(f"{', '.join(loaders)}: {told}")
+    report(f"{', '.join(loaders)}: {told}")
     return 1 if unmet else 0
 
 

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from hri.core import paths
-from hri.core.quoting import escaped
+from hri.core.quoting import escaped, report
 from hri.core.toml import load_toml
 from hri.emotion import personality
 from hri.emotion.display import load_display
@@ -22,17 +22,17 @@ def run(options: argparse.Namespace) -> int:
     print("personalities")
     for name in personality_names():
         table = load_toml(personality.personality_path(name), "personality")
-        print(f"  {name:18} {escaped(table.string('description', ''))}")
+        report(f"  {name:18} {escaped(table.string('description', ''))}")
     print("stimuli")
     for spec in load_stimuli().values():
-        print(f"  {spec.name:18} {_effects(spec)}")
+        report(f"  {spec.name:18} {_effects(spec)}")
     print("display rules")
     for name, rules in load_display().rules.items():
-        print(f"  {name:18} for {', '.join(rules)}")
+        report(f"  {name:18} for {', '.join(rules)}")
     print("emotions")
     for emotion in EMOTIONS:
         axes = f"{emotion.pleasure:+.2f} {emotion.arousal:+.2f} {emotion.dominance:+.2f}"
-        print(f"  {emotion.name:18} pleasure, arousal, dominance {axes}, {emotion.tau_s:g} s")
+        report(f"  {emotion.name:18} pleasure, arousal, dominance {axes}, {emotion.tau_s:g} s")
     return 0
 
 

@@ -13,7 +13,7 @@ from hri.cli.emotion.output import json_line, mood_words
 from hri.cli.terminal.messages import Within
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
-from hri.core.quoting import escaped
+from hri.core.quoting import escaped, report
 from hri.emotion.affect import Affect
 from hri.emotion.dynamics import Dynamics
 from hri.emotion.files import EmotionFiles
@@ -102,9 +102,9 @@ class _Watch:
             line += f"  (it ended {age_words(wall - memory.wall) or 'just now'})"
         if sys.stdout.isatty() and not self._options.once:
             # On a terminal each update overwrites the last one.
-            print(f"\r\x1b[K{line}", end="", flush=True)
+            print(f"\r\x1b[K{escaped(line)}", end="", flush=True)
         else:
-            print(line, flush=True)
+            report(line, flush=True)
 
 
 def kept(path: Path) -> Memory:

@@ -6,7 +6,7 @@ import argparse
 import sys
 
 from hri.core import paths
-from hri.core.quoting import message_line
+from hri.core.quoting import message_line, report
 from hri.face import load_face
 from hri.face.motion.gesture_tracks import load_gestures
 from hri.face.vocabulary import CORRECTIVE
@@ -33,7 +33,7 @@ def run(options: argparse.Namespace) -> int:
         print(message_line(str(finding)))
     warnings = sum(finding.is_slip for finding in found)
     drawn = sum(CORRECTIVE not in target for target in model.targets)
-    print(
+    report(
         f"{folder}: {drawn} targets, {len(model.targets) - drawn} correctives,"
         f" {len(model.expressions)} expressions, {len(model.visemes)} visemes,"
         f" {model.display.points} points: {_counted(warnings)}"

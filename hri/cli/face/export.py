@@ -7,6 +7,7 @@ import json
 from dataclasses import asdict
 from pathlib import Path
 
+from hri.core.quoting import report
 from hri.core.writing import write_text
 from hri.face import FaceModel, load_face
 from hri.face.drawing.serialization import Plain, exported
@@ -23,7 +24,7 @@ def run(options: argparse.Namespace) -> int:
     model = load_face(folder if folder.is_dir() else options.face)
     text = json.dumps(exported_face(model), separators=(",", ":"), sort_keys=True)
     write_text(options.out, text + "\n")
-    print(f"{options.out}: {len(text) / 1000:.0f} kB")
+    report(f"{options.out}: {len(text) / 1000:.0f} kB")
     return 0
 
 

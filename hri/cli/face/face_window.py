@@ -11,6 +11,7 @@ import numpy as np
 
 from hri.core.clock import Clock
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.core.signals import Image
 from hri.face import load_face
 from hri.face.drawing.baking import Vector
@@ -166,12 +167,12 @@ class FaceWindow:
         self.refusal = ""
         self.look = self._known(self.look)
         self._before = self._known(self._before)
-        print(f"{self.folder}: reloaded", flush=True)
+        report(f"{self.folder}: reloaded", flush=True)
 
     def _refuse(self, reason: str) -> None:
         if reason != self.refusal:
             self.refusal = reason
-            print(reason, file=sys.stderr, flush=True)
+            report(reason, sys.stderr, flush=True)
 
     def _new_renderer(self) -> Renderer:
         return Renderer(self._model, (self.screen.width, self.screen.height))

@@ -6,6 +6,7 @@ import argparse
 
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.face import load_face
 from hri.face.motion.gesture_tracks import load_gestures
 from hri.face.vocabulary import LABELS
@@ -26,7 +27,7 @@ def run(options: argparse.Namespace) -> int:
             about = f"{model.settings.about} ({len(model.channels)} channels)"
         except HriError as error:
             about, status = f"broken: {error}", 1
-        print(f"{name:12} {about}")
+        report(f"{name:12} {about}")
     print(f"\nExpressions: {', '.join(LABELS)}")
-    print(f"Gestures: {', '.join(sorted(load_gestures(load_face())))}")
+    report(f"Gestures: {', '.join(sorted(load_gestures(load_face())))}")
     return status

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.core.writing import make_folder, new_folder
 from hri.face import load_face
 from hri.face.model import stamps_of
@@ -37,11 +38,12 @@ def run(options: argparse.Namespace) -> int:
     with new_folder(folder) as new:
         _copy(source, new)
     spelled = folder if folder.is_absolute() else f"./{folder}"
-    print(f"{folder}: a copy of {source.name}. Next:\n")
-    print(f"  draw in {folder / 'neutral.svg'} and {folder / 'targets'}/ with an SVG editor")
-    print(f"  hri face show {spelled} --watch     # shows each change when you save")
-    print(f"  hri face check {spelled}            # reports mistakes")
-    print(f"  hri companion --face {spelled}      # runs with it")
+    report(f"{folder}: a copy of {source.name}. Next:")
+    print()
+    report(f"  draw in {folder / 'neutral.svg'} and {folder / 'targets'}/ with an SVG editor")
+    report(f"  hri face show {spelled} --watch     # shows each change when you save")
+    report(f"  hri face check {spelled}            # reports mistakes")
+    report(f"  hri companion --face {spelled}      # runs with it")
     return 0
 
 

@@ -14,6 +14,7 @@ from hri.cli.grammar.manifest import read_manifest, spoken, usual_voices
 from hri.cli.terminal.messages import Within
 from hri.cli.terminal.progress_line import progress
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.core.statistics import told
 from hri.speech.acceptance import STRICTNESS
 from hri.speech.grammar import Grammar, load_grammar
@@ -133,7 +134,7 @@ def _show(scores: list[Score], best: Score, heard: list[Attempt]) -> None:
         if one.strictness in SHOWN or one is best:
             mark = "  <- recommended" if one is best else ""
             mark += "  (the default)" if one.strictness == STRICTNESS else ""
-            print(
+            report(
                 f"      {one.strictness:4.2f}   {_percent(one.right, one.commands):>18}"
                 f"   {_percent(one.wrong, one.commands):>17}"
                 f"   {_percent(one.foreign_accepted, one.foreign):>19}{mark}"
@@ -142,14 +143,14 @@ def _show(scores: list[Score], best: Score, heard: list[Attempt]) -> None:
         f"\nrecommended: the strictest that loses at most {NEARLY:.0%} of the commands, to have a"
     )
     print("margin for talk and rooms that were not tried")
-    print(f"right and accepted: {told(best.right, best.commands)}")
-    print(f"other talk accepted: {told(best.foreign_accepted, best.foreign)}")
+    report(f"right and accepted: {told(best.right, best.commands)}")
+    report(f"other talk accepted: {told(best.foreign_accepted, best.foreign)}")
     print("(in brackets: 95 % confidence interval)")
     if _are_too_few(best):
-        print(f"too few to be reliable: try {FEWEST} commands and {FEWEST} others, or more")
+        report(f"too few to be reliable: try {FEWEST} commands and {FEWEST} others, or more")
     print()
     print("In the network, among the parameters of Hri.Recognizer:")
-    print(f'  <Parameter name="strictness" value="{best.strictness:g}"/>')
+    report(f'  <Parameter name="strictness" value="{best.strictness:g}"/>')
 
 
 def _percent(count: int, total: int) -> str:

@@ -14,6 +14,7 @@ from hri.cli.grammar.excerpt import Excerpts
 from hri.cli.terminal.progress_line import waiting
 from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, NotAvailable, Place
+from hri.core.quoting import report
 from hri.speech.grammar import Grammar, read_grammar
 from hri.speech.grammar.lint.finding import SEVERITIES, Finding, warning
 from hri.speech.grammar.lint.linter import check
@@ -91,7 +92,7 @@ def _lexicon() -> Lexicon | None:
     try:
         return load_lexicon()
     except NotAvailable as error:
-        print(f"pronunciations are not checked: {error}", file=sys.stderr)
+        report(f"pronunciations are not checked: {error}", file=sys.stderr)
         return None
 
 
@@ -123,18 +124,18 @@ def _show(grammar: Grammar, findings: list[Finding], is_all: bool) -> None:
         _print(finding, excerpts, sys.stderr)
     if len(errors) > most_errors:
         more = _counted(len(errors) - most_errors, "more error")
-        print(f"{grammar.path}: {more} - fix these, or see --all", file=sys.stderr)
+        report(f"{grammar.path}: {more} - fix these, or see --all", file=sys.stderr)
     for finding in others:
         if is_all or finding.severity != "note":
             _print(finding, excerpts, sys.stdout)
     if not errors:
         is_less = not is_all and any(finding.severity == "note" for finding in others)
         summary = _summary(grammar, others) + (" (see --all)" if is_less else "")
-        print(f"{grammar.path}: fine, {summary}")
+        report(f"{grammar.path}: fine, {summary}")
 
 
 def _print(finding: Finding, excerpts: Excerpts, stream: TextIO) -> None:
-    print(finding, file=stream)
+    report(str(finding), stream)
     excerpt = excerpts.of(finding.place)
     if excerpt:
         print(excerpt, file=stream)

@@ -12,6 +12,7 @@ from hri.cli.grammar.expand import in_words
 from hri.cli.grammar.manifest import spoken, usual_voices
 from hri.cli.terminal.messages import Within
 from hri.cli.terminal.progress_line import waiting
+from hri.core.quoting import report
 from hri.core.statistics import told
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.expansion import count_ways
@@ -78,8 +79,9 @@ def run(options: argparse.Namespace) -> int:
         print(json.dumps({"compared": len(readings), "pairs": told_pairs}, indent=2))
         return 0
     for pair in pairs[: options.n]:
-        print(_pair(pair))
-    print(_compared(grammar, len(readings), len(pairs), options.farthest))
+        for line in _pair(pair).split("\n"):
+            report(line)
+    report(_compared(grammar, len(readings), len(pairs), options.farthest))
     return 0
 
 
@@ -140,11 +142,12 @@ def _by_ear(options: argparse.Namespace, grammar: Grammar, sentences: list[str])
         )
         return 0
     for (said, taken), times in confused.most_common(options.n):
-        print(f'{times} of {len(voices)} voices: "{said}" was taken for "{taken}"')
+        report(f'{times} of {len(voices)} voices: "{said}" was taken for "{taken}"')
     for said, times in missed[: options.n]:
-        print(f'{times} of {len(voices)} voices: "{said}" was not accepted')
-    print(f"{grammar.path}: {len(sentences)} sentences in {len(voices)} voices,", end=" ")
-    print(f"right and accepted {told(counts.right, counts.commands)}")
+        report(f'{times} of {len(voices)} voices: "{said}" was not accepted')
+    tried = f"{len(sentences)} sentences in {len(voices)} voices"
+    right = told(counts.right, counts.commands)
+    report(f"{grammar.path}: {tried}, right and accepted {right}")
     return 0
 
 

@@ -6,6 +6,7 @@ import argparse
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import Any
 
 from hri.cli.terminal.messages import Within
@@ -13,6 +14,7 @@ from hri.cli.terminal.progress_line import waiting
 from hri.core import registry
 from hri.core.clock import RealClock
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.hal.recognizer import Recognizer
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
@@ -52,8 +54,7 @@ def started_engine(options: argparse.Namespace, grammar: Grammar) -> Iterator[Re
     """The recognizer of `options`, listening for a grammar; closed at the end."""
     kind = ENGINES[_engine_of(options)]
     parameters = {"model": options.model} if options.model else {}
-    complain = lambda what: print(what, file=sys.stderr)  # noqa: E731
-    with ResourceManager((), RealClock(), notice=complain) as manager:
+    with ResourceManager((), RealClock(), notice=partial(report, file=sys.stderr)) as manager:
         driver: Any = registry.find("hri.resources", kind)
         engine: Recognizer = driver(Description("recognizer", kind, parameters), manager)
         engine.activate()

@@ -12,6 +12,7 @@ from hri.cli.grammar import FILE_HELP
 from hri.cli.terminal.messages import Within
 from hri.cli.terminal.progress_line import waiting
 from hri.core.errors import HriError, did_you_mean
+from hri.core.quoting import report
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.expansion import (
     count_sentences,
@@ -60,7 +61,7 @@ def run(options: argparse.Namespace) -> int:
     if options.count:
         with waiting("counting"):
             told = _count(grammar, rules)
-        print(told)
+        report(told)
         return 0
     said = _drawn(grammar, rules, options) if options.random is not None else None
     is_part = options.rule is not None and rules[0] not in grammar.public_rules
@@ -72,7 +73,7 @@ def run(options: argparse.Namespace) -> int:
     is_any = False
     for sentence in said or sentences(grammar, rules, options.n):
         is_any = True
-        print(tell(sentence) if options.tags else sentence)
+        report(tell(sentence) if options.tags else sentence)
     if not is_any:
         raise HriError(f"{grammar.path}: no sentence to list - see `hri grammar check`")
     return 0

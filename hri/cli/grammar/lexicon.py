@@ -8,6 +8,7 @@ from pathlib import Path
 
 from hri.cli.grammar import FILE_HELP
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.speech.grammar import load_grammar
 from hri.speech.language import complaint, foreign
 from hri.speech.pronunciation.lexicon import load_lexicon, user_lexicon
@@ -41,12 +42,12 @@ def run(options: argparse.Namespace) -> int:
         try:
             for phones in lexicon.pronunciations(word):
                 note = "" if options.missing else f"   # {lexicon.origin(word)}"
-                print(f"{word:<{width}}  {' '.join(phones)}{note}")
+                report(f"{word:<{width}}  {' '.join(phones)}{note}")
         except HriError as error:
             unsayable += 1
-            print(f"# {error}")
+            report(f"# {error}")
     if options.missing and not words:
-        print(f"{grammar.path}: no word is guessed", file=sys.stderr)
+        report(f"{grammar.path}: no word is guessed", file=sys.stderr)
     elif options.missing:
-        print(f"correct these, then append them to {user_lexicon()}", file=sys.stderr)
+        report(f"correct these, then append them to {user_lexicon()}", file=sys.stderr)
     return 1 if unsayable else 0

@@ -19,6 +19,7 @@ from hri.cli.grammar.engine import add_engine_arguments, add_strictness, started
 from hri.core import registry
 from hri.core.clock import RealClock
 from hri.core.errors import HriError, NotAvailable
+from hri.core.quoting import escaped, report
 from hri.core.signals import Rejection, Samples, Utterance
 from hri.hal.audio_level import QUIETEST
 from hri.hal.drivers.channels import CHOICES
@@ -200,7 +201,7 @@ class _StatusLine:
         line = f"[{bar:<{METER}}] {level:4.0f} dB {sign} "
         room = shutil.get_terminal_size().columns - len(line) - 1
         # The most recent words are at the end.
-        self._out.write(f"\r\x1b[K{line}{words[-room:] if room > 0 else ''}")
+        self._out.write(f"\r\x1b[K{line}{escaped(words[-room:]) if room > 0 else ''}")
         self._out.flush()
 
     def clear(self) -> None:
@@ -214,11 +215,11 @@ def _show(file: str, heard: Heard) -> None:
     if isinstance(heard, Utterance):
         tags = spell_tags(heard.tags)
         meaning = f"{heard.rule}: {heard.text}" + (f" {{{tags}}}" if tags else "")
-        print(f"{place}{meaning}  ({heard.confidence:.2f})", flush=True)
+        report(f"{place}{meaning}  ({heard.confidence:.2f})", flush=True)
         return
     words = f' "{heard.text}" ({heard.confidence:.2f})' if heard.text else ""
     detail = f" - {heard.detail}" if heard.detail else ""
-    print(f"{place}{heard.reason}{words}{detail}", flush=True)
+    report(f"{place}{heard.reason}{words}{detail}", flush=True)
 
 
 def _show_json(file: str, heard: Heard) -> None:
@@ -243,4 +244,4 @@ def _show_json(file: str, heard: Heard) -> None:
 
 
 def _complain(what: object) -> None:
-    print(what, file=sys.stderr)
+    report(str(what), sys.stderr)

@@ -196,4 +196,5 @@ def _refused(text: str, refused: Refusal, near: Tolerant | None) -> str:
         return f"{line}\n  the sentence ends there"
     shown = ", ".join(refused.expected[:MOST_SHOWN])
     rest = len(refused.expected) - MOST_SHOWN
-    return f"{line}\n  {after}: {shown}" + (f" and {rest} more" if rest > 0 else "")
+    more = f" and {rest} more" if rest > 0 else ""
+    return f"{line}\n  {escaped(f'{after}: {shown}{more}')}"

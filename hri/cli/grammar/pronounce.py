@@ -7,7 +7,7 @@ import json
 
 from hri.cli.terminal.messages import legible
 from hri.core.errors import HriError
-from hri.core.quoting import escaped
+from hri.core.quoting import escaped, report
 from hri.speech.pronunciation.lexicon import (
     Lexicon,
     add_to_lexicon,
@@ -61,8 +61,8 @@ def _add(words: list[str], spelt: list[str]) -> None:
     path = user_lexicon()
     before = add_to_lexicon(path, words[0], *map(read_phones, spelt))
     for phones in before:
-        print(f"no longer {' '.join(phones)}")
-    print(f'added to {path} - to undo it, delete the line of "{words[0]}"')
+        report(f"no longer {' '.join(phones)}")
+    report(f'added to {path} - to undo it, delete the line of "{words[0]}"')
 
 
 def _told(word: str, lexicon: Lexicon) -> str:

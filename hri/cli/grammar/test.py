@@ -13,7 +13,7 @@ from hri.cli.grammar.manifest import read_manifest
 from hri.cli.terminal.progress_line import progress
 from hri.core import paths
 from hri.core.errors import HriError, Mistakes
-from hri.core.quoting import message_line
+from hri.core.quoting import message_line, report
 from hri.core.statistics import told
 from hri.speech.grammar import Grammar, analysis, read_grammar
 from hri.speech.grammar.lint.expectations import Failure, failures, meaning_of, read_expectations
@@ -76,7 +76,7 @@ def _try_sentences(path: Path, options: argparse.Namespace) -> int:
     else:
         for failure in failed:
             print(message_line(str(failure)))
-        print(f"{path}: {count - len(failed)} of {count} sentences as expected")
+        report(f"{path}: {count - len(failed)} of {count} sentences as expected")
     return 1 if failed else 0
 
 
@@ -141,18 +141,18 @@ def _show(
     options: argparse.Namespace, grammar: Grammar, heard: list[Attempt], wrong: list[Attempt]
 ) -> None:
     for tried in wrong:
-        print(f'{tried.name}: "{tried.said}" {_outcome(tried, grammar, options.strictness)}')
+        report(f'{tried.name}: "{tried.said}" {_outcome(tried, grammar, options.strictness)}')
     counts = score(heard, grammar, options.strictness)
     confused = confusions(heard, grammar, options.strictness)
     if confused:
         print("\ntaken for something else:")
         for (said, taken), times in confused.most_common():
-            print(f'  {times} x "{said}" for "{taken}"')
+            report(f'  {times} x "{said}" for "{taken}"')
         print()
-    print(f"{options.audio}: at strictness {options.strictness:g}, with 95 % intervals")
-    print(f"  commands right and accepted    {told(counts.right, counts.commands)}")
-    print(f"  commands taken for another     {told(counts.wrong, counts.commands)}")
-    print(f"  others accepted                {told(counts.foreign_accepted, counts.foreign)}")
+    report(f"{options.audio}: at strictness {options.strictness:g}, with 95 % intervals")
+    report(f"  commands right and accepted    {told(counts.right, counts.commands)}")
+    report(f"  commands taken for another     {told(counts.wrong, counts.commands)}")
+    report(f"  others accepted                {told(counts.foreign_accepted, counts.foreign)}")
 
 
 def _outcome(tried: Attempt, grammar: Grammar, strictness: float) -> str:

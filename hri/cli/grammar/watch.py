@@ -12,6 +12,7 @@ from hri.cli.grammar import FILE_HELP, check, explained, test
 from hri.core import paths
 from hri.core.clock import Clock, RealClock
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.speech.grammar import read_grammar
 
 EXAMPLES = """\
@@ -42,7 +43,7 @@ def watch(grammar: Path, sentences: list[Path], clock: Clock) -> int:
         while True:
             if (now := _saved(grammar, sentences)) != seen:
                 seen = now
-                print(f"--- {clock.wall():%H:%M:%S}", flush=True)
+                report(f"--- {clock.wall():%H:%M:%S}", flush=True)
                 _look(grammar, sentences)
             clock.advance(LOOK_EVERY)
     except KeyboardInterrupt:

@@ -26,7 +26,7 @@ from hri.behavior.writer import save_network, write_network
 from hri.cli.terminal.progress_line import waiting
 from hri.core import paths
 from hri.core.errors import HriError
-from hri.core.quoting import escaped, message_line
+from hri.core.quoting import escaped, message_line, report
 from hri.core.writing import write_text
 from hri.robot.app import load_app
 
@@ -83,7 +83,7 @@ def _check(network: Network) -> int:
     for warning in warnings:
         print(message_line(f"warning: {warning}"))
     counts = f"{len(network.authored)} behaviors, {len(network.links)} links"
-    print(f"{network.path}: {counts}, {_counted(warnings)}")
+    report(f"{network.path}: {counts}, {_counted(warnings)}")
     return 1 if warnings else 0
 
 
@@ -101,18 +101,18 @@ def show(networks: list[Network], options: argparse.Namespace) -> int:
 
 def _show(network: Network) -> None:
     rate = f"every {network.interval:g} s ({1 / network.interval:.4g} Hz)"
-    print(f"{network.name}, {rate}; each cycle, in this order:")
+    report(f"{network.name}, {rate}; each cycle, in this order:")
     width = max((len(behavior.id) for behavior in network.authored), default=0)
     for number, behavior in enumerate(network.authored, start=1):
         mark = "  (sensor)" if behavior.is_sensor else ""
-        print(f"{number:4}  {behavior.id:<{width}}  {type_of(behavior)}{mark}")
+        report(f"{number:4}  {behavior.id:<{width}}  {type_of(behavior)}{mark}")
         for name, declared in behavior.parameters.items():
             value = getattr(behavior, name)
             if value != declared.default:
-                print(f"      {'':<{width}}    {name} = {escaped(declared.text(value))}")
+                report(f"      {'':<{width}}    {name} = {escaped(declared.text(value))}")
     print("links:")
     for link in network.links:
-        print(f"      {link}  ({link.datatype})")
+        report(f"      {link}  ({link.datatype})")
 
 
 def _show_board(networks: list[Network]) -> None:
@@ -122,10 +122,10 @@ def _show_board(networks: list[Network]) -> None:
         print("slots of the board:")
     for slot, datatype in sorted(datatypes.items()):
         about = f"  {DECLARED[slot].about}" if slot in DECLARED else ""
-        print(f"      {slot}  ({datatype}){about}")
+        report(f"      {slot}  ({datatype}){about}")
         for what, users in (("written by", writers), ("read by", readers)):
             if slot in users or slot not in DECLARED:
-                print(f"          {what} {', '.join(users.get(slot, ['none of these networks']))}")
+                report(f"          {what} {', '.join(users.get(slot, ['none of these networks']))}")
 
 
 def draw(networks: list[Network], options: argparse.Namespace) -> int:
@@ -145,7 +145,7 @@ def _write_picture(layout: Layout, out: Path) -> None:
         write_png(layout, out)
     else:
         raise HriError(f'a picture "{out}" - name it *.svg or *.png')
-    print(out)
+    report(str(out))
 
 
 def diff(networks: list[Network], options: argparse.Namespace) -> int:
@@ -179,11 +179,12 @@ def _paired(old: list[Network], new: list[Network]) -> list[tuple[Network, Netwo
 def _print_difference(old: Network, new: Network, difference: NetworkDifference) -> None:
     lines = difference.lines()
     if lines:
-        print("\n".join([f"--- {old.path}", f"+++ {new.path}", *map(escaped, lines)]))
+        for line in (f"--- {old.path}", f"+++ {new.path}", *lines):
+            report(line)
         return
     is_equal = write_network(old) == write_network(new)
     same = "the same" if is_equal else "the same but for order, layout, and comments"
-    print(f"{new.path}: {same}")
+    report(f"{new.path}: {same}")
 
 
 def format(networks: list[Network], options: argparse.Namespace) -> int:
@@ -196,10 +197,10 @@ def format(networks: list[Network], options: argparse.Namespace) -> int:
 def _format(network: Network) -> None:
     before = network.path.read_text(encoding="utf-8", errors="replace")
     if before == write_network(network):
-        print(f"{network.path}: canonical")
+        report(f"{network.path}: canonical")
         return
     save_network(network, network.path)
-    print(f"{network.path}: rewritten")
+    report(f"{network.path}: rewritten")
 
 
 ACTIONS: dict[str, tuple[Callable[[list[Network], argparse.Namespace], int], str]] = {

@@ -8,7 +8,7 @@ from typing import TextIO
 
 from hri.cli.terminal.streams import let_go
 from hri.core.origin import KEYBOARD
-from hri.core.quoting import message_line
+from hri.core.quoting import message_line, report
 from hri.core.signals import Event
 from hri.face.behaviors import FaceRenderer
 from hri.robot import Robot
@@ -75,7 +75,7 @@ class Narrator:
         if self._is_unread:
             return
         try:
-            print(text, file=self.out, flush=True)
+            report(text, self.out, flush=True)
         except BrokenPipeError:
             self._is_unread = True
             let_go(self.out)  # Python's flush at exit must not complain either

@@ -22,7 +22,7 @@ from hri.cli.vision.watching import (
 from hri.core import paths
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
-from hri.core.quoting import message_line
+from hri.core.quoting import message_line, report
 from hri.core.signals import Frame, HeadGesture, Image
 from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE
@@ -67,7 +67,7 @@ def run(options: argparse.Namespace) -> int:
         if options.list:
             _show(known.values())
         count = f"{len(known)} gesture{'s' * (len(known) != 1)}"
-        print(f"{path or paths.find('config', FILE)}: {count}, fine")
+        report(f"{path or paths.find('config', FILE)}: {count}, fine")
         return 0
     patterns = list(known.values()) if options.patterns is not None else chosen(known, ANSWERS)
     tell = _tell_json if options.json else _tell
@@ -160,7 +160,7 @@ def _since(begin: float, gesture: HeadGesture) -> HeadGesture:
 def _tell(gesture: HeadGesture, file: str) -> None:
     about = f"confidence {gesture.confidence:.2f}, {gesture.latency:.2f} s after it began"
     words = [file, f"{gesture.time:8.2f} s", gesture.person, f"{gesture.kind:<8}", about]
-    print("  ".join(word for word in words if word), flush=True)
+    report("  ".join(word for word in words if word), flush=True)
 
 
 def _tell_json(gesture: HeadGesture, file: str) -> None:
@@ -177,6 +177,6 @@ def _tell_json(gesture: HeadGesture, file: str) -> None:
 
 def _show(patterns: Iterable[Pattern]) -> None:
     for pattern in patterns:
-        print(f"{pattern.gesture:<10} {pattern.event:<18} {pattern.about}")
+        report(f"{pattern.gesture:<10} {pattern.event:<18} {pattern.about}")
         for row in pattern.rows:
-            print(f"{'':<10} {row.words(pattern.axis)}")
+            report(f"{'':<10} {row.words(pattern.axis)}")

@@ -25,6 +25,7 @@ from hri.cli.vision.watching import (
 )
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import NotAvailable
+from hri.core.quoting import report
 from hri.core.signals import (
     ColorBlob,
     FoundObject,
@@ -149,7 +150,7 @@ class Watcher:
         for gesture in self.recognize(people):
             self._recent.append(gesture)
             who = gesture.person or "somebody"
-            print(
+            report(
                 f"{frame.time:7.2f} s  {who}  {gesture.kind}  {gesture.confidence:.2f}", flush=True
             )
         self._recent = [g for g in self._recent if 0 <= frame.time - g.time <= SHOWN]
@@ -181,7 +182,7 @@ def write(path: Path, watcher: Watcher, frames: Iterator[Frame]) -> None:
     pictures = ((frame.time, watcher.look(frame)) for frame in frames)
     write_movie(path, paced(pictures), FILM_RATE, PRIVATE)
     note("pictures", path)
-    print(f"wrote {path}")
+    report(f"wrote {path}")
 
 
 def show(watcher: Watcher, camera: Camera, screen: Screen, seconds: float = math.inf) -> None:

@@ -16,6 +16,7 @@ from hri.cli.terminal.messages import Within
 from hri.core import paths
 from hri.core.clock import Clock
 from hri.core.errors import HriError, NotAvailable
+from hri.core.quoting import report
 from hri.core.signals import Frame, Image
 from hri.hal.camera import Camera
 from hri.hal.choices import apply_choices, load_choices
@@ -72,7 +73,7 @@ def opened_camera(options: argparse.Namespace, clock: Clock) -> Iterator[Camera]
     """
     pace = "fast" if clock.is_fake else "real"
     # Standard output is for results, perhaps as JSON.
-    notice = partial(print, file=sys.stderr)
+    notice = partial(report, file=sys.stderr)
     with ResourceManager(_devices(options, pace), clock, notice) as resources:
         resources.check()
         try:

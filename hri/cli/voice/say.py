@@ -16,6 +16,7 @@ from hri.cli.face_film import FaceFilm
 from hri.cli.voice.voice_options import NO_FILE, PLAIN_VOICE, open_voice
 from hri.core.clock import RealClock
 from hri.core.errors import AuthoringError, HriError, did_you_mean
+from hri.core.quoting import report
 from hri.core.reading import LARGEST_FILE
 from hri.core.signals import EmotionState, Expression, Prosody, Speech
 from hri.core.writing import write_text
@@ -105,7 +106,7 @@ def run(options: argparse.Namespace) -> int:
     except AuthoringError as error:
         if error.place.path != NO_FILE:
             raise
-        print(f"hri say: {error.what} - {error.remedy}", file=sys.stderr)
+        report(f"hri say: {error.what} - {error.remedy}", file=sys.stderr)
         return 2
     finally:
         resources.close()
@@ -113,7 +114,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _complain(line: str) -> None:
-    print(f"hri say: {line}", file=sys.stderr)
+    report(f"hri say: {line}", file=sys.stderr)
 
 
 def _written(speech: Speech, options: argparse.Namespace) -> bool:
@@ -160,7 +161,7 @@ def _synthesize(resources: ResourceManager, options: argparse.Namespace) -> Spee
     is_markup = options.ssml or is_ssml(text)
     if len(text) > LONGEST_TEXT and not is_markup:
         told = f"only the first {LONGEST_TEXT} characters of {len(text)} are spoken"
-        print(f"{told} - say it in parts", file=sys.stderr)
+        report(f"{told} - say it in parts", file=sys.stderr)
     voice = open_voice(resources, options.voice, options.rate)
     if is_markup:
         return spoken(Ssml.parse(text), voice, prosody, lambda speech: None, lambda: True)

@@ -21,6 +21,7 @@ from hri.cli.voice.say import play
 from hri.cli.voice.voice_options import open_voice
 from hri.core.clock import RealClock
 from hri.core.errors import HriError, did_you_mean
+from hri.core.quoting import report
 from hri.core.signals import Prosody, Speech
 from hri.hal.drivers.resampling import resample
 from hri.hal.drivers.wav_file import write_wav
@@ -84,7 +85,8 @@ def run(options: argparse.Namespace) -> int:
     if options.json:
         print(json.dumps([asdict(voice) for voice in voices], indent=1))
     else:
-        print(_told(voices))
+        for line in _told(voices).split("\n"):
+            report(line)
     return 0
 
 
@@ -161,7 +163,7 @@ def _sample(voice: Synthesizer, name: str) -> Speech:
 
 
 def _complain(line: str) -> None:
-    print(f"hri voices: {line}", file=sys.stderr)
+    report(f"hri voices: {line}", file=sys.stderr)
 
 
 def of_language(voices: Iterable[Listed], language: str) -> list[Listed]:
