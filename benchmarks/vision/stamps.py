@@ -14,7 +14,7 @@ import numpy as np
 
 from hri.core.errors import NotAvailable
 from hri.core.signals import Image
-from hri.vision.objects.cutout import opaque
+from hri.vision.objects.cutout import opaque, whole
 from hri.vision.objects.object_model import Outline
 
 FOLDER = Path("/usr/share/tuxpaint/stamps")
@@ -46,7 +46,8 @@ class Stamp:
     @property
     def outline(self) -> Outline:
         """As the robot cuts it out."""
-        return opaque(self.picture, self.mask)
+        outline = opaque(self.picture, self.mask)
+        return whole(self.picture) if outline is None else outline
 
 
 def read_stamps() -> tuple[list[Stamp], list[Stamp]]:

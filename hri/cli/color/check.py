@@ -8,6 +8,7 @@ from itertools import combinations
 import numpy as np
 
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.vision.color.color_mixture import ratio_table
 from hri.vision.color.color_model import ColorModel, color_names, find_color, load_color
 from hri.vision.color.segmentation import LIKELY
@@ -41,7 +42,8 @@ def run(options: argparse.Namespace) -> int:
         smaller = min(first.sum(), second.sum())
         if smaller and (first & second).sum() > SHARED * smaller:
             problems.append(f'{one}: "{other}" is nearly the same color - remove one of them')
-    print("\n".join(problems) or f"{len(names)} colors, all told apart")
+    for line in problems or [f"{len(names)} colors, all told apart"]:
+        report(line)
     return 1 if problems else 0
 
 

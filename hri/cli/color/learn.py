@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from datetime import date
 from pathlib import Path
 
+from hri.cli.vision.taught import LeftOut, stills_of
 from hri.cli.vision.watching import add_view, frames_of, opened_camera
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.core.signals import Image
-from hri.hal.drivers.image_folder import pictures_in
-from hri.hal.drivers.still_image import read_still
 from hri.vision.color.color_model import (
     LONGEST_NAME,
     SUFFIX,
     Box,
+    Taught,
     is_name,
     learn_color,
     own_colors,
     save_color,
+    within,
 )
 
 EPILOG = """\
@@ -55,33 +57,49 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Exit status 1 when a picture was left out, 2 when nothing was learned."""
     if not is_name(options.name):
         remedy = f"use 1 to {LONGEST_NAME} letters, digits, spaces, - and _"
         raise HriError(f'"{options.name}" is not a valid name for a color - {remedy}')
-    pictures = list(_pictures(options))
+    left_out = LeftOut()
+    pictures = list(_from_files(options, left_out) if options.images else _from_camera(options))
     model = learn_color(options.name, pictures, date.today().isoformat())
     path = options.out or own_colors() / f"{options.name}{SUFFIX}"
     replaced = ", which replaces the earlier one" if path.exists() else ""
     save_color(path, model)
     count = len(pictures)
-    print(f'learned "{options.name}" from {count} picture{"s" * (count != 1)}: {path}{replaced}')
-    return 0
+    report(f'learned "{options.name}" from {count} picture{"s" * (count != 1)}: {path}{replaced}')
+    return left_out.status
 
 
-def _pictures(options: argparse.Namespace) -> Iterator[tuple[Image, Sequence[Box]]]:
-    images = _from_files(options.images) if options.images else _from_camera(options)
-    for image in images:
-        clicks = [(x - CLICK // 2, y - CLICK // 2, CLICK, CLICK) for x, y in options.click]
-        yield image, [*options.box, *clicks] or [_middle(image)]
+def _from_files(options: argparse.Namespace, left_out: LeftOut) -> Iterator[Taught]:
+    for file, still in stills_of(options.images, left_out):
+        try:
+            yield still.image, _boxes(options, still.image), still.alpha
+        except HriError as error:
+            left_out.add(f"{file}: {error}")
 
 
-def _from_files(given: Sequence[Path]) -> Iterator[Image]:
-    for path in given:
-        for file in pictures_in(path) if path.is_dir() else [path]:
-            yield read_still(file).image
+def _boxes(options: argparse.Namespace, image: Image) -> list[Box]:
+    """What has the color. Raises HriError when a box or a click is outside of the picture."""
+    boxes = [*options.box, *(_around(click, image) for click in options.click)]
+    for box in boxes:
+        within(box, image)
+    return boxes or [_middle(image)]
 
 
-def _from_camera(options: argparse.Namespace) -> Iterator[Image]:
+def _around(click: tuple[int, int], image: Image) -> Box:
+    """The box around a pixel, as far as it is in the picture."""
+    (x, y), (height, width) = click, image.shape[:2]
+    if not (0 <= x < width and 0 <= y < height):
+        what = f"the click {x},{y} is outside of a picture of {width} x {height}"
+        raise HriError(f"{what} - give a column and a row in pixels")
+    left, top = max(0, x - CLICK // 2), max(0, y - CLICK // 2)
+    right, bottom = min(width, x + CLICK // 2), min(height, y + CLICK // 2)
+    return left, top, right - left, bottom - top
+
+
+def _from_camera(options: argparse.Namespace) -> Iterator[Taught]:
     is_live = options.video is None and not options.simulated
     options.seconds = min(options.seconds, SECONDS)
     with opened_camera(options, RealClock() if is_live else FakeClock()) as camera:
@@ -89,7 +107,7 @@ def _from_camera(options: argparse.Namespace) -> Iterator[Image]:
         for frame in frames_of(camera, options.seconds):
             if frame.time >= due:
                 due = frame.time + EVERY
-                yield frame.image
+                yield frame.image, _boxes(options, frame.image), None
 
 
 def _middle(image: Image) -> Box:

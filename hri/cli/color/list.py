@@ -6,6 +6,7 @@ import argparse
 import json
 
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.vision.color.color_model import color_names, find_color, load_color
 
 
@@ -28,5 +29,5 @@ def run(options: argparse.Namespace) -> int:
         print(json.dumps(rows))
         return status
     for row in rows:
-        print(row.get("error") or f"{row['name']:20} {row['learned']:10}  {row['file']}")
+        report(row.get("error") or f"{row['name']:20} {row['learned']:10}  {row['file']}")
     return status

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from hri.core.errors import HriError, did_you_mean
+from hri.core.quoting import report
 from hri.core.writing import delete
 from hri.vision.color.color_model import own_color_files
 
@@ -19,5 +20,5 @@ def run(options: argparse.Namespace) -> int:
         if name not in own:
             raise HriError(f'no color "{name}" of your own - {did_you_mean(name, own)}')
     delete(*(own[name] for name in options.names))
-    print(f"removed {', '.join(options.names)}")
+    report(f"removed {', '.join(options.names)}")
     return 0

@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 
 from hri.core.picture_writer import write_picture
+from hri.core.quoting import report
 from hri.core.writing import PRIVATE
 from hri.vision.color.color_mixture import ratio_table
 from hri.vision.color.color_model import find_color, load_color
@@ -35,6 +36,6 @@ def run(options: argparse.Namespace) -> int:
     picture[~has_color] = 255 - FAINT * (255 - picture[~has_color])
     write_picture(options.out, picture.round().astype(np.uint8), mode=PRIVATE)
     for weight, (cr, cb) in zip(model.color.weights, model.color.means, strict=True):
-        print(f"{weight:4.0%} around Cr {cr:.0f}, Cb {cb:.0f}")
-    print(f"{has_color.mean():.1%} of all chroma has it; wrote {options.out}")
+        report(f"{weight:4.0%} around Cr {cr:.0f}, Cb {cb:.0f}")
+    report(f"{has_color.mean():.1%} of all chroma has it; wrote {options.out}")
     return 0

@@ -6,7 +6,7 @@ import argparse
 import json
 from pathlib import Path
 
-from hri.cli.vision.stills import color_finder, color_rows, look_through
+from hri.cli.vision.stills import Row, color_finder, color_rows, look_through
 from hri.hal.drivers.still_image import StillImage
 
 
@@ -21,11 +21,12 @@ def run(options: argparse.Namespace) -> int:
     """Exit status 1 when a picture could not be read."""
     find = color_finder(options.colors)
 
-    def report(still: StillImage, path: Path) -> str:
-        rows = color_rows(still, find(still.image))
-        if options.json:
-            return json.dumps({"file": str(path), "colors": rows})
-        found = [f"{row['name']} at ({row['x']:g}, {row['y']:g})" for row in rows]
-        return f"{path}: {', '.join(found) or 'none of the colors'}"
+    def look(still: StillImage) -> Row:
+        return {"colors": color_rows(still, find(still.image))}
 
-    return look_through(options.images, "looking", report)
+    return look_through(options.images, "looking", look, json.dumps if options.json else _line)
+
+
+def _line(row: Row) -> str:
+    found = [f"{one['name']} at ({one['x']:g}, {one['y']:g})" for one in row.get("colors", ())]
+    return row.get("error") or f"{row['file']}: {', '.join(found) or 'none of the colors'}"

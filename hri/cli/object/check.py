@@ -6,6 +6,7 @@ import argparse
 
 from hri.cli.object.options import add_set, loaded
 from hri.cli.terminal.progress_line import progress
+from hri.core.quoting import report
 from hri.vision.objects.object_model import ModelSet, ObjectModel
 from hri.vision.objects.plain_objects import is_colorful
 from hri.vision.objects.recognizer import ObjectRecognizer
@@ -28,7 +29,8 @@ def run(options: argparse.Namespace) -> int:
             problems.append(
                 f'{model.name}: looks like "{other}" - show what differs, or remove one'
             )
-    print("\n".join(problems) or f"{len(models.objects)} objects, all told apart")
+    for line in problems or [f"{len(models.objects)} objects, all told apart"]:
+        report(line)
     return 1 if problems else 0
 
 

@@ -10,12 +10,12 @@ from pathlib import Path
 
 from hri.cli.object.options import add_set
 from hri.cli.terminal.messages import Within
+from hri.cli.vision.taught import LeftOut, stills_of
 from hri.cli.vision.watching import add_view, frames_of, opened_camera
 from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.core.signals import Image
-from hri.hal.drivers.image_folder import pictures_in
-from hri.hal.drivers.still_image import read_still
 from hri.vision.camera_view import CameraView
 from hri.vision.objects.cutout import opaque, whole
 from hri.vision.objects.held_up import HeldUp, HeldUpFinder
@@ -66,40 +66,45 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Exit status 1 when nothing was learned."""
+    """Exit status 1 when a picture was left out, 2 when nothing was learned."""
     if not is_name(options.name):
         raise HriError(f'"{options.name}" is not a valid name for an object - {NAME_REMEDY}')
     path = own_models() if options.models is None else Path(options.models)
     models = load_or_new(path, options.features)
-    learner = ObjectLearner(options.name, models)
-    shown = _from_files if options.images else _from_camera
-    for image, held_up, source, focal_length in shown(options):
+    learner, left_out = ObjectLearner(options.name, models), LeftOut()
+    shown = _from_files(options, left_out) if options.images else _from_camera(options)
+    is_blind = True
+    for image, held_up, source, focal_length in shown:
+        is_blind = False
         if (outline := held_up.outline) is None:
             learner.refuse(held_up.reason)
-            print(f"{source}: not kept: {held_up.reason}", flush=True)
+            report(f"{source}: not kept: {held_up.reason}", flush=True)
             continue
         scale = _scale(options, outline, focal_length)
         _print(learner, learner.show(image, outline, scale, source), source)
+    if is_blind and left_out.count:
+        raise HriError(f"no picture to learn {options.name} from - give one that can be read")
     model = learner.model(date.today().isoformat())
     save_models(path, models.with_object(model))
     count = len(model.views)
-    print(f'learned "{options.name}" from {count} view{"s" * (count != 1)}: {path}')
-    return 0
+    report(f'learned "{options.name}" from {count} view{"s" * (count != 1)}: {path}')
+    return left_out.status
 
 
 Picture = tuple[Image, HeldUp, str, float]
 """An image, the object in it, where the image is from, and its focal length in pixels."""
 
 
-def _from_files(options: argparse.Namespace) -> Iterator[Picture]:
+def _from_files(options: argparse.Namespace, left_out: LeftOut) -> Iterator[Picture]:
     view = CameraView() if options.view is None else CameraView(math.radians(options.view))
-    for given in options.images:
-        for file in pictures_in(given) if given.is_dir() else [given]:
-            still = read_still(file)
-            is_whole = options.whole
-            outline = whole(still.image) if is_whole else opaque(still.image, still.alpha)
-            size = still.image.shape[1], still.image.shape[0]
-            yield still.image, HeldUp(outline), str(file), view.focal_length(size)
+    for file, still in stills_of(options.images, left_out):
+        is_whole = options.whole and still.alpha is None
+        outline = whole(still.image) if is_whole else opaque(still.image, still.alpha)
+        if outline is None:
+            left_out.add(f"{file}: it is transparent, and shows nothing - take another picture")
+            continue
+        size = still.image.shape[1], still.image.shape[0]
+        yield still.image, HeldUp(outline), str(file), view.focal_length(size)
 
 
 def _from_camera(options: argparse.Namespace) -> Iterator[Picture]:
@@ -107,7 +112,7 @@ def _from_camera(options: argparse.Namespace) -> Iterator[Picture]:
     is_live = options.video is None and not options.simulated
     if is_live and math.isinf(options.seconds):
         options.seconds = SECONDS
-        print(f"show it to the camera and turn it slowly for {SECONDS:g} s", flush=True)
+        report(f"show it to the camera and turn it slowly for {SECONDS:g} s", flush=True)
     finder = HeldUpFinder(is_whole=options.whole)
     with opened_camera(options, RealClock() if is_live else FakeClock()) as camera:
         view, due = CameraView.of(camera), -math.inf
@@ -130,4 +135,4 @@ def _scale(options: argparse.Namespace, outline: Outline, focal_length: float) -
 def _print(learner: ObjectLearner, shown: Shown, source: str) -> None:
     what = f"view {learner.count}" if shown.is_new else "not kept"
     warning = f'; looks like "{shown.mistaken}"' if shown.mistaken else ""
-    print(f"{source}: {what}: {shown.reason}{warning}", flush=True)
+    report(f"{source}: {what}: {shown.reason}{warning}", flush=True)

@@ -7,6 +7,7 @@ import json
 
 from hri.cli.object.attribute import attribute_lines
 from hri.cli.object.options import add_set, loaded
+from hri.core.quoting import report
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -32,7 +33,7 @@ def run(options: argparse.Namespace) -> int:
         return 0
     for row, model in zip(rows, models.objects, strict=True):
         size = "size known" if row["size_known"] else "size unknown"
-        print(
+        report(
             f"{row['name']:20} {row['views']:2} views  {row['features']:5} features"
             f"  {size:12}  {row['learned']}".rstrip(),
             *attribute_lines(model.attributes),

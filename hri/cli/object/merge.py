@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.vision.objects.model_file import find_models, load_models, save_models
 
 
@@ -25,5 +26,5 @@ def run(options: argparse.Namespace) -> int:
         for model in models.objects:
             merged = merged.with_object(model)
     save_models(options.out, merged)
-    print(f"{options.out}: {len(merged.objects)} objects")
+    report(f"{options.out}: {len(merged.objects)} objects")
     return 0

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from hri.cli.object.options import add_set, loaded, object_of, set_path
+from hri.core.quoting import report
 from hri.vision.objects.model_file import save_models
 
 
@@ -20,5 +21,5 @@ def run(options: argparse.Namespace) -> int:
     for name in options.names:
         models = models.without(name)
     save_models(set_path(options), models)
-    print(f"removed {', '.join(options.names)}; {len(models.objects)} left")
+    report(f"removed {', '.join(options.names)}; {len(models.objects)} left")
     return 0

@@ -11,7 +11,7 @@ import numpy as np
 from hri.cli.object.attribute import attribute_lines
 from hri.cli.object.options import add_set, loaded, object_of
 from hri.core.picture_writer import write_picture
-from hri.core.quoting import escaped
+from hri.core.quoting import escaped, report
 from hri.core.signals import Image
 from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE
@@ -42,10 +42,10 @@ def run(options: argparse.Namespace) -> int:
     note("pictures", options.out)
     for number, view in enumerate(model.views, 1):
         size = f", {100 * view.scale * np.ptp(view.outline[:, 0]):.1f} cm wide" * (view.scale > 0)
-        print(f"view {number}: {len(view.features)} features{size}, from {escaped(view.source)}")
+        report(f"view {number}: {len(view.features)} features{size}, from {escaped(view.source)}")
     for line in attribute_lines(model.attributes):
-        print(line)
-    print(f"wrote {options.out}")
+        report(line)
+    report(f"wrote {options.out}")
     return 0
 
 

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from hri.cli.object.options import add_set, loaded, object_of
+from hri.core.quoting import report
 from hri.vision.objects.model_file import save_models
 from hri.vision.objects.object_model import ModelSet
 
@@ -20,5 +21,5 @@ def run(options: argparse.Namespace) -> int:
     models = loaded(options)
     chosen = tuple(object_of(models, name) for name in options.names)
     save_models(options.out, ModelSet(models.method, chosen))
-    print(f"{options.out}: {len(chosen)} objects")
+    report(f"{options.out}: {len(chosen)} objects")
     return 0

@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 
 from hri.cli.object.options import add_set, loaded
-from hri.cli.vision.stills import look_through, object_rows
+from hri.cli.vision.stills import Row, look_through, object_rows
 from hri.hal.drivers.still_image import StillImage
 from hri.vision.objects.embedding import Embedding
 from hri.vision.objects.recognizer import ObjectRecognizer
@@ -30,11 +30,12 @@ def run(options: argparse.Namespace) -> int:
     embedding = None if options.embedding is None else Embedding(options.embedding)
     recognizer = ObjectRecognizer(loaded(options), embedding=embedding)
 
-    def report(still: StillImage, path: Path) -> str:
-        rows = object_rows(still, recognizer.recognize(still.image))
-        if options.json:
-            return json.dumps({"file": str(path), "objects": rows})
-        names = [f"{row['name']} ({row['confidence']:.2f})" for row in rows]
-        return f"{path}: {', '.join(names) or 'nothing known'}"
+    def look(still: StillImage) -> Row:
+        return {"objects": object_rows(still, recognizer.recognize(still.image))}
 
-    return look_through(options.images, "recognizing", report)
+    return look_through(options.images, "recognizing", look, json.dumps if options.json else _line)
+
+
+def _line(row: Row) -> str:
+    names = [f"{one['name']} ({one['confidence']:.2f})" for one in row.get("objects", ())]
+    return row.get("error") or f"{row['file']}: {', '.join(names) or 'nothing known'}"

@@ -12,6 +12,7 @@ from typing import Any
 
 from hri.cli.terminal.progress_line import progress
 from hri.core.errors import HriError
+from hri.core.quoting import report
 from hri.core.signals import ColorBlob, FaceBox, FoundObject, Frame, Image, Person
 from hri.hal.drivers.still_image import StillImage, read_still
 from hri.vision.detectors.face import FoundFace, is_same
@@ -29,35 +30,34 @@ BODY_HEIGHT = 1.7
 def run(options: argparse.Namespace) -> int:
     """Exit status 1 when a picture could not be read."""
     looks = _looks(options)
-    status = 0
-    for path in progress(options.stills, len(options.stills), "looking"):
-        try:
-            row = {"file": str(path)} | _row(read_still(path), looks)
-        except HriError as error:
-            print(error, file=sys.stderr)
-            row, status = {"file": str(path), "error": str(error)}, 1
-        print(json.dumps(row) if options.json else _line(row), flush=True)
-    return status
+
+    def look(still: StillImage) -> Row:
+        return {name: look(still) for name, look in looks.items()}
+
+    return look_through(options.stills, "looking", look, json.dumps if options.json else _line)
 
 
 def look_through(
-    paths: Sequence[Path], doing: str, report: Callable[[StillImage, Path], str]
+    paths: Sequence[Path],
+    doing: str,
+    look: Callable[[StillImage], Row],
+    tell: Callable[[Row], str],
 ) -> int:
-    """Print a line about each picture; exit status 1 when one could not be read."""
+    """Print a row for each picture as soon as it was looked at.
+
+    One that cannot be read has its `error` as a row, and on standard error. Exit status 1 when
+    there was one.
+    """
     status = 0
     for path in progress(paths, len(paths), doing):
+        row: Row = {"file": str(path)}
         try:
-            still = read_still(path)
+            row |= look(read_still(path))
         except HriError as error:
             print(error, file=sys.stderr)
-            status = 1
-        else:
-            print(report(still, path))
+            row["error"], status = str(error), 1
+        report(tell(row), flush=True)
     return status
-
-
-def _row(still: StillImage, looks: dict[str, Look]) -> Row:
-    return {name: look(still) for name, look in looks.items()}
 
 
 def _looks(options: argparse.Namespace) -> dict[str, Look]:
@@ -249,7 +249,7 @@ def _line(row: Row) -> str:
     parts = [f"{len(found)} {what}" for what, found in row.items() if isinstance(found, list)]
     names = [one["name"] for what in ("objects", "colors") for one in row.get(what, ())]
     told = f" ({', '.join(names)})" if names else ""
-    return f"{row['file']}: {row.get('error') or ', '.join(parts) + told}"
+    return row.get("error") or f"{row['file']}: {', '.join(parts) + told}"
 
 
 def check(options: argparse.Namespace) -> None:

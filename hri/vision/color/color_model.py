@@ -1,8 +1,8 @@
 """A learned color, and its file `NAME.color`.
 
-The file is JSON with the keys `format` (1), `learned` (a day), and `color` and `background`: the
-mixtures of their chroma, each with `weights`, `means` and `covariances`. It has numbers alone, no
-pictures.
+The file is JSON with the keys `format` (1), `learned` (a day), `name` where it is not that of the
+file, and `color` and `background`: the mixtures of their chroma, each with `weights`, `means` and
+`covariances`. It has numbers alone, no pictures.
 """
 
 from __future__ import annotations
@@ -42,8 +42,13 @@ FARTHEST = 1e3
 LONGEST_NAME = 60
 REMEDY = "learn it again: hri color learn"
 
+OPAQUE = 128
+"""Of 255; what is less opaque shows no color."""
+
 Box = tuple[int, int, int, int]
 """Left, top, width and height in pixels."""
+Taught = tuple[Image, Sequence[Box]] | tuple[Image, Sequence[Box], NDArray[np.uint8] | None]
+"""A picture (uint8, [height, width, 3], RGB), the boxes that show a color, and how opaque it is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,21 +62,22 @@ class ColorModel:
     """The day."""
 
 
-def learn_color(
-    name: str, pictures: Iterable[tuple[Image, Sequence[Box]]], day: str = ""
-) -> ColorModel:
-    """Learn from pictures (uint8, [height, width, 3], RGB) and the boxes that show the color.
+def learn_color(name: str, pictures: Iterable[Taught], day: str = "") -> ColorModel:
+    """Learn from pictures and the boxes that show the color.
 
-    What is farther from the boxes is background. Raises HriError when a box is outside of its
-    picture, or there is too little of either.
+    What is farther from the boxes is background, what is transparent neither. Raises HriError when
+    a box is outside of its picture, or there is too little of either.
     """
     inside: list[Samples] = []
     outside: list[Samples] = []
-    for image, boxes in pictures:
+    for image, boxes, *opacity in pictures:
         has_color, is_behind = np.zeros(image.shape[:2], bool), np.ones(image.shape[:2], bool)
         for box in boxes:
-            has_color[_within(box, image)] = True
+            has_color[within(box, image)] = True
             is_behind[_around(box)] = False
+        if opacity and opacity[0] is not None:
+            has_color &= opacity[0] >= OPAQUE
+            is_behind &= opacity[0] >= OPAQUE
         pixels = chroma(image).astype(float)
         inside.append(pixels[has_color])
         outside.append(pixels[is_behind])
@@ -82,7 +88,8 @@ def learn_color(
     return ColorModel(name, spread, fit(np.concatenate(outside), BEHIND), day)
 
 
-def _within(box: Box, image: Image) -> tuple[slice, slice]:
+def within(box: Box, image: Image) -> tuple[slice, slice]:
+    """The rows and columns of a box. Raises HriError when it is outside of the picture."""
     left, top, width, height = box
     is_inside = 0 <= left < image.shape[1] and 0 <= top < image.shape[0]
     if not (is_inside and width > 0 and height > 0):
@@ -146,8 +153,11 @@ def load_color(path: Path) -> ColorModel:
     learned = data.get("learned", "")
     if not isinstance(learned, str) or len(learned) > LONGEST_NAME:
         raise _damaged(path, '"learned" is not a day')
+    name = data.get("name", path.stem)
+    if not isinstance(name, str) or ("name" in data and not is_name(name)):
+        raise _damaged(path, '"name" is not a name')
     return ColorModel(
-        path.stem, _mixture(path, data, "color"), _mixture(path, data, "background"), learned
+        name, _mixture(path, data, "color"), _mixture(path, data, "background"), learned
     )
 
 
@@ -159,6 +169,8 @@ def save_color(path: Path, model: ColorModel) -> None:
         "color": _written(model.color),
         "background": _written(model.background),
     }
+    if model.name != path.stem:
+        data["name"] = model.name
     folder_for(path)
     write_text(path, json.dumps(data, indent=1) + "\n", PRIVATE)
     if path.parent.resolve() != own_colors().resolve():

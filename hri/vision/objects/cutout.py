@@ -25,6 +25,8 @@ CORNER = 0.006
 """How far an outline may be simplified, as a part of its length."""
 COARSE = 160
 """Pixels, width of the picture in which an object is cut out of a room."""
+LONGEST = 16
+"""Times the shorter side; nothing is held up in a picture that is longer."""
 
 Mask = NDArray[np.uint8]
 
@@ -41,12 +43,15 @@ def middle(image: Image) -> Outline:
     return np.asarray(center + (whole(image) - center) * MIDDLE, np.float32)
 
 
-def opaque(image: Image, alpha: Mask | None) -> Outline:
-    """What is not transparent, else what stands before a background of one color, else all."""
-    if alpha is None:
+def opaque(image: Image, alpha: Mask | None) -> Outline | None:
+    """What is not transparent, else what stands before a background of one color, else all.
+
+    None when hardly anything is opaque.
+    """
+    share = 1.0 if alpha is None else float((alpha > 127).mean())
+    if alpha is None or share > LARGEST:
         return on_even_background(image)
-    outline = _largest((alpha > 127).astype(np.uint8), has_parts=True)
-    return whole(image) if outline is None else outline
+    return _largest((alpha > 127).astype(np.uint8), has_parts=True)
 
 
 def on_even_background(image: Image) -> Outline:
@@ -70,6 +75,8 @@ def in_the_middle(image: Image, faces: Iterable[FaceBox] = ()) -> Outline | None
 
     A face that looks over it does not belong to it. None when nothing stands out.
     """
+    if max(image.shape[:2]) > LONGEST * min(image.shape[:2]):
+        return None
     scale = COARSE / image.shape[1]
     small = np.asarray(
         cv2.resize(image, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA), np.uint8

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hri.cli.main import main
-from hri.vision.color.color_model import own_colors
+from hri.vision.color.color_model import load_color, own_colors
 from tests.vision.color.test_segmentation import BLUE, RED, drawn
 
 IMAGE = drawn((RED, (80, 100), 30), (BLUE, (230, 60), 20))
@@ -100,6 +100,53 @@ def test_a_box_that_is_not_four_numbers_is_refused(balls, capsys, box):
     with pytest.raises(SystemExit):
         hri_color("learn", "ball", "--images", balls, "--box", box)
     assert "4 whole numbers with commas between" in capsys.readouterr().err
+
+
+def test_a_bad_picture_among_good_ones_is_named_and_the_others_are_learned(home, balls, capsys):
+    (home / "junk.png").write_text("junk")
+    small = home / "small.png"
+    cv2.imwrite(str(small), IMAGE[:40, :40])
+    words = ["--images", balls, home / "junk.png", small, "--box", "65,85,30,30"]
+    assert hri_color("learn", "ball", *words) == 1
+    told = capsys.readouterr()
+    assert 'learned "ball" from 1 picture' in told.out
+    junk, outside = told.err.splitlines()
+    assert "junk.png: not a readable picture" in junk
+    assert "small.png: the box 65,85,30,30 is outside of a picture of 40 x 40" in outside
+
+
+@pytest.mark.parametrize("click", ["0,0", "3,2", "319,239"])
+def test_a_click_at_the_edge_takes_what_is_in_the_picture(home, capsys, click):
+    image = drawn()
+    image[:12, :12] = image[-12:, -12:] = RED
+    cv2.imwrite(str(home / "corner.png"), image[..., ::-1])
+    words = ["--images", home / "corner.png", "--click", click]
+    assert hri_color("learn", "corner", *words) == 0, capsys.readouterr().err
+    assert hri_color("learn", "corner", *words[:2], "--click", "320,5") == 2
+    assert "the click 320,5 is outside of a picture of 320 x 240" in capsys.readouterr().err
+
+
+def test_a_color_keeps_its_name_in_a_file_of_another(home, balls, capsys):
+    out = home / "rb.color"
+    assert hri_color("learn", "ball", "--images", balls, "--box", "65,85,30,30", "--out", out) == 0
+    capsys.readouterr()
+    assert hri_color("test", balls, "--colors", out, "--json") == 0
+    (found,) = json.loads(capsys.readouterr().out)["colors"]
+    assert found["name"] == "ball"
+
+
+def test_what_is_transparent_has_no_color(home):
+    image = np.dstack([IMAGE[..., ::-1], np.full((240, 320), 255, np.uint8)])
+    opaque, clear = home / "opaque.png", home / "clear.png"
+    cv2.imwrite(str(opaque), image)
+    image[85:115, 65:80] = (0, 255, 0, 0)
+    cv2.imwrite(str(clear), image)
+    means = []
+    for path in (opaque, clear):
+        assert hri_color("learn", "ball", "--images", path, "--box", "65,85,30,30") == 0
+        model = load_color(own_colors() / "ball.color")
+        means.append(model.color.weights @ model.color.means)
+    assert means[0] == pytest.approx(means[1], abs=1)
 
 
 def test_a_folder_of_junk_is_refused(home, capsys):

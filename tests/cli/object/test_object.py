@@ -48,14 +48,47 @@ def test_an_object_that_was_taught_by_pictures_is_recognized_with_its_distance(h
     assert found["distance_m"] == pytest.approx(0.7, rel=0.03)
 
 
-def test_a_folder_of_pictures_and_junk_is_refused_at_the_junk(home, capsys):
+def test_a_bad_picture_among_good_ones_is_named_and_the_others_are_learned(home, capsys):
     folder = home / "pictures"
     folder.mkdir()
-    picture(folder / "a.png", printed_label("cup"))
+    picture(folder / "a.png", printed_label("front"))
     (folder / "b.png").write_text("junk")
-    assert hri_object("learn", "cup", "--images", folder) == 2
-    assert "b.png: not a readable picture" in capsys.readouterr().err
+    (folder / "c.heic").write_text("junk")
+    back = picture(home / "back.png", printed_label("back"))
+    clear = home / "clear.png"
+    cv2.imwrite(str(clear), np.zeros((90, 90, 4), np.uint8))
+    words = ("learn", "cup", "--images", folder, home / "gone", clear, back)
+    assert hri_object(*words) == 1
+    told = capsys.readouterr()
+    assert told.out.endswith(f'learned "cup" from 2 views: {own_models()}\n')
+    left_out = ["left out 1 .heic", "b.png: not a", "gone: no such file", "clear.png: it is transp"]
+    for line, what in zip(told.err.splitlines(), left_out, strict=True):
+        assert what in line
+
+
+def test_bad_pictures_alone_teach_nothing(home, capsys):
+    (home / "a.png").write_text("junk")
+    assert hri_object("learn", "cup", "--images", home / "a.png") == 2
+    assert "no picture to learn cup from - give one that can be read" in capsys.readouterr().err
     assert not own_models().exists()
+
+
+@pytest.mark.parametrize("words", [[], ["--whole"]])
+def test_what_is_transparent_is_not_learned(home, words):
+    """A cup in the middle of hidden colors."""
+    dice = np.random.default_rng(1)
+    image = dice.integers(0, 255, (400, 500, 4), np.uint8)
+    image[..., 3] = 0
+    label = printed_label("cup")
+    height, width = label.shape[:2]
+    image[100 : 100 + height, 150 : 150 + width] = np.dstack(
+        [label[..., ::-1], np.full((height, width), 255, np.uint8)]
+    )
+    cv2.imwrite(str(home / "cup.png"), image)
+    assert hri_object("learn", "cup", "--images", home / "cup.png", *words) == 0
+    (view,) = load_models(own_models()).objects[0].views
+    shown = view.picture.shape
+    assert shown[1] / shown[0] == pytest.approx(width / height, rel=0.05)
 
 
 def test_what_is_too_plain_is_not_learned(home, capsys):

@@ -10,7 +10,7 @@ from PIL import Image as PillowImage
 from hri.cli.main import main
 from hri.hal.drivers.still_image import ORIENTATION
 from hri.vision.objects.model_file import save_models
-from tests.recorded import SHARED, needs_shared
+from tests.recorded import HERE, SHARED, needs_shared
 from tests.vision.objects.pictures import VIEW, learned, room, standing
 
 DEGREES = str(np.degrees(VIEW.field_of_view))
@@ -71,6 +71,40 @@ def test_errors_in_one_picture_do_not_end_the_others(tmp_path, models, capsys):
     )
     assert ["error" in row for row in rows] == [True, False, True]
     assert rows[1]["objects"][0]["name"] == "key"
+
+
+@pytest.mark.parametrize("command", [["object", "test", "--set"], ["color", "test", "--colors"]])
+def test_a_refused_picture_is_a_row_of_each_command(tmp_path, models, capsys, command):
+    (tmp_path / "junk.jpg").write_text("junk")
+    good = picture(tmp_path / "good.png", standing("key", 0.8))
+    chosen = models if command[0] == "object" else "red_ball"
+    assert main([*command, chosen, str(tmp_path / "junk.jpg"), good, "--json"]) == 1
+    bad, fine = map(json.loads, capsys.readouterr().out.splitlines())
+    assert bad.keys() == {"file", "error"}
+    assert fine.keys() == {"file", f"{command[0]}s"}
+
+
+@pytest.mark.parametrize("size", [(1, 8192), (8192, 1), (3, 5000), (4096, 16)])
+def test_the_longest_pictures_are_rows_like_others(tmp_path, models, capsys, size):
+    dice = np.random.default_rng(1)
+    long = picture(tmp_path / "long.png", dice.integers(0, 255, (*size, 3), np.uint8))
+    words = ["--people", "--objects", models, "--colors", "red_ball"]
+    first, second = watched(capsys, long, picture(tmp_path / "b.png", room()), *words)
+    assert first.keys() == second.keys() == {"file", "people", "objects", "colors"}
+
+
+def test_people_in_deep_gray_are_seen_and_those_in_hidden_colors_are_not(tmp_path, capsys):
+    """As many as in the picture of 8 bits."""
+    seen = cv2.imread(str(HERE / "pictures" / "obama.jpg"))
+    gray = cv2.cvtColor(seen, cv2.COLOR_BGR2GRAY)
+    deep, clear = tmp_path / "deep.png", tmp_path / "clear.png"
+    cv2.imwrite(str(deep), gray.astype(np.uint16) << 4)
+    cv2.imwrite(str(clear), np.dstack([seen, np.zeros_like(gray)]))
+    cv2.imwrite(str(tmp_path / "gray.png"), gray)
+    words = [str(tmp_path / "gray.png"), str(deep), str(clear), "--detector", "haar"]
+    plain, again, hidden = watched(capsys, *words)
+    assert len(plain["people"]) == len(again["people"]) > 0
+    assert hidden["people"] == []
 
 
 def test_black_and_tiny_pictures_show_nobody_and_nothing(tmp_path, models, capsys):

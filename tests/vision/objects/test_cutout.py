@@ -44,7 +44,8 @@ def test_what_is_transparent_is_not_the_object():
     mask = np.zeros((480, 640), np.uint8)
     cv2.circle(mask, (300, 200), 90, 255, -1)
     assert box_of(opaque(room(), mask)) == pytest.approx((210, 110, 390, 290), abs=6)
-    assert np.array_equal(opaque(room(), mask * 0), whole(room()))
+    assert opaque(room(), mask * 0) is None
+    assert np.array_equal(opaque(room(), mask * 0 + 255), whole(room()))
 
 
 def test_what_has_come_before_a_known_background_is_cut_out():
