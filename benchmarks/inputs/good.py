@@ -236,12 +236,21 @@ def _checksum(page: bytearray) -> int:
 
 
 def pictures() -> list[bytes]:
-    """A small picture in four formats."""
+    """A small picture in many formats, of 8 bits, 16 bits, and with a point."""
     import cv2
 
     picture = np.add.outer(np.arange(24), np.arange(32)).astype(np.uint8)
-    suffixes = (".png", ".jpg", ".bmp", ".webp")
-    return [cv2.imencode(suffix, picture)[1].tobytes() for suffix in suffixes]
+    color = np.dstack([picture, picture * 2, picture * 3])
+    deep = color.astype(np.uint16) * 16
+    made = [(suffix, picture) for suffix in (".png", ".jpg", ".bmp", ".webp", ".pgm", ".gif")]
+    made += [(suffix, color) for suffix in (".avif", ".tif", ".gif")]
+    made += [(suffix, deep) for suffix in (".png", ".tif", ".ppm")]
+    made += [
+        (".tif", deep[..., 0]),
+        (".tif", np.float32(color)),
+        (".png", np.dstack([color, picture])),
+    ]
+    return [cv2.imencode(suffix, array)[1].tobytes() for suffix, array in made]
 
 
 def videos() -> list[bytes]:

@@ -108,7 +108,7 @@ READERS: dict[str, Reader] = {
         "personality.toml",
     ),
     "picture": _named(
-        "hri.hal.drivers.image_size:picture_size", good.pictures, "a.png", is_text=False
+        "hri.hal.drivers.still_image:read_still", good.pictures, "a.png", is_text=False
     ),
     "recorded events": _named("hri.core.event_log:read_events", good.event_logs, "events.jsonl"),
     "recorded run": Reader(calls.run_of_robot, good.runs, "events.jsonl"),

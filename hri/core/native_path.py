@@ -1,7 +1,7 @@
 """Names of files for libraries written in C, which take text.
 
 On Linux a name is any bytes, and Python spells those that are not UTF-8 as lone surrogates. OpenCV
-ends the process when it is given one, others raise errors of their own.
+ends the process when it is given one, others raise various errors.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from hri.core.errors import HriError
 def native_path(path: Path | str) -> Iterator[str]:
     """A name by which every library opens the file, or the folder, while the block runs.
 
-    It begins with "/" or "./", so that none takes it for an address or for standard input. In place
+    It begins with "/" or "./", so that none takes it for an address or for standard input. Instead
     of a name that is not UTF-8 it is a link of the same suffix in a temporary folder. Raises
     HriError when there can be no link.
     """

@@ -48,6 +48,76 @@ def test_what_was_seen_is_left_beside_what_was_approved(tmp_path) -> None:
         golden.check("other", GRAY)
 
 
+DICE = np.random.default_rng(2)
+KINDS = {
+    "one bit": DICE.random((64, 128)) < 0.5,
+    "zeros and ones": (DICE.random((64, 128)) < 0.5).astype(np.uint8),
+    "gray": DICE.integers(0, 256, (48, 64), np.uint8),
+    "one channel": DICE.integers(0, 256, (48, 64, 1), np.uint8),
+    "rgb": DICE.integers(0, 256, (48, 64, 3), np.uint8),
+    "rgba": DICE.integers(0, 256, (48, 64, 4), np.uint8),
+    "a single pixel": np.zeros((1, 1), bool),
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_was_approved_passes_and_what_changed_does_not(tmp_path, kind) -> None:
+    seen = KINDS[kind]
+    Golden(tmp_path, tmp_path, is_updating=True).check(kind, seen)
+    golden = Golden(tmp_path, tmp_path / "scratch")
+    golden.check(kind, seen)
+    changed = seen.copy()
+    if kind in ("one bit", "zeros and ones", "a single pixel"):
+        changed[0, 0] = not changed[0, 0]  # a single pixel counts
+    else:
+        changed[8:24, 8:24] = 255 - changed[8:24, 8:24]
+    with pytest.raises(AssertionError, match="--update-goldens"):
+        golden.check(kind, changed)
+    with pytest.raises(AssertionError, match="its shape is"):
+        golden.check(kind, np.vstack([seen, seen]))
+
+
+def test_a_change_of_opacity_alone_is_seen(tmp_path) -> None:
+    white = np.full((40, 40, 4), 255, np.uint8)
+    Golden(tmp_path, tmp_path, is_updating=True).check("a", white)
+    Golden(tmp_path, tmp_path).check("a", white[..., :3])
+    clear = white.copy()
+    clear[..., 3] = 0
+    with pytest.raises(AssertionError, match="changed"):
+        Golden(tmp_path, tmp_path / "b").check("a", clear)
+
+
+@pytest.mark.parametrize(
+    "seen", [np.zeros((4, 4)), np.zeros((4, 4, 2), np.uint8), np.zeros((0, 4), bool)]
+)
+def test_what_is_no_picture_is_refused(tmp_path, seen) -> None:
+    with pytest.raises(AssertionError, match=r"an array of .* - give uint8 or bool"):
+        Golden(tmp_path, tmp_path, is_updating=True).check("a", seen)
+
+
+def test_two_names_of_one_file_are_an_error(tmp_path) -> None:
+    golden = Golden(tmp_path, tmp_path, is_updating=True)
+    golden.check("a b", GRAY)
+    golden.check("a b", GRAY)
+    with pytest.raises(AssertionError, match=r'"a b" and "a-b" are one file, .* - rename one'):
+        golden.check("a-b", GRAY)
+
+
+def test_a_name_may_be_in_a_folder_and_nowhere_else(tmp_path) -> None:
+    Golden(tmp_path / "in", tmp_path, is_updating=True).check("eyes/left", GRAY)
+    Golden(tmp_path / "in", tmp_path, is_updating=True).check("mouth/left", with_spot(60))
+    assert (tmp_path / "in" / "eyes" / "left.png").is_file()
+    golden = Golden(tmp_path / "in", tmp_path / "scratch")
+    golden.check("eyes/left", GRAY)
+    for name in ("eyes/left", "mouth/left"):
+        with pytest.raises(AssertionError, match="--update-goldens"):
+            golden.check(name, with_spot(120))
+    assert len(list(golden.scratch.rglob("*.png"))) == 2
+    for name in ("", "../out", "/tmp/out", "a/../../b", "..", "a\0b", " "):
+        with pytest.raises(AssertionError, match="cannot be the name of a picture - take letters"):
+            golden.check(name, GRAY)
+
+
 def test_the_fixture_comes_with_the_installation(pytester: pytest.Pytester) -> None:
     pytester.makepyfile(
         test_mine="""

@@ -19,6 +19,7 @@ from PIL import Image as PillowImage, ImageCms, ImageOps
 
 from hri.core import paths
 from hri.core.errors import HriError
+from hri.core.picture_writer import over_white
 from hri.core.reading import opened
 from hri.core.signals import Image
 from hri.hal.drivers.image_size import FORMATS, Header, read_header, require_size
@@ -117,16 +118,6 @@ def _still(pixels: NDArray[np.uint8], orientation: int) -> StillImage:
         return StillImage(pixels, None, orientation)
     alpha = np.ascontiguousarray(pixels[..., 3])
     return StillImage(over_white(pixels[..., :3], alpha), alpha, orientation)
-
-
-def over_white(colors: NDArray[np.uint8], alpha: Mask) -> Image:
-    """Colors, [height, width, 3], as they are seen over white: a transparent one is not."""
-    seen = np.empty(colors.shape, np.uint8)
-    for top in range(0, len(colors), STRIP):
-        rows = slice(top, top + STRIP)
-        opaque = alpha[rows, :, None].astype(np.uint16)
-        seen[rows] = (colors[rows] * opaque + 255 * (255 - opaque) + 127) // 255
-    return seen
 
 
 def _colors(picture: PillowImage.Image) -> NDArray[np.uint8]:
