@@ -69,7 +69,7 @@ class Header:
     def cost(self) -> int:
         """How often it is in the memory, compared with a picture of three bytes a pixel."""
         if self.bits > 8:
-            return math.ceil(max(2, self.channels) * self.bits / 32)
+            return math.ceil(max(1.5, self.channels) * self.bits / 24)
         # The fourth channel, and the readers of WebP and AVIF, take as much memory again.
         return 2 if self.format in ("WEBP", "AVIF") or "A" in self.mode else 1
 

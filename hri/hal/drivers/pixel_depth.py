@@ -50,8 +50,16 @@ def as_bytes(samples: NDArray[Any], white: float, is_negative: bool = False) -> 
 
     What is not a number is black. `is_negative` is for files in which 0 is white.
     """
+    if samples.dtype == np.uint16:
+        table = _scaled(np.arange(65536), white, is_negative)
+        return np.asarray(table[samples], np.uint8)
     pixels = np.empty(samples.shape, np.uint8)
     for top in range(0, len(samples), STRIP):
-        strip = samples[top : top + STRIP].astype(np.float64) * (255 / white)
-        pixels[top : top + STRIP] = np.rint(np.nan_to_num(strip, posinf=255.0).clip(0, 255))
-    return np.subtract(255, pixels, dtype=np.uint8) if is_negative else pixels
+        pixels[top : top + STRIP] = _scaled(samples[top : top + STRIP], white, is_negative)
+    return pixels
+
+
+def _scaled(samples: NDArray[Any], white: float, is_negative: bool) -> NDArray[np.uint8]:
+    scaled = samples.astype(np.float64) * (255 / white)
+    seen = np.nan_to_num(scaled, posinf=255.0).clip(0, 255)
+    return np.asarray(np.rint(255 - seen if is_negative else seen), np.uint8)

@@ -25,6 +25,9 @@ _WHY = {
     errno.EACCES: ("no permission", "add yourself to the group of the port, such as dialout"),
     errno.EBUSY: ("something else uses it", "close the other program"),
     errno.EAGAIN: ("something else uses it", "close the other program"),
+    errno.ENOTTY: ("it is not a serial port", "name one, such as /dev/ttyUSB0"),
+    errno.EISDIR: ("it is a folder", "name a serial port, such as /dev/ttyUSB0"),
+    errno.ENXIO: ("there is no device behind it", "plug it in, or name another port"),
 }
 
 
@@ -195,7 +198,12 @@ class SerialPort(Port):
         number = getattr(error, "errno", None)
         cause = error.__context__ if number is None else None
         number = getattr(cause, "errno", number)
-        why, remedy = _WHY.get(number or 0, (str(error), "name a serial port"))
+        if number is None and cause is not None:
+            number = next(
+                (one for one in cause.args[:1] if isinstance(one, int)), None
+            )  # of termios
+        reason = os.strerror(number) if number else str(error)
+        why, remedy = _WHY.get(number or 0, (reason, "name a serial port"))
         if self._id and number == errno.ENOENT:
             why, remedy = f"{os.path.basename(self._id)} is not there", "plug it in again"
         return f"{self.path}: {why} - {remedy}"

@@ -107,20 +107,18 @@ def _of_pillow(file: IO[bytes], header: Header) -> StillImage:
     with PillowImage.open(file, formats=FORMATS) as stored:
         orientation = stored.getexif().get(ORIENTATION, 1)
         ImageOps.exif_transpose(stored, in_place=True)  # a TIFF is upright when it is loaded
-        pixels = _deep_gray(stored, header) if header.bits > 8 else _colors(stored)
-    return _still(pixels, orientation)
+        pixels, alpha = _deep_gray(stored, header) if header.bits > 8 else _colors(stored)
+    return _still(pixels, alpha, orientation)
 
 
-def _still(pixels: NDArray[np.uint8], orientation: int) -> StillImage:
-    """A picture from upright pixels with three channels, or with opacity as the fourth."""
+def _still(pixels: NDArray[np.uint8], alpha: Mask | None, orientation: int) -> StillImage:
+    """A picture from upright pixels, [height, width, 3], and how opaque they are."""
     orientation = orientation if orientation in _STORED else 1
-    if pixels.shape[2] == 3:
-        return StillImage(pixels, None, orientation)
-    alpha = np.ascontiguousarray(pixels[..., 3])
-    return StillImage(over_white(pixels[..., :3], alpha), alpha, orientation)
+    seen = np.ascontiguousarray(pixels) if alpha is None else over_white(pixels, alpha)
+    return StillImage(seen, alpha, orientation)
 
 
-def _colors(picture: PillowImage.Image) -> NDArray[np.uint8]:
+def _colors(picture: PillowImage.Image) -> tuple[NDArray[np.uint8], Mask | None]:
     """Pixels of 8 bits, strip by strip: a large picture is in the memory only twice."""
     has_alpha = picture.mode[-1] in "Aa" or "transparency" in picture.info
     mode = "RGBA" if has_alpha else "RGB"
@@ -131,7 +129,9 @@ def _colors(picture: PillowImage.Image) -> NDArray[np.uint8]:
         if strip.mode == "LAB":
             strip = ImageCms.applyTransform(strip, _from_lab()) or strip
         pixels[top : top + STRIP] = np.asarray(strip.convert(mode), np.uint8)
-    return pixels
+    if not has_alpha:
+        return pixels, None
+    return pixels[..., :3], np.ascontiguousarray(pixels[..., 3])
 
 
 @cache
@@ -141,15 +141,15 @@ def _from_lab() -> ImageCms.ImageCmsTransform:
     return ImageCms.buildTransform(lab, rgb, "LAB", "RGB")
 
 
-def _deep_gray(picture: PillowImage.Image, header: Header) -> NDArray[np.uint8]:
+def _deep_gray(picture: PillowImage.Image, header: Header) -> tuple[NDArray[np.uint8], Mask | None]:
     """Pixels from one channel of 16 or 32 bits."""
     samples = np.asarray(picture)
     if samples.dtype == np.int32 and header.bits == 32 and not header.is_signed:
         samples = samples.view(np.uint32)  # Pillow has integers with a sign alone
-    channels = [_as_bytes(samples, header, header.white)] * 3
+    alpha = None
     if isinstance(key := picture.info.get("transparency"), int):
-        channels.append(np.where(samples == key, 0, 255).astype(np.uint8))
-    return np.dstack(channels)
+        alpha = np.where(samples == key, 0, 255).astype(np.uint8)
+    return np.dstack([_as_bytes(samples, header, header.white)] * 3), alpha
 
 
 def _of_opencv(file: IO[bytes], header: Header) -> StillImage:
@@ -167,13 +167,11 @@ def _of_opencv(file: IO[bytes], header: Header) -> StillImage:
         orientation = _orientation(file)
         samples = _UPRIGHT.get(orientation, _UPRIGHT[1])(samples)
     samples = samples.reshape(*samples.shape[:2], -1)
-    colors = _as_bytes(samples[..., :3], header)
-    channels = [
-        colors[..., number] for number in ((2, 1, 0) if colors.shape[2] == 3 else (0, 0, 0))
-    ]
-    if samples.shape[2] == 4:
-        channels.append(_as_bytes(samples[..., 3], header))
-    return _still(np.dstack(channels), orientation)
+    pixels = _as_bytes(samples[..., :3], header)
+    alpha = _as_bytes(samples[..., 3], header) if samples.shape[2] == 4 else None
+    del samples  # it may be large
+    pixels = np.repeat(pixels, 3, axis=2) if pixels.shape[2] == 1 else pixels[..., ::-1]
+    return _still(pixels, alpha, orientation)
 
 
 def _orientation(file: IO[bytes]) -> int:

@@ -185,3 +185,19 @@ def test_attempts_become_rarer_up_to_a_limit():
 def test_the_ports_of_a_machine_are_listed():
     for port in serial_ports():
         assert port.path
+
+
+@pytest.mark.parametrize(
+    "what, said",
+    [
+        ("/dev/null", "it is not a serial port - name one, such as /dev/ttyUSB0"),
+        (".", "it is a folder - name a serial port, such as /dev/ttyUSB0"),
+        ("file", "it is not a serial port - name one, such as /dev/ttyUSB0"),
+        ("none", "it is not there - plug it in, or name another port"),
+    ],
+)
+def test_what_is_not_a_port_is_said_in_words(tmp_path, what, said):
+    (tmp_path / "file").write_text("no port")
+    port = SerialPort(str(tmp_path / what), 115200)
+    assert not port.open(0.0)
+    assert port.reason == f"{port.path}: {said}"
