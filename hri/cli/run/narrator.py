@@ -125,8 +125,9 @@ class Narrator:
         """Summary of the visit, and the place of its recording."""
         counts = self._counts
         seen = counts["head.nodded"] + counts["head.shaken"]
+        self.tell("")
         self.tell(
-            f"\n{self.robot.lived:.0f} s: heard {counts['speech.heard']},"
+            f"{self.robot.lived:.0f} s: heard {counts['speech.heard']},"
             f" said {counts['speech.said']}, head gestures {seen},"
             f" ignored {counts['speech.rejected']}"
         )

@@ -188,7 +188,7 @@ def test_the_ports_of_a_machine_are_listed():
 
 
 @pytest.mark.parametrize(
-    "what, said",
+    ("what", "said"),
     [
         ("/dev/null", "it is not a serial port - name one, such as /dev/ttyUSB0"),
         (".", "it is a folder - name a serial port, such as /dev/ttyUSB0"),
