@@ -11,6 +11,7 @@ import zipfile
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -242,7 +243,9 @@ def pictures() -> list[bytes]:
     picture = np.add.outer(np.arange(24), np.arange(32)).astype(np.uint8)
     color = np.dstack([picture, picture * 2, picture * 3])
     deep = color.astype(np.uint16) * 16
-    made = [(suffix, picture) for suffix in (".png", ".jpg", ".bmp", ".webp", ".pgm")]
+    made: list[tuple[str, Any]] = [
+        (suffix, picture) for suffix in (".png", ".jpg", ".bmp", ".webp", ".pgm")
+    ]
     made += [(suffix, color) for suffix in (".avif", ".tif", ".gif")]
     made += [(suffix, deep) for suffix in (".png", ".tif", ".ppm")]
     made += [
