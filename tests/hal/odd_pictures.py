@@ -271,6 +271,8 @@ def refused() -> Iterator[tuple[str, bytes, str]]:
     for suffix, told in ((".png", missing), (".ppm", missing), (".tif", "or damaged")):
         yield f"short, 16 bits{suffix}", coded(suffix, wide(COLOR, 16))[:-60], told
     yield "16 bits and opacity.tif", tiff(wide(np.dstack([GRAY, GRAY]), 16), 1, 1), "2 channels of"
+    yield "points of 16 bits.tif", tiff(np.float16(GRAY / 255), 1, 1, 3), "a rare kind, or damaged"
+    yield "whole numbers of 64 bits.tif", tiff(np.uint64(GRAY), 1, 1), "a rare kind, or damaged"
     yield "lab of 16 bits.tif", tiff(wide(COLOR, 16), 1, 8), "a rare kind of TIFF"
     yield "iphone.heic", b"\0\0\0\x18ftypheic\0\0\0\0mif1heic", "an iPhone takes JPEG with Settings"
     yield "phone.jpg", b"\0\0\0\x18ftypmif1\0\0\0\0mif1heic", "a picture in HEIC"

@@ -138,7 +138,7 @@ def _of_tags(tags: Any, mode: str, size: tuple[int, int]) -> Header:
         white=2**bits - 1 if 8 < bits < 16 else None,
         is_signed=kind == _SIGNED,
         is_negative=bits > 8 and tags.get(_PHOTOMETRIC) == 0,
-        orientation=int(tags.get(_ORIENTATION, 1)),
+        orientation=tags.get(_ORIENTATION, 1),
         is_preview=bool(tags.get(_KIND_OF_FILE, 0) & 1),
     )
 

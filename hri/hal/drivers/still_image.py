@@ -111,8 +111,11 @@ def _of_pillow(file: IO[bytes], header: Header) -> StillImage:
     return _still(pixels, alpha, orientation)
 
 
-def _still(pixels: NDArray[np.uint8], alpha: Mask | None, orientation: int) -> StillImage:
-    """A picture from upright pixels, [height, width, 3], and how opaque they are."""
+def _still(pixels: NDArray[np.uint8], alpha: Mask | None, orientation: Any) -> StillImage:
+    """A picture from upright pixels, [height, width, 3], and how opaque they are.
+
+    `orientation` is whatever the file has there.
+    """
     orientation = orientation if orientation in _STORED else 1
     seen = np.ascontiguousarray(pixels) if alpha is None else over_white(pixels, alpha)
     return StillImage(seen, alpha, orientation)
@@ -159,7 +162,7 @@ def _of_opencv(file: IO[bytes], header: Header) -> StillImage:
         samples = cv2.imdecode(data, cv2.IMREAD_UNCHANGED)
     del data
     if samples is None:
-        raise ValueError("truncated")
+        raise ValueError("a rare kind, or damaged" if header.format == "TIFF" else "truncated")
     if 8 * samples.itemsize != header.bits:  # it changes what it cannot give
         raise ValueError(f"{header.channels} channels of {header.bits} bits are not known")
     orientation = header.orientation
@@ -174,9 +177,9 @@ def _of_opencv(file: IO[bytes], header: Header) -> StillImage:
     return _still(pixels, alpha, orientation)
 
 
-def _orientation(file: IO[bytes]) -> int:
+def _orientation(file: IO[bytes]) -> Any:
     with PillowImage.open(file, formats=FORMATS) as stored:
-        return int(stored.getexif().get(ORIENTATION, 1))
+        return stored.getexif().get(ORIENTATION, 1)
 
 
 def _as_bytes(
