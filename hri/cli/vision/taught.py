@@ -5,9 +5,11 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from hri.core.errors import HriError
+from hri.core.paths import exists
 from hri.core.quoting import report
 from hri.hal.drivers.image_folder import pictures_in
 from hri.hal.drivers.still_image import StillImage, read_still
@@ -31,13 +33,11 @@ class LeftOut:
 
 def stills_of(given: Sequence[Path], left_out: LeftOut) -> Iterator[tuple[Path, StillImage]]:
     """The pictures of these names, and in these folders, as far as they can be read."""
+    tell = partial(report, file=sys.stderr)
     for path in given:
         try:
-            files = (
-                pictures_in(path, lambda line: report(line, sys.stderr))
-                if path.is_dir()
-                else [path]
-            )
+            is_folder = exists(path) and path.is_dir()
+            files = pictures_in(path, tell) if is_folder else [path]
         except HriError as error:
             left_out.add(error)
             continue
