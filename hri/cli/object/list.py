@@ -35,7 +35,8 @@ def run(options: argparse.Namespace) -> int:
         size = "size known" if row["size_known"] else "size unknown"
         report(
             f"{row['name']:20} {row['views']:2} views  {row['features']:5} features"
-            f"  {size:12}  {row['learned']}".rstrip(),
-            *attribute_lines(model.attributes),
+            f"  {size:12}  {row['learned']}".rstrip()
         )
+        for line in attribute_lines(model.attributes):
+            report(line)
     return 0
