@@ -4,7 +4,16 @@ from __future__ import annotations
 
 import os
 
-from benchmarks.vision import cross_validation, crossing, nods, objects, pose, recordings, videos
+from benchmarks.vision import (
+    colors,
+    cross_validation,
+    crossing,
+    nods,
+    objects,
+    pose,
+    recordings,
+    videos,
+)
 from hri.bench.table import Parts
 
 WORKERS = max(1, os.cpu_count() or 1)
@@ -16,6 +25,7 @@ PARTS: Parts = {
     "crossing": lambda quick: crossing.rows(quick, WORKERS),
     "nods": lambda quick: nods.rows(quick, WORKERS),
     "objects": objects.rows,
+    "colors": colors.rows,
     "films": lambda quick: videos.rows(quick, WORKERS),
 }
 """What `hri bench vision` measures in a checkout beside its own, in the order of the table."""

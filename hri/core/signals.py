@@ -380,7 +380,8 @@ class ColorBlob:
     elevation: float = 0.0
     """Radians from the robot's straight ahead up."""
     confidence: float = 1.0
-    """Probability that its mean chroma is of this color, not of another or of the background."""
+    """0 to 1: how likely it has this color, and is the thing that has it: by its chroma and its
+    brightness, by how compact it is and how it stands out, and by what else has the color."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -392,8 +393,12 @@ class ColorBlobs:
     found: tuple[ColorBlob, ...] = ()
 
     def largest(self, name: str = "") -> ColorBlob | None:
-        """The largest of a color; of all colors without a name."""
-        return next((blob for blob in self.found if name in ("", blob.name)), None)
+        """The largest of a color that is likelier than not, or else the largest; of all colors
+        without a name.
+        """
+        those = [blob for blob in self.found if name in ("", blob.name)]
+        likely = (blob for blob in those if blob.confidence > 0.5)
+        return next(likely, those[0] if those else None)
 
 
 @dataclass(frozen=True, slots=True)

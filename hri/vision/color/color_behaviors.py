@@ -26,10 +26,10 @@ LEARNING_S = 0.05
 
 
 class ColorSegmentation(Behavior):
-    """Finds the blobs of learned colors in the pictures of a camera.
+    """Finds the blobs of learned colors in the pictures of a camera, in any light.
 
-    `blobs` has all of them; the other outputs are of the largest one. Light that changes slowly is
-    followed. With `skin`, the skin of the faces that are seen now is a color, too.
+    `blobs` has all of them; the other outputs are of the largest one that is likelier than not, or
+    else of the largest. With `skin`, the skin of the faces that are seen now is a color, too.
     """
 
     category = "vision"
@@ -77,9 +77,10 @@ class ColorSegmentation(Behavior):
         found = tuple(
             self._placed(blob, size, pan) for blob in self._segmenter.segment(frame.image)
         )
-        self.blobs.send(ColorBlobs(frame.time, found))
-        if found:
-            self._send(found[0], size)
+        blobs = ColorBlobs(frame.time, found)
+        self.blobs.send(blobs)
+        if (largest := blobs.largest()) is not None:
+            self._send(largest, size)
         else:
             self.area.send(0.0)
 

@@ -26,6 +26,8 @@ FEWEST = 20
 """Samples that a mixture needs."""
 UNSEEN = 1e-3
 """Share of the background that is any chroma at all, so that rare ones do not look like a color."""
+ELSEWHERE, GRAYISH = 0.05, 900.0
+"""Share of the background that is what other rooms are like: around gray, with this variance."""
 
 
 def chroma(image: Image) -> NDArray[np.uint8]:
@@ -50,9 +52,10 @@ class ColorMixture:
 
     def _joint(self, samples: Samples) -> NDArray[np.float64]:
         """Of each sample with each component, shape [n, k]."""
-        apart = samples[:, None] - self.means
+        red, blue = (samples[:, axis, None] - self.means[:, axis] for axis in (0, 1))
         inverse = np.linalg.inv(self.covariances)
-        distance = np.einsum("nki,kij,nkj->nk", apart, inverse, apart)
+        distance = inverse[:, 0, 0] * red**2 + inverse[:, 1, 1] * blue**2
+        distance += 2 * inverse[:, 0, 1] * red * blue
         scale = np.log(self.weights) - np.log(np.linalg.det(self.covariances)) / 2
         return np.asarray(scale - np.log(2 * np.pi) - distance / 2)
 
@@ -93,8 +96,9 @@ def _improved(mixture: ColorMixture, samples: Samples) -> ColorMixture:
     share = np.exp(joint - np.logaddexp.reduce(joint, axis=1, keepdims=True))
     mass = share.sum(axis=0) + 1e-9
     means = share.T @ samples / mass[:, None]
-    apart = samples[:, None] - means
-    covariances = np.einsum("nk,nki,nkj->kij", share, apart, apart) / mass[:, None, None]
+    squares = (samples[:, :, None] * samples[:, None, :]).reshape(-1, 4)
+    covariances = (share.T @ squares / mass[:, None]).reshape(-1, 2, 2)
+    covariances -= means[:, :, None] * means[:, None, :]
     return ColorMixture(mass / mass.sum(), means, covariances + FLOOR * np.eye(2))
 
 
@@ -106,12 +110,22 @@ class ColorTable:
     """Log-likelihood ratios, shape [256, 256]: by Cr, then by Cb."""
     center: NDArray[np.float64]
     """Mean chroma of the color, shape [2]."""
+    brightness: float = 0.0
+    """Of the thing that has the color, levels of standard light; 0 for the color of no one thing,
+    such as skin."""
 
 
-def ratio_table(color: ColorMixture, background: ColorMixture) -> ColorTable:
-    """The table of a color."""
+def ratio_table(
+    color: ColorMixture, background: ColorMixture, brightness: float = 0.0
+) -> ColorTable:
+    """The table of a color. With the brightness of a thing it is looked for in other rooms, too;
+    without it before this background alone.
+    """
     levels = np.arange(256.0)
     every = np.stack(np.meshgrid(levels, levels, indexing="ij"), axis=-1).reshape(-1, 2)
     behind = np.logaddexp(background.log_likelihood(every), np.log(UNSEEN / 256**2))
+    if brightness:
+        rooms = -((every - 128) ** 2).sum(axis=1) / (2 * GRAYISH)
+        behind = np.logaddexp(behind, rooms + np.log(ELSEWHERE / (2 * np.pi * GRAYISH)))
     ratios = (color.log_likelihood(every) - behind).reshape(256, 256).astype(np.float32)
-    return ColorTable(ratios, color.weights @ color.means)
+    return ColorTable(ratios, color.weights @ color.means, brightness)

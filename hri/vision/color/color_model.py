@@ -1,8 +1,9 @@
 """A learned color, and its file `NAME.color`.
 
-The file is JSON with the keys `format` (1), `learned` (a day), `name` where it is not that of the
-file, and `color` and `background`: the mixtures of their chroma, each with `weights`, `means` and
-`covariances`. It has numbers alone, no pictures.
+The file is JSON with the keys `format` (2), `learned` (a day), `name` where it is not that of the
+file, `brightness` (levels of standard light), and `color` and `background`: the mixtures of their
+chroma in standard light, each with `weights`, `means` and `covariances`. It has numbers alone, no
+pictures. In format 1 the chroma was that of the picture, and there is no brightness.
 """
 
 from __future__ import annotations
@@ -23,16 +24,20 @@ from hri.core.reading import parse_json, read_text
 from hri.core.signals import Image
 from hri.core.whereabouts import note
 from hri.core.writing import PRIVATE, write_text
-from hri.vision.color.color_mixture import ColorMixture, Samples, chroma, fit
+from hri.vision.color.color_constancy import SOFTENED, chromaticity
+from hri.vision.color.color_mixture import ColorMixture, Samples, fit
 
 KIND = "config/colors"
 SUFFIX = ".color"
-FORMAT = 1
+OLD_FORMAT, FORMAT = 1, 2
+TAKEN_FOR, UNSURE = 200.0, 0.15
+"""Levels that the brightest channel of a color of format 1 is taken to have had, or that of what
+was behind it, and the part by which that may be wrong."""
 COMPONENTS, BEHIND = 2, 4
 """Gaussians of a color, and of what is behind it."""
 AROUND = 1.0
 """Of a box's size: what is nearer to it may have the color, too, and is not background."""
-SPREAD = 16.0
+SPREAD = 25.0
 """Variance of chroma, squared levels, by which another light and another shade may differ."""
 MOST_COMPONENTS = 16
 LEAST_WEIGHT = 1e-5
@@ -60,6 +65,8 @@ class ColorModel:
     background: ColorMixture
     learned: str = ""
     """The day."""
+    brightness: float = TAKEN_FOR
+    """Its brightest channel, levels of standard light."""
 
 
 def learn_color(name: str, pictures: Iterable[Taught], day: str = "") -> ColorModel:
@@ -70,6 +77,7 @@ def learn_color(name: str, pictures: Iterable[Taught], day: str = "") -> ColorMo
     """
     inside: list[Samples] = []
     outside: list[Samples] = []
+    bright: list[NDArray[np.uint8]] = []
     for image, boxes, *opacity in pictures:
         has_color, is_behind = np.zeros(image.shape[:2], bool), np.ones(image.shape[:2], bool)
         for box in boxes:
@@ -78,14 +86,17 @@ def learn_color(name: str, pictures: Iterable[Taught], day: str = "") -> ColorMo
         if opacity and opacity[0] is not None:
             has_color &= opacity[0] >= OPAQUE
             is_behind &= opacity[0] >= OPAQUE
-        pixels = chroma(image).astype(float)
-        inside.append(pixels[has_color])
-        outside.append(pixels[is_behind])
+        seen = chromaticity(image)
+        pixels, has_light = seen.chroma.astype(float), seen.brightness > 0
+        inside.append(pixels[has_color & has_light])
+        outside.append(pixels[is_behind & has_light])
+        bright.append(seen.brightness[has_color & has_light])
     if not inside:
         raise HriError(f"no picture to learn {name} from - give one")
     color = fit(np.concatenate(inside), COMPONENTS)
     spread = replace(color, covariances=color.covariances + SPREAD * np.eye(2))
-    return ColorModel(name, spread, fit(np.concatenate(outside), BEHIND), day)
+    brightness = float(np.median(np.concatenate(bright)))
+    return ColorModel(name, spread, fit(np.concatenate(outside), BEHIND), day, brightness)
 
 
 def within(box: Box, image: Image) -> tuple[slice, slice]:
@@ -148,7 +159,7 @@ def load_color(path: Path) -> ColorModel:
         data = parse_json(read_text(path, "color"))
     except (ValueError, RecursionError) as error:
         raise _damaged(path, f"it is not JSON: {error}") from error
-    if not isinstance(data, dict) or data.get("format") != FORMAT:
+    if not isinstance(data, dict) or data.get("format") not in (OLD_FORMAT, FORMAT):
         raise _damaged(path, f'"format" is not {FORMAT}')
     learned = data.get("learned", "")
     if not isinstance(learned, str) or len(learned) > LONGEST_NAME:
@@ -156,8 +167,22 @@ def load_color(path: Path) -> ColorModel:
     name = data.get("name", path.stem)
     if not isinstance(name, str) or ("name" in data and not is_name(name)):
         raise _damaged(path, '"name" is not a name')
-    return ColorModel(
-        name, _mixture(path, data, "color"), _mixture(path, data, "background"), learned
+    color, background = _mixture(path, data, "color"), _mixture(path, data, "background")
+    if data["format"] == OLD_FORMAT:
+        return ColorModel(name, _in_standard_light(color), _in_standard_light(background), learned)
+    brightness = float(_numbers(path, data, "brightness", 0))
+    if not 0 < brightness <= 255:
+        raise _damaged(path, '"brightness" is not a level above 0, up to 255')
+    return ColorModel(name, color, background, learned, brightness)
+
+
+def _in_standard_light(mixture: ColorMixture) -> ColorMixture:
+    """What a mixture of format 1 is about, as if each pixel were as bright as can be."""
+    apart = mixture.means - 128
+    scale = 255 / (TAKEN_FOR + SOFTENED)
+    unsure = (UNSURE * scale) ** 2 * apart[:, :, None] * apart[:, None, :]
+    return ColorMixture(
+        mixture.weights, 128 + scale * apart, scale**2 * mixture.covariances + unsure
     )
 
 
@@ -166,6 +191,7 @@ def save_color(path: Path, model: ColorModel) -> None:
     data = {
         "format": FORMAT,
         "learned": model.learned,
+        "brightness": round(model.brightness, 1),
         "color": _written(model.color),
         "background": _written(model.background),
     }

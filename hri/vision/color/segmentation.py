@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.signals import ColorBlob, Image
+from hri.vision.color.blob_confidence import BRIGHTNESS, SHARE, ramp, set_apart
+from hri.vision.color.color_constancy import Chromaticity, chromaticity
 from hri.vision.color.color_mixture import ColorTable, ratio_table
 from hri.vision.color.color_model import load_color
 
@@ -21,10 +23,10 @@ LEAST = 0.001
 """Share of the picture below which a blob is noise."""
 MOST = 50
 """Blobs of a color in a picture, the largest."""
-DARKEST = 30
-"""Luma, 0 to 255, below which a pixel has no color that could be recognized."""
 LIKELY = 2.0
-"""Log-likelihood ratio from which a pixel has the color."""
+"""Log-likelihood ratio from which a pixel has the color ..."""
+SURE = 3.0
+"""... and at which its mean chroma makes a blob as likely a thing of this color as not."""
 FOLLOWED = 0.1
 """Part of the way by which a table follows a change of light with each picture ..."""
 FARTHEST = 12.0
@@ -81,18 +83,18 @@ class ColorSegmenter:
             return ()
         small = _shrunk(image, min(1.0, WIDEST / width))
         scale = width / small.shape[1]
-        pixels = np.asarray(cv2.cvtColor(small, cv2.COLOR_RGB2YCrCb), np.uint8)
+        seen = chromaticity(small)
         self._prepare()
-        which = self._labels.take((pixels[..., 1].astype(np.uint16) << 8) | pixels[..., 2])
-        which[pixels[..., 0] < DARKEST] = 0
+        which = self._labels.take(seen.chroma.view("<u2")[..., 0])
+        which *= seen.brightness > 0
         found: list[ColorBlob] = []
         for number, name in enumerate(self._names):
             mask = (which == number + 1).view(np.uint8)
             blobs = [
-                _blob(name, part, count, scale, self._confidence(number, part, pixels, mask))
+                _blob(name, part, count, scale, self._confidence(number, part, count, seen, mask))
                 for count, part in _parts(mask, max(LEAST * mask.size, 1.0))
             ]
-            self._follow(number, pixels, mask if blobs else None)
+            self._follow(number, seen.chroma, mask if blobs else None)
             found += blobs
         return tuple(sorted(found, key=lambda blob: (-blob.area, blob.name, blob.x, blob.y)))
 
@@ -109,33 +111,48 @@ class ColorSegmenter:
             is_better = moved > best
             np.copyto(best, moved, where=is_better)
             np.copyto(labels, np.uint8(number + 1), where=is_better)
-        self._labels = labels.ravel()
+        self._labels = labels.T.ravel()
 
     def _confidence(
-        self, number: int, part: Contour, pixels: NDArray[np.uint8], mask: Labels
+        self, number: int, part: Contour, pixels: float, seen: Chromaticity, mask: Labels
     ) -> float:
-        """How likely the mean chroma of a part of the mask is of this color, 0 to 1."""
+        """How likely a part of the mask is of this color, and is the thing that has it, 0 to 1."""
         left, top, width, height = cv2.boundingRect(part)
         box = slice(top, top + height), slice(left, left + width)
-        chroma = np.array(cv2.mean(pixels[box], mask[box])[1:3])
-        places = [np.clip(chroma - shift, 0, 255).astype(int) for shift in self._shifts]
-        ratios = [float(table.ratios[*at]) for table, at in zip(self._tables, places, strict=True)]
-        return math.exp(ratios[number] - float(np.logaddexp.reduce([0.0, *ratios])))
+        red, blue = cv2.mean(seen.chroma[box], mask[box])[:2]
+        ratios = [
+            float(table.ratios[_level(red - shift[0]), _level(blue - shift[1])])
+            for table, shift in zip(self._tables, self._shifts, strict=True)
+        ]
+        learned = self._tables[number].brightness
+        known = [SURE if learned else 0.0, *ratios]
+        sure = math.exp(ratios[number] - max(known))
+        sure /= sum(math.exp(ratio - max(known)) for ratio in known)
+        if not learned:
+            return sure
+        sure *= ramp(cv2.mean(seen.brightness[box], mask[box])[0] / learned, BRIGHTNESS)
+        sure *= ramp(pixels / cv2.countNonZero(mask), SHARE)
+        return sure * set_apart(part, pixels, seen.chroma, (red, blue))
 
-    def _follow(self, number: int, pixels: NDArray[np.uint8], mask: Labels | None) -> None:
+    def _follow(self, number: int, chroma: NDArray[np.uint8], mask: Labels | None) -> None:
         """Move with the chroma of what has the color, within bounds; back where nothing has."""
         aim = np.zeros(2)
         if mask is not None:
-            mean = cv2.mean(pixels, mask)
-            aim = np.array(mean[1:3]) - self._tables[number].center
+            aim = np.array(cv2.mean(chroma, mask)[:2]) - self._tables[number].center
         light = self._light[number]
-        light += FOLLOWED * (np.clip(aim, -FARTHEST, FARTHEST) - light)
+        light += FOLLOWED * (np.minimum(np.maximum(aim, -FARTHEST), FARTHEST) - light)
 
 
 def tables_of(files: Iterable[Path]) -> dict[str, ColorTable]:
     """The tables of learned colors by their names. Raises HriError."""
     models = [load_color(file) for file in files]
-    return {model.name: ratio_table(model.color, model.background) for model in models}
+    return {
+        model.name: ratio_table(model.color, model.background, model.brightness) for model in models
+    }
+
+
+def _level(value: float) -> int:
+    return min(255, max(0, int(value)))
 
 
 def _shrunk(image: Image, scale: float) -> Image:

@@ -10,7 +10,8 @@ from collections.abc import Iterable
 import numpy as np
 
 from hri.core.signals import FaceBox, Image
-from hri.vision.color.color_mixture import ColorTable, Samples, chroma, fit, ratio_table
+from hri.vision.color.color_constancy import chromaticity
+from hri.vision.color.color_mixture import ColorTable, Samples, fit, ratio_table
 
 SKIN = "skin"
 """The name of its blobs."""
@@ -24,14 +25,15 @@ COMPONENTS, BEHIND = 1, 4
 
 
 def skin_samples(image: Image, faces: Iterable[FaceBox]) -> tuple[Samples, Samples]:
-    """The chroma of the faces in a picture, and that of the rest, shape [n, 2] each."""
+    """The chroma of faces and that of the rest of a picture, in standard light, [n, 2] each."""
     height, width = image.shape[:2]
     inside, outside = np.zeros((height, width), bool), np.ones((height, width), bool)
     for face in faces:
         inside[_part(face, CHEEKS, image)] = True
         outside[_part(face, 1 + 2 * AROUND, image)] = False
-    pixels = chroma(image).astype(float)
-    return _some(pixels[inside]), _some(pixels[outside])
+    seen = chromaticity(image)
+    pixels, has_light = seen.chroma.astype(float), seen.brightness > 0
+    return _some(pixels[inside & has_light]), _some(pixels[outside & has_light])
 
 
 def skin_table(skin: Samples, background: Samples) -> ColorTable:

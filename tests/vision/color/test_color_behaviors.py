@@ -8,7 +8,7 @@ import pytest
 from hri.behavior.network_file import load_network
 from hri.core import paths
 from hri.core.errors import HriError
-from hri.core.signals import FaceBox, Frame, HeadPose, People, Person
+from hri.core.signals import ColorBlob, ColorBlobs, FaceBox, Frame, HeadPose, People, Person
 from hri.hal.camera import Camera
 from hri.hal.resource import Description
 from hri.simulation.world import SimulatedWorld
@@ -57,6 +57,16 @@ def test_the_red_ball_has_a_place_a_size_and_a_distance(lent):
     assert sent["range"] == pytest.approx(math.hypot(0.3, 1.5), rel=0.06)
     assert len(sent["blobs"].found) == 1
     assert 0.001 < sent["area"] < 0.2
+
+
+def test_the_largest_that_is_likely_goes_before_what_is_larger():
+    wall, ball, far = (
+        ColorBlob("red", 0, 0, 9, 9, area, (), confidence=sure)
+        for area, sure in ((900, 0.1), (80, 0.9), (40, 0.95))
+    )
+    assert ColorBlobs(0.0, (wall, ball, far)).largest() is ball
+    assert ColorBlobs(0.0, (wall,)).largest("red") is wall
+    assert ColorBlobs(0.0, (wall,)).largest("blue") is None
 
 
 @pytest.mark.parametrize("shape", [(1, 1), (7, 333), (481, 641)])

@@ -9,7 +9,7 @@ from hypothesis import given, strategies as st
 
 from hri.core.errors import HriError
 from hri.core.signals import FaceBox
-from hri.vision.color.color_mixture import chroma
+from hri.vision.color.color_constancy import chromaticity
 from hri.vision.color.color_model import (
     find_color,
     learn_color,
@@ -40,6 +40,33 @@ def test_what_is_learned_from_a_box_is_found_after_it_was_written_and_read(red):
     assert (blob.x, blob.y) == pytest.approx((200, 150), abs=1)
     assert blob.area == pytest.approx(np.pi * 25**2, rel=0.08)
     assert load_color(red).learned == "2026-11-23"
+
+
+def test_a_color_of_the_format_before_is_found(tmp_path):
+    """Its chroma was that of the picture; it was learned from a red ball in a gray room."""
+    old = {
+        "format": 1,
+        "learned": "2026-11-23",
+        "color": {
+            "weights": [1.0],
+            "means": [[206.0, 99.5]],
+            "covariances": [[[60.0, -12.0], [-12.0, 26.0]]],
+        },
+        "background": {
+            "weights": [1.0],
+            "means": [[128.0, 126.0]],
+            "covariances": [[[20.0, 0.0], [0.0, 20.0]]],
+        },
+    }
+    path = tmp_path / "old.color"
+    path.write_text(json.dumps(old))
+    for light in (1.0, 0.5):
+        image = (drawn((RED, (200, 150), 25), seed=9) * light).astype(np.uint8)
+        (blob,) = ColorSegmenter(tables_of([path])).segment(image)
+        assert blob.confidence > 0.5
+        assert blob.area == pytest.approx(np.pi * 25**2, rel=0.15)
+    save_color(path, load_color(path))
+    assert json.loads(path.read_text())["format"] == 2
 
 
 def test_a_component_that_hardly_counts_is_written_so_that_it_can_be_read(red, tmp_path):
@@ -104,7 +131,7 @@ def test_a_box_of_the_whole_picture_leaves_no_background():
 
 
 DAMAGE = {
-    "another format": lambda data: data.update(format=2),
+    "another format": lambda data: data.update(format=3),
     "no mixture": lambda data: data.pop("color"),
     "text for numbers": lambda data: data["color"].update(weights=["a", "b"]),
     "a ragged list": lambda data: data["color"].update(means=[[1], [2, 3]]),
@@ -122,6 +149,8 @@ DAMAGE = {
         covariances=[[[10, 20], [20, 10]]] * 2
     ),
     "a weight that is next to nothing": lambda data: data["color"].update(weights=[5e-324, 1]),
+    "no brightness": lambda data: data.pop("brightness"),
+    "a brightness that no pixel has": lambda data: data.update(brightness=1000),
     "no weight": lambda data: data["color"].update(weights=[0, 0]),
     "infinity": lambda data: data["color"].update(weights=[1e999, 1]),
     "a day of a thousand letters": lambda data: data.update(learned="x" * 1000),
@@ -160,7 +189,7 @@ def test_skin_is_learned_from_the_face_that_is_seen(name, faces_of):
     image = picture(name)
     (face,) = faces_of(image)
     table = skin_table(*skin_samples(image, [face]))
-    levels = chroma(image)
+    levels = chromaticity(image).chroma
     is_skin = table.ratios[levels[..., 0], levels[..., 1]] >= LIKELY
     center = FaceBox(
         face.x + face.width * 0.2, face.y + face.height * 0.2, face.width * 0.6, face.height * 0.6
