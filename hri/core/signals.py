@@ -429,6 +429,8 @@ class Motion:
     without what the robot's own turning makes of it."""
     regions: tuple[MovingRegion, ...] = ()
     """What moves, the largest first."""
+    confidence: NDArray[np.float32] = field(default_factory=lambda: np.zeros((0, 0), np.float32))
+    """Shape [rows, columns], 0 to 1: how sure the motion of each cell is; low on plain walls."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -95,7 +95,10 @@ def draw_motion(image: Image, motion: Motion) -> Image:
     rows, columns = motion.cells.shape[:2]
     across, down = canvas.shape[1] / max(1, columns), canvas.shape[0] / max(1, rows)
     steps = motion.cells * motion.elapsed
-    for row, column in np.argwhere(np.hypot(steps[..., 0], steps[..., 1]) >= 1):
+    moves = np.hypot(steps[..., 0], steps[..., 1]) >= 1
+    if motion.confidence.size:
+        moves &= motion.confidence > 0
+    for row, column in np.argwhere(moves):
         start = np.array([(column + 0.5) * across, (row + 0.5) * down])
         ends = [
             np.clip(np.rint(end), -REACH, REACH).astype(int)

@@ -14,6 +14,7 @@ from hri.core.signals import Frame, Motion, Pose2D
 from hri.hal.camera import Camera
 from hri.vision.behaviors import camera_of
 from hri.vision.camera_view import CameraView
+from hri.vision.motion.block_flow import mean_of
 from hri.vision.motion.motion_finder import CameraMove, FoundMotion, MotionFinder
 from hri.vision.tracking.egomotion import Egomotion
 
@@ -80,6 +81,8 @@ class _MovingPictures(Behavior):
 class MotionFlow(_MovingPictures):
     """How the picture moves: a field of cells of 16 pixels, its mean, and how it grows.
 
+    Cells of a plain wall show noise alone; each cell counts by its confidence.
+
     What the robot's own turning and driving make of the field is subtracted; how the picture grows
     keeps what driving makes of it, since that is what a collision announces itself by.
     """
@@ -88,13 +91,16 @@ class MotionFlow(_MovingPictures):
     y = Output[float]("double", "mean of the field, pixels a second down")
     expansion = Output[float]("double", "share of its size by which the picture grows in a second")
     time_to_contact = Output[float](
-        "double", "seconds until the camera is where the scene is; nothing unless it comes nearer"
+        "double",
+        "seconds until the camera is where the scene is; nothing unless it surely comes nearer",
     )
+    confidence = Output[float]("double", "mean of the field's, 0 to 1: how sure its motion is")
 
     def _report(self, found: FoundMotion) -> None:
-        x, y = found.motion.cells.mean(axis=(0, 1))
-        self.x.send(float(x))
-        self.y.send(float(y))
+        x, y = mean_of(found.motion.cells, found.motion.confidence)
+        self.x.send(x)
+        self.y.send(y)
+        self.confidence.send(float(found.motion.confidence.mean()))
         self.expansion.send(found.expansion)
         if math.isfinite(found.time_to_contact):
             self.time_to_contact.send(found.time_to_contact)

@@ -107,7 +107,7 @@ class MotionFinder:
         if flow is None:
             return None
         cells = _without_late_turning(flow.cells, self._view.focal_length(gray.shape[::-1]) * turn)
-        turned = BlockFlow(cells)
+        turned = BlockFlow(cells, flow.confidence)
         if math.dist((place.x, place.y), (before.place.x, before.place.y)) > DRIVING:
             cells = cells - _shared(cells)
         moving = _moving(cells, flow.cells - cells, seen, gray)
@@ -115,7 +115,7 @@ class MotionFinder:
         elapsed, size = time - before.time, (image.shape[1], image.shape[0])
         regions = tuple(self._region(box, scale, size, pan) for box in _boxes(moving))
         speed = np.asarray(cells / np.float32(scale * elapsed), np.float32)
-        return FoundMotion(Motion(time, elapsed, speed, regions), turned)
+        return FoundMotion(Motion(time, elapsed, speed, regions, flow.confidence), turned)
 
     def _turned(
         self, gray: NDArray[np.uint8], turn: float

@@ -63,3 +63,68 @@ def test_odd_sizes_and_a_covered_camera_have_no_motion():
 
 def test_pictures_of_two_sizes_have_no_flow():
     assert flow(np.zeros((64, 64), np.uint8), np.zeros((48, 64), np.uint8)) is None
+
+
+def noisy(image, seed, noise=3.0):
+    drawn = image + np.random.default_rng(seed).normal(0, noise, image.shape)
+    return np.clip(drawn, 0, 255).astype(np.uint8)
+
+
+def wall():
+    return np.full((240, 320), 150.0)
+
+
+def wall_with_a_picture():
+    image = wall()
+    image[60:140, 90:170] = warped(texture())[:80, :80]
+    return image
+
+
+def wall_with_an_edge():
+    image = wall()
+    image[:, 200:] = 90
+    return image
+
+
+@pytest.mark.proves("R09")
+@pytest.mark.parametrize("made", [wall, wall_with_a_picture, wall_with_an_edge])
+@pytest.mark.parametrize("noise", [0.0, 3.0, 8.0])
+def test_noise_before_a_still_camera_is_no_contact(made, noise):
+    finder = BlockFlowFinder()
+    for seed in range(12):
+        found = finder.between(noisy(made(), seed, noise), noisy(made(), seed + 1, noise))
+        assert found.time_to_contact(0.1) == math.inf
+        assert math.hypot(*found.mean) < 4
+
+
+def test_only_cells_with_structure_are_sure():
+    found = flow(noisy(wall_with_a_picture(), 1), noisy(wall_with_a_picture(), 2))
+    inside = found.confidence[5:8, 7:10]
+    outside = found.confidence.copy()
+    outside[3:10, 5:12] = 0
+    assert inside.min() > 0.6
+    assert outside.max() < 0.3
+
+
+@pytest.mark.proves("R09")
+@pytest.mark.parametrize("shift", [(20, 8), (0, 20), (40, 0), (-40, 12), (3, -50)])
+def test_a_picture_that_moved_far_is_followed(shift):
+    found = flow(noisy(warped(texture()), 1), noisy(warped(texture(), shift=shift), 2))
+    error = np.hypot(*(found.cells - np.array(shift)).transpose(2, 0, 1))
+    is_sure = found.confidence > 0.5
+    assert is_sure.mean() > 0.5
+    assert np.percentile(error[is_sure], 95) < 0.5
+    assert found.mean == pytest.approx(shift, abs=0.5)
+
+
+@pytest.mark.parametrize("scale", [0.95, 1.01, 1.03, 1.06, 1.1])
+def test_growth_is_measured_as_it_is(scale):
+    found = flow(noisy(warped(texture()), 1), noisy(warped(texture(), scale=scale), 2))
+    assert found.expansion == pytest.approx(scale - 1, rel=0.06, abs=0.0007)
+
+
+def test_a_picture_of_something_else_tells_nothing():
+    other = np.random.default_rng(8).uniform(0, 255, (240, 320)).astype(np.float32)
+    found = flow(warped(texture()), cv2.GaussianBlur(other, (0, 0), 2).astype(np.uint8))
+    assert found.confidence.mean() < 0.1
+    assert found.time_to_contact(0.1) == math.inf

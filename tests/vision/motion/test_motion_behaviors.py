@@ -68,7 +68,7 @@ def test_a_thing_that_is_carried_by_starts_and_ends_motion(lent):
 
 
 @pytest.mark.proves("R09")
-@pytest.mark.parametrize("turn", [-0.04, 0.01, 0.03])
+@pytest.mark.parametrize("turn", [-0.04, 0.01, 0.05])
 def test_a_robot_that_turns_notices_only_what_moves(lent, turn):
     world = lent.resources.obtain("world", SimulatedWorld)
     happened = events_of(lent)
