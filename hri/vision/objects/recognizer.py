@@ -8,7 +8,7 @@ RANSAC: Fischler and Bolles, 1981).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -50,6 +50,10 @@ PLAIN = 4.0
 """Levels of gray; with less contrast two pictures cannot be compared."""
 LEAST_VISIBLE = 0.2
 """Part of an object that must be within the picture."""
+SAME = 0.5
+"""Part of the smaller outline from which two that overlap are of one thing: what stands out of its
+plane, as the parts of a motorcycle do, is seen by another map.
+"""
 COMPARED = 160
 """Pixels, longer side of the pictures that are compared."""
 
@@ -111,7 +115,7 @@ class ObjectRecognizer:
     def recognize(self, image: Image) -> tuple[FoundObject, ...]:
         """The objects in a picture (uint8, [height, width, 3], RGB), the surest first."""
         size = image.shape[1], image.shape[0]
-        found = [self._described(seen, size) for seen in self._seen(image)]
+        found = _distinct(self._described(seen, size) for seen in self._seen(image))
         found += [one for one in self._plain.recognize(image) if not _is_covered(one, found)]
         found = [replace(one, attributes=self._attributes[one.name]) for one in found]
         return tuple(sorted(found, key=lambda one: -one.confidence))
@@ -232,6 +236,22 @@ def _inside(places: Points, outline: Outline) -> NDArray[np.bool_]:
     polygon = outline.reshape(-1, 1, 2)
     tests = [cv2.pointPolygonTest(polygon, (float(x), float(y)), False) >= 0 for x, y in places]
     return np.array(tests, bool)
+
+
+def _distinct(found: Iterable[FoundObject]) -> list[FoundObject]:
+    """Of findings of one name that overlap, the surest."""
+    chosen: list[FoundObject] = []
+    for one in sorted(found, key=lambda one: -one.confidence):
+        if not any(one.name == other.name and _overlap(one, other) > SAME for other in chosen):
+            chosen.append(one)
+    return chosen
+
+
+def _overlap(one: FoundObject, other: FoundObject) -> float:
+    """The part of the smaller of two outlines, taken as convex, that they share."""
+    hulls = [cv2.convexHull(np.array(each.outline, np.float32)) for each in (one, other)]
+    shared, _ = cv2.intersectConvexConvex(*hulls)
+    return shared / max(1e-6, min(cv2.contourArea(hull) for hull in hulls))
 
 
 def _is_covered(one: FoundObject, others: Sequence[FoundObject]) -> bool:

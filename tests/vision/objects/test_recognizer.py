@@ -10,10 +10,11 @@ from hypothesis import given, settings, strategies as st
 
 from hri.core.reading import require_file
 from hri.hal.drivers.still_image import read_still
+from hri.vision.objects.learning import view_of
 from hri.vision.objects.local_features import METHODS, ORB, SIFT
-from hri.vision.objects.object_model import ModelSet
+from hri.vision.objects.object_model import ModelSet, ObjectModel
 from hri.vision.objects.recognizer import ObjectRecognizer
-from tests.recorded import SHARED
+from tests.recorded import SHARED, picture
 from tests.vision.objects.pictures import VIEW, away, learned, noisy, room, standing
 
 NAMES = ("cup", "key", "book", "glasses", "medicine")
@@ -67,6 +68,22 @@ def test_two_of_a_kind_are_both_found():
     found = recognizer().recognize(standing("cup", 0.9, 0.25, image=image))
     assert [one.name for one in found] == ["cup", "cup"]
     assert sorted(round(one.x) for one in found) == pytest.approx([166, 474], abs=4)
+
+
+@pytest.mark.parametrize("shift", [60, 100])
+def test_a_thing_with_depth_is_one_thing(shift):
+    """From the side its nearer half has moved against the farther one: two maps, one thing."""
+    photograph = picture("chelsea")
+    flat = np.float32([[0, 0], [photograph.shape[1], 0], photograph.shape[1::-1]])
+    flat = np.vstack([flat, [[0, photograph.shape[0]]]]).astype(np.float32)
+    known = ObjectModel("cat", (view_of(photograph, flat, SIFT),))
+    image = room(2)
+    height, width = photograph.shape[:2]
+    image[60 : 60 + height, 60 : 60 + width] = photograph
+    middle = width // 2
+    image[60 : 60 + height, 60 + middle + shift : 60 + width + shift] = photograph[:, middle:]
+    found = ObjectRecognizer(ModelSet(SIFT, (known,)), VIEW).recognize(noisy(image))
+    assert [one.name for one in found] == ["cat"]
 
 
 def test_a_third_of_an_object_may_be_hidden():
