@@ -249,9 +249,9 @@ def _distinct(found: Iterable[FoundObject]) -> list[FoundObject]:
 
 def _overlap(one: FoundObject, other: FoundObject) -> float:
     """The part of the smaller of two outlines, taken as convex, that they share."""
-    hulls = [cv2.convexHull(np.array(each.outline, np.float32)) for each in (one, other)]
-    shared, _ = cv2.intersectConvexConvex(*hulls)
-    return shared / max(1e-6, min(cv2.contourArea(hull) for hull in hulls))
+    first, second = (cv2.convexHull(np.array(each.outline, np.float32)) for each in (one, other))
+    shared, _ = cv2.intersectConvexConvex(first, second)
+    return shared / max(1e-6, min(cv2.contourArea(first), cv2.contourArea(second)))
 
 
 def _is_covered(one: FoundObject, others: Sequence[FoundObject]) -> bool:
