@@ -304,10 +304,13 @@ class Companion:
         self.motion.stop()
         self._settle()
 
-    def _wake(self, tags: dict[str, Any]) -> None:
+    def _wake(self, tags: dict[str, Any]) -> str | None:
+        if not self.is_asleep:
+            return self.replies.unasked["awake"]
         self.is_asleep = False
         self.voice.quiet_until = self.silent_until
         self._settle()
+        return None
 
     def _eyes(self, tags: dict[str, Any]) -> None:
         self.switch_camera(tags.get("eyes") == "open")

@@ -37,6 +37,12 @@ ALSO_CALLED = {"afraid": "scared"}
 _PERSON = re.compile(r"\{([^{}]*)\}")
 """In words of a stimulus, what gives way to a name."""
 
+_TIMELESS = re.compile(
+    r"\b(am|is|are|has|have|ago|lately|recently|today|yesterday|since|always|never|"
+    r"for (a while|a long time|some time|so long|ages|(\w+ )?(seconds|minutes|hours|days|weeks)))\b"
+)
+"""In words of a stimulus, what lasts or says its own time; "ago" goes with what is over."""
+
 _AGES = (
     # upper limit in seconds: (seconds of the unit, singular, plural)
     (60.0, 1.0, "a moment ago", "a moment ago"),
@@ -53,8 +59,9 @@ def why_words(
 
     `feeling` is what follows "I am"; `causes` come largest first; `needs` are 0, stilled, to 1;
     `words` say of each cause by name what happened: "{you} praised me", which is "Anna praised me"
-    where it was Anna. Goals, actions and objects of an appraisal are called by their own name; any
-    other cause without words is not mentioned.
+    where it was Anna. It follows how long ago that was, unless the words are of what lasts ("my
+    battery is low") or say a time themselves. Goals, actions and objects of an appraisal are called
+    by their own name; any other cause without words is not mentioned.
     """
     shares: dict[str, float] = {}
     for cause in causes:
@@ -115,4 +122,4 @@ def _reason(cause: Cause, words: Mapping[str, str], needs: Mapping[str, float]) 
         what = f"of {name.replace('_', ' ')}"
     else:
         return ""
-    return f"{what} {age_words(cause.age_s)}".rstrip()
+    return what if _TIMELESS.search(what) else f"{what} {age_words(cause.age_s)}".rstrip()

@@ -67,7 +67,7 @@ def judge(
     start = words[0].start if words else segment.start
     end = words[-1].end if words else segment.end - segment.quiet
     least = needed(grammar, found, strictness, turn)
-    reason, detail = _reason(hypothesis, found, rules, turn, least)
+    reason, detail = _reason(grammar, hypothesis, found, rules, turn, least)
     if not reason and confidence < least:
         reason, detail = "low confidence", _as_likely(doubts[0].text)
     if reason == "not in grammar":
@@ -181,6 +181,7 @@ def _doubts(
 
 
 def _reason(
+    grammar: Grammar,
     hypothesis: Hypothesis,
     found: Parse | None,
     rules: Collection[str],
@@ -195,7 +196,7 @@ def _reason(
     if hypothesis.confidence < FAR_BELOW * needed:
         return "unlike the sound", "the nearest sentence, but it does not fit"
     if found.rule not in rules:
-        return "not now", f"<{found.rule}> counts only {_when(turn)}"
+        return "not now", f"<{found.rule}> counts only {_when(found.rule, grammar, turn)}"
     if hypothesis.confidence < needed:
         return "low confidence", f"{hypothesis.confidence:.2f} is below {needed:.2f}"
     return "", ""
@@ -216,8 +217,9 @@ def _departure(grammar: Grammar, text: str) -> str:
     return f"{told} - {refused.remedy}" if refused.remedy.startswith("did you") else told
 
 
-def _when(turn: Turn) -> str:
+def _when(rule: str, grammar: Grammar, turn: Turn) -> str:
     """When a rule counts that does not count now."""
     if turn.is_speaking:
         return "when the robot is silent"
-    return "while a question is open" if turn.is_awake else "after the wake word"
+    is_answer = rule in grammar.marked("answer")
+    return "while a question is open" if is_answer else "after the wake word"

@@ -2,6 +2,7 @@
 
 import math
 import shutil
+import tomllib
 
 import pytest
 
@@ -180,6 +181,20 @@ def test_it_sleeps_until_it_is_woken():
     assert visit.heard() == ["sleep", "move", "wake"]
     assert visit.said() == ["Good night.", "I am awake again."]
     assert visit.pose_at(17).x == pytest.approx(0, abs=0.01)
+
+
+def test_who_is_awake_is_not_awake_again():
+    visit = Visit(6, {1.0: "wake up robot"})
+    assert visit.heard() == ["wake"]
+    assert visit.said() == ["I am awake."]
+
+
+@pytest.mark.parametrize("feeling", ["happy", "sad", "angry", "glad"])
+def test_no_reply_says_a_feeling_that_the_voice_may_not_have(feeling):
+    """The voice and the face show what it feels: an angry one must not say that it is sad."""
+    text = (paths.find("apps", "companion") / "replies.toml").read_text(encoding="utf-8")
+    for rule, reply in tomllib.loads(text)["reply"].items():
+        assert f"me {feeling}" not in str(reply.get("say", "")), rule
 
 
 def test_quiet_means_that_it_does_but_does_not_speak():

@@ -17,10 +17,12 @@ from hri.core import paths
 HOUSE = paths.house()
 PAGES = sorted((*HOUSE.glob("*.md"), *(HOUSE / "docs").rglob("*.md"), *HOUSE.glob("apps/*/*.md")))
 FENCED = re.compile(r"^```(?:sh|console|bash)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-SEPARATORS = {"|", "||", "&&", ";", "&", ">", "<", "(", ")"}
-OTHERS = frozenset(
-    ["apt", "brew", "cat", "cd", "cp", "curl", "echo", "export", "gh", "git", "less", "ls", "make", "mkdir", "mv", "nc", "pip", "pipx", "python", "python3", "source", "ssh", "sudo", "tail", "wget", "test_camera", "test_drive_system", "test_range_sensor"]
-)
+KEYWORDS = {"while", "for", "do", "done", "if", "then", "else", "fi"}
+OTHERS = {
+    *("apt", "brew", "cat", "cd", "cp", "curl", "echo", "export", "git", "ls", "make", "mkdir"),
+    *("nc", "pip", "pipx", "python", "python3", "sleep", "source", "ssh", "sudo"),
+    *("test_camera", "test_drive_system", "test_range_sensor"),
+}
 """Programs of the system, and those of ours that take a driver's options."""
 
 
@@ -47,9 +49,9 @@ def commands_of(line: str) -> list[list[str]]:
             break
         if word in (">", "<", ">>"):
             next(words)
-        elif word in SEPARATORS:
+        elif set(word) <= set("();|&"):
             found.append([])
-        elif found[-1] or not re.fullmatch(r"[A-Z_]+=.*", word):
+        elif found[-1] or not (word in KEYWORDS or re.fullmatch(r"[A-Z_]+=.*", word)):
             found[-1].append(word)
     return [words for words in found if words]
 

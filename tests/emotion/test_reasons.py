@@ -91,3 +91,23 @@ def test_every_age_has_words_without_large_numbers_of_small_units(age_s: float) 
     words = age_words(age_s)
     assert "60 minutes" not in words
     assert "24 hours" not in words
+
+
+@pytest.mark.parametrize(
+    "lasting",
+    [
+        "nobody has talked to me for a while",
+        "my battery is low",
+        "I waited for two hours",
+        "someone rang yesterday",
+        "you called me an hour ago",
+    ],
+)
+def test_what_lasts_or_says_its_own_time_is_no_time_ago(lasting: str) -> None:
+    told = why_words("bored", [Cause("x", 1.0, 40.0)], {"x": lasting}, {})
+    assert told == f"I am bored because {lasting}."
+
+
+def test_what_is_over_has_its_age() -> None:
+    told = why_words("glad", [Cause("x", 1.0, 40.0)], {"x": "you took me for a walk"}, {})
+    assert told == "I am glad because you took me for a walk a moment ago."

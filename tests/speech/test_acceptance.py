@@ -127,6 +127,17 @@ def test_without_the_wake_word_little_counts(write):
     assert result.detail == "<greet> counts only after the wake word"
 
 
+def test_an_answer_waits_for_a_question_also_while_the_robot_is_not_addressed(grammar, write):
+    asleep = Turn(is_awake=False)
+    result = judge(grammar, PIECE, Hypothesis("yes", 0.9), 0.5, asleep)
+    assert result.detail == "<yes> counts only while a question is open"
+    waking = load_grammar(
+        write("/** @wake */ public <hey> = hey robot;\n/** @answer */ public <yes> = yes;", "wake")
+    )
+    result = judge(waking, PIECE, Hypothesis("yes", 0.9), 0.5, asleep)
+    assert result.detail == "<yes> counts only while a question is open"
+
+
 def test_no_wake_word_is_needed_for_a_while(grammar):
     wakefulness = Wakefulness(follow_up=8.0)
 
