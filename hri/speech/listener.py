@@ -57,6 +57,8 @@ class _Piece:
     """Of what the microphone heard."""
     foreign_energy: float = 0.0
     """Of what was left of it without the robot's own voice."""
+    told: Callable[[Heard], object] | None = None
+    """Who typed it wants to know what became of it."""
 
 
 class Listener(Behavior):
@@ -216,15 +218,15 @@ class Listener(Behavior):
 
     # --- hearing ---
 
-    def type_line(self, text: str) -> None:
+    def type_line(self, text: str, told: Callable[[Heard], object] | None = None) -> None:
         """Hear a typed line as if it had been said; little words too many or too few are forgiven.
 
-        Nothing happens for an empty one.
+        `told` is called with what became of it. Nothing happens for an empty one.
         """
         now = self._clock.now()
         if text.strip():
             typed = Segment(now, now, text=text.strip(), origin=origin())
-            self._waiting.append((typed, _Piece()))
+            self._waiting.append((typed, _Piece(told=told)))
 
     def hold(self, seconds: float) -> None:
         """Hear for that long whoever said to be deaf, and without a wake word: someone holds a
@@ -414,6 +416,8 @@ class Listener(Behavior):
 
     def _tell(self, result: Heard, grammar: Grammar, piece: _Piece) -> None:
         self._partial = ""
+        if piece.told is not None:
+            piece.told(result)
         confidence = round(result.confidence, 3)
         if isinstance(result, Rejection):
             self._events.raise_event(

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from hri.core.clock import Clock
 from hri.core.errors import HriError
 from hri.core.origin import STUDIO, caused_by
+from hri.core.signals import Rejection
 from hri.hal.camera import Camera
 from hri.hal.emergency_stop import EmergencyStop
 from hri.robot import Robot
@@ -16,6 +18,7 @@ from hri.simulation.room import Wall
 from hri.simulation.visitor import Visitor
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Listener, Voice
+from hri.speech.hearing import Heard
 from hri.studio.commands import checked
 from hri.studio.request_queue import STOP
 from hri.studio.running import RunningNetworks
@@ -24,6 +27,10 @@ from hri.task.context import TaskContext
 BECAUSE = "someone pressed stop in the studio"
 HOLD = 1.5
 """Seconds of hearing for each word that the button is still held: a page may vanish meanwhile."""
+UNDERSTOOD_WITHIN = 1.0
+"""Seconds after which the answer does not wait for what becomes of a sentence."""
+LOOK_EVERY = 0.02
+"""Seconds between two looks at it."""
 LONGEST_TOLD = 4000
 """Letters of an argument that its event has; a whole network is left out."""
 
@@ -107,8 +114,27 @@ def _hush(asked: Asked) -> None:
     asked.context.behavior(Voice).hush()
 
 
-def _hear(asked: Asked, text: str) -> None:
-    asked.context.behavior(Listener).type_line(text)
+def _hear(asked: Asked, text: str) -> Awaitable[dict[str, Any]]:
+    told: list[Heard] = []
+    asked.context.behavior(Listener).type_line(text, told.append)
+    return _understood(asked.context.clock, told)
+
+
+async def _understood(clock: Clock, told: Sequence[Heard]) -> dict[str, Any]:
+    """What became of a typed sentence: the rule and tags, or why it does not count."""
+    until = clock.now() + UNDERSTOOD_WITHIN
+    while not told and clock.now() < until:
+        await clock.sleep(LOOK_EVERY)
+    if not told:
+        return {"understood": None, "reason": "not yet: other words came before"}
+    if isinstance(heard := told[0], Rejection):
+        return {"understood": False, "reason": heard.reason, "detail": heard.detail}
+    return {
+        "understood": True,
+        "text": heard.text,
+        "rule": heard.rule,
+        "tags": dict(heard.tags),
+    }
 
 
 def _talk(asked: Asked, on: bool) -> None:
@@ -157,9 +183,10 @@ ACTIONS: Mapping[str, Callable[..., object]] = {
 }
 
 
-def obey(asked: Asked, name: str, given: Mapping[str, Any]) -> Awaitable[None] | None:
-    """Do what a command says; what to await, where that takes a while. Raises HriError when it
-    cannot be done.
+def obey(asked: Asked, name: str, given: Mapping[str, Any]) -> Awaitable[object] | None:
+    """Do what a command says; where that takes a while, what to await for the answer.
+
+    Raises HriError when it cannot be done.
     """
     arguments = checked(name, given)
     is_repeated = name == "talk" and arguments["on"] and asked.context.behavior(Listener).is_held

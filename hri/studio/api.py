@@ -92,7 +92,7 @@ def _path(name: str, command: Command) -> dict[str, Any]:
         "operationId": name,
         "summary": command.about,
         "requestBody": {"content": {"application/json": {"schema": schema}}},
-        "responses": _ANSWERS,
+        "responses": {**_ANSWERS, "200": {"description": command.answer}},
     }
     if command.is_open:
         post["description"] = "On this machine it needs neither cookie nor token."

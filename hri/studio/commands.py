@@ -43,6 +43,8 @@ class Command:
     arguments: Mapping[str, Argument] = field(default_factory=dict)
     is_open: bool = False
     """Whether anyone on this machine may ask, without code or token."""
+    answer: str = "done"
+    """What it answers."""
 
 
 _NETWORK = {"name": Argument(str, "of a network that runs")}
@@ -53,6 +55,7 @@ _PLACE = {
     "y": Argument(float, "meters to the left, in the room"),
 }
 _ON = {"on": Argument(bool, "whether it is")}
+HEAR = "hear"
 COMMANDS: Mapping[str, Command] = {
     STOP: Command(
         "stop the base at once, until it is released",
@@ -60,7 +63,12 @@ COMMANDS: Mapping[str, Command] = {
         is_open=True,
     ),
     "release": Command("let the base move again"),
-    "hear": Command("hear a typed sentence as if it had been said", _TEXT),
+    HEAR: Command(
+        "hear a typed sentence as if it had been said",
+        _TEXT,
+        answer="`understood` is true, with `text`, `rule` and `tags`; false, with `reason` and "
+        "`detail`; or null where other words came before and it is not known yet, with `reason`",
+    ),
     "say": Command("say a text", _TEXT),
     "hush": Command("end what is being said, and forget what waits"),
     "talk": Command("hear while someone holds a button, until a moment after the last such", _ON),

@@ -32,7 +32,7 @@ from hri.core.paths import is_file
 from hri.core.token import is_token
 from hri.studio.access import Cookies, is_loopback, is_signed_code
 from hri.studio.api import openapi
-from hri.studio.commands import COMMANDS, checked
+from hri.studio.commands import COMMANDS, HEAR, checked
 from hri.studio.composer.files import Library
 from hri.studio.composer.routes import NetworkRoutes
 from hri.studio.connections import Connections, Kind, know
@@ -204,7 +204,9 @@ class Studio:
     async def _answered(self, command: str, arguments: dict[str, Any]) -> Response:
         try:
             patience = START_PATIENCE if command == START else PATIENCE
-            return JSONResponse({"result": await self._hub.ask(command, arguments, patience)})
+            result = await self._hub.ask(command, arguments, patience)
+            more = {"result": None, **result} if command == HEAR else {"result": result}
+            return JSONResponse(more)
         except Waiting as error:
             return JSONResponse({"error": str(error), "will_be_done": error.is_certain}, 409)
         except HriError as error:

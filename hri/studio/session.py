@@ -19,6 +19,7 @@ from hri.robot import Job, Robot
 from hri.studio.access import Codes
 from hri.studio.actions import Asked, obey
 from hri.studio.body import devices_of
+from hri.studio.commands import HEAR
 from hri.studio.link import RobotEnd
 from hri.studio.live import Live
 from hri.studio.network_watch import NetworkWatch
@@ -35,8 +36,6 @@ AGAIN_AFTER = 0.2
 """Seconds until a server that has ended is started again."""
 PATIENCE = 3.0
 """Seconds that a server has to end."""
-HEAR = "hear"
-"""The request to hear a typed sentence."""
 CODE = "code"
 """The request for another code."""
 
@@ -124,7 +123,7 @@ class StudioSession:
                             nursery.start_soon(self._finish, request, takes_a_while)
                 await context.clock.sleep(LOOK_EVERY)
 
-    def _begun(self, asked: Asked, request: Request) -> Awaitable[None] | None:
+    def _begun(self, asked: Asked, request: Request) -> Awaitable[object] | None:
         """What to await before the answer; None where it is done and answered."""
         result: object = None
         if request.command == HEAR:
@@ -138,10 +137,9 @@ class StudioSession:
         self._link.answer(request.number, result=result)
         return None
 
-    async def _finish(self, request: Request, doing: Awaitable[None]) -> None:
+    async def _finish(self, request: Request, doing: Awaitable[object]) -> None:
         with self._refusing(request.command, request.number):
-            await doing
-            self._link.answer(request.number)
+            self._link.answer(request.number, result=await doing)
 
     @contextmanager
     def _refusing(self, command: str, *numbers: int) -> Iterator[None]:

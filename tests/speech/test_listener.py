@@ -282,9 +282,11 @@ def test_stop_counts_under_every_other_grammar(write, way):
         stage.run(0.5)
     stage.ears.script |= {2.5: ("stop", 0.9), 3.5: ("red wine", 0.9), 4.5: ("go forward", 0.9)}
     stage.run(4.0)
-    stage.behavior.type_line("stop moving")
+    told = []
+    stage.behavior.type_line("stop moving", told.append)
     stage.run(0.5)
 
+    assert [one.rule for one in told] == ["stop"], "of what was typed alone"
     heard = [(p.get("rule"), p["text"]) for _, name, p in stage.events if "speech" in name]
     assert heard == [
         ("stop", "stop"),

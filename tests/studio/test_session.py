@@ -300,7 +300,7 @@ def test_each_command_is_obeyed_and_told(client, robot, command):
     listening = robot.events.subscribe("studio.asked", asked.append)
     arguments = EXAMPLES.get(command, {})
     answer = client.post(f"/api/v1/{command}", json=arguments)
-    assert (answer.status_code, answer.json()) == (200, {"result": None})
+    assert (answer.status_code, answer.json()["result"]) == (200, None)
     listening.cancel()
     told = {} if command == "hear" else arguments
     assert [(one.properties, one.origin) for one in asked] == [
@@ -313,6 +313,27 @@ def test_each_command_is_obeyed_and_told(client, robot, command):
         assert client.post("/api/v1/network_pause", json=going).status_code == 200
     if command == STOP:
         assert client.post("/api/v1/release").status_code == 200
+
+
+def test_a_typed_sentence_is_answered_with_what_became_of_it(client):
+    def hear(text):
+        return client.post("/api/v1/hear", json={"text": text}).json()
+
+    assert hear("hello") == {
+        "result": None, "understood": True, "text": "hello", "rule": "greet", "tags": {},
+    }  # fmt: skip
+    moved = hear("go forward one meter")
+    assert (moved["understood"], moved["rule"], moved["tags"]["distance"]) == (True, "move", 1)
+    client.post("/api/v1/stop")
+    client.post("/api/v1/release")
+    strange = hear("purple elephants sing")
+    assert (strange["understood"], strange["reason"]) == (False, "not in grammar")
+    assert strange["detail"]
+    document = client.get("/api/v1/openapi.json").json()
+    about = document["paths"]["/api/v1/hear"]["post"]["responses"]["200"]["description"]
+    assert all(
+        f"`{key}`" in about for key in (*moved.keys() - {"result"}, *strange.keys() - {"result"})
+    )
 
 
 def test_a_push_against_the_base_is_felt(client, robot):
