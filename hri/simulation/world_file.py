@@ -138,7 +138,7 @@ def _item(table: Table) -> Item:
     if color and color not in COLORS:
         raise table.error("color", f'unknown color "{color}"', did_you_mean(color, COLORS))
     path = table.place("picture").path.parent / picture if picture else None
-    if path is not None and picture_size(path) is None:
+    if path is not None and (not paths.is_file(path) or picture_size(path) is None):
         raise table.error("picture", f"{path} is not a picture", "name a JPEG or PNG beside it")
     table.finish()
     return Item(name, x, y, width, path, color)

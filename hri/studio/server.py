@@ -205,7 +205,7 @@ class Studio:
         try:
             patience = START_PATIENCE if command == START else PATIENCE
             result = await self._hub.ask(command, arguments, patience)
-            more = {"result": None, **result} if command == HEAR else {"result": result}
+            more = {"result": None, **(result or {})} if command == HEAR else {"result": result}
             return JSONResponse(more)
         except Waiting as error:
             return JSONResponse({"error": str(error), "will_be_done": error.is_certain}, 409)

@@ -33,10 +33,9 @@ def run(options: argparse.Namespace) -> int:
         return 0
     for row, model in zip(rows, models.objects, strict=True):
         size = "size known" if row["size_known"] else "size unknown"
-        report(
+        line = (
             f"{row['name']:20} {row['views']:2} views  {row['features']:5} features"
             f"  {size:12}  {row['learned']}".rstrip()
         )
-        for line in attribute_lines(model.attributes):
-            report(line)
+        report(" ".join((line, *attribute_lines(model.attributes))))
     return 0

@@ -27,7 +27,7 @@ MOST_SAMPLES = 110_000_000
 BLOCK = 1 << 18
 """Frames decoded at a time."""
 
-log = logging.getLogger("hri.sounds")
+log = logging.getLogger("hri.resources")
 
 Tell = Callable[[str], object]
 """Gets a line about a file that was read, but is not as it should be."""

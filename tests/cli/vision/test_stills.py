@@ -42,7 +42,7 @@ def test_each_picture_has_its_objects_in_pixels_of_the_file(tmp_path, models, ca
     assert [row.keys() for row in rows] == [{"file", "objects"}] * 2
     (found,), nothing = (row["objects"] for row in rows)
     assert nothing == []
-    assert found.keys() == {"name", "x", "y", "outline", "distance_m", "confidence"}
+    assert found.keys() == {"name", "x", "y", "outline", "distance_m", "confidence", "attributes"}
     assert found["name"] == "cup"
     assert found["x"] == pytest.approx(320 + VIEW.focal_length((640, 480)) / 8, abs=2)
     assert found["y"] == pytest.approx(240, abs=2)
