@@ -27,6 +27,8 @@ _PAIRS = {
 _SYLLABLES = {"si": "shi", "ti": "chi", "tu": "tsu", "hu": "fu", "zi": "ji", "di": "ji", "du": "zu"}
 """Of kana: by their names in Unicode, as Hepburn spells them."""
 _OF_SYLLABLES = ("HIRAGANA", "KATAKANA", "HANGUL SYLLABLE")
+_SIGN = re.compile(r"[\u0370-\u03ff\u2126µ]|.*[a-zA-Z].*")
+"""Signs such as π and units such as μm, which are not words of another script."""
 _WORD = re.compile(r"[^\W\d_]+(?:[\u0300-\u036f]+[^\W\d_]+)*")
 
 
@@ -37,6 +39,8 @@ def in_latin(text: str) -> str:
 
 def _spelled(word: str) -> str:
     word = unicodedata.normalize("NFC", word)
+    if _SIGN.fullmatch(word):
+        return word
     if word[0].lower() in _LETTERS or _plain(word[0].lower()) in _LETTERS:
         lower = "".join(c if c in _LETTERS else _plain(c) for c in word.lower())
         lower = re.sub("|".join(_PAIRS), lambda match: _PAIRS[match[0]], lower)

@@ -126,7 +126,8 @@ class Reader:
 
 def _unshouted(sentence: str, lexicon: Lexicon) -> str:
     """A sentence all in capitals with its words in small letters, so that none is spelled."""
-    if not sentence.isupper() or len(sentence.split()) == 1:
+    words = [word for word in sentence.split() if _SHOUTED.match(word)]
+    if not sentence.isupper() or len(words) < 2:
         return sentence
     return _SHOUTED.sub(lambda m: m[0].capitalize() if lexicon.spoken(m[0]) else m[0], sentence)
 

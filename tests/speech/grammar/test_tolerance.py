@@ -85,11 +85,12 @@ def test_no_answer_no_number_and_no_direction_is_a_little_word(robot):
     assert not LITTLE_WORDS.keys() & set(telling.split())
 
 
-@given(st.integers(0, 10**9), st.data())
+@given(st.integers(0, 10**9), st.integers(0, 20))
 @settings(max_examples=100, deadline=None)
-def test_a_hesitation_anywhere_changes_nothing(companion, seed, data):
+def test_a_hesitation_anywhere_changes_nothing(companion, seed, place):
     words = random_sentence(companion, random.Random(seed)).split()
-    words.insert(data.draw(st.integers(0, len(words))), "um")
+    assume(not LITTLE_WORDS.keys() >= {*words})
+    words.insert(place, "um")
     assume(parse(companion, " ".join(words)) is None)
 
     found = nearest(companion, " ".join(words))
