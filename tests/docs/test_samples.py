@@ -226,6 +226,7 @@ def test_the_primitive_creeps_until_it_has_come_far_enough(script, monkeypatch, 
 
 
 @pytest.mark.proves("P08", "B25")
+@pytest.mark.slow
 def test_the_recognized_object_is_followed_around(simulated):
     world = simulated.resources.obtain("world", SimulatedWorld)
 

@@ -86,6 +86,7 @@ def test_the_robot_keeps_80_cm_away_from_the_object(network_tutorial, capsys):
 
 
 @pytest.mark.proves("B23")
+@pytest.mark.slow
 def test_it_follows_an_object_that_moves_and_stops_without_one(robot, capsys):
     context, network = robot(), load_network("networks/objrec_tut_final")
     world = context.resources.obtain("world", SimulatedWorld)

@@ -75,6 +75,7 @@ def test_a_person_s_command_is_heard_exactly(sphinx, companion):
     assert 0.0 <= utterance.start < utterance.end <= 3.0
 
 
+@pytest.mark.slow
 def test_read_lines_of_a_book_are_no_commands(sphinx, companion):
     sounds = [spoken_by_a_person(name) for name in BOOK]
 
@@ -83,6 +84,7 @@ def test_read_lines_of_a_book_are_no_commands(sphinx, companion):
         assert heard(sphinx, companion, np.concatenate([sound, SECOND])) == []
 
 
+@pytest.mark.slow
 def test_orders_of_coffee_are_no_commands(sphinx, companion):
     accepted = [name for name in ORDERS if heard(sphinx, companion, spoken_by_a_person(name))]
 

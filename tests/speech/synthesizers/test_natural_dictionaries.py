@@ -17,6 +17,7 @@ def test_every_entry_is_found_and_nothing_else(entries, other):
     assert packed.get(other) == entries.get(other)
 
 
+@pytest.mark.slow
 def test_it_reads_as_hibari_does():
     from hibari.g2p import G2P
 

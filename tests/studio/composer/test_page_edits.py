@@ -112,6 +112,7 @@ def test_a_difference_is_what_hri_network_diff_finds(ask):
         assert {one["id"] for one in found["changed"]} >= set(expected.changed)
 
 
+@pytest.mark.proves("V03")
 @pytest.mark.parametrize("start", [EMPTY, CANONICAL], ids=["new", "with comments"])
 def test_after_each_edit_a_network_is_in_canonical_form(ask, start):
     (made,) = ask(edits=[edits(start, seed=5, count=600)])["edits"]

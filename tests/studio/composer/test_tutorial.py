@@ -18,6 +18,7 @@ pytestmark = NEEDS_BROWSER
 
 
 @pytest.mark.proves("V01", "V03")
+@pytest.mark.slow
 def test_the_tutorial_of_the_guide_is_built_and_runs(studio, page, capsys):
     hands = Composer(page)
     hands.new("objrec")
