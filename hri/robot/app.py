@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from pathlib import Path
@@ -35,6 +36,8 @@ from hri.task.task_run import Job
 
 GRAMMARS = tuple(f"grammar{suffix}" for suffix in paths.suffixes("grammars"))
 """Names that its grammar may have; the first that is there counts."""
+REPLIES = "replies.toml"
+"""What it replies, and the robot's name."""
 NETWORK = ".xml"
 SLOT = "app"
 """Slot of the board with the app that runs."""
@@ -94,12 +97,22 @@ class App:
         places = (app.folder / name for app in self.line() for name in GRAMMARS)
         return next(filter(paths.is_file, places), None)
 
+    def robot_name(self) -> str:
+        """What its replies call the robot; empty when none do, or when they cannot be read."""
+        for path in reversed(self.files(REPLIES)):
+            with suppress(HriError):
+                if name := load_toml(path).string("name", ""):
+                    return name
+        return ""
+
     def load_networks(self) -> list[Network]:
         """The networks, checked and in dependency order."""
         networks = [load_network(path) for path in self.networks]
-        if (grammar := self.grammar()) is not None:
-            for behavior in (one for network in networks for one in network.behaviors):
-                if isinstance(behavior, Listener):
+        grammar, name = self.grammar(), self.robot_name()
+        for behavior in (one for network in networks for one in network.behaviors):
+            if isinstance(behavior, Listener):
+                behavior.set_parameter("robot_name", behavior.robot_name or name)
+                if grammar is not None:
                     behavior.set_parameter("grammar", str(grammar))
         return networks
 

@@ -101,6 +101,7 @@ class Listener(Behavior):
     microphone_id = Param("microphone", "resource that hears")
     recognizer_id = Param("recognizer", "resource that finds the words")
     grammar = Param("companion", "name or path of the grammar")
+    robot_name = Param("", "what the robot is called; rules marked @name know it")
     strictness = Param(STRICTNESS, "confidence from which words count", minimum=0.0, maximum=1.0)
     follow_up = Param(
         FOLLOW_UP, "seconds after the last word in which no wake word is needed", minimum=0.0
@@ -110,7 +111,6 @@ class Listener(Behavior):
 
     is_muted = False
     """Set it to be deaf for a while."""
-    _name = ""
     _held_until = 0.0
     _was_held = False
     last_utterance: Utterance | None = None
@@ -176,8 +176,8 @@ class Listener(Behavior):
 
     def call(self, name: str) -> None:
         """Let the grammars know what the robot is called, where a rule is marked @name."""
-        if name != self._name:
-            self._name = name
+        if name != self.robot_name:
+            self.set_parameter("robot_name", name)
             self._grammars.retake()
 
     def is_in_force(self, layer: Layer) -> bool:
@@ -194,7 +194,7 @@ class Listener(Behavior):
         for below in layer.below:
             heard = with_interrupts_of(heard, below.grammar or load_grammar(below.path))
         unheard = None
-        heard = heard.called(self._name)
+        heard = heard.called(self.robot_name)
         try:
             self._recognizer.start(heard)
         except HriError as error:

@@ -453,6 +453,13 @@ def test_it_does_not_ask_whom_nobody_hears_or_where_nothing_is_to_be_kept(tmp_pa
     assert list(tmp_path.iterdir()) == []
 
 
+def test_it_knows_its_name_and_courtesies_and_speaks_of_the_command_alone():
+    visit = Visit(9, {1: "hi robin", 5: "robin could you please turn left a little"})
+    assert [event.properties["rule"] for event in visit.named("speech.heard")] == ["greet", "turn"]
+    assert "turn left a little." in visit.said()[-1]
+    assert "please" not in visit.said()[-1]
+
+
 @pytest.mark.slow
 def test_it_learns_a_thing_names_it_finds_it_and_forgets_it(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
