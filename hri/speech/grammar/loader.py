@@ -173,6 +173,8 @@ class _Loader:
                 self._report(file, use.span, what, "extend a grammar of another name")
                 continue
             self._extend(other, (*below, other))
+            file.document.before = file.document.before or other.document.before
+            file.document.after = file.document.after or other.document.after
             self._bring(file, use.grammar, other.public_names())
 
     def _import(self, file: _File, use: Import) -> None:

@@ -80,6 +80,14 @@ def test_a_frame_names_one_rule(framed, tag):
     assert "needs the name of one rule" in str(errors[0])
 
 
+def test_a_grammar_that_extends_another_has_its_frame(write):
+    rules = "/** @extends companion */ grammar joke; public <joke> = tell me a joke;"
+    path = write("")
+    path.write_text(f"#JSGF V1.0; {rules}")
+    grammar = load_grammar(path).called("Robin")
+    assert understood(grammar, "robin could you tell me a joke please").command == "tell me a joke"
+
+
 def test_a_frame_that_is_not_there_is_named(framed):
     with pytest.raises(AuthoringError, match="no rule <nice>"):
         load_grammar(framed("@before <nice>", "public <go> = go;"))
