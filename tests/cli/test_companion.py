@@ -74,11 +74,7 @@ EVENTS = {
 
 
 @SLOW
-def test_a_demo_is_repeated_from_its_record_byte_for_byte(small, tmp_path):
-    demo = tmp_path / "demo"
-    words = ("companion", "--demo", "--fast", "--config", small, "--duration", "12")
-    run = hri(*words, "--record", demo)
-    assert run.returncode == 0, run.stderr
+def test_a_demo_is_repeated_from_its_record_byte_for_byte(demo, tmp_path):
     run = hri("companion", "--repeat", demo, "--record", "again", folder=tmp_path)
     assert run.returncode == 0, run.stderr
     assert "differ" not in run.stdout

@@ -174,7 +174,7 @@ def test_no_emotion_overdrives_the_voice(voice, name):
     speech = voice.synthesize(TEXT, load_display().prosody(felt_now(state)))
 
     loudest = np.abs(speech.samples.astype(int)).max()
-    assert 8000 < loudest < 32767, "neither clipped nor lost in the noise of a room"
+    assert 8000 < loudest < 32000, "neither clipped nor lost in the noise of a room"
 
 
 def test_voices_are_listed_with_what_to_ask_for():
