@@ -40,6 +40,8 @@ from .replies import FILE, Question, Replies, Reply, Vocabulary, load_replies
 
 ALWAYS = ("stop", "wake")
 """Rules that count even while it sleeps."""
+FLOOR_SECONDS = 0.4
+"""How long it waits with words for someone who may go on speaking; it acts at once."""
 SHOW_SECONDS = 4.0
 FOR_GOOD = 1e9
 QUIET_SECONDS = 60.0
@@ -92,6 +94,7 @@ class Companion:
         self._turns: dict[str, int] = {}
         self._named = 0
         self._has_hinted = False
+        self._is_held = False
 
     @classmethod
     def of(cls, context: TaskContext) -> Companion:
@@ -103,10 +106,13 @@ class Companion:
 
     # --- replying ---
 
-    def reply(self, rule: str, text: str, tags: dict[str, Any]) -> None:
-        """Do what the file says of this rule."""
+    def reply(self, rule: str, text: str, tags: dict[str, Any], may_go_on: bool = False) -> None:
+        """Do what the file says of this rule.
+
+        Whoever may go on with the sentence has the floor a little longer before it answers.
+        """
         self.last_contact = self.context.clock.now()
-        self._has_hinted = False
+        self._has_hinted = self._is_held = False
         reply = self.replies.replies.get(rule)
         if reply is None or (self.is_asleep and rule not in ALWAYS):
             return
@@ -128,7 +134,23 @@ class Companion:
         if reply.gesture:
             self.make(reply.gesture)
         if words and (may_speak or self.may_speak):
-            self.talk.start(verbs.say, words)
+            self.talk.start(self._say_after, FLOOR_SECONDS if may_go_on else 0.0, words)
+
+    async def _say_after(self, context: TaskContext, seconds: float, words: str) -> None:
+        await context.clock.sleep(seconds)
+        await verbs.say(context, words)
+
+    def hold(self) -> None:
+        """Wait: the person goes on with the sentence that it acts on."""
+        self._is_held = True
+        self.motion.hold()
+        self.talk.hold()
+
+    def resume(self) -> None:
+        """Act on the sentence after all; what the person added changes nothing."""
+        self._is_held = False
+        self.motion.resume()
+        self.talk.resume()
 
     def puzzle(self, reason: str, text: str) -> None:
         """Show that it did not understand someone; the first time, say what is nearest to it.
@@ -138,7 +160,7 @@ class Companion:
         is_typed = bool(self.context.resources.opened(TypedRecognizer))
         is_talking = self.context.clock.now() - self.last_contact < COMPANY_SECONDS
         is_meant = reason == "not in grammar" if is_typed else reason == "low confidence"
-        if not is_meant or self.is_asleep or not (is_typed or is_talking):
+        if self._is_held or not is_meant or self.is_asleep or not (is_typed or is_talking):
             return
         self.face.start(self._show, "confused")
         if not self._has_hinted:

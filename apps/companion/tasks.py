@@ -96,16 +96,26 @@ async def take_saved_replies(context: TaskContext) -> None:
 async def converse(context: TaskContext) -> None:
     """Reply to everything that is heard, and show what is not understood."""
     companion = Companion.of(context)
-    with context.queue("speech.heard", "speech.rejected") as queue:
+    with context.queue(
+        "speech.heard", "speech.rejected", "speech.continued", "speech.confirmed"
+    ) as queue:
         while True:
             event = await queue.get()
             heard = event.properties
-            if event.name == "speech.rejected":
+            if event.name == "speech.continued":
+                companion.hold()
+            elif event.name == "speech.confirmed":
+                companion.resume()
+            elif event.name == "speech.rejected":
                 companion.puzzle(heard["reason"], heard["text"])
+            if event.name != "speech.heard":
                 continue
             try:
                 companion.reply(
-                    heard["rule"], heard.get("command") or heard["text"], dict(heard["tags"])
+                    heard["rule"],
+                    heard.get("command") or heard["text"],
+                    dict(heard["tags"]),
+                    bool(heard.get("may_go_on")),
                 )
             except (LookupError, ValueError, TypeError) as error:
                 # A reply that cannot be filled in costs this reply, not the companion.

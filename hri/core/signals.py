@@ -66,6 +66,10 @@ class Utterance:
     """Seconds from where the pause was long enough to the result."""
     command: str = ""
     """The same words without courtesies, names, and free words around the command."""
+    may_go_on: bool = False
+    """Whether the speaker may go on with it: words may follow that change what it means."""
+    continues: bool = False
+    """Whether it stands in the place of the one before, since the person went on speaking."""
     level_db: float | None = None
     """dB against full scale of its loudest tenth of a second; None for what was typed."""
 
@@ -88,6 +92,8 @@ class Rejection:
     """With low confidence: the tags on which all likely sentences agree, if their rule is one."""
     unsure: tuple[str, ...] = ()
     """The names of the tags on which they do not agree: what is left to be asked."""
+    begun: str = ""
+    """The words of a sentence that was only begun, where that is likelier than any whole one."""
     latency: float = 0.0
     """Seconds from where the pause was long enough to the result."""
     level_db: float | None = None

@@ -39,6 +39,10 @@ class Grammar(Protocol):
         """Which word may follow which; made once."""
 
 
+LEAST_VOICE = 0.05
+"""Seconds of voice in a pause from which someone goes on; less is found in noise, too."""
+
+
 @dataclass(frozen=True, slots=True)
 class Segment:
     """A piece of speech: sound, or typed text in its place."""
@@ -53,12 +57,18 @@ class Segment:
     """The same for all snapshots of one piece, of which each one begins the next."""
     quiet: float = 0.0
     """Seconds at its end in which no voice was found any more."""
+    voice: float = 0.0
+    """Seconds of it in which a voice was found; they only grow while it goes on."""
     noise_db: float | None = None
     """Level of the noise before it, dB against full scale; None when nothing is known of it."""
     level_db: float | None = None
     """Level of its loudest tenth of a second, likewise, before anything was amplified."""
     origin: str = ""
     """Who typed it, as `hri.core.origin` has it; empty for what was said."""
+
+    def goes_on_from(self, earlier: Segment) -> bool:
+        """Whether a voice was found in it since an earlier snapshot of the same piece."""
+        return self.voice - earlier.voice >= LEAST_VOICE
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +84,9 @@ class Hypothesis:
     """In order, their times from the start of the segment; empty when the engine gives none."""
     alternatives: tuple[Alternative, ...] = ()
     """Likeliest first; empty when the engine gives none."""
+    begun: str = ""
+    """The words of a sentence that has only begun, where that is likelier than any whole one;
+    empty else, and from engines that cannot tell."""
 
 
 class Recognizer(Resource):
@@ -97,6 +110,13 @@ class Recognizer(Resource):
 
     def mind(self, is_speaking: bool, now: float) -> None:
         """Told whether the robot speaks, before each `listen`; for those whose pieces can wait."""
+
+    def wait(self, segment: Segment, pauses: float) -> None:
+        """Told in the loop, in a pause of the piece that a snapshot is of, when to end it.
+
+        That is after so many of the usual pauses, as long as the voice does not go on. For those
+        that cut sound into pieces.
+        """
 
     @abstractmethod
     def flush(self) -> list[Segment]:

@@ -84,6 +84,7 @@ def judge(
             start,
             end,
             detail,
+            begun=listed(hypothesis.begun),
             level_db=segment.level_db,
         )
         if reason != "low confidence" or found is None:

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.signals import Samples
-from hri.hal.recognizer import Segment
+from hri.hal.recognizer import LEAST_VOICE, Segment
 from hri.speech.automatic_level import AutomaticLevel
 
 FRAME = 0.02
@@ -36,6 +36,8 @@ TRAILING = 0.2
 """Seconds that weak sounds may continue after the last near one: the extra pause when others
 talk.
 """
+LONGEST_PAUSE = 3.0
+"""Seconds of quiet that a piece can be made to wait for."""
 LONGEST = 20.0
 """Seconds; a longer piece is cut, so that no babble grows for ever."""
 BEGIN_WINDOW, BEGIN_VOICE = 10, 5
@@ -135,6 +137,10 @@ class _Piece:
     """Frames up to the last near one."""
     level: float = -120.0
     """Of its loudest, as it came in, dB against full scale."""
+    voice: int = 0
+    """Frames of it that are voice."""
+    wait: tuple[int, int] | None = None
+    """Frames of voice that it had, and the frames of quiet that end it unless it has more."""
 
     @property
     def samples(self) -> Samples:
@@ -187,7 +193,7 @@ class Endpointer:
         self._rest: Samples = np.zeros(0, np.int16)
         kept = round(PRE_ROLL / FRAME) + BEGIN_WINDOW
         self._before: deque[tuple[Samples, float]] = deque(maxlen=kept)
-        self._recent: deque[bool] = deque(maxlen=max(self._pause, BEGIN_WINDOW))
+        self._recent: deque[bool] = deque(maxlen=round(LONGEST_PAUSE / FRAME))
         self._piece: _Piece | None = None
 
     @property
@@ -203,6 +209,16 @@ class Endpointer:
         talk of others goes on under the next number, without it.
         """
         return None if self._piece is None else self._segment(self._piece, self._piece.samples)
+
+    def wait(self, segment: Segment, pauses: float) -> None:
+        """End the open piece that a snapshot is of after so many of the usual pauses.
+
+        At most after LONGEST_PAUSE. As soon as the voice goes on, one pause counts again.
+        """
+        piece = self._piece
+        if piece is not None and piece.number == segment.number:
+            frames = min(round(pauses * self._pause), round(LONGEST_PAUSE / FRAME))
+            piece.wait = (round(segment.voice / FRAME), frames)
 
     def listen(self, samples: Samples, end: float) -> list[Segment]:
         """Take the sound up to time `end`, in seconds; the pieces that ended in it."""
@@ -279,6 +295,7 @@ class Endpointer:
             piece.near = len(piece.levels)
         if self._recent[-1]:
             piece.voiced = len(piece.levels)
+            piece.voice += 1
         # In noise that has risen above all of the piece nothing is near yet.
         if is_louder and level > least:
             self._cut_background(piece, least)
@@ -293,10 +310,23 @@ class Endpointer:
             self._number = piece.number
 
     def _is_over(self, piece: _Piece) -> bool:
-        recent = list(self._recent)[-self._pause :]
-        is_quiet = len(recent) >= self._pause and sum(recent) <= END_SHARE * self._pause
-        is_behind = round(piece.quiet / FRAME) >= self._pause
+        pause = self._pause_of(piece)
+        recent = list(self._recent)[-pause:]
+        is_quiet = len(recent) >= pause and sum(recent) <= END_SHARE * pause
+        is_behind = round(piece.quiet / FRAME) >= pause
         return is_quiet or is_behind or len(piece.levels) * FRAME >= LONGEST
+
+    def _pause_of(self, piece: _Piece) -> int:
+        """Frames of quiet that end a piece; those that it was made to wait for until it goes on."""
+        if piece.wait is None:
+            return self._pause
+        voice, pause = piece.wait
+        if (piece.voice - voice) * FRAME < LEAST_VOICE:
+            return pause
+        piece.wait = None
+        # The quiet before this voice does not count any more.
+        self._recent.clear()
+        return self._pause
 
     def _segment(self, piece: _Piece, samples: Samples) -> Segment:
         return Segment(
@@ -305,6 +335,7 @@ class Endpointer:
             samples=samples,
             number=piece.number,
             quiet=piece.quiet,
+            voice=piece.voice * FRAME,
             noise_db=round(piece.noise_db, 1),
             level_db=round(piece.level, 1),
         )

@@ -23,10 +23,11 @@ from hri.speech.echo import EchoCanceller, OwnVoice
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.merging import with_interrupts_of
 from hri.speech.grammar_stack import GrammarStack, Layer
-from hri.speech.hearing import SILENT_AFTER, STEP, Heard, anticipate, understand
 from hri.speech.recognizers.typed import LineDecoder
 from hri.speech.room_noise import RoomListener
 from hri.speech.turn import FOLLOW_UP, Turn, Wakefulness
+from hri.speech.turn_taking import GOES_ON, Reading, TurnTaking
+from hri.speech.understanding import SILENT_AFTER, STEP, Heard, understand
 
 MOST_WAITING = 20
 """Pieces of speech that wait for their turn; beyond it the oldest are forgotten."""
@@ -64,17 +65,20 @@ class _Piece:
 class Listener(Behavior):
     """Hears what the grammar allows: sound in, utterances out.
 
-    Raises `speech.heard` (text, rule, tags, confidence, start, end, latency, command),
-    `speech.rejected` (reason, detail, text, confidence), `speech.partial` (text) while someone
-    speaks, `speech.interrupted` (text, rule) when a rule marked @interrupts is heard over the
-    robot's own voice, and `grammar.changed` (file) or `grammar.refused` (file, error). Loads
-    its models and grammars while the rest already runs; speech before the first grammar is
-    loaded waits. When the recognizer refuses the first one, `grammar.refused` says why, and
-    only typed lines are heard.
+    Raises `speech.heard` (text, rule, tags, confidence, start, end, latency, command, may_go_on,
+    continues), `speech.rejected` (reason, detail, text, confidence, begun), `speech.partial` (text)
+    while someone speaks, `speech.interrupted` (text, rule) when a rule marked @interrupts is heard
+    over the robot's own voice, and `grammar.changed` (file) or `grammar.refused` (file, error).
+    When the person begins to speak again soon after something was heard, `speech.continued` (text)
+    asks to wait with acting on it; then another `speech.heard` takes its place, or
+    `speech.confirmed` (text) lets it count. Loads its models and grammars while the rest already
+    runs; speech before the first grammar is loaded waits. When the recognizer refuses the first
+    one, `grammar.refused` says why, and only typed lines are heard.
 
     The marks of rules decide which are active, see `hri.speech.turn`. A sentence of a rule marked
-    @interrupts that is heard as clearly as over speech takes effect 0.2 s after its last sound,
-    before the pause that ends a piece of speech is over. Linked to the speech and the
+    @interrupts that is heard as clearly as over speech takes effect 0.16 s after its last sound,
+    before the pause that ends a piece of speech is over. The grammar decides how long that is, see
+    `hri.speech.turn_taking`. Linked to the speech and the
     position of a voice, it subtracts that voice from what it hears. No sound is ever kept.
     """
 
@@ -135,9 +139,12 @@ class Listener(Behavior):
         self._spoke = -ECHO_TAIL
         self._subtracted = 0.0  # seconds of its voice so far
         self._learned = 0.0  # when that was LEARNING
+        self._turns = TurnTaking(self._recognizer)
         self._worked = Segment(0.0, 0.0)
         self._partial = ""
         self._told_early = (-1, "")
+        self._taken_back = ""
+        """What was understood last, while the person goes on with it."""
         self._worker: Worker[Tell] = context.clock.worker(self.latency_s)
         # What is worked out beforehand takes no time away from the result.
         self._early_worker: Worker[Tell] = context.clock.worker(0.0)
@@ -278,6 +285,8 @@ class Listener(Behavior):
             segments += self._recognizer.flush()
         if was_hearing or self._recognizer.is_hearing or segments:
             self._note(heard, samples, is_speaking)
+            if not was_hearing:
+                self._notice_going_on()
         elif not (is_deaf or is_speaking):
             self._room.hear(samples)
         self._waiting.extend((segment, self._piece) for segment in segments)
@@ -309,14 +318,19 @@ class Listener(Behavior):
         """Give the worker the next thing to do."""
         # The engine does one thing at a time.
         is_busy = self._worker.is_busy or self._early_worker.is_busy
-        if is_busy or self._grammars.in_force is None:
+        layer = self._grammars.in_force
+        if is_busy or layer is None or layer.heard is None:
             return
         if self._waiting:
             segment, piece = self._waiting.popleft()
             turn = self._turn(piece, segment.start)
-            self._worker.submit(lambda: self._understand(segment, piece, turn, now))
+            is_read = self._turns.has_read(segment, layer.heard, turn)
+            worker = self._early_worker if is_read else self._worker
+            worker.submit(lambda: self._understand(segment, piece, turn, now))
         elif (segment_so_far := self._recognizer.open_segment) is not None:
-            self._advance(segment_so_far, self._piece, now)
+            self._advance(segment_so_far, self._piece, layer.heard, now)
+        elif self._taken_back and not self._recognizer.is_hearing:
+            self._give_back()
 
     def _turn(self, piece: _Piece, start: float) -> Turn:
         return Turn(
@@ -331,24 +345,30 @@ class Listener(Behavior):
             layer = self._grammars.in_force
             assert layer is not None
             assert layer.heard is not None
-            engine = LineDecoder(layer.heard) if segment.text else self._recognizer
-            heard = understand(engine, layer.heard, segment, self.strictness, turn)
+            reading = self._reading(segment, layer.heard, turn)
             if layer is self._grammars.in_force:
                 break  # else another grammar came meanwhile, and the words may be of either
         grammar = layer.heard
 
         def tell(now: float) -> None:
-            if self._told_early == (segment.number, _rule_of(heard)):
-                return
-            result = replace(heard, latency=now - begun)
-            if isinstance(result, Utterance) and self._is_own(result, piece):
-                result = _own_words(result)
-            with caused_by(segment.origin):
-                self._tell(result, grammar, piece)
+            for heard in reading.heard:
+                if self._told_early == (segment.number, _rule_of(heard)):
+                    continue
+                result = replace(heard, latency=now - begun)
+                if isinstance(result, Utterance) and self._is_own(result, piece):
+                    result = _own_words(result)
+                with caused_by(segment.origin):
+                    self._tell(result, grammar, piece)
 
         return tell
 
-    def _advance(self, segment: Segment, piece: _Piece, begun: float) -> None:
+    def _reading(self, segment: Segment, grammar: Grammar, turn: Turn) -> Reading:
+        if not segment.text:
+            return self._turns.end(segment, grammar, self.strictness, turn)
+        line = LineDecoder(grammar)
+        return Reading((understand(line, grammar, segment, self.strictness, turn),))
+
+    def _advance(self, segment: Segment, piece: _Piece, grammar: Grammar, begun: float) -> None:
         """Let the engine work on an open piece when there is enough new of it."""
         last = self._worked
         is_silent = segment.quiet >= SILENT_AFTER
@@ -357,24 +377,22 @@ class Listener(Behavior):
         ):
             return
         self._worked = replace(segment, samples=None)
-        layer = self._grammars.in_force
-        assert layer is not None
-        assert layer.heard is not None
-        grammar, turn = layer.heard, self._turn(piece, segment.start)
+        turn = self._turn(piece, segment.start)
 
         def job() -> Tell:
-            if is_silent and grammar.marked("interrupts"):
-                return self._anticipate(segment, piece, turn, grammar, begun)
+            if is_silent:
+                return self._look_at_pause(segment, piece, turn, grammar, begun)
             words = self._recognizer.advance(segment, turn.rules(grammar))
             return lambda now: self._tell_partial(words, turn)
 
         self._early_worker.submit(job)
 
-    def _anticipate(
+    def _look_at_pause(
         self, segment: Segment, piece: _Piece, turn: Turn, grammar: Grammar, begun: float
     ) -> Tell:
-        """Decode a piece in the pause that may end it: a sure "stop" does not wait for the rest."""
-        heard = anticipate(self._recognizer, grammar, segment, self.strictness, turn)
+        """Find when a pause ends the turn: a sure "stop" does not wait for that."""
+        reading = self._turns.read(segment, grammar, self.strictness, turn)
+        heard = reading.heard[-1] if reading.heard else None
         is_sure = (
             isinstance(heard, Utterance)
             and heard.rule in grammar.marked("interrupts")
@@ -383,6 +401,9 @@ class Listener(Behavior):
         )
 
         def tell(now: float) -> None:
+            self._recognizer.wait(segment, reading.pauses)
+            if heard is None:
+                return
             early = (segment.number, _rule_of(heard))
             if is_sure and self._told_early != early:
                 self._told_early = early
@@ -391,6 +412,20 @@ class Listener(Behavior):
                 self._tell_partial(heard.text, turn)
 
         return tell
+
+    def _notice_going_on(self) -> None:
+        """Take back what was understood last when the person begins again soon after it."""
+        segment, last = self._recognizer.open_segment, self.last_utterance
+        if segment is None or last is None or self._piece.has_spoken or not last.words:
+            return
+        if segment.start < last.end + GOES_ON and not self._taken_back:
+            self._taken_back = last.text
+            self._events.raise_event("speech.continued", text=last.text)
+
+    def _give_back(self) -> None:
+        """Nothing that the person said since changes what was understood."""
+        text, self._taken_back = self._taken_back, ""
+        self._events.raise_event("speech.confirmed", text=text)
 
     # --- telling ---
 
@@ -428,8 +463,10 @@ class Listener(Behavior):
                 confidence=confidence,
                 sure=dict(result.sure),
                 unsure=list(result.unsure),
+                begun=result.begun,
             )
             return
+        self._taken_back = ""
         self._wakefulness.extend(result.end)
         self.last_utterance = result
         self.utterance.send(result)
@@ -447,6 +484,8 @@ class Listener(Behavior):
             end=round(result.end, 3),
             latency=round(result.latency, 3),
             command=result.command,
+            may_go_on=result.may_go_on,
+            continues=result.continues,
         )
 
     def stop(self) -> None:

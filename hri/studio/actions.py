@@ -18,7 +18,7 @@ from hri.simulation.room import Wall
 from hri.simulation.visitor import Visitor
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Listener, Voice
-from hri.speech.hearing import Heard
+from hri.speech.understanding import Heard
 from hri.studio.commands import checked
 from hri.studio.request_queue import STOP
 from hri.studio.running import RunningNetworks

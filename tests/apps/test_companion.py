@@ -103,6 +103,31 @@ class Visit:
         return next(pose for when, pose in self.poses if when >= time)
 
 
+def test_who_pauses_within_an_order_gives_one_order():
+    visit = Visit(11, {1.0: "go forward", 2.74: "two meters"})
+
+    first, whole = (event.properties for event in visit.named("speech.heard"))
+    assert (first["text"], whole["text"]) == ("go forward", "go forward two meters")
+    assert whole["continues"]
+    (continued,) = visit.named("speech.continued")
+    assert not visit.named("speech.confirmed")
+    # It waits while the person goes on, and says what it does once.
+    moved = [e for e in visit.named("drive.commanded") if e.time < continued.time]
+    assert visit.pose_at(2.9).x < 0.2
+    assert moved
+    (said,) = (words for words in visit.said() if "forward" in words)
+    assert said.endswith("go forward two meters.")
+
+
+def test_what_somebody_adds_that_means_nothing_leaves_the_order_as_it_was():
+    visit = Visit(9, {1.0: "go forward", 2.5: "banana bread"})
+
+    assert visit.heard() == ["move"]
+    assert visit.named("speech.confirmed")
+    assert not [words for words in visit.said() if "Sorry" in words]
+    assert visit.pose_at(8.5).x == pytest.approx(0.5, abs=0.15)
+
+
 def test_stop_is_obeyed_while_it_speaks():
     visit = Visit(9, {1.0: "what can i say", 4.2: "stop"})
     assert visit.heard() == ["help", "stop"]

@@ -42,7 +42,7 @@ class ScriptedEars(Recognizer):
         due = [time for time in self.script if self.last < time <= end]
         self.last = end
         self.count += len(samples)
-        return [self._piece(time, time, samples) for time in due]
+        return [self._piece(time, time) for time in due]
 
     def flush(self) -> list[Segment]:
         return []
@@ -60,11 +60,13 @@ class ScriptedEars(Recognizer):
         ends = [time for time in self.script if 0.0 < time - self.last < 0.5]
         return self._piece(ends[0], self.last) if ends else None
 
-    def _piece(self, end: float, now: float, samples: Samples | None = None) -> Segment:
+    def _piece(self, end: float, now: float) -> Segment:
         """What there is at a time of the piece that ends at another."""
+        samples = np.zeros(round((now - end + 0.5) * self.rate), np.int16)
         quiet = max(0.0, now - (end - self.pause))
         number = 1 + sorted(self.script).index(end)
-        return Segment(end - 0.5, now, samples, number=number, quiet=quiet)
+        voice = now - quiet - (end - 0.5)
+        return Segment(end - 0.5, now, samples, number=number, quiet=quiet, voice=voice)
 
     @property
     def is_hearing(self) -> bool:

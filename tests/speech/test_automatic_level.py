@@ -11,9 +11,10 @@ from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.speech.automatic_level import LOUD_DB, MOST_DB, AutomaticLevel, too_quiet
 from hri.speech.grammar import load_grammar
-from hri.speech.hearing import hear, understand
+from hri.speech.hearing import hear
 from hri.speech.recognizers.ctc.decoder import CtcRecognizer
 from hri.speech.recognizers.ctc.loudness import USUAL_DB, leveled, speech_level
+from hri.speech.understanding import understand
 from tests.recorded import BOOK, ORDERS, spoken_by_a_person
 
 RATE, FRAME = 16000, 320

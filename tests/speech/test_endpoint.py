@@ -55,6 +55,46 @@ def test_words_with_short_pauses_are_one_piece_and_with_long_ones_several():
     assert len(pieces_of(words(0.9, 0.9, 0.9, 1.5), pause=1.2)) == 1
 
 
+def pieces_told(sound, pauses):
+    """The pieces, where in the first pause that is 0.16 s old one is told what to wait for."""
+    endpointer = Endpointer(RATE, always)
+    found, told = [], False
+    for first in range(0, len(sound), SIZE):
+        block = sound[first : first + SIZE]
+        found += endpointer.listen(block, (first + len(block)) / RATE)
+        segment = endpointer.open_segment
+        if segment is not None and segment.quiet >= 0.16 and not told:
+            endpointer.wait(segment, pauses)
+            told = True
+    return found + endpointer.flush()
+
+
+@pytest.mark.parametrize(("pauses", "seconds"), [(0.34, 0.2), (1.0, 0.6), (2.0, 1.2), (9.0, 3.0)])
+def test_a_piece_waits_as_long_as_it_is_told(pauses, seconds):
+    (piece,) = pieces_told(words(4.0), pauses)
+
+    # A tenth of the pause may be voice.
+    assert 0.9 * seconds - FRAME <= piece.quiet <= seconds + 3 * FRAME
+
+
+def test_the_usual_pause_counts_again_as_soon_as_the_voice_goes_on():
+    (piece,) = pieces_told(words(1.0, 2.0), 2.0)
+    assert piece.end - piece.start == pytest.approx(PRE_ROLL + 0.5 + 1.0 + 0.5 + PAUSE, abs=0.15)
+
+    first, second = pieces_told(words(0.15 + PAUSE / 3, 2.0), 0.34)
+    assert first.quiet == pytest.approx(0.2, abs=3 * FRAME)
+    assert second.quiet == pytest.approx(PAUSE, abs=3 * FRAME)
+
+
+def test_a_click_in_a_pause_is_nobody_who_goes_on():
+    sound = words(3.0)
+    sound[round(1.9 * RATE) :][: SIZE // 2] = 3000
+
+    (piece,) = pieces_told(sound, 2.0)
+
+    assert piece.end == pytest.approx(1.5 + 1.2, abs=0.15)
+
+
 def talk(seconds, level=300.0):
     """What a room full of people sounds like: noise that swells and dips four times a second."""
     sound = noise(seconds, level, 7)

@@ -39,6 +39,41 @@ def test_what_comes_next_takes_the_place_of_what_runs():
     assert log == ["first cut at 1", "second done", "third cut at 5"]
 
 
+def test_a_held_job_starts_again_unless_another_takes_its_place():
+    log = []
+
+    async def job(context, name):
+        log.append(f"{name} at {context.clock.now():g}")
+        await context.clock.sleep(2)
+
+    async def main(context):
+        lane = Lane(context)
+        lane.hold()
+        lane.resume()
+        lane.start(job, "first")
+        await context.clock.sleep(1)
+        lane.hold()
+        assert not lane.is_busy
+        await context.clock.sleep(1)
+        lane.resume()
+        await context.clock.sleep(1)
+        lane.hold()
+        lane.start(job, "second")
+        lane.resume()
+        await context.clock.sleep(3)
+        lane.hold()
+        lane.resume()
+        lane.start(job, "third")
+        await context.clock.sleep(1)
+        lane.hold()
+        lane.stop()
+        lane.resume()
+        await context.clock.sleep(1)
+
+    run(main)
+    assert log == ["first at 0", "first at 2", "second at 3", "third at 6"]
+
+
 def test_a_lane_needs_a_robot_that_lives():
     with pytest.raises(RuntimeError, match="lives"):
         Lane(Stage().context).start(lambda: None)

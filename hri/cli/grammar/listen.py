@@ -8,6 +8,7 @@ import math
 import shutil
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import Any, TextIO
@@ -32,9 +33,11 @@ from hri.hal.resource_manager import ResourceManager
 from hri.speech.automatic_level import too_quiet
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.tags import spell_tags
-from hri.speech.hearing import Heard, hear, understand
+from hri.speech.hearing import hear
 from hri.speech.recognizers.typed import TypedRecognizer
 from hri.speech.turn import Turn
+from hri.speech.turn_taking import TurnTaking
+from hri.speech.understanding import SILENT_AFTER, Heard, understand
 
 EXAMPLES = """\
 examples:
@@ -151,23 +154,36 @@ def _hear_microphone(
         status_line = _StatusLine(sys.stderr)
         try:
             ear = microphone.listen(engine.rate)
+            turns = TurnTaking(engine)
             while True:
                 clock.advance(TICK)
                 samples = ear.read(clock.now())
                 for segment in engine.listen(samples, clock.now()):
+                    begun = perf_counter()
+                    reading = turns.end(segment, grammar, options.strictness, turn)
                     status_line.clear()
-                    heard = understand(
-                        engine, grammar, segment, options.strictness, turn, perf_counter
-                    )
-                    show("", heard)
-                open_segment = engine.open_segment
-                words = engine.advance(open_segment, turn.rules(grammar)) if open_segment else ""
+                    for heard in reading.heard:
+                        show("", replace(heard, latency=perf_counter() - begun))
+                words = _words_so_far(engine, turns, grammar, turn, options.strictness)
                 status_line.show(samples, words, is_hearing=engine.is_hearing)
         except KeyboardInterrupt:
             status_line.clear()
             return 0
         finally:
             microphone.deactivate()
+
+
+def _words_so_far(
+    engine: Recognizer, turns: TurnTaking, grammar: Grammar, turn: Turn, strictness: float
+) -> str:
+    segment = engine.open_segment
+    if segment is None:
+        return ""
+    if segment.quiet < SILENT_AFTER:
+        return engine.advance(segment, turn.rules(grammar))
+    reading = turns.read(segment, grammar, strictness, turn)
+    engine.wait(segment, reading.pauses)
+    return reading.heard[-1].text if reading.heard else ""
 
 
 def _open_microphone(options: argparse.Namespace, manager: ResourceManager) -> Microphone:
@@ -238,6 +254,9 @@ def _show_json(file: str, heard: Heard) -> None:
         "latency_s": round(heard.latency, 4),
         "sure": dict(rejected.sure) if rejected else {},
         "unsure": list(rejected.unsure) if rejected else [],
+        "begun": rejected.begun if rejected else "",
+        "may_go_on": bool(accepted and accepted.may_go_on),
+        "continues": bool(accepted and accepted.continues),
         "level_dbfs": heard.level_db,
     }
     print(json.dumps(line), flush=True)

@@ -22,6 +22,9 @@ class DelegatingRecognizer(Recognizer):
     def listen(self, samples: Samples, end: float) -> list[Segment]:
         return self.engine.listen(samples, end)
 
+    def wait(self, segment: Segment, pauses: float) -> None:
+        self.engine.wait(segment, pauses)
+
     def flush(self) -> list[Segment]:
         return self.engine.flush()
 

@@ -15,7 +15,7 @@ from hri.speech.recognizers.voice_activity import voice_detector
 class EndpointedRecognizer(Recognizer):
     """Decodes the sound of pieces; a subclass says how, and its `_open` calls this one.
 
-    `pause` is the seconds of quiet that end a piece: 0.2 to 3.
+    `pause` is the seconds of quiet that end a piece which may go on or not: 0.2 to 3.
     """
 
     parameters: ClassVar[tuple[str, ...]] = ("pause",)
@@ -26,6 +26,9 @@ class EndpointedRecognizer(Recognizer):
 
     def listen(self, samples: Samples, end: float) -> list[Segment]:
         return self._endpointer.listen(samples, end)
+
+    def wait(self, segment: Segment, pauses: float) -> None:
+        self._endpointer.wait(segment, pauses)
 
     def flush(self) -> list[Segment]:
         return self._endpointer.flush()

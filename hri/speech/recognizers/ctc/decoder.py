@@ -11,7 +11,6 @@ import numpy as np
 from hri.core.signals import Samples
 from hri.hal.recognizer import Alternative, Grammar, HeardWord, Hypothesis, Segment
 from hri.speech.grammar.words import ANY, listed
-from hri.speech.hearing import SILENT_AFTER
 from hri.speech.language import require_english
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.confidence import (
@@ -32,6 +31,14 @@ from hri.speech.recognizers.ctc.ranking import ranked
 from hri.speech.recognizers.ctc.rivals import Rivals
 from hri.speech.recognizers.ctc.search import Search
 from hri.speech.recognizers.endpointed import EndpointedRecognizer
+from hri.speech.understanding import SILENT_AFTER
+
+CLEARLY_BEGUN = 4.0
+"""Natural log: how much better a sentence that has only begun must be than the best whole one. Of
+64 begun sentences of the companion by four voices 60 are better by more, the words that usually end
+a sentence cost up to 3.6."""
+NEARLY_SAID = -1.0
+"""Nearness of its words from which it counts: 61 of these 64, and 4 of 76 other sentences."""
 
 
 @dataclass
@@ -50,19 +57,19 @@ class Progress:
 class Early:
     """What was made of a piece of speech in the pause that may end it."""
 
-    samples: Samples
-    voice_end: float
-    """Seconds of the clock."""
+    segment: Segment
     rules: frozenset[str] | None
     hypothesis: Hypothesis
 
     def holds_for(self, segment: Segment, samples: Samples, rules: frozenset[str] | None) -> bool:
         """Whether a piece is the same one, and nothing was said since."""
+        mine = self.segment.samples
+        assert mine is not None
         return (
-            self.rules == rules
-            and abs(self.voice_end - (segment.end - segment.quiet)) < 0.5 * FRAME
-            and len(self.samples) <= len(samples)
-            and np.array_equal(self.samples, samples[: len(self.samples)])
+            (self.segment.number, self.rules) == (segment.number, rules)
+            and not segment.goes_on_from(self.segment)
+            and len(mine) <= len(samples)
+            and np.array_equal(mine, samples[: len(mine)])
         )
 
 
@@ -145,7 +152,7 @@ class CtcRecognizer(EndpointedRecognizer):
             heard = self._network.posteriors(sound[part])
             found = decoded(search, self._rivals, heard, rules, noise_of(sound))
             hypothesis = later(found, part.start / self.rate)
-            early = Early(samples, segment.end - segment.quiet, rules, hypothesis)
+            early = Early(segment, rules, hypothesis)
             self._early = early
         return early.hypothesis
 
@@ -164,9 +171,10 @@ def decoded(
     scores = scores_of(log_probabilities)
     search.begin(rules)
     search.advance(scores)
+    begun = _begun(search, scores)
     found = ranked(search, scores, rivals)
     if not found:
-        return Hypothesis("", 0.0)
+        return Hypothesis("", 0.0, begun=begun)
     best = found[0].path
     chances = shares([candidate.score for candidate in found])
     return Hypothesis(
@@ -177,7 +185,17 @@ def decoded(
             Alternative(" ".join(candidate.path.words), float(chance))
             for candidate, chance in zip(found[1:], chances[1:], strict=True)
         ),
+        begun=begun,
     )
+
+
+def _begun(search: Search, scores: Floats) -> str:
+    """The words of a sentence that cannot end yet, where that is what was said."""
+    path = search.begun()
+    if path is None or not path.words or path.score < CLEARLY_BEGUN:
+        return ""
+    is_said = nearness(path, scores, search.graph.phones) >= NEARLY_SAID
+    return " ".join(path.words) if is_said else ""
 
 
 def _confidence(best: Path, scores: Floats, phones: Indices, rivals: Rivals, noise: float) -> float:

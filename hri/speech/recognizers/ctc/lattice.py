@@ -135,22 +135,20 @@ class Walk:
             rests = state in self._doubled or trellis.rests(parent, frame)
             state = parent
 
-    def words_before(self, state: int) -> tuple[str, ...]:
-        """The words of the best path to a state now, its own too where one ends there."""
-        graph, frame = self._graph, self._trellis.frames
-        if frame <= 0:
-            return ()
-        ending = np.flatnonzero(graph.exit_states == state)
-        words = [graph.words[graph.exit_words[ending[0]]]] if len(ending) else []
+    def begun(self, state: int, score: float) -> Path:
+        """The best path to a state now, with the word that it is in where one ends there."""
+        frame = self._trellis.frames
+        ending = np.flatnonzero(self._graph.exit_states == state)
         span = self.span(state, frame)
+        rest = _Rest(int(ending[0]), span, None) if len(ending) else None
         while True:
             exits, scores = self._trellis.ways_into(span.place, span.start)
             begin = self._trellis.beginning(span.place, span.start)
             if not len(exits) or begin >= scores.max():
-                return tuple(reversed(words))
+                return _path(self._graph, score, rest)
             exit = int(exits[scores.argmax()])
-            words.append(graph.words[graph.exit_words[exit]])
-            span = self.span(int(graph.exit_states[exit]), span.start)
+            span = self.span(int(self._graph.exit_states[exit]), span.start)
+            rest = _Rest(exit, span, rest)
 
     def sentences(self, most: int, beam: float) -> list[Path]:
         """The best path, and the best of each other sequence of words, best first.

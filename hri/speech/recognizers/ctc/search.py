@@ -13,7 +13,7 @@ from collections.abc import Collection
 import numpy as np
 
 from hri.speech.recognizers.ctc.classes import BLANK
-from hri.speech.recognizers.ctc.lattice import Trellis, Walk
+from hri.speech.recognizers.ctc.lattice import Path, Trellis, Walk
 from hri.speech.recognizers.ctc.phone_graph import NOWHERE, Floats, PhoneGraph
 
 
@@ -74,10 +74,18 @@ class Search:
         """Score of the best sentence that ends now; far below any other when none does."""
         return float(self._onward[self.graph.size + self.graph.final])
 
-    def partial(self) -> tuple[str, ...]:
-        """The words that the best path so far has ended."""
+    def begun(self) -> Path | None:
+        """The best path so far, of a sentence that need not end here; None when nothing fits.
+
+        Its score is how much better it is than the best sentence that ends here.
+        """
         states = self._onward[: self.graph.size]
         best = int(states.argmax())
         if states[best] < NOWHERE / 2:
-            return ()
-        return Walk(self.trellis).words_before(best)
+            return None
+        return Walk(self.trellis).begun(best, float(states[best]) - self.best())
+
+    def partial(self) -> tuple[str, ...]:
+        """The words that the best path so far has ended."""
+        begun = self.begun() if self.trellis.frames > 0 else None
+        return () if begun is None else begun.words

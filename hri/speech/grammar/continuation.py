@@ -1,0 +1,95 @@
+"""Whether more words may follow a sentence of a grammar and change what it means."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from hri.speech.grammar.automaton import Actions, Enter, Leave
+from hri.speech.grammar.matching import Matcher, matcher_of
+from hri.speech.grammar.rules import Rules
+from hri.speech.grammar.words import ANY, typed
+
+
+def may_go_on(grammar: Rules, rule: str, command: str) -> bool:
+    """Whether words may follow that give a sentence of a public rule another rule or other tags.
+
+    `command` has the words of the sentence without those around it: words that are said aside or
+    free change nothing. Where in doubt they may: tags that follow are not compared with those that
+    are there. Raises what `build` raises.
+    """
+    walk = _Walk(grammar)
+    for public, entry in walk.matcher.automaton.entries.items():
+        nodes = {entry}
+        for word in typed(command):
+            nodes = walk.step(nodes, word)
+        if nodes and walk.changes(nodes, public == rule):
+            return True
+    return False
+
+
+class _Walk:
+    """Goes along the words that mean something."""
+
+    def __init__(self, grammar: Rules) -> None:
+        self.matcher: Matcher = grammar.made(matcher_of)
+        rules = grammar.rules.items()
+        self._aside = frozenset(name for name, rule in rules if "aside" in rule.marks)
+
+    def step(self, nodes: set[int], word: str) -> set[int]:
+        """The nodes behind a word."""
+        targets = self.matcher.automaton.targets
+        return {
+            targets[arc]
+            for node in self._silently(nodes)
+            for arc in self.matcher.leaving(node)[1].get(word, ())
+            if not self._is_aside(arc)
+        }
+
+    def changes(self, nodes: set[int], is_same_rule: bool) -> bool:
+        """Whether a word may follow one of the nodes, by another rule or with tags."""
+        automaton = self.matcher.automaton
+        behind = set()
+        for arc in self._spoken(self._silently(nodes)):
+            if not is_same_rule or _has_tags(automaton.actions[arc]):
+                return True
+            behind.add(automaton.targets[arc])
+        # Behind a word every arc counts, with a word or without.
+        pending, seen = list(behind), behind
+        while pending:
+            node = pending.pop()
+            silent, table = self.matcher.leaving(node)
+            for arc in (*silent, *(arc for arcs in table.values() for arc in arcs)):
+                if self._is_aside(arc):
+                    continue
+                if _has_tags(automaton.actions[arc]):
+                    return True
+                if (target := automaton.targets[arc]) not in seen:
+                    seen.add(target)
+                    pending.append(target)
+        return False
+
+    def _silently(self, nodes: set[int]) -> set[int]:
+        """The nodes, and those behind them that need no word."""
+        seen, pending = set(nodes), list(nodes)
+        targets = self.matcher.automaton.targets
+        while pending:
+            for arc in self.matcher.leaving(pending.pop())[0]:
+                if targets[arc] not in seen and not self._is_aside(arc):
+                    seen.add(targets[arc])
+                    pending.append(targets[arc])
+        return seen
+
+    def _spoken(self, nodes: set[int]) -> Iterator[int]:
+        """The arcs with a word that leave the nodes."""
+        for node in nodes:
+            for word, arcs in self.matcher.leaving(node)[1].items():
+                if word != ANY:
+                    yield from (arc for arc in arcs if not self._is_aside(arc))
+
+    def _is_aside(self, arc: int) -> bool:
+        actions = self.matcher.automaton.actions[arc]
+        return any(isinstance(one, Enter) and one.rule in self._aside for one in actions)
+
+
+def _has_tags(actions: Actions) -> bool:
+    return any(not isinstance(one, Enter | Leave) for one in actions)

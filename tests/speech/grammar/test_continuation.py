@@ -1,0 +1,47 @@
+"""Whether more words may change what a sentence means."""
+
+import pytest
+
+from hri.speech.grammar import load_grammar
+from hri.speech.grammar.continuation import may_go_on
+from hri.speech.grammar.matching import parse
+
+SHOP = """
+public <order> = (a | the) <size> coffee [with milk {milk=true}] [<thanks>] | tea [now];
+public <count> = one | one two {more=true} | <any> three;
+public <shut> = close [the] shop | tea shop;
+<size> = small | large {size=2};
+/** @aside */
+<thanks> = thank you {thanks=1};
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("the small coffee", True),  # milk is another tag
+        ("the small coffee with milk", False),  # thanks are said aside
+        ("the small coffee with milk thank you", False),
+        ("close shop", False),
+        ("tea", True),  # <shut> goes on with it
+        ("tea now", False),
+        ("one", True),
+        ("one two", False),
+    ],
+)
+def test_words_that_change_the_rule_or_the_tags_may_follow(write, text, expected):
+    grammar = load_grammar(write(SHOP))
+
+    assert may_go_on(grammar, parse(grammar, text).rule, text) is expected
+
+
+def test_free_words_change_nothing(write):
+    rules = """
+    /** @anywhere */
+    public <bye> = see you later;
+    /** @anywhere */
+    public <hello> = good evening;
+    """
+    grammar = load_grammar(write(rules))
+
+    assert not may_go_on(grammar, "hello", "good evening")
