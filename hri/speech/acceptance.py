@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import Any
 
 from hri.core.signals import HeardWord, Rejection, Utterance
-from hri.hal.recognizer import Alternative, Hypothesis, Segment
+from hri.hal.recognizer import Hypothesis, Segment
 from hri.speech.automatic_level import too_quiet
 from hri.speech.grammar import Grammar
-from hri.speech.grammar.matching import Parse, parse, refusal
+from hri.speech.grammar.matching import Parse, departure, parse
 from hri.speech.grammar.words import listed
 from hri.speech.turn import Turn
 
@@ -57,7 +57,8 @@ def judge(
     rules = frozenset(grammar.public_rules) if turn is None else turn.rules(grammar)
     turn = turn or Turn()
     found = _parse_of(grammar, hypothesis.text, rules, turn)
-    doubts = _doubts(grammar, found, hypothesis.alternatives)
+    others = [(other, parse(grammar, other.text)) for other in hypothesis.alternatives]
+    doubts = [other for other, meaning in others if _differ(found, meaning)]
     doubt = min(1.0, sum(alternative.share for alternative in doubts))
     confidence = hypothesis.confidence * (1.0 - doubt)
     words = tuple(
@@ -89,7 +90,8 @@ def judge(
         )
         if reason != "low confidence" or found is None:
             return rejection
-        likely = [found, *_likely(grammar, hypothesis.alternatives)]
+        meant = (meaning for other, meaning in others if other.share >= LIKELY)
+        likely = [found, *(meaning for meaning in meant if meaning is not None)]
         return replace(rejection, sure=agreed(likely), unsure=disputed(likely))
     return Utterance(
         text=listed(found.text),
@@ -113,12 +115,6 @@ def _command(grammar: Grammar, found: Parse) -> str:
             aside.update(range(tree.start, tree.end))
     words = enumerate(found.text.split())
     return " ".join(word for place, word in words if place not in aside)
-
-
-def _likely(grammar: Grammar, alternatives: Iterable[Alternative]) -> Iterator[Parse]:
-    """What the likely alternatives mean."""
-    parses = (parse(grammar, one.text) for one in alternatives if one.share >= LIKELY)
-    return (found for found in parses if found is not None)
 
 
 def agreed(likely: Sequence[Parse]) -> dict[str, Any]:
@@ -165,20 +161,12 @@ def _parse_of(grammar: Grammar, text: str, rules: Collection[str], turn: Turn) -
     is an answer and not an order.
     """
     answers = grammar.marked("answer") if turn.is_question_open else frozenset()
-    answer = parse(grammar, text, answers) if answers else None
-    return answer or parse(grammar, text, rules) or parse(grammar, text)
+    return parse(grammar, text, *filter(None, (answers, rules)), None)
 
 
-def _doubts(
-    grammar: Grammar, best: Parse | None, alternatives: tuple[Alternative, ...]
-) -> list[Alternative]:
-    """The alternatives that would mean something else, likeliest first."""
-
-    def differs(text: str) -> bool:
-        other = parse(grammar, text)
-        return best is None or other is None or (other.rule, other.tags) != (best.rule, best.tags)
-
-    return [alternative for alternative in alternatives if differs(alternative.text)]
+def _differ(one: Parse | None, other: Parse | None) -> bool:
+    """Whether two texts mean different things; one without a meaning differs from all."""
+    return one is None or other is None or (one.rule, one.tags) != (other.rule, other.tags)
 
 
 def _reason(
@@ -205,7 +193,7 @@ def _reason(
 
 def _departure(grammar: Grammar, text: str) -> str:
     """Where words leave the grammar, for people."""
-    refused = refusal(grammar, text)
+    refused = departure(grammar, text)
     if refused is None:
         return ""
     expected = ", ".join(refused.expected[:MOST_EXPECTED])

@@ -1,12 +1,13 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, strategies as st
+from hypothesis import given, settings, strategies as st
 
 from hri.core.signals import Rejection, Utterance
 from hri.hal.recognizer import Alternative, HeardWord, Hypothesis, Segment
-from hri.speech.acceptance import judge
+from hri.speech.acceptance import LIKELY, agreed, disputed, judge
 from hri.speech.grammar import load_grammar
+from hri.speech.grammar.matching import parse
 from hri.speech.turn import Turn, Wakefulness
 
 PIECE = Segment(10.0, 12.0, quiet=0.5)
@@ -167,3 +168,60 @@ def test_any_hypothesis_gets_a_verdict(companion, text, confidence, share, stric
     assert 0.0 <= result.confidence <= confidence
     if isinstance(result, Utterance) and result.rule not in companion.marked("answer"):
         assert result.confidence >= strictness
+
+
+MANY_WAYS = """#JSGF V1.0;
+grammar ways;
+/** @careful */ public <move> = go [on] (two {far=2} | 100 {far=3}) | (go | hey) {far=1};
+public <name> = hey <any> {known=true} | what's <any>;
+/** @anywhere */ public <ask> = what's (on {what=1} | two {what=2});
+/** @wake */ public <hey> = hey [robot] [go {wake=true}];
+/** @answer */ public <answer> = (go [on] [two] | two | what's on) {yes=true};
+/** @interrupts */ public <stop> = stop | (go | hey) [two] {leave=true};
+"""
+SAID = ("go", "go 2", "go on two", "hey", "hey go", "what is on", "so what's two", "hey ann", "")
+WORDS = ("go", "on", "two", "hey", "stop", "what's", "robot", "ann", "<any>")
+TEXTS = st.one_of(st.sampled_from(SAID), st.lists(st.sampled_from(WORDS), max_size=4).map(" ".join))
+
+
+@pytest.fixture(scope="module")
+def many_ways(tmp_path_factory):
+    path = tmp_path_factory.mktemp("ways") / "ways.jsgf"
+    path.write_text(MANY_WAYS)
+    return load_grammar(path)
+
+
+@given(
+    TEXTS,
+    st.lists(st.builds(Alternative, TEXTS, st.floats(0, 0.3)), max_size=3),
+    st.builds(Turn, st.booleans(), st.booleans(), st.booleans()),
+    st.floats(0, 1),
+)
+@settings(max_examples=300, deadline=None)
+def test_a_text_means_what_the_answers_make_of_it_or_the_rules_that_count_or_all(
+    many_ways, text, others, turn, confidence
+):
+    rules = turn.rules(many_ways)
+    answers = many_ways.marked("answer") if turn.is_question_open else ()
+    ways = (parse(many_ways, text, some) for some in (answers, rules, None))
+    found = next(filter(None, ways), None)
+    meant = [(one.share, parse(many_ways, one.text)) for one in others]
+    doubt = sum(
+        share
+        for share, one in meant
+        if found is None or one is None or (one.rule, one.tags) != (found.rule, found.tags)
+    )
+
+    judged = judge(many_ways, PIECE, Hypothesis(text, confidence, (), tuple(others)), 0.5, turn)
+
+    assert judged.confidence == confidence * (1.0 - min(1.0, doubt))
+    if isinstance(judged, Utterance):
+        assert (judged.rule, judged.tags) == (found.rule, found.tags)
+        assert found.rule in rules
+    elif judged.reason == "low confidence":
+        likely = [found, *(one for share, one in meant if share >= LIKELY and one is not None)]
+        assert (judged.sure, judged.unsure) == (agreed(likely), disputed(likely))
+    elif judged.reason == "not now":
+        assert found.rule not in rules
+    elif judged.reason == "not in grammar":
+        assert found is None

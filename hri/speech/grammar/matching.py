@@ -16,9 +16,9 @@ from __future__ import annotations
 
 import difflib
 import itertools
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from enum import Enum, auto
+from enum import IntEnum, auto
 from functools import cached_property
 from typing import NamedTuple
 
@@ -122,13 +122,19 @@ def as_written(grammar: Rules) -> Matcher:
     return Matcher(grammar.made(build_as_written))
 
 
-def parse(grammar: Rules, text: str, rules: Collection[str] | None = None) -> Parse | None:
+def parse(
+    grammar: Rules,
+    text: str,
+    rules: Collection[str] | None = None,
+    *otherwise: Collection[str] | None,
+) -> Parse | None:
     """What a sentence means, by its first reading; None when no public rule allows all of it.
 
-    `rules` are the public rules that count; None is all. Raises AuthoringError where
-    `Grammar.automaton` does.
+    `rules` are the public rules that count; None is all. When none of them allows the sentence,
+    those of `otherwise` count, one collection after the other; the sentence is followed only once.
+    Raises AuthoringError where `Grammar.automaton` does.
     """
-    return next(grammar.made(matcher_of).readings(typed(text), rules), None)
+    return next(grammar.made(matcher_of).readings(typed(text), rules, *otherwise), None)
 
 
 def parses(
@@ -160,12 +166,15 @@ def refusal(grammar: Rules, text: str) -> Refusal | None:
 
     Raises AuthoringError where `Grammar.automaton` does.
     """
+    return departure(grammar, text) if parse(grammar, text) is None else None
+
+
+def departure(grammar: Rules, text: str) -> Refusal | None:
+    """The same for a sentence that `parse` has refused, which is not parsed again."""
     matcher = grammar.made(as_written)
     forms = matcher.forms(typed(text)[: MOST_WORDS + 1])
     words, state, position = max(map(matcher.followed, forms), key=lambda way: way[2])
     if position == len(words) <= MOST_WORDS and state.is_final and words:
-        return None
-    if parse(grammar, text) is not None:
         return None
     word = words[position] if position < len(words) else ""
     expected = state.expected()
@@ -250,10 +259,12 @@ class State:
 
 _Ways = dict[int, list[int]]
 """The arcs that leave each node and lead to the end of the sentence."""
+_Followed = tuple[list[str], list[_Ways]]
+"""A sentence, and the ways through it before each word and at its end."""
 
 
-class _Said(Enum):
-    """What a step says."""
+class _Said(IntEnum):
+    """What a step says; a number, since its hash is taken at every arc."""
 
     NOTHING = auto()
     LISTED = auto()
@@ -328,14 +339,26 @@ class Matcher:
             state, position = step.state, position + 1
         return words, state, position
 
-    def readings(self, words: list[str], rules: Collection[str] | None = None) -> Iterator[Parse]:
-        """What a sentence means, reading by reading; each way of taking tags and rules once.
+    def readings(self, words: list[str], *rules: Collection[str] | None) -> Iterator[Parse]:
+        """What a sentence means, reading by reading, by one collection of rules after the other.
 
-        The first of its forms that means something is all that counts.
+        By each of them, each way of taking tags and rules comes once, and the first form of the
+        sentence that means something is all that counts.
         """
-        free: list[Parse] = []
+        followed = itertools.tee(self._followed_through(words), len(rules))
+        return itertools.chain.from_iterable(map(self._readings, followed, rules))
+
+    def _followed_through(self, words: list[str]) -> Iterator[_Followed]:
         for form in self.forms(words):
-            found = self._readings(form, rules)
+            if (ways := self._ways(form)) is not None:
+                yield form, ways
+
+    def _readings(
+        self, followed: Iterable[_Followed], rules: Collection[str] | None
+    ) -> Iterator[Parse]:
+        free: list[Parse] = []
+        for form, ways in followed:
+            found = self._readings_of(form, ways, rules)
             if (first := next(found, None)) is None:
                 continue
             if self.is_open:
@@ -346,10 +369,9 @@ class Matcher:
                 return
         yield from sorted(free, key=lambda reading: len(reading.free))
 
-    def _readings(self, words: list[str], rules: Collection[str] | None) -> Iterator[Parse]:
-        ways = self._ways(words)
-        if ways is None:
-            return
+    def _readings_of(
+        self, words: list[str], ways: list[_Ways], rules: Collection[str] | None
+    ) -> Iterator[Parse]:
         text = " ".join(words)
         for history in self._histories(ways, rules):
             tree, groups, free = _reading(words, history)

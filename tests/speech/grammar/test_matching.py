@@ -141,6 +141,19 @@ def test_only_the_rules_that_are_asked_for_count(write):
     assert parses(grammar, "hi", rules=()) == ()
 
 
+@given(grammars())
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
+def test_rules_that_count_otherwise_are_asked_one_after_the_other(grammar):
+    assume_written_out(grammar)
+
+    for words in product(WORDS, repeat=2):
+        text = " ".join(words)
+        for first, second in (("b", "a"), ("", "b"), ("a", "c")):
+            one_by_one = (parse(grammar, text, rules) for rules in (first, second, None))
+            found = parse(grammar, text, first, second, None)
+            assert found == next(filter(None, one_by_one), None)
+
+
 def test_the_tree_tells_rules_words_and_where_they_stand(write):
     rules = "public <go> = go <where> [now];\n<where> = to [the] <place>;\n<place> = sea | lake;"
 
