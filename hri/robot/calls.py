@@ -30,6 +30,15 @@ async def when_heard(context: TaskContext, rule: str, handler: Callable[..., obj
 
 
 async def _call(context: TaskContext, what: str, function: Callable[[], object]) -> None:
+    """Each call is a separate task: "stop" ends one that drives, and not those to come."""
+    call = context.manager.install(_called, what, function)
+    try:
+        await call.wait()
+    finally:
+        call.cancel()
+
+
+async def _called(context: TaskContext, what: str, function: Callable[[], object]) -> None:
     try:
         await context.blocking(function)
     except Exception as error:

@@ -16,7 +16,7 @@ from hri.robot import load_app, verbs
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Listener
 from hri.task import navigation, speech
-from tests.devices import BLIND, SMALL_SCREEN
+from tests.devices import BLIND, SMALL_SCREEN, TYPED
 
 
 @pytest.fixture
@@ -327,6 +327,21 @@ def test_a_function_of_the_script_is_called_with_the_tags_of_what_is_heard(robot
     robot.visitor.say("turn left", after=0.5)
     robot.wait(5.0)
     assert len(asked) == 1
+
+
+def test_a_function_of_the_script_that_a_stop_ended_is_called_again():
+    asked = []
+
+    def go(**tags):
+        asked.append(tags)
+        robot.move(1.0)
+
+    with Robot(config="simulated", clock=FakeClock(), devices=TYPED) as robot:
+        robot.when_heard("move", go)
+        for line in ("go forward", "stop", "go back"):
+            robot.context.behavior(Listener).type_line(line)
+            robot.wait(1.5)
+    assert [tags["distance"] for tags in asked] == [0.5, -0.5]
 
 
 def test_a_function_of_the_script_is_called_at_each_event_and_again_after_it_failed(robot, caplog):
