@@ -31,6 +31,7 @@ from hri.speech.recognizers.typed import TypedRecognizer
 from hri.speech.tasks import hears_people
 from hri.task.context import TaskContext
 from hri.task.lane import Lane
+from hri.task.order import said
 from hri.task.task import TaskType
 from hri.task.task_run import Job
 from hri.vision.tasks import people_of
@@ -254,8 +255,8 @@ class Companion:
     # --- actions, named as in replies.toml; what one returns is said instead of the reply ---
 
     def _drive(self, job: Job, *arguments: Any) -> str | None:
-        """Start a motion; while the base must not move, return why it does not."""
-        if self.guard.must_wait:
+        """Start a motion; while the order does not let the base move, return why it does not."""
+        if not self.guard.lift(said()):
             return f"{self.guard.explain()}. {self.replies.unasked['waiting']}"
         self.motion.start(job, *arguments)
         return None

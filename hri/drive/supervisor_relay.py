@@ -21,6 +21,10 @@ TELL_EVERY = 0.5
 SEEN = 1.0
 """Seconds for which what was seen says where people are."""
 
+SAID = "someone said stop"
+MET = {"bumper.pressed": "something touched me", "cliff.found": "I am at an edge"}
+"""Why a base that stands for a spoken stop then stands for more than that, by event."""
+
 log = logging.getLogger("hri.drive")
 
 
@@ -29,10 +33,12 @@ class SupervisorRelay(Behavior):
 
     "Stop" is a rule of that name that was heard, the event `drive.halt` (its `because` says why),
     or a call of `halt`. Only `release` lets the base move again: it is for something that a person
-    did, never for a program to go on by itself. A base with a supervisor also hears who is near,
-    and what it reports becomes the events `drive.stopped`, `drive.refused`, and `drive.faulty`. A
-    base without one, such as the simulated one, latches in its drive and starts released. Without
-    any base the guard does nothing.
+    did, never for a program to go on by itself. A stop that was heard is lifted also by the next
+    order to move that is heard, unless the base meets something meanwhile: see `lift`.
+
+    A base with a supervisor also hears who is near, and what it reports becomes the events
+    `drive.stopped`, `drive.refused`, and `drive.faulty`. A base without one, such as the simulated
+    one, latches in its drive and starts released. Without any base the guard does nothing.
     """
 
     category = "drive"
@@ -60,6 +66,7 @@ class SupervisorRelay(Behavior):
             self._subscriptions = [
                 subscribe("speech.heard", self._hear),
                 subscribe("drive.halt", self._halt),
+                *(subscribe(event, self._meet) for event in MET),
             ]
 
     def compute(self, now: float, dt: float) -> None:
@@ -93,16 +100,22 @@ class SupervisorRelay(Behavior):
         """Whether the base does not move until it is released."""
         return self._base is not None and self._base.is_latched
 
-    def halt(self, because: str = "someone said stop") -> None:
+    def halt(self, because: str = SAID) -> None:
         """The emergency stop; `because` ends the sentence "I stopped because".
 
         It ends the motion of any task: after a release nothing goes on by itself.
         """
+        self._latch(because)
+
+    def _latch(self, because: str, said: float | None = None) -> None:
         if self._base is None:
             return
         for slot in (COMMAND, MOTION):
             self._board.slot(slot).clear()
-        self._base.stop_latched(because)
+        if said is None:
+            self._base.stop_latched(because)
+        else:
+            self._base.stop_spoken(because, said)
         if self._bus is None:  # a supervisor reports it by itself
             words = self._base.explain()
             self._events.raise_event("drive.stopped", reason="e-stop", words=words)
@@ -111,6 +124,14 @@ class SupervisorRelay(Behavior):
         """Let the base move again, because a person wants it."""
         if self._base is not None:
             self._base.unlatch()
+
+    def lift(self, said: float) -> bool:
+        """Whether the base may move for an order that a person began to say then, in seconds.
+
+        That lifts a stop that was said before it, where nothing else has stopped the base since
+        it could move; all else needs `release`. This is the one place where that is decided.
+        """
+        return not self.must_wait or (self._base is not None and self._base.unlatch_spoken(said))
 
     def explain(self) -> str:
         """Why it stopped last, as a sentence; empty without a base."""
@@ -136,7 +157,11 @@ class SupervisorRelay(Behavior):
 
     def _hear(self, event: Event) -> None:
         if event.properties.get("rule") == "stop":
-            self.halt()
+            self._latch(SAID, float(event.properties.get("end", event.time)))
+
+    def _meet(self, event: Event) -> None:
+        if self._base is not None and self._base.is_spoken:
+            self.halt(MET[event.name])
 
     def _halt(self, event: Event) -> None:
         self.halt(str(event.properties.get("because", "I was told to")))

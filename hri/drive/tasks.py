@@ -24,12 +24,14 @@ from hri.drive.behaviors import COMMAND, MOTION, CommandGate
 from hri.drive.nominal_pose import nominal_pose, note_arrival
 from hri.drive.own_gate import see_to_gate
 from hri.drive.progress import Patience
+from hri.drive.supervisor_relay import SupervisorRelay
 from hri.hal.drive import DriveSystem, Odometry, Stop, longest_move, too_long
 from hri.hal.motion import REST
 from hri.hal.motion_profile import velocity_for
 from hri.hal.pending import Interrupted
 from hri.hal.resource import Description
 from hri.task.context import TaskContext
+from hri.task.order import said
 
 CRUISE = 0.3
 """Meters a second, when nobody says how fast; an upper limit of what is safe near people."""
@@ -241,6 +243,8 @@ class Pilot:
         """
         try:
             async with self._context.claim("drive"):
+                if (relay := self._context.find_behavior(SupervisorRelay)) is not None:
+                    relay.lift(said())
                 self._current.set(self, self._clock.now())
                 is_over = await self._led(steer)
                 await self._roll_out()

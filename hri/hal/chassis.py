@@ -46,3 +46,5 @@ class Chassis:
         self.is_latched = False
         self.because = ""
         """Why it was stopped last."""
+        self.said: float | None = None
+        """When the last stop was said, in seconds; None where anything else has latched it."""

@@ -157,12 +157,33 @@ class SteeredBase(DriveSystem, EmergencyStop):
         return self._chassis.is_latched
 
     def stop_latched(self, because: str) -> None:
-        with self._chassis.lock:
-            self._chassis.is_latched, self._chassis.because = True, because
+        self._latch(because, None)
+
+    def stop_spoken(self, because: str, said: float) -> None:
+        self._latch(because, said)
+
+    def _latch(self, because: str, said: float | None) -> None:
+        chassis = self._chassis
+        with chassis.lock:
+            is_firm = chassis.is_latched and chassis.said is None
+            chassis.said = None if is_firm else said
+            chassis.is_latched, chassis.because = True, because
         self.stop(self.manager.clock.now())
+
+    @property
+    def is_spoken(self) -> bool:
+        return self._chassis.is_latched and self._chassis.said is not None
 
     def unlatch(self) -> None:
         self._chassis.is_latched = False
+
+    def unlatch_spoken(self, said: float) -> bool:
+        chassis = self._chassis
+        with chassis.lock:
+            is_lifted = chassis.is_latched and chassis.said is not None and said > chassis.said
+            if is_lifted:
+                chassis.is_latched = False
+        return is_lifted
 
     def explain(self) -> str:
         because = self._chassis.because

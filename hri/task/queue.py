@@ -9,6 +9,7 @@ import trio
 from hri.core.clock import Clock
 from hri.core.event_bus import matches
 from hri.core.signals import Event
+from hri.task.order import NEVER, obey, said_in
 
 LONGEST = 1000
 """How many events a queue keeps; beyond it the oldest give way."""
@@ -37,11 +38,16 @@ class EventQueue:
         self._events = deque(kept, LONGEST)
 
     async def get(self, pattern: str = "*") -> Event:
-        """The next event, of those that fit; waits for it. Several may wait at once."""
+        """The next event, of those that fit; waits for it. Several may wait at once.
+
+        What the task does with `speech.heard` is an order, see `hri.task.order`.
+        """
+        obey(NEVER)
         while True:
             for event in self._events:
                 if matches(pattern, event.name):
                     self._events.remove(event)
+                    obey(said_in(event))
                     return event
             await self._waiting.park()
 

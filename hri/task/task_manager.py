@@ -15,6 +15,7 @@ from hri.task.aside import here
 from hri.task.claims import Claims, forget_claims
 from hri.task.context import TaskContext
 from hri.task.hold_up import HoldUpWatch
+from hri.task.order import obey
 from hri.task.task import TaskType
 from hri.task.task_run import Job, Task
 from hri.task.thread import LoopThread
@@ -153,6 +154,7 @@ class TaskManager:
 
     async def _run_installed(self, task: Task) -> None:
         forget_claims(task.leave)
+        obey(task.said)
         try:
             await task.run(self.context)
         finally:

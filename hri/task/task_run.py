@@ -19,6 +19,7 @@ from hri.task.aside import Loop
 from hri.task.claims import Leave
 from hri.task.failure import with_place
 from hri.task.hold_up import CURRENT
+from hri.task.order import said
 from hri.task.queue import EventQueue
 
 log = logging.getLogger("hri.task")
@@ -56,6 +57,8 @@ class Task:
         """Why it has failed; Interrupted when another task took what it had claimed."""
         self.termination_requested = False
         self.leave = Leave()
+        self.said = said()
+        """When the order was said that whoever made it carries out, in seconds."""
         self._manager = manager
         self._job = job
         self._arguments = arguments

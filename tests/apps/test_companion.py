@@ -262,26 +262,27 @@ def test_come_here_brings_it_to_the_person():
 
 
 @pytest.mark.slow
-def test_a_base_with_a_supervisor_moves_when_it_was_released_and_not_after_stop():
+def test_a_base_with_a_supervisor_moves_when_it_was_released_and_stops_until_the_next_order():
     lines = {
         1.5: "go forward one meter",
         9.0: "you may move again",
         14.0: "go forward ten meters",
         20.0: "stop",
-        24.0: "go back one meter",
-        32.0: "why did you stop",
+        24.0: "why did you stop",
+        29.0: "go back half a meter",
     }
     visit = Visit(38, lines, config="create2")
-    assert visit.heard() == ["move", "release", "move", "stop", "move", "why_stop"]
-    refused, thanks, _, _, again, *_, why = visit.said()
+    assert visit.heard() == ["move", "release", "move", "stop", "why_stop", "move"]
+    refused, thanks, _, _, why, back, *_ = visit.said()
     assert "I was switched on just now" in refused
     assert "Say: you may move again." in refused
     assert visit.pose_at(13.0).x == pytest.approx(0.0, abs=0.01)
     assert thanks.startswith("Thank you")
     assert visit.pose_at(24.0).x > 0.3
     assert why == "I stopped because someone said stop"
-    assert again.startswith(why)
-    assert visit.pose_at(37.5).x == pytest.approx(visit.pose_at(24.0).x, abs=0.02)
+    assert visit.pose_at(29.0).x == pytest.approx(visit.pose_at(24.0).x, abs=0.005)
+    assert "go back half a meter" in back
+    assert visit.pose_at(37.5).x == pytest.approx(visit.pose_at(24.0).x - 0.5, abs=0.03)
 
 
 @pytest.mark.slow

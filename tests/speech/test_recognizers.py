@@ -193,6 +193,25 @@ def test_lines_of_the_terminal_have_the_keyboard_as_their_origin(resources, monk
     ]
 
 
+def test_a_line_of_the_terminal_that_a_stop_overtakes_was_typed_before_it(
+    resources, companion, monkeypatch
+):
+    monkeypatch.setattr(sys, "stdin", io.StringIO("go back\nstop\nturn left\n"))
+    typed = TypedRecognizer(Description("keys", "Hri.Typed"), resources)
+    typed.activate()
+    typed.start(companion)
+    typed._read()  # what its thread does
+    typed.mind(True, 2.0)  # the robot speaks
+    found = typed.listen(SECOND, 3.0)
+    typed.mind(False, 4.0)
+    found += [segment for time in (5.0, 7.0) for segment in typed.listen(SECOND, time)]
+    assert [(segment.text, segment.start) for segment in found] == [
+        ("stop", 3.0),
+        ("go back", 3.0),
+        ("turn left", 7.0),
+    ]
+
+
 def test_a_wrong_source_is_refused(resources):
     description = Description("keys", "Hri.Typed", {"source": "stdinn"})
     with pytest.raises(HriError, match='no source "stdinn"'):

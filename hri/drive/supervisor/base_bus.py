@@ -17,7 +17,7 @@ the port "simulated" the base is an emulated one in the simulated world.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import ClassVar
 
 from hri.core.clock import Timer
@@ -110,12 +110,23 @@ class BaseBus(EmergencyStop):
 
     @property
     def is_latched(self) -> bool:
-        return self.state.is_latched
+        return self._stopping is not None or self.state.is_latched
 
     def stop_latched(self, because: str) -> None:
-        self._unlatching = None
-        self._stopping = Cause("e-stop", because[:LONGEST_WORDS])
+        self._stop(Cause("e-stop", because[:LONGEST_WORDS]))
+
+    def stop_spoken(self, because: str, said: float) -> None:
+        self._stop(Cause("e-stop", because[:LONGEST_WORDS], said))
+
+    def _stop(self, cause: Cause) -> None:
+        self._unlatching, self._stopping = None, cause
+        self._say(Trip(cause))  # whatever is known of the base, which may be old
         self._poll()
+
+    @property
+    def is_spoken(self) -> bool:
+        state = self.state
+        return self._stopping is None and state.is_latched and state.reason.said is not None
 
     def unlatch(self) -> None:
         """Let the base move, because a person says so.
@@ -123,7 +134,17 @@ class BaseBus(EmergencyStop):
         A base that does not report yet is released as soon as it does, within UNLATCHING seconds.
         """
         self._stopping = None
-        self._unlatching = self.state.reason, self.manager.clock.now() + UNLATCHING
+        self._release(self.state.reason)
+
+    def unlatch_spoken(self, said: float) -> bool:
+        cause = self.state.reason
+        is_lifted = self.is_spoken and cause.said is not None and said > cause.said
+        if is_lifted:
+            self._release(cause)  # void if the supervisor knows of a newer stop
+        return is_lifted
+
+    def _release(self, cause: Cause) -> None:
+        self._unlatching = cause, self.manager.clock.now() + UNLATCHING
         self._poll()
 
     def teleop(self, twist: Twist) -> None:
@@ -312,7 +333,8 @@ class BaseBus(EmergencyStop):
             watcher(self._connection.state)
 
     def _go_on_stopping(self, cause: Cause) -> None:
-        if self.state.is_latched and self.state.reason in (cause, NO_SUPERVISOR):
+        heard = (cause, replace(cause, said=None), NO_SUPERVISOR)
+        if self.state.is_latched and self.state.reason in heard:
             self._stopping = None
         else:
             self._connection.say(Trip(cause))

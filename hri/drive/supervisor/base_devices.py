@@ -97,8 +97,18 @@ class BaseDrive(OnBase, MovingBase):
     def stop_latched(self, because: str) -> None:
         self.bus.stop_latched(because)
 
+    def stop_spoken(self, because: str, said: float) -> None:
+        self.bus.stop_spoken(because, said)
+
+    @property
+    def is_spoken(self) -> bool:
+        return self.bus.is_spoken
+
     def unlatch(self) -> None:
         self.bus.unlatch()
+
+    def unlatch_spoken(self, said: float) -> bool:
+        return self.bus.unlatch_spoken(said)
 
     def explain(self) -> str:
         return self.bus.explain()

@@ -13,6 +13,8 @@ class Cause:
     """One word: "cliff", "bump", "timeout"; the table is in docs/safety.md."""
     because: str
     """The rest of the sentence: "my left cliff sensor sees an edge"."""
+    said: float | None = None
+    """Of a stop that a person said: when the words ended, in seconds of the program's clock."""
 
     @property
     def words(self) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from hri.drive.supervisor.cause import POWER_UP, Cause
 
 
@@ -16,13 +18,24 @@ class Latch:
         return self._cause is not None
 
     @property
+    def is_firm(self) -> bool:
+        """Whether it is closed for anything but stops that a person said."""
+        return self._cause is not None and self._cause.said is None
+
+    @property
     def cause(self) -> Cause | None:
-        """Why it was closed last; None while it is open."""
+        """Why it was closed last; None while it is open.
+
+        It has a time `said` only where only spoken stops closed it since it was open.
+        """
         return self._cause
 
     def trip(self, cause: Cause) -> bool:
         """Close it; whether that, or its cause, is news."""
-        is_news, self._cause = cause != self._cause, cause
+        if self.is_firm:
+            cause = replace(cause, said=None)
+        is_news = self._cause is None or cause.words != self._cause.words
+        self._cause = cause
         return is_news
 
     def release(self) -> None:

@@ -222,7 +222,8 @@ def _twist(fields: Fields | None) -> Twist | None:
 
 def _cause(fields: Fields) -> Cause:
     name, because = str(fields["name"]), str(fields["because"])
-    return Cause(name[:LONGEST_WORDS], because[:LONGEST_WORDS])
+    said = None if fields["said"] is None else float(fields["said"])
+    return Cause(name[:LONGEST_WORDS], because[:LONGEST_WORDS], said)
 
 
 _ORDERS: Mapping[str, Callable[[Fields], Order]] = {

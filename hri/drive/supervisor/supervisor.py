@@ -162,7 +162,7 @@ class Supervisor:
 
     def hear_noise(self, share: float) -> None:
         """How much of what the base says makes no sense, 0 to 1; too much latches the base."""
-        if share > MOST_NOISE and not self.latch.is_closed:
+        if share > MOST_NOISE and not self.latch.is_firm:
             self.trip(GARBLED)
 
     # --- what it decides ---
@@ -194,7 +194,7 @@ class Supervisor:
         self._arbiter.clear()
         if self._sent != REST:
             self._news, self._sent = FROZEN, REST
-        if not 0 <= dt <= LOST and not self.latch.is_closed:
+        if not 0 <= dt <= LOST and not self.latch.is_firm:
             self.trip(FROZEN)
         return 0.0
 
@@ -219,7 +219,7 @@ class Supervisor:
         self._report, self._judged = report, report.time
         lights = self._floor.step(report)
         self.faults = self._plausibility.step(now, report, lights, self._sent)
-        self._hazards = hazards_of(report, lights, self.faults)
+        self._take_note(hazards_of(report, lights, self.faults))
         faulty = {f.sensor.place for f in self.faults if f.sensor.kind is Kind.RANGE}
         self.room = room(report.ranges, self.rules.mounts, self.rules.body, faulty)
         sound = {name: d for name, d in report.ranges.items() if name not in faulty}
@@ -229,6 +229,14 @@ class Supervisor:
         self._pressed = pressed
         self._hold(dropped_wheel(report), self._dead_wheels(), *map(pressing, pressed))
         self._trip_if_late(report)
+
+    def _take_note(self, hazards: Sequence[Hazard]) -> None:
+        """What it meets while a spoken stop holds it is a reason to stand that no order lifts."""
+        known = {hazard.sensor for hazard in self._hazards}
+        news = [hazard for hazard in hazards if hazard.sensor not in known]
+        self._hazards = hazards
+        if news and self.latch.is_closed and not self.latch.is_firm:
+            self.trip(news[0].cause)
 
     def _hold(self, *found: Cause | None) -> None:
         """Latch when one of these begins, and whenever the latch is open while it lasts."""
@@ -242,11 +250,11 @@ class Supervisor:
         lag = self._lag.hear(report.time, report.rolled)
         if lag is not None:
             self._lag.forget()
-            if not self.latch.is_closed:
+            if not self.latch.is_firm:
                 self.trip(late(lag))
 
     def _trip_if_lost(self, now: float) -> None:
-        if self._is_lost(now) and not self.latch.is_closed:
+        if self._is_lost(now) and not self.latch.is_firm:
             self.trip(SILENT_BASE)
 
     def _is_lost(self, now: float) -> bool:

@@ -91,11 +91,18 @@ class TypedRecognizer(Recognizer):
             self._lines.popleft()
         if not self._is_speaking and now >= self._free_at:
             return self._lines.popleft() if self._lines else None
-        for line in tuple(self._lines):
+        for place, line in enumerate(tuple(self._lines)):
             if self._interrupts(line.text):
-                self._lines.remove(line)
+                del self._lines[place]
+                self._date_those_before(place, now)
                 return line
         return None
+
+    def _date_those_before(self, place: int, now: float) -> None:
+        """Lines that are overtaken were typed by now, whenever they are heard."""
+        for index in range(place):
+            if self._lines[index].time is None:
+                self._lines[index] = self._lines[index]._replace(time=now)
 
     def _interrupts(self, text: str) -> bool:
         grammar = self._grammar

@@ -133,6 +133,18 @@ def test_a_release_that_waits_is_void_when_a_stop_comes_after_it(robot) -> None:
     assert robot.bus.state.is_latched
 
 
+def test_a_stop_before_the_supervisor_has_answered_to_a_release_is_not_lost(
+    robot, monkeypatch
+) -> None:
+    robot.unlatched().bus.stop_latched("you pressed the key")
+    with monkeypatch.context() as late:
+        late.setattr(robot.bus._connection, "_hear", lambda state: None)
+        robot.bus.unlatch()
+        robot.bus.stop_latched("you pressed the key")
+    robot.clock.advance(0.5)
+    assert robot.bus.state.is_latched
+
+
 def test_a_motion_goes_no_faster_than_is_allowed_whoever_comes_near(robot) -> None:
     robot.unlatched()
     robot.bus.hear_person(5.0)

@@ -36,6 +36,7 @@ ORDERS = (
     Ask(Level.TELEOP, None, 1.5),
     Brake(2.0),
     Trip(Cause("e-stop", "you said stop")),
+    Trip(Cause("e-stop", "you said stop", 1.5)),
     Release(0.0, Cause("bump", "it hurt")),
     Song((Note(60, 0.5), Note(62, 0.25))),
     Lamps(0.5, True),

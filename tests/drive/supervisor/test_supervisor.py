@@ -524,3 +524,59 @@ def test_nobody_talks_it_out_of_a_hazard(source) -> None:
     for _ in range(100):
         track.step((Command(source, GO, track.now),))
         assert track.decision.twist.linear <= 0
+
+
+# --- a stop that was said ---
+
+SAID = Cause("e-stop", "someone said stop", 1.0)
+
+
+def _garble(track: Track) -> None:
+    track.supervisor.hear_noise(0.5)
+
+
+def _freeze(track: Track) -> None:
+    track.now += 1.5
+
+
+def _fall_silent(track: Track) -> None:
+    track.is_silent = True
+    track.run(1.2)
+    track.is_silent = False
+
+
+@pytest.mark.parametrize(
+    ("name", "happen"),
+    [
+        ("bump", lambda track: track.feel(bumps={"left": True, "right": False})),
+        ("cliff", lambda track: track.feel(cliffs=dict.fromkeys(PLACES, True))),
+        ("wheel drop", lambda track: track.feel(wheel_drops={"left": True, "right": False})),
+        ("button", lambda track: track.feel(buttons={"clean": True, "dock": False})),
+        ("fault", lambda track: track.feel(bumps={"right": False})),
+        ("garbled", _garble),
+        ("frozen", _freeze),
+        ("stale", _fall_silent),
+    ],
+)
+def test_what_happens_while_a_spoken_stop_holds_it_takes_its_place(name, happen) -> None:
+    track = Track().released()
+    track.run(1.0, GO)
+    track.supervisor.trip(SAID)
+    track.run(0.5, GO)
+    assert track.supervisor.latch.cause == SAID
+    happen(track)
+    track.run(0.1, GO)
+    assert track.supervisor.latch.cause.name == name
+    assert track.supervisor.latch.is_firm
+    track.supervisor.trip(SAID)
+    assert track.supervisor.latch.is_firm
+
+
+def test_what_it_met_before_a_spoken_stop_is_not_held_against_it() -> None:
+    track = Track().released()
+    track.run(1.0, GO)
+    track.feel(bumps={"left": True, "right": False})
+    track.run(0.05, GO)
+    track.supervisor.trip(SAID)
+    track.run(0.5, GO)
+    assert track.supervisor.latch.cause == SAID
