@@ -244,9 +244,17 @@ def test_a_configuration_with_a_port_drives_through_the_whole_chain_even_when_it
         bench.wait("driving", goes)
         assert bench.line.base.body.base.travelled > 0.02
 
+        bus.stop_spoken("someone said stop", bench.clock.now())
+        bench.wait("a spoken stop", lambda: bus.is_spoken)
+        assert bus.unlatch_spoken(bench.clock.now())
+        bench.wait("an end of it", lambda: not bus.is_latched)
+        bus.stop_spoken("someone said stop", bench.clock.now())
+        bench.wait("another one", lambda: bus.is_spoken)
+
         (supervisor,) = (p for p in psutil.Process().children() if port.path in str(p.cmdline()))
         supervisor.terminate()
         bench.wait("the end", lambda: bus.state.reason.name == "supervisor")
+        assert not bus.unlatch_spoken(bench.clock.now())
 
         def is_released() -> bool:
             bus.unlatch()
