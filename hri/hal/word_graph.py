@@ -33,6 +33,7 @@ class WordGraph:
     weights: NDArray[np.float32]
     """Natural logarithm of how likely each arc is among those of its source; <= 0. [arcs]"""
     words: tuple[str, ...]
-    """All words, lower case, each once."""
+    """All words, lower case, each once. `<any>` and `<any 1-3>` are as many that nobody listed
+    (`hri.speech.grammar.words.free_words`)."""
     entries: Mapping[str, int]
     """Public rule: the node its sentences begin at; one silent arc leads there from `start`."""

@@ -331,7 +331,7 @@ def _too_free(grammar: Rules) -> Iterator[AuthoringError]:
     silent = grammar.made(silent_rules)
     for key in grammar.public_rules:
         rule = grammar.rules[key]
-        if free[key] and not silent[key]:
+        if free[key] and (not silent[key] or "anywhere" in rule.marks):
             what = f"<{key}> can be said with <any> alone, so it takes whatever is said"
             yield AuthoringError(rule.place(), what, "write a word that must be said")
         if "careful" in rule.marks:

@@ -46,7 +46,7 @@ _NOWHERE = SourceSpan(1, 1, 1, 1)
 _SILENCE = Sequence((), _NOWHERE)
 _HALF = math.log(0.5)
 """JSGF gives no odds for what is optional or repeated: both ways are equally likely."""
-_AMONG = (1.0, 0.05)
+_AMONG = (1.0, 0.025)
 """Odds of nothing, and of other words, before or after a phrase that counts anywhere."""
 
 
@@ -162,6 +162,17 @@ def build(grammar: Rules) -> Automaton:
         return _Builder(grammar, grammar.marked("anywhere")).build()
 
 
+def build_spoken(grammar: Rules) -> Automaton:
+    """The same with one arc for free words in a row: no engine counts them in a sound. Its word is
+    `Anything.written`.
+    """
+    written = grammar.made(build)
+    if ANY not in written.words:
+        return written
+    with without_collection():
+        return _Builder(grammar, grammar.marked("anywhere"), is_spoken=True).build()
+
+
 def build_as_written(grammar: Rules) -> Automaton:
     """The same without the words around the rules that count @anywhere."""
     if not grammar.marked("anywhere"):
@@ -176,8 +187,10 @@ class _Builder:
     What was written first is worked off first, which keeps the arcs of a node in that order.
     """
 
-    def __init__(self, grammar: Rules, anywhere: frozenset[str]) -> None:
-        self._grammar, self._anywhere = grammar, anywhere
+    def __init__(
+        self, grammar: Rules, anywhere: frozenset[str], *, is_spoken: bool = False
+    ) -> None:
+        self._grammar, self._anywhere, self._is_spoken = grammar, anywhere, is_spoken
         self._recursive = grammar.made(analysis.recursive_of)
         self._is_silent = analysis.Silence(grammar.made(analysis.silent_rules))
         for error in analysis.left_recursion(grammar):
@@ -231,9 +244,9 @@ class _Builder:
             case Token(text=text):
                 if job.speaking is not _Speaking.SILENT:
                     self._arcs.add(job, job.end, text, job.before + job.after)
-            case Anything():
+            case Anything() as node:
                 if job.speaking is not _Speaking.SILENT:
-                    self._anything(job)
+                    self._anything(job, node)
             case Tagged(item=item, entries=entries):
                 self._jobs.append(self._tagged(job, item, entries))
             case Sequence(items=()):
@@ -256,13 +269,17 @@ class _Builder:
             case Repeat(item=item, minimum=minimum):
                 self._later(self._repeat(job, item, minimum))
 
-    def _anything(self, job: _Job) -> None:
-        """One word or more; of all ways through them the shortest comes first."""
-        inside = self._new_node()
-        again = job._replace(start=inside, before=(), weight=_HALF)
-        self._arcs.add(job, inside, ANY, job.before)
-        self._arcs.add(again, job.end, None, job.after)
-        self._arcs.add(again, inside, ANY, ())
+    def _anything(self, job: _Job, node: Anything) -> None:
+        """Word by word; of all ways through them the shortest comes first."""
+        if self._is_spoken:
+            self._arcs.add(job, job.end, node.written, job.before + job.after)
+            return
+        for number in range(1, node.most + 1):
+            inside = self._new_node()
+            self._arcs.add(job, inside, ANY, job.before)
+            job = job._replace(start=inside, before=(), weight=_HALF)
+            if number >= node.least:
+                self._arcs.add(job, job.end, None, job.after)
 
     def _later(self, jobs: Iterator[_Job]) -> None:
         self._jobs += reversed(list(jobs))

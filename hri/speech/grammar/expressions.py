@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from operator import is_
-from typing import ClassVar, NamedTuple
+from typing import NamedTuple
 
 from hri.speech.grammar.tags import TagEntry, spell_entries
-from hri.speech.grammar.words import ANY
+from hri.speech.grammar.words import ANY, MOST_FREE
 
 _PLAIN = re.compile(r"""[^\s=;|*+<>()\[\]{}/"\\]+(?:/[^\s=;|*+<>()\[\]{}/"\\]+)*""")
 
@@ -34,10 +34,25 @@ class Token:
 
 @dataclass(frozen=True, slots=True)
 class Anything:
-    """`<any>`: one word or more that nobody has listed."""
+    """`<any>`, `<any 2>`, `<any 1-3>`: words that nobody has listed."""
 
     span: SourceSpan
-    text: ClassVar[str] = ANY
+    least: int = 1
+    most: int = MOST_FREE
+    """How many words."""
+
+    @property
+    def text(self) -> str:
+        """As few of them as there may be."""
+        return " ".join([ANY] * self.least)
+
+    @property
+    def written(self) -> str:
+        """As grammars have it, and word graphs."""
+        if (self.least, self.most) == (1, MOST_FREE):
+            return ANY
+        most = f"-{self.most}" if self.most > self.least else ""
+        return f"<any {self.least}{most}>"
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,7 +194,7 @@ def _spell(node: Expression, least: int, tags: Callable[[Tagged], str]) -> str:
         case Token(text=text):
             return text if _is_plain(text) else _quoted(text)
         case Anything():
-            return ANY
+            return node.written
         case RuleReference(name=name):
             return f"<{name}>"
         case Sequence(items=()):

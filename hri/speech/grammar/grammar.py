@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 from hri.hal.word_graph import WordGraph
 from hri.speech.grammar import analysis, expansion
-from hri.speech.grammar.automaton import Automaton, build
+from hri.speech.grammar.automaton import Automaton, build, build_spoken
 from hri.speech.grammar.expressions import (
     Alternative,
     Anything,
@@ -124,7 +124,7 @@ def _either(one: Expression, other: Expression) -> Expression:
 
 
 def _graph(rules: Rules) -> WordGraph:
-    return word_graph(rules.made(build))
+    return word_graph(rules.made(build_spoken))
 
 
 def flat_jsgf(grammar: Grammar) -> str:

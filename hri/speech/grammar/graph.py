@@ -20,7 +20,6 @@ import numpy as np
 from hri.core.collection import without_collection
 from hri.hal.word_graph import SILENT, WordGraph
 from hri.speech.grammar.automaton import FINAL, START, Automaton
-from hri.speech.grammar.words import ANY
 
 Arc = tuple[str | None, int, float]
 """Word, target and weight."""
@@ -41,11 +40,7 @@ class _Reduction:
         """Nodes that stay themselves."""
         arcs = list(zip(automaton.words, automaton.targets, automaton.weights, strict=True))
         first = automaton.first
-        self._leaving = [
-            # Free words last as long as they are heard: one of them is as good as several.
-            [arc for arc in arcs[begin:end] if arc[:2] != (ANY, node)]
-            for node, (begin, end) in enumerate(itertools.pairwise(first))
-        ]
+        self._leaving = [arcs[begin:end] for begin, end in itertools.pairwise(first)]
         order = self._order()
         self._skip_silence(order)
         self._pull_back(order)

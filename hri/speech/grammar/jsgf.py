@@ -4,10 +4,10 @@ A hand-written tokenizer and recursive-descent parser. Every node knows where it
 mistake says what was expected, and after a mistake reading goes on at the next rule, so that an
 author sees all of them at once.
 
-Three things go beyond the standard: marks in doc comments (`hri.speech.grammar.doc_comments`),
-lists of names from a text file: `import "friends.txt" as <friend>;`, and `@extends` in the doc
-comment before `grammar`. What stands in tags, which the standard leaves open, is told in
-`hri.speech.grammar.tags`.
+Four things go beyond the standard: marks in doc comments (`hri.speech.grammar.doc_comments`),
+lists of names from a text file: `import "friends.txt" as <friend>;`, `@extends` in the doc comment
+before `grammar`, and numbers of free words: `<any 1-3>`. What stands in tags, which the
+standard leaves open, is told in `hri.speech.grammar.tags`.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from hri.core.errors import AuthoringError, Place, did_you_mean
 from hri.speech.grammar.doc_comments import NO_DOC, DocComment, read_doc_comment
 from hri.speech.grammar.expressions import (
     Alternative,
+    Anything,
     Expression,
     Optional,
     Repeat,
@@ -37,7 +38,7 @@ from hri.speech.grammar.formats import format_of
 from hri.speech.grammar.header import read_header
 from hri.speech.grammar.lexemes import MOST_LEXEMES, TOO_MUCH, Lexeme, Lines, split
 from hri.speech.grammar.tags import TagError, opaque, read_entries
-from hri.speech.grammar.words import normalize
+from hri.speech.grammar.words import free_words, normalize
 
 EXTENDS, BEFORE, AFTER = "extends", "before", "after"
 """The doc tag before `grammar` that names a grammar whose commands are understood as well."""
@@ -45,6 +46,8 @@ DEEPEST = 50
 """Brackets within brackets; deeper is a mistake or an attack."""
 DEEPEST_TREE = 120
 """Nodes below each other in one rule, repeats and tags included."""
+LONGEST_FREE = 50
+"""Words that may be free in a row."""
 MOST_ERRORS = 100
 """Most mistakes reported for one file."""
 
@@ -539,6 +542,8 @@ class _JsgfReader:
         return tokens[0] if len(tokens) == 1 else Sequence(tokens, span)
 
     def _reference(self, lexeme: Lexeme) -> Expression:
+        if lexeme.text.split()[0] == "<any":
+            return self._free_words(lexeme)
         name = self._rule_name(lexeme)
         span = self._span(lexeme)
         if name == "NULL":
@@ -546,6 +551,15 @@ class _JsgfReader:
         if name == "VOID":
             return Alternative((), (), span)
         return RuleReference(name, span)
+
+    def _free_words(self, lexeme: Lexeme) -> Anything:
+        """`<any 2>` or `<any 1-3>`."""
+        least, most = free_words(lexeme.text) or (0, 0)
+        if not 1 <= least <= most <= LONGEST_FREE:
+            what = f"{lexeme.text[:40]} is not a number of words, 1 to {LONGEST_FREE}"
+            remedy = "write <any 2> for two words, <any 1-3> for one to three"
+            raise self._report(lexeme.start, what, remedy)
+        return Anything(self._span(lexeme), least, most)
 
     def _group(self, opening: Lexeme, closing: str) -> Expression:
         self._position += 1

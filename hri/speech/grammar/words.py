@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Iterable
 
 from hri.speech.grammar.numerals import CURRENCIES
 
 ANY = "<any>"
-"""Stands for words that nobody listed; no word has a bracket."""
+"""Stands for a word that nobody listed; no word has a bracket."""
+MOST_FREE = 12
+"""Words that `<any>` stands for at most, where the grammar gives no number."""
 _CURLY = "\N{RIGHT SINGLE QUOTATION MARK}"
 _SPOKEN = {"&": " and ", "%": " percent ", "\N{DEGREE SIGN}": " degrees ", "\\": " "}
 """Signs that are said as words, or stand between words, wherever they are."""
 _SIGNS = str.maketrans(_SPOKEN)
 
 
+_FREE = re.compile(r"<any(?:\s+(\d{1,9})(?:\s*-\s*(\d{1,9}))?)?\s*>")
 _INITIALS = re.compile(r"(?:[^\W\d_]{1,2}\.)+[^\W\d_]{1,2}")
 """Of "U.S.A." or "Ph.D.", all but the last point."""
 _MINUS = str.maketrans("\N{MINUS SIGN}\N{EN DASH}", "--")
@@ -40,6 +44,25 @@ def _split(text: str) -> list[str]:
     if not text.isalnum() and not _SPOKEN.keys().isdisjoint(text):
         text = text.translate(_SIGNS)
     return text.lower().split()
+
+
+def free_words(written: str) -> tuple[int, int] | None:
+    """How many words `<any>`, `<any 2>`, or `<any 1-3>` stands for, least and most; None for
+    anything else.
+    """
+    match = _FREE.fullmatch(written)
+    if match is None:
+        return None
+    if match[1] is None:
+        return 1, MOST_FREE
+    return int(match[1]), int(match[2] or match[1])
+
+
+def said(words: Iterable[str]) -> str:
+    """What an engine heard as a text: free words are as many ANY as they are words at least."""
+    return " ".join(
+        word if (free := free_words(word)) is None else " ".join([ANY] * free[0]) for word in words
+    )
 
 
 def listed(text: str) -> str:

@@ -8,9 +8,11 @@ from hypothesis import given, strategies as st
 
 from hri.cli.main import main
 from hri.speech.grammar import load_grammar, parse
+from hri.speech.grammar.expressions import spell_tagged
 from hri.speech.grammar.lint.linter import check
 from hri.speech.grammar.loader import read_grammar
 from hri.speech.grammar.matching import parses, refusal
+from hri.speech.grammar.words import MOST_FREE
 
 TALK = """
 /** @anywhere */
@@ -95,6 +97,7 @@ def test_a_rule_named_any_is_that_rule(write):
         ("public <a> = <any>;", "<a> can be said with <any> alone"),
         ("public <a> = [please] <any> {x};", "<a> can be said with <any> alone"),
         ("public <a> = <b> | stop;\n<b> = <any>+;", "<a> can be said with <any> alone"),
+        ("/** @anywhere */\npublic <a> = [go];", "<a> can be said with <any> alone"),
         (
             "/** @careful */\npublic <a> = go to <b>;\n<b> = the <any>;",
             "<a> moves the robot, so none of its words may be free",
@@ -129,3 +132,40 @@ def test_the_command_shows_which_words_are_free(talk, capsys):
 
 def test_no_finding_speaks_of_free_words_as_of_a_word(talk):
     assert not [found for found in check(talk) if "<any>" in str(found)]
+
+
+@pytest.mark.parametrize(
+    ("free", "fits"),
+    [("<any 2>", {2}), ("<any 2-4>", {2, 3, 4}), ("<any  1 - 1 >", {1}), ("/3/ <any 2> | x", {2})],
+)
+def test_an_author_says_how_many_words_are_free(write, free, fits):
+    grammar = load_grammar(write(f"public <name> = my name is ({free});"))
+    said = {count: parse(grammar, "my name is" + " anna" * count) for count in range(6)}
+    assert {count for count, found in said.items() if found is not None} == fits
+    for sentence in grammar.sentences(10):
+        assert parse(grammar, sentence) is not None, sentence
+
+
+def test_without_a_number_free_words_end_somewhere(talk):
+    for count in (MOST_FREE, MOST_FREE + 1):
+        others = "word " * count
+        is_short = count == MOST_FREE
+        assert (parse(talk, f"my name is {others}") is not None) is is_short
+        assert (parse(talk, f"{others} see you later") is not None) is is_short
+        assert (parse(talk, f"see you later {others}") is not None) is is_short
+
+
+@pytest.mark.parametrize("free", ["<any 0>", "<any 0-2>", "<any 3-2>", "<any 51>", "<any x>"])
+def test_a_number_of_words_that_cannot_be_has_its_place_and_a_remedy(write, free):
+    _, errors = read_grammar(write(f"public <name> = my name is {free};"))
+    assert [str(error).partition(": ")[2] for error in errors] == [
+        f"{free} is not a number of words, 1 to 50"
+        " - write <any 2> for two words, <any 1-3> for one to three"
+    ]
+    assert errors[0].place.column == len("public <name> = my name is ") + 1
+
+
+def test_a_number_of_words_is_written_as_it_was_read_and_stands_in_the_graph(write):
+    grammar = load_grammar(write("public <a> = a <any> b <any 2> c <any 2-5> d;"))
+    assert spell_tagged(grammar.rules["a"].expression) == "a <any> b <any 2> c <any 2-5> d"
+    assert {"<any>", "<any 2>", "<any 2-5>"} < {*grammar.graph().words}

@@ -353,3 +353,32 @@ def test_other_sentences_hold_no_phrase(engine, companion, talk, said):
         engine.start(companion)
     assert isinstance(heard, Rejection)
     assert "<any>" not in heard.text
+
+
+TURNS = """
+/** @anywhere */
+public <turn> = turn (left {side=left} | right {side=right});
+public <name> = my name is <any 1-2>;
+"""
+
+
+@pytest.mark.parametrize(
+    ("said", "detail"),
+    [
+        ("tell me when my brother and his old dog come home from the long way along the beach"
+         " where they went to see the boats and the birds and then turn left", "does not fit"),
+        ("my name is one that is too long for any of you to remember it in the morning",
+         "does not fit"),
+    ],
+)  # fmt: skip
+def test_no_phrase_is_taken_of_two_and_beside_too_many_words(
+    engine, companion, write, said, detail
+):
+    engine.start(turns := load_grammar(write(TURNS)))
+    try:
+        segment = piece(np.pad(spoken(said), 4000))
+        heard = judge(turns, segment, engine.decode(segment))
+    finally:
+        engine.start(companion)
+    assert isinstance(heard, Rejection), heard
+    assert detail in heard.detail

@@ -10,22 +10,26 @@ import numpy as np
 
 from hri.core.signals import Samples
 from hri.hal.recognizer import Alternative, Grammar, HeardWord, Hypothesis, Segment
-from hri.speech.grammar.words import ANY, listed
+from hri.speech.grammar.words import free_words, listed, said
 from hri.speech.language import require_english
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.confidence import (
     confidence,
-    confidence_among_others,
     fit_of,
-    nearness,
+    phrase_fit,
     scores_of,
     shares,
 )
 from hri.speech.recognizers.ctc.conformer import FRAME, load_network
 from hri.speech.recognizers.ctc.habits import Habits
+from hri.speech.recognizers.ctc.key_phrases import (
+    confidence_in_phrase,
+    has_free,
+    is_too_long,
+)
 from hri.speech.recognizers.ctc.lattice import Path
 from hri.speech.recognizers.ctc.loudness import leveled, noise_of, sounding
-from hri.speech.recognizers.ctc.phone_graph import Floats, Indices, compile
+from hri.speech.recognizers.ctc.phone_graph import Floats, compile
 from hri.speech.recognizers.ctc.posterior_stream import PosteriorStream
 from hri.speech.recognizers.ctc.ranking import ranked
 from hri.speech.recognizers.ctc.rivals import Rivals
@@ -114,7 +118,7 @@ class CtcRecognizer(EndpointedRecognizer):
             new = leveled(segment.samples)[progress.taken :]
             progress.taken += len(new)
             progress.search.advance(scores_of(progress.stream.push(new)))
-            return listed(" ".join(progress.search.partial()))
+            return listed(said(progress.search.partial()))
 
     def _progress_of(
         self, segment: Segment, rules: frozenset[str] | None, search: Search
@@ -171,38 +175,30 @@ def decoded(
     scores = scores_of(log_probabilities)
     search.begin(rules)
     search.advance(scores)
-    begun = _begun(search, scores)
-    found = ranked(search, scores, rivals)
+    begun = _begun(search, log_probabilities)
+    found = sorted(ranked(search, scores, rivals), key=lambda one: is_too_long(one.path))
     if not found:
         return Hypothesis("", 0.0, begun=begun)
-    best = found[0].path
+    best, phones = found[0].path, search.graph.phones
     chances = shares([candidate.score for candidate in found])
-    return Hypothesis(
-        text=" ".join(best.words),
-        confidence=_confidence(best, scores, search.graph.phones, rivals, noise),
-        words=_times(best),
-        alternatives=tuple(
-            Alternative(" ".join(candidate.path.words), float(chance))
-            for candidate, chance in zip(found[1:], chances[1:], strict=True)
-        ),
-        begun=begun,
-    )
+    alternatives = [
+        Alternative(said(candidate.path.words), float(chance))
+        for candidate, chance in zip(found[1:], chances[1:], strict=True)
+    ]
+    if has_free(best):
+        sure = confidence_in_phrase(best, log_probabilities, phones, noise)
+    else:
+        sure = confidence(fit_of(best, rivals.score(scores, best.words), scores, phones), noise)
+    return Hypothesis(said(best.words), sure, _times(best), tuple(alternatives), begun)
 
 
-def _begun(search: Search, scores: Floats) -> str:
+def _begun(search: Search, log_probabilities: Floats) -> str:
     """The words of a sentence that cannot end yet, where that is what was said."""
     path = search.begun()
     if path is None or not path.words or path.score < CLEARLY_BEGUN:
         return ""
-    is_said = nearness(path, scores, search.graph.phones) >= NEARLY_SAID
-    return " ".join(path.words) if is_said else ""
-
-
-def _confidence(best: Path, scores: Floats, phones: Indices, rivals: Rivals, noise: float) -> float:
-    if ANY in best.words:
-        return confidence_among_others(nearness(best, scores, phones), noise)
-    fit = fit_of(best, rivals.score(scores, best.words), scores, phones)
-    return confidence(fit, noise)
+    fit = phrase_fit(path, log_probabilities, search.graph.phones)
+    return said(path.words) if fit.nearness >= NEARLY_SAID else ""
 
 
 def later(hypothesis: Hypothesis, seconds: float) -> Hypothesis:
@@ -218,7 +214,7 @@ def _times(path: Path) -> tuple[HeardWord, ...]:
     """The words with the times of their phones; pauses and free words belong to none."""
     heard = []
     for word, span in zip(path.words, path.spans, strict=True):
-        if word == ANY:
+        if free_words(word) is not None:
             continue
         sounding = [index for index, state in enumerate(span.states) if state >= 0]
         start, end = span.start + sounding[0], span.start + sounding[-1] + 1

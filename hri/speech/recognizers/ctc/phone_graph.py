@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from hri.core.errors import HriError
 from hri.hal.word_graph import WordGraph
-from hri.speech.grammar.words import ANY
+from hri.speech.grammar.words import free_words
 from hri.speech.recognizers.ctc.classes import CLASSES, FREE
 
 Indices = NDArray[np.intp]
@@ -27,6 +27,8 @@ NOWHERE = np.float32(-1e30)
 MOST_STATES = 2_000_000
 """States, exits or links of a graph; a grammar that needs more is refused (a frame of the search
 would take 20 ms)."""
+LEAST_FREE = 5
+"""Frames of a free word, 20 ms each."""
 _CLASS_OF = {name: index for index, name in enumerate(CLASSES)}
 
 
@@ -128,7 +130,7 @@ def compile(graph: WordGraph, lexicon: Pronouncing) -> PhoneGraph:
         size=size,
         phones=phones,
         parents=parents,
-        doubled=inner[phones[inner] == phones[parents[inner]]],
+        doubled=inner[(phones[inner] == phones[parents[inner]]) & (phones[inner] != FREE)],
         exit_states=exit_states.astype(np.intp),
         exit_words=exit_words.astype(np.intp),
         exit_weights=exit_weights.astype(np.float32),
@@ -198,8 +200,8 @@ def _grow(
 
 def _sounds_of(word: str, lexicon: Pronouncing) -> list[list[int]]:
     """The classes of each pronunciation of a word, or of free words."""
-    if word == ANY:
-        return [[FREE]]
+    if (free := free_words(word)) is not None:
+        return [[FREE] * (free[0] * LEAST_FREE)]
     return [[_CLASS_OF[phone] for phone in phones] for phones in lexicon.pronunciations(word)]
 
 
