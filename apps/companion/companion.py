@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from string import Formatter
 from typing import Any
 
@@ -153,18 +153,23 @@ class Companion:
         self.motion.resume()
         self.talk.resume()
 
-    def puzzle(self, reason: str, text: str) -> None:
-        """Show that it did not understand someone; the first time, say what is nearest to it.
+    def puzzle(self, reason: str, text: str, choices: Sequence[str] = ()) -> None:
+        """Show that it did not understand someone; the first time, say what is nearest to it. Of
+        two commands that are as likely, ask which was meant.
 
         What is typed is meant for it. A sound is as far as it was like a command in a conversation.
         """
         is_typed = bool(self.context.resources.opened(TypedRecognizer))
         is_talking = self.context.clock.now() - self.last_contact < COMPANY_SECONDS
         is_meant = reason == "not in grammar" if is_typed else reason == "low confidence"
+        is_meant = is_meant or bool(choices)
         if self._is_held or not is_meant or self.is_asleep or not (is_typed or is_talking):
             return
         self.face.start(self._show, "confused")
-        if not self._has_hinted:
+        if choices:
+            one, other = choices
+            self.say(self.replies.unasked["which"].format(one=one, other=other))
+        elif not self._has_hinted:
             self._has_hinted = True
             nearest = self._most_like(text) if is_typed else text
             self.say(self.replies.unasked["not_understood"].format(nearest=nearest))

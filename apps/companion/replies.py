@@ -95,6 +95,7 @@ class Vocabulary:
 UNASKED = ("blocked", "bump", "battery_low", "nobody", "waiting", "no_stop")
 USUALLY_UNASKED = {
     "not_understood": "Sorry, I did not understand. You can say: {nearest}.",
+    "which": "Do you mean {one}, or {other}?",
     "awake": "I am awake.",
     "battery_unknown": "I do not know how full my battery is.",
     **things.WORDS,

@@ -107,7 +107,7 @@ async def converse(context: TaskContext) -> None:
             elif event.name == "speech.confirmed":
                 companion.resume()
             elif event.name == "speech.rejected":
-                companion.puzzle(heard["reason"], heard["text"])
+                companion.puzzle(heard["reason"], heard["text"], heard.get("choices", ()))
             if event.name != "speech.heard":
                 continue
             try:

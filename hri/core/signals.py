@@ -39,7 +39,8 @@ class Alternative:
 
     text: str
     share: float
-    """How likely it was said instead of the best, 0 to 1; all shares and the best's make 1."""
+    """How likely it was said instead of the best, 0 to 1; all shares and the best's make 1. Of a
+    phrase that free words of the best hold, how likely that was said as well."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +93,8 @@ class Rejection:
     """With low confidence: the tags on which all likely sentences agree, if their rule is one."""
     unsure: tuple[str, ...] = ()
     """The names of the tags on which they do not agree: what is left to be asked."""
+    choices: tuple[str, ...] = ()
+    """With low confidence: two commands that are as likely, as they are said, likelier first."""
     begun: str = ""
     """The words of a sentence that was only begun, where that is likelier than any whole one."""
     latency: float = 0.0

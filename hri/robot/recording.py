@@ -46,7 +46,7 @@ PLOT_LATENCY = 0.05
 """Seconds that a picture takes on the fake clock."""
 
 REJECTED: Mapping[str, Collection[str]] = {
-    "speech.rejected": ("text", "detail", "sure", "begun"),
+    "speech.rejected": ("text", "detail", "sure", "begun", "choices"),
     "speech.partial": ("text",),
 }
 """Properties of events that hold words which were rejected, or may be yet."""

@@ -10,7 +10,7 @@ from hri.core.signals import HeardWord, Rejection, Utterance
 from hri.hal.recognizer import Hypothesis, Segment
 from hri.speech.automatic_level import too_quiet
 from hri.speech.grammar import Grammar
-from hri.speech.grammar.matching import Parse, departure, parse
+from hri.speech.grammar.matching import Parse, departure, meanings, parse
 from hri.speech.grammar.words import listed
 from hri.speech.turn import Turn
 
@@ -57,7 +57,8 @@ def judge(
     rules = frozenset(grammar.public_rules) if turn is None else turn.rules(grammar)
     turn = turn or Turn()
     found = _parse_of(grammar, hypothesis.text, rules, turn)
-    others = [(other, parse(grammar, other.text)) for other in hypothesis.alternatives]
+    alternatives = (*hypothesis.alternatives, *_as_specific(grammar, found, rules, turn))
+    others = [(other, parse(grammar, other.text)) for other in alternatives]
     doubts = [other for other, meaning in others if _differ(found, meaning)]
     doubt = min(1.0, sum(alternative.share for alternative in doubts))
     confidence = hypothesis.confidence * (1.0 - doubt)
@@ -69,8 +70,11 @@ def judge(
     end = words[-1].end if words else segment.end - segment.quiet
     least = needed(grammar, found, strictness, turn)
     reason, detail = _reason(grammar, hypothesis, found, rules, turn, least)
+    choices: tuple[str, ...] = ()
     if not reason and confidence < least:
-        reason, detail = "low confidence", _as_likely(doubts[0].text)
+        rival = max(doubts, key=lambda one: one.share)
+        choices = _choices(grammar, found, rival.text)
+        reason, detail = "low confidence", _as_likely(listed(rival.text))
     if reason == "not in grammar":
         detail = _departure(grammar, hypothesis.text)
     if reason in UNCLEAR:
@@ -92,7 +96,7 @@ def judge(
             return rejection
         meant = (meaning for other, meaning in others if other.share >= LIKELY)
         likely = [found, *(meaning for meaning in meant if meaning is not None)]
-        return replace(rejection, sure=agreed(likely), unsure=disputed(likely))
+        return replace(rejection, sure=agreed(likely), unsure=disputed(likely), choices=choices)
     return Utterance(
         text=listed(found.text),
         rule=found.rule,
@@ -115,6 +119,27 @@ def _command(grammar: Grammar, found: Parse) -> str:
             aside.update(range(tree.start, tree.end))
     words = enumerate(found.text.split())
     return " ".join(word for place, word in words if place not in aside)
+
+
+def _as_specific(
+    grammar: Grammar, found: Parse | None, rules: Collection[str], turn: Turn
+) -> Iterator[Alternative]:
+    """Beside a phrase among other words, others that mean something else: all were said."""
+    if found is None or not found.free:
+        return
+    answers = grammar.marked("answer")
+    is_answer = turn.is_question_open and found.rule in answers
+    for other in meanings(grammar, found.text, answers if is_answer else rules):
+        if not other.means_the_same(found):
+            yield Alternative(_command(grammar, other), 1.0)
+
+
+def _choices(grammar: Grammar, found: Parse | None, other: str) -> tuple[str, ...]:
+    """Two sentences of which one was meant, as they are said; none if the other has no words."""
+    meant = parse(grammar, other)
+    if found is None or meant is None:
+        return ()
+    return _command(grammar, found), _command(grammar, meant)
 
 
 def agreed(likely: Sequence[Parse]) -> dict[str, Any]:

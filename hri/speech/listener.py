@@ -463,6 +463,7 @@ class Listener(Behavior):
                 confidence=confidence,
                 sure=dict(result.sure),
                 unsure=list(result.unsure),
+                choices=list(result.choices),
                 begun=result.begun,
             )
             return

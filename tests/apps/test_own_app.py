@@ -406,6 +406,23 @@ def test_what_is_not_understood_is_shown_and_hinted_at_once(put):
     assert seen == {2.0: "confused", 5.5: "confused"}
 
 
+SCREENS = {
+    "app.toml": 'extends = "companion"\n',
+    "grammar.jsgf": "#JSGF V1.0;\n/** @extends companion */\ngrammar screens;\n"
+    "/** @anywhere */\npublic <show> = show the (map {what=map} | clock {what=clock});\n",
+    "replies.toml": '[reply.show]\nsay = "Here is the {what}."\n',
+}
+
+
+def test_of_two_phrases_it_asks_which_was_meant(put):
+    robot = robot_of(put(SCREENS))
+    lines = {1.0: "show the map or show the clock", 6.0: "well show the clock"}
+    assert said(live(robot, 10, lines)) == [
+        "Do you mean show the clock, or show the map?",
+        "Here is the clock.",
+    ]
+
+
 @pytest.mark.slow
 def test_what_can_be_said_names_own_commands_first_and_then_others(put):
     robot = robot_of(put(JOKE))

@@ -60,7 +60,7 @@ def record(tmp_path):
             robot.events.raise_event("speech.partial", text=SECRET)
             robot.events.raise_event(
                 "speech.rejected", reason="not in the grammar", text=SECRET,
-                detail=f'"{SECRET}" is as likely', confidence=0.5,
+                detail=f'"{SECRET}" is as likely', confidence=0.5, choices=[SECRET, "go"],
             )  # fmt: skip
             robot.wait(1.5)
         return robot
@@ -116,7 +116,7 @@ def test_words_that_were_rejected_are_left_out_and_the_keys_stay(record, tmp_pat
     assert all(SECRET.encode() not in file.read_bytes() for file in (tmp_path / "out").iterdir())
     events = {event["event"]: event for event in read_events(tmp_path / "out" / "events.jsonl")}
     rejected = events["speech.rejected"]
-    assert set(rejected) == {"t", "event", "reason", "detail", "text", "confidence"}
+    assert set(rejected) == {"t", "event", "reason", "detail", "text", "confidence", "choices"}
     assert rejected["reason"] == "not in the grammar"
     assert rejected["text"] == rejected["detail"] == events["speech.partial"]["text"] == ""
 

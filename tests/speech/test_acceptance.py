@@ -225,3 +225,39 @@ def test_a_text_means_what_the_answers_make_of_it_or_the_rules_that_count_or_all
         assert found.rule not in rules
     elif judged.reason == "not in grammar":
         assert found is None
+
+
+ANYWHERE = """
+/** @anywhere */
+public <turn> = turn (left {side=left} | right {side=right});
+/** @anywhere */
+public <greet> = good morning;
+/** @anywhere
+ *  @answer */
+public <yes> = of course {answer=yes} | not now {answer=no};
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "other", "choices", "unsure"),
+    [
+        ("so turn left and turn right", "turn left", ("turn right", "turn left"), ("side",)),
+        ("good morning now turn left", "good morning", ("turn left", "good morning"), ()),
+    ],
+)
+@pytest.mark.parametrize("strictness", [0.1, 0.5])
+def test_of_two_phrases_that_are_equally_specific_none_is_chosen(
+    write, text, other, choices, unsure, strictness
+):
+    grammar = load_grammar(write(ANYWHERE))
+    rejection = judge(grammar, PIECE, Hypothesis(text, 1.0), strictness)
+    assert rejection.reason == "low confidence"
+    assert rejection.detail == f'as likely: "{other}"'
+    assert (rejection.choices, rejection.unsure) == (choices, unsure)
+
+
+def test_phrases_that_mean_the_same_or_are_less_specific_or_no_answers_are_not_doubted(write):
+    grammar, asked = load_grammar(write(ANYWHERE)), Turn(is_question_open=True)
+    assert reason(grammar, "turn left i said turn left") == "turn"
+    assert reason(grammar, "of course turn left", 0.9, asked) == "yes"
+    assert reason(grammar, "of course or not now", 0.9, asked) == "low confidence"

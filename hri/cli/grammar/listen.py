@@ -48,9 +48,9 @@ examples:
 
 The objects: file, start_s and end_s (seconds from its beginning), accepted, text, rule, tags,
 confidence, reason (empty, or why it was not accepted), latency_s, and with low confidence sure (the
-tags that are certain nevertheless) and unsure (the names of those that are not), level_dbfs (of the
-loudest tenth of a second; null for typed lines). Put FILE before --wav, which takes all the paths
-that follow it.
+tags that are certain nevertheless), unsure (the names of those that are not) and choices (two
+commands that are as likely), level_dbfs (of the loudest tenth of a second; null for typed lines).
+Put FILE before --wav, which takes all the paths that follow it.
 
 Status 0: everything was accepted. 1: something was not. 2: a file is wrong."""
 
@@ -254,6 +254,7 @@ def _show_json(file: str, heard: Heard) -> None:
         "latency_s": round(heard.latency, 4),
         "sure": dict(rejected.sure) if rejected else {},
         "unsure": list(rejected.unsure) if rejected else [],
+        "choices": list(rejected.choices) if rejected else [],
         "begun": rejected.begun if rejected else "",
         "may_go_on": bool(accepted and accepted.may_go_on),
         "continues": bool(accepted and accepted.continues),

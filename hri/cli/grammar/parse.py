@@ -18,6 +18,7 @@ from hri.speech.grammar.matching import (
     Parse,
     Refusal,
     Tree,
+    different,
     parses,
     refusal,
 )
@@ -149,13 +150,13 @@ def _branch(tree: Tree, words: list[str], levels: int) -> dict[str, object]:
 
 def _accepted(found: tuple[Parse, ...], near: Tolerant | None) -> str:
     lines = [_forgiven(near) if near is not None and near.edits else found[0].text]
-    shown: list[Parse] = []
-    for reading in found:
-        if not any(reading.means_the_same(other) for other in shown):
-            shown.append(reading)
+    shown = different(found)
     if len(shown) > 1:
         count = f"{len(shown)} or more" if len(found) == MOST_PARSES else f"{len(shown)}"
-        lines.append(f"ambiguous, {count} meanings; the first counts")
+        what = (
+            "all are equally specific, so the robot asks" if found[0].free else "the first counts"
+        )
+        lines.append(f"ambiguous, {count} meanings; {what}")
     for reading in shown:
         tags = f" {{{spell_tags(reading.tags)}}}" if reading.tags else ""
         lines.append(reading.rule + tags)

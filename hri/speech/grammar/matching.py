@@ -161,6 +161,24 @@ def parses(
     return tuple(found.values())
 
 
+def different(readings: Iterable[Parse]) -> tuple[Parse, ...]:
+    """The first of those that mean the same."""
+    found: list[Parse] = []
+    for reading in readings:
+        if not any(reading.means_the_same(other) for other in found):
+            found.append(reading)
+    return tuple(found)
+
+
+def meanings(grammar: Rules, text: str, rules: Collection[str] | None = None) -> tuple[Parse, ...]:
+    """The readings of a sentence that mean different things; the first counts. Only where words are
+    free none does: all are equally specific then.
+
+    Else as `parses`.
+    """
+    return different(parses(grammar, text, rules=rules))
+
+
 def refusal(grammar: Rules, text: str) -> Refusal | None:
     """Where a sentence leaves the grammar; None when it does not.
 

@@ -11,7 +11,7 @@ from hri.speech.grammar import load_grammar, parse
 from hri.speech.grammar.expressions import spell_tagged
 from hri.speech.grammar.lint.linter import check
 from hri.speech.grammar.loader import read_grammar
-from hri.speech.grammar.matching import parses, refusal
+from hri.speech.grammar.matching import meanings, parses, refusal
 from hri.speech.grammar.words import MOST_FREE
 
 TALK = """
@@ -169,3 +169,34 @@ def test_a_number_of_words_is_written_as_it_was_read_and_stands_in_the_graph(wri
     grammar = load_grammar(write("public <a> = a <any> b <any 2> c <any 2-5> d;"))
     assert spell_tagged(grammar.rules["a"].expression) == "a <any> b <any 2> c <any 2-5> d"
     assert {"<any>", "<any 2>", "<any 2-5>"} < {*grammar.graph().words}
+
+
+TURNS = """
+/** @anywhere */
+public <turn> = turn (left {side=left} | right {side=right});
+/** @anywhere */
+public <bye> = bye;
+"""
+
+
+def test_phrases_that_are_equally_specific_are_all_meanings(write):
+    grammar = load_grammar(write(TURNS))
+    both = meanings(grammar, "well turn left and then turn right")
+    assert [reading.tags["side"] for reading in both] == ["right", "left"]
+    assert len(meanings(grammar, "turn left or turn left")) == 1
+    assert [reading.rule for reading in meanings(grammar, "turn left and bye")] == ["turn"]
+
+
+def test_the_commands_show_both_meanings(write, tmp_path, capsys):
+    path = write(TURNS)
+    main(["grammar", "parse", str(path), "turn left then turn right"])
+    told = capsys.readouterr().out
+    assert "2 meanings; all are equally specific, so the robot asks" in told
+    assert "turn {side=left}" in told
+    assert "turn {side=right}" in told
+    lines = tmp_path / "lines.txt"
+    lines.write_text("+ turn left then turn right => turn: side=left\n+ well turn left\n")
+    assert main(["grammar", "test", str(lines), "--grammar", str(path)]) == 1
+    told = capsys.readouterr().out
+    assert "means turn: side=right or turn: side=left, which are equally specific" in told
+    assert "1 of 2 sentences as expected" in told

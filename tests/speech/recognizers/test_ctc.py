@@ -365,6 +365,7 @@ public <name> = my name is <any 1-2>;
 @pytest.mark.parametrize(
     ("said", "detail"),
     [
+        ("well turn left and after that turn right please", "as likely"),
         ("tell me when my brother and his old dog come home from the long way along the beach"
          " where they went to see the boats and the birds and then turn left", "does not fit"),
         ("my name is one that is too long for any of you to remember it in the morning",
@@ -382,3 +383,5 @@ def test_no_phrase_is_taken_of_two_and_beside_too_many_words(
         engine.start(companion)
     assert isinstance(heard, Rejection), heard
     assert detail in heard.detail
+    if detail == "as likely":
+        assert sorted(heard.choices) == ["turn left", "turn right"]

@@ -26,7 +26,7 @@ from pathlib import Path
 from hri.core.errors import AuthoringError, Mistakes, Place
 from hri.core.reading import read_text
 from hri.speech.grammar.grammar import Grammar
-from hri.speech.grammar.matching import Parse, parse, refusal
+from hri.speech.grammar.matching import Parse, meanings, parse, refusal
 from hri.speech.grammar.tags import TagEntry, Value, evaluate, read_entries, spell_tags
 
 _LINE = re.compile(r"(?P<sign>[+-])(?P<sentence>.*?)(?P<arrow>=>(?P<meaning>.*))?")
@@ -115,6 +115,9 @@ def failures(grammar: Grammar, expectations: Expectations) -> list[Failure]:
 def _disappointment(grammar: Grammar, line: Expectation) -> str:
     """What is wrong with what was understood; empty when nothing is."""
     found = parse(grammar, line.sentence)
+    if found is not None and found.free and len(all_of := meanings(grammar, line.sentence)) > 1:
+        told = " or ".join(str(meaning_of(one)) for one in all_of)
+        return f"means {told}, which are equally specific, so that the robot asks"
     if line.meaning is None:
         return "" if found is None else f"is understood as {meaning_of(found)}"
     if found is None:

@@ -26,6 +26,7 @@ from hri.speech.recognizers.ctc.key_phrases import (
     confidence_in_phrase,
     has_free,
     is_too_long,
+    said_beside,
 )
 from hri.speech.recognizers.ctc.lattice import Path
 from hri.speech.recognizers.ctc.loudness import leveled, noise_of, sounding
@@ -187,6 +188,7 @@ def decoded(
     ]
     if has_free(best):
         sure = confidence_in_phrase(best, log_probabilities, phones, noise)
+        alternatives += said_beside(best, search, log_probabilities, rules, noise)
     else:
         sure = confidence(fit_of(best, rivals.score(scores, best.words), scores, phones), noise)
     return Hypothesis(said(best.words), sure, _times(best), tuple(alternatives), begun)
