@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
 from hri.core.signals import HeardWord, Rejection, Utterance
-from hri.hal.recognizer import Hypothesis, Segment
+from hri.hal.recognizer import Alternative, Hypothesis, Segment
 from hri.speech.automatic_level import too_quiet
 from hri.speech.grammar import Grammar
 from hri.speech.grammar.matching import Parse, departure, meanings, parse
