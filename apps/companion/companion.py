@@ -11,7 +11,7 @@ from typing import Any
 from hri.core import paths
 from hri.core.errors import NotAvailable
 from hri.core.latest import Latest
-from hri.core.signals import Person
+from hri.core.signals import Event, Person
 from hri.drive import navigation_tasks
 from hri.drive.behaviors import CommandGate
 from hri.drive.supervisor_relay import SupervisorRelay
@@ -96,6 +96,8 @@ class Companion:
         self._named = 0
         self._has_hinted = False
         self._is_held = False
+        for name in ("question.refused", "question.unanswered"):
+            context.events.subscribe(name, self._give_up)
 
     @classmethod
     def of(cls, context: TaskContext) -> Companion:
@@ -173,6 +175,13 @@ class Companion:
             self._has_hinted = True
             nearest = self._most_like(text) if is_typed else text
             self.say(self.replies.unasked["not_understood"].format(nearest=nearest))
+
+    def _give_up(self, event: Event) -> None:
+        """Say that a question of a task is over, before the task goes on."""
+        words = self.replies.unasked[event.name.replace("question.", "")]
+        is_own = event.properties["text"] in [question.ask for question in self.replies.questions]
+        if words and not is_own and self.may_speak:
+            self.voice.say(words)
 
     def _most_like(self, text: str) -> str:
         """The example of a command that is most like a text; else the question for all of them."""

@@ -96,6 +96,8 @@ UNASKED = ("blocked", "bump", "battery_low", "nobody", "waiting", "no_stop")
 USUALLY_UNASKED = {
     "not_understood": "Sorry, I did not understand. You can say: {nearest}.",
     "which": "Do you mean {one}, or {other}?",
+    "unanswered": "Sorry, I did not hear an answer.",
+    "refused": "Okay, never mind.",
     "awake": "I am awake.",
     "battery_unknown": "I do not know how full my battery is.",
     **things.WORDS,

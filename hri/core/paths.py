@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 
@@ -54,28 +54,31 @@ def search_folders() -> Iterator[Path]:
     yield house()
 
 
-def find(kind: str, name: str) -> Path:
+def find(kind: str, name: str, own: Sequence[Path] = ()) -> Path:
     """The file or folder of an authored thing: `find("faces", "robot")`.
 
-    The suffix of the kind may be left out. A path to something that exists is taken as it is. Else
-    the first search folder that has `kind/name` (or `name` itself, for folders laid out like
-    `config/`) wins, and last the folder that the program was started in.
+    The suffix of the kind may be left out. A file in the `own` folders comes before all others. A
+    path to something that exists is taken as it is. Else the first search folder that has
+    `kind/name` (or `name` itself, for folders laid out like `config/`) wins, and last the folder
+    that the program was started in.
     Raises HriError when there is none.
     """
     if not name:
-        raise HriError(f"an empty name for something in {kind} - {_meant(kind, name)}")
+        raise HriError(f"an empty name for something in {kind} - {_meant(kind, name, own)}")
     try:
         direct = expanded(name)
         is_there = direct.exists()
     except (OSError, ValueError) as error:
         raise HriError(f'"{name[:60]}" is not a valid file name - shorten or fix it') from error
+    spelled = [name] if kind in FOLDERS else [name + suffix for suffix in suffixes(kind)]
+    for folder in own:
+        for candidate in _places(folder, kind, (name, *spelled)):
+            if is_file(candidate):
+                return candidate
     if is_there and (os.sep in name or direct.suffix or name in (os.curdir, os.pardir)):
         return direct
-    spelled = [name] if kind in FOLDERS else [name + suffix for suffix in suffixes(kind)]
     for folder in search_folders():
-        for candidate in (
-            below / spelling for below in (folder / kind, folder) for spelling in (name, *spelled)
-        ):
+        for candidate in _places(folder, kind, (name, *spelled)):
             if exists(candidate) and candidate != folder:
                 return candidate
     for beside in map(expanded, spelled):
@@ -85,7 +88,12 @@ def find(kind: str, name: str) -> Path:
     has_form_of_path = name.startswith((".", os.sep, "~")) or name.endswith(os.sep)
     if has_form_of_path or (is_below and direct.suffix):
         raise HriError(f"{name}: no such file or folder - check the path")
-    raise HriError(f'no "{name}" in {kind} - {_meant(kind, name)}')
+    raise HriError(f'no "{name}" in {kind} - {_meant(kind, name, own)}')
+
+
+def _places(folder: Path, kind: str, spelled: Sequence[str]) -> Iterator[Path]:
+    """Where a folder may have something, by its names."""
+    return (below / spelling for below in (folder / kind, folder) for spelling in spelled)
 
 
 def suffixes(kind: str) -> tuple[str, ...]:
@@ -93,7 +101,7 @@ def suffixes(kind: str) -> tuple[str, ...]:
     return SUFFIXES.get(kind, (".toml",))
 
 
-def _meant(kind: str, name: str) -> str:
+def _meant(kind: str, name: str, folders: Sequence[Path]) -> str:
     """The remedy for a name that is not found: one like it, also in a folder of its kind."""
     if kind in FOLDERS:
         here = [f.parent.name for f in Path().glob(f"*/{MARKS[kind]}")]
@@ -103,6 +111,8 @@ def _meant(kind: str, name: str) -> str:
     # Lists of names beside grammars are not grammars.
     own = ("", *suffixes(kind))
     fitting = [n for n in names(kind) if kind not in SUFFIXES or Path(n).suffix in own]
+    beside = [file.name for folder in folders for file in sorted(folder.glob("*"))]
+    fitting += [n for n in beside if n.endswith(suffixes(kind))]
     known = {Path(n).stem: Path(n).stem for n in fitting}
     for below in [found for found in names(kind) if not Path(found).suffix]:
         for found in names(f"{kind}/{below}"):

@@ -48,7 +48,7 @@ from hri.simulation.visitor import Visitor
 from hri.simulation.world import SimulatedWorld
 from hri.task import script
 from hri.task.task_manager import TaskManager
-from hri.task.task_run import Job, tell_failure
+from hri.task.task_run import Job, name_of, tell_failure
 from hri.task.thread import LoopThread
 
 __all__ = ["App", "Job", "Robot", "load_app"]
@@ -179,13 +179,14 @@ class Robot(BlockingVerbs):
             self.close()
 
     async def _run(self, job: Job, teller: FailureTeller) -> None:
-        """Run what the robot lives for; what nobody foresaw is said before it ends of that."""
+        """Run what the robot lives for; that it failed is said before the robot ends of it."""
         try:
             await self.tasks.run(job)
-        except HriError:
-            raise
         except Exception as error:
-            tell_failure(self.events, job, error)
+            if isinstance(error, HriError):  # which whoever started the robot reads
+                teller.tell(name_of(job))
+            else:
+                tell_failure(self.events, job, error)
             await teller.finish()
             raise
 

@@ -9,6 +9,7 @@ the same name.
     grammar.jsgf   what its listeners hear, instead of what their network says
     replies.toml   what it replies, where it extends the companion
     demo.toml      who visits with `--demo`
+    *.jsgf         other grammars, such as those of questions, which its tasks name
 """
 
 from __future__ import annotations
@@ -30,6 +31,7 @@ from hri.core.python_file import load_module
 from hri.core.toml import Table, load_toml
 from hri.robot.starting import start_on
 from hri.speech.behaviors import Listener
+from hri.speech.listener import FOLDERS
 from hri.task.context import TaskContext
 from hri.task.task import TaskType, find_task
 from hri.task.task_run import Job
@@ -204,7 +206,9 @@ class App:
 
     def check(self, context: TaskContext) -> None:
         """Let the apps read their own files, with `check(context)` of the tasks that have one."""
-        context.board.slot(SLOT).set(self, context.clock.now())
+        now = context.clock.now()
+        context.board.slot(SLOT).set(self, now)
+        context.board.slot(FOLDERS).set(tuple(app.folder for app in self.line()), now)
         if self.tasks or self.on:
             for app in self.line():
                 if app.module is not None and hasattr(app.module, "check"):

@@ -24,9 +24,10 @@ class FailureTeller:
         context.events.subscribe("task.failed", self._hear)
 
     def _hear(self, event: Event) -> None:
-        self._tell(str(event.properties["task"]))
+        self.tell(str(event.properties["task"]))
 
-    def _tell(self, task: str) -> None:
+    def tell(self, task: str) -> None:
+        """Say it of a task, unless it was said of it just now."""
         now = self._context.clock.now()
         voice = self._context.find_behavior(Voice)
         if voice is None or now < voice.quiet_until:

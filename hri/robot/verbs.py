@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -16,6 +17,7 @@ from hri.emotion.appraisal import OccEvent
 from hri.emotion.behaviors import EmotionModel
 from hri.face.behaviors import Face
 from hri.face.model import load_face
+from hri.speech.answering import AGAIN, CANCEL, answering
 from hri.speech.behaviors import Listener
 from hri.speech.grammar import Grammar, parse
 from hri.speech.tasks import answers_of, listener_of, next_heard, play, say, wait_for_speech
@@ -43,6 +45,10 @@ T = TypeVar("T")
 
 ANSWERS = {"yes": True, "no": False, "head.nodded": True, "head.shaken": False}
 """What counts as an answer: rules of the grammar and head gestures."""
+
+ROBOT_SPEAKS = ("speech.said", "speech.finished")
+ANSWERING = ("speech.heard", "speech.rejected", "head.*", *ROBOT_SPEAKS)
+"""Events that matter while a question is open."""
 
 SHOWN = "expression.override"
 """Slot of the board with the expression that is shown instead of the felt one."""
@@ -129,18 +135,22 @@ async def ask(
 
     Without a grammar it is a yes/no question: a nod, a shake, "yes" and "no" are answers, and
     anything else that is heard changes the subject. Of several people, only the one attended to
-    answers with the head. With the name or path of a `grammar`, that one is in force while the
-    question is open, and the first thing heard is the answer; rules marked @interrupts of the
+    answers with the head. With the name or path of a `grammar`, which is looked for in the app's
+    own folder first, that one is in force while the question is open, and the first thing heard is
+    the answer, also among other words (see `hri.speech.answering`). "Never mind" ends the question
+    without an answer, "what did you say" has it said again; rules marked @interrupts of the
     grammars below, such as "stop", still count, and change the subject. `timeout` seconds count
-    from the end of the question, and who speaks by then is heard out; it is asked again up to
-    `retries` times. When only a part of an answer was unclear, the next question is for that
+    from the end of what the robot said last, and who speaks by then is heard out; it is asked again
+    up to `retries` times. When only a part of an answer was unclear, the next question is for that
     ("Which milk?"), and the tags that were clear are kept.
-    Raises `question.asked` when it has been spoken and `question.answered` with the answer. Raises
+    Raises `question.asked` when it has been spoken, and then `question.answered` with the answer,
+    `question.refused` after a "never mind", or `question.unanswered` when the time is over. Raises
     HriError for a grammar that cannot be used.
     """
     if grammar:
-        async with answers_of(context, grammar) as allowed:
-            return await _ask(context, question, timeout, retries, _HeardAnswer(allowed))
+        async with answers_of(context, grammar, answering) as allowed:
+            answer_of = _HeardAnswer(allowed, question)
+            return await _ask(context, question, timeout, retries, answer_of)
     if not context.behaviors:
         await listener_of(context)
     return await _ask(context, question, timeout, retries, _plain_answer)
@@ -148,11 +158,18 @@ async def ask(
 
 @dataclass(frozen=True, slots=True)
 class _Again:
-    """Something is left to be asked."""
+    """Something is left to be asked, or was not understood by the person."""
 
     question: str
     answer_of: Callable[[TaskContext, Event], Any]
     """What an event answers then."""
+    retries: int = 1
+    """How many of them it takes."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Refusal:
+    """The person wants no more of the question."""
 
 
 async def _ask(
@@ -160,36 +177,62 @@ async def _ask(
     question: str,
     timeout: float,
     retries: int,
-    answer_of: Callable[[TaskContext, Event], tuple[T | None] | _Again | None],
+    answer_of: Callable[[TaskContext, Event], tuple[T | None] | _Refusal | _Again | None],
 ) -> T | None:
     """Ask until something is an answer; None without one.
 
     `answer_of` says of an event what it answers: (None,) when it changes the subject, None when it
     is nothing to the question.
     """
-    slot = context.board.slot(QUESTION)
-    asked = question
-    for left in range(retries, -1, -1):
+    asked, left = question, retries
+    while left >= 0:
         await say(context, asked)
-        slot.set(True, context.clock.now())
-        try:
-            with context.queue("speech.heard", "speech.rejected", "head.*") as queue:
-                context.events.raise_event("question.asked", text=asked)
-                end = context.clock.now() + timeout
-                while (event := await next_heard(context, queue, end)) is not None:
-                    answer = answer_of(context, event)
-                    if answer is None:
-                        continue
-                    if isinstance(answer, _Again):
-                        if left:
-                            asked, answer_of = answer.question, answer.answer_of
-                            break
-                        continue
-                    if answer[0] is not None:
-                        _tell_answer(context, question, answer[0], event)
-                    return answer[0]
-        finally:
-            slot.clear()
+        found = await _first_answer(context, asked, timeout, left, answer_of)
+        if found is None:
+            left -= 1
+            continue
+        event, answer = found
+        if isinstance(answer, _Again):
+            asked, answer_of, left = answer.question, answer.answer_of, left - answer.retries
+            continue
+        if isinstance(answer, _Refusal):
+            context.events.raise_event("question.refused", text=question)
+            return None
+        if answer[0] is not None:
+            _tell_answer(context, question, answer[0], event)
+        return answer[0]
+    context.events.raise_event("question.unanswered", text=question)
+    return None
+
+
+async def _first_answer(
+    context: TaskContext,
+    asked: str,
+    timeout: float,
+    left: int,
+    answer_of: Callable[[TaskContext, Event], tuple[T | None] | _Refusal | _Again | None],
+) -> tuple[Event, tuple[T | None] | _Refusal | _Again] | None:
+    """The first event that answers what was asked, and its answer; None when none does in time.
+
+    `left` is how many retries are left for what is to be asked again.
+    """
+    slot = context.board.slot(QUESTION)
+    slot.set(True, context.clock.now())
+    try:
+        with context.queue(*ANSWERING) as queue:
+            context.events.raise_event("question.asked", text=asked)
+            end = context.clock.now() + timeout
+            while (event := await next_heard(context, queue, end)) is not None:
+                if event.name in ROBOT_SPEAKS:  # a hint, say, over which nobody can answer
+                    end = math.inf if event.name == "speech.said" else event.time + timeout
+                    continue
+                answer = answer_of(context, event)
+                if isinstance(answer, _Again) and answer.retries > left:
+                    continue
+                if answer is not None:
+                    return event, answer
+    finally:
+        slot.clear()
     return None
 
 
@@ -220,20 +263,26 @@ def _is_asked(context: TaskContext, person: str) -> bool:
 class _HeardAnswer:
     """Takes the first thing heard for the answer, with what was clear of those before it."""
 
-    def __init__(self, grammar: Grammar, sure: Mapping[str, Any] = MappingProxyType({})) -> None:
-        self._grammar = grammar
+    def __init__(
+        self, grammar: Grammar, asked: str, sure: Mapping[str, Any] = MappingProxyType({})
+    ) -> None:
+        self._grammar, self._asked = grammar, asked
         self._sure = sure
 
     def __call__(
         self, context: TaskContext, event: Event
-    ) -> tuple[Utterance | None] | _Again | None:
+    ) -> tuple[Utterance | None] | _Refusal | _Again | None:
         sure, unsure = (event.properties.get(name) for name in ("sure", "unsure"))
         if event.name == "speech.rejected" and sure and unsure:
-            question = f"Which {_in_words(unsure[0])}?"
-            return _Again(question, _HeardAnswer(self._grammar, {**self._sure, **sure}))
+            asked = f"Which {_in_words(unsure[0])}?"
+            return _Again(asked, _HeardAnswer(self._grammar, asked, {**self._sure, **sure}))
         heard = context.behavior(Listener).last_utterance
         if event.name != "speech.heard" or heard is None:
             return None
+        if heard.rule == CANCEL:
+            return _Refusal()
+        if heard.rule == AGAIN:
+            return _Again(self._asked, self, retries=0)
         if heard.rule not in self._grammar.public_rules:  # it interrupts; it may answer as well
             meant = parse(self._grammar, heard.text)
             if meant is None:

@@ -11,7 +11,7 @@ from hri.hal.recognizer import Alternative, Hypothesis, Segment
 from hri.speech.automatic_level import too_quiet
 from hri.speech.grammar import Grammar
 from hri.speech.grammar.matching import Parse, departure, meanings, parse
-from hri.speech.grammar.words import listed
+from hri.speech.grammar.words import ANY, listed
 from hri.speech.turn import Turn
 
 STRICTNESS = 0.5
@@ -183,8 +183,11 @@ def needed(
 
 def _parse_of(grammar: Grammar, text: str, rules: Collection[str], turn: Turn) -> Parse | None:
     """What a text means, by a rule that counts where there is one; to an open question "go ahead"
-    is an answer and not an order.
+    is an answer and not an order. What interrupts does so though it may have been among others.
     """
+    interrupting = grammar.marked("interrupts") if ANY in text.split() else frozenset()
+    if interrupting and (found := parse(grammar, listed(text), interrupting)) is not None:
+        return found
     answers = grammar.marked("answer") if turn.is_question_open else frozenset()
     return parse(grammar, text, *filter(None, (answers, rules)), None)
 

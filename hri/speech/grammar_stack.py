@@ -10,7 +10,7 @@ first grammar, also when another one took its place, and those of all that lie b
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from hri.core.clock import Worker
@@ -20,16 +20,26 @@ from hri.speech.grammar import Grammar
 LOOK_EVERY = 1.0
 """Seconds between looks whether a file has changed."""
 
+Prepare = Callable[[Grammar], Grammar]
+"""Makes what is heard of what a file says."""
+
+
+def as_written(grammar: Grammar) -> Grammar:
+    """The grammar as it is."""
+    return grammar
+
 
 @dataclass(eq=False)
 class Layer:
     """A grammar on the stack, and what has become of it."""
 
     path: Path
+    prepare: Prepare = field(default=as_written)
     grammar: Grammar | None = None
     """What its file says, once it has been read."""
     heard: Grammar | None = None
-    """What is understood once it is in force: this, and the interrupting rules of those below."""
+    """What is understood once it is in force: this, as it was prepared, and the interrupting rules
+    of those below."""
     unheard: HriError | None = None
     """Why the recognizer does not take it; then it is in force for typed lines alone."""
     below: tuple[Layer, ...] = ()
@@ -72,9 +82,9 @@ class GrammarStack:
         self._first = self._first or self._layers[-1]
         return self._layers[-1]
 
-    def push(self, path: Path) -> Layer:
+    def push(self, path: Path, prepare: Prepare = as_written) -> Layer:
         """Put a grammar above the others."""
-        self._layers.append(Layer(path))
+        self._layers.append(Layer(path, prepare))
         return self._layers[-1]
 
     def pop(self, layer: Layer) -> None:
@@ -89,7 +99,7 @@ class GrammarStack:
             return None
         old = self._layers[-1]
         new = self.use(old.path)
-        new.origin = old.origin or old
+        new.origin, new.prepare = old.origin or old, old.prepare
         if old is self._first:
             self._first = new
         return new

@@ -22,13 +22,15 @@ from hri.speech.acceptance import OVER_SPEECH, STRICTNESS
 from hri.speech.echo import EchoCanceller, OwnVoice
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.merging import with_interrupts_of
-from hri.speech.grammar_stack import GrammarStack, Layer
+from hri.speech.grammar_stack import GrammarStack, Layer, Prepare, as_written
 from hri.speech.recognizers.typed import LineDecoder
 from hri.speech.room_noise import RoomListener
 from hri.speech.turn import FOLLOW_UP, Turn, Wakefulness
 from hri.speech.turn_taking import GOES_ON, Reading, TurnTaking
 from hri.speech.understanding import SILENT_AFTER, STEP, Heard, understand
 
+FOLDERS = "app.folders"
+"""Slot of the board with the folders of the app and of those that it extends, its own first."""
 MOST_WAITING = 20
 """Pieces of speech that wait for their turn; beyond it the oldest are forgotten."""
 ECHO_TAIL = 0.4
@@ -126,7 +128,7 @@ class Listener(Behavior):
     def start(self, context: Context) -> None:
         path = paths.find("grammars", self.grammar)
         self._first = load_grammar(path)
-        self._events, self._clock = context.events, context.clock
+        self._events, self._clock, self._board = context.events, context.clock, context.board
         self._recognizer = context.resources.obtain(self.recognizer_id, Recognizer)
         microphone = context.resources.obtain(self.microphone_id, Microphone)
         self._ear = microphone.listen(self._recognizer.rate)
@@ -163,19 +165,24 @@ class Listener(Behavior):
     def use(self, grammar: str | Path) -> Layer:
         """Take another grammar, by name or path, in the place of the topmost one.
 
+        One in the app's own folder comes first.
         It is read and compiled while the old one stays in force, and no sound is lost: a piece of
         speech is decoded by the grammar that is in force when it has ended. The rules marked
         @interrupts of the grammar that the listener started with stay in force. `Layer.error` says
         why one was refused. Raises HriError when there is no such file.
         """
-        return self._grammars.use(paths.find("grammars", str(grammar)))
+        return self._grammars.use(self._found(grammar))
 
-    def push(self, grammar: str | Path) -> Layer:
+    def push(self, grammar: str | Path, prepare: Prepare = as_written) -> Layer:
         """Put another grammar above the topmost one, until `pop`. Raises HriError as `use`.
 
-        The rules of the grammars below that are marked @interrupts stay in force.
+        The rules of the grammars below that are marked @interrupts stay in force. `prepare` makes
+        what is heard of what the file says; it runs in a worker.
         """
-        return self._grammars.push(paths.find("grammars", str(grammar)))
+        return self._grammars.push(self._found(grammar), prepare)
+
+    def _found(self, grammar: str | Path) -> Path:
+        return paths.find("grammars", str(grammar), self._board.slot(FOLDERS).value or ())
 
     def pop(self, layer: Layer) -> None:
         """Take a grammar away that was pushed; the one below it comes back into force."""
@@ -197,7 +204,8 @@ class Listener(Behavior):
 
         Where there is no other one, a grammar that the recognizer refuses serves for typed lines.
         """
-        grammar = heard = layer.grammar or load_grammar(layer.path)
+        grammar = layer.grammar or load_grammar(layer.path)
+        heard = layer.prepare(grammar)
         for below in layer.below:
             heard = with_interrupts_of(heard, below.grammar or load_grammar(below.path))
         unheard = None

@@ -19,6 +19,7 @@ from hri.hal.speaker import Speaker
 from hri.hal.synthesizer import Synthesizer
 from hri.speech.behaviors import Listener, Voice
 from hri.speech.grammar import Grammar
+from hri.speech.grammar_stack import Prepare, as_written
 from hri.speech.ssml import Ssml
 from hri.speech.turn import QUESTION
 from hri.speech.voice import Saying
@@ -82,7 +83,8 @@ async def wait_for_speech(
     """The next thing heard by one of these rules, spaces between; by any when none is named.
 
     None when nothing of that kind is heard in `timeout` seconds. With the name or path of a
-    `grammar`, that one is in force meanwhile; raises HriError for one that cannot be used.
+    `grammar`, which is looked for in the app's own folder first, that one is in force meanwhile;
+    raises HriError for one that cannot be used.
     """
     if grammar:
         async with answers_of(context, grammar):
@@ -111,14 +113,16 @@ async def next_heard(context: TaskContext, queue: EventQueue, end: float) -> Eve
 
 
 @asynccontextmanager
-async def answers_of(context: TaskContext, grammar: str) -> AsyncIterator[Grammar]:
+async def answers_of(
+    context: TaskContext, grammar: str, prepare: Prepare = as_written
+) -> AsyncIterator[Grammar]:
     """Let another grammar be in force while the body runs; the grammar as its file has it.
 
-    The interrupting rules of those below stay in force. Raises HriError for a grammar that is not
-    there or cannot be used.
+    `prepare` makes what is heard of it. The interrupting rules of those below stay in force.
+    Raises HriError for a grammar that is not there or cannot be used.
     """
     listener = await listener_of(context)
-    layer = listener.push(grammar)
+    layer = listener.push(grammar, prepare)
     try:
         while not listener.is_in_force(layer):
             if layer.error is not None:

@@ -26,23 +26,19 @@ from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 from hri.speech.grammar import analysis
 from hri.speech.grammar.encoding import read_source
 from hri.speech.grammar.expressions import (
-    Alternative,
     Anything,
     Expression,
     RuleReference,
-    Sequence,
     SourceSpan,
     rename,
 )
+from hri.speech.grammar.framing import framed
 from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.jsgf import Document, Import, NameListImport, RuleDefinition, read_jsgf
 from hri.speech.grammar.name_lists import read_names
 from hri.speech.grammar.rules import Rule
 
 SUFFIXES = paths.suffixes("grammars")
-AROUND = (1.0, 0.05)
-"""Odds of nothing, and of what a grammar lets be said before or behind each command."""
-_NOTHING = Sequence((), SourceSpan(1, 1, 1, 1))
 MOST_FILES = 100
 """Files that one grammar may import, directly or not."""
 
@@ -331,12 +327,7 @@ def _framed(definition: RuleDefinition, document: Document) -> Expression:
     marks = {tag.name for tag in definition.doc.tags}
     if not definition.is_public or marks & {"part", "answer"}:
         return definition.expression
-    before, after = (
-        [] if node is None else [Alternative((_NOTHING, node), AROUND, node.span)]
-        for node in (document.before, document.after)
-    )
-    row = (*before, definition.expression, *after)
-    return row[0] if len(row) == 1 else Sequence(row, definition.expression.span)
+    return framed(definition.expression, document.before, document.after)
 
 
 def _not_public(other: _File, grammar: str, name: str) -> tuple[str, str]:

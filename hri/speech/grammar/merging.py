@@ -1,4 +1,4 @@
-"""Adds the interrupting rules of one grammar to another, so that "stop" counts under both."""
+"""Adds rules of one grammar to another: "stop" counts under both, and shared parts serve both."""
 
 from __future__ import annotations
 
@@ -35,6 +35,18 @@ def with_interrupts_of(grammar: Grammar, other: Rules) -> Grammar:
         if key in own:
             added[key] = _joined(added[key], own.pop(key))
     return replace(grammar, rules={**added, **own})
+
+
+def with_parts_of(grammar: Grammar, other: Rules) -> Grammar:
+    """The grammar with all rules of `other` as parts behind its own, each named `other.rule`.
+
+    Own rules that have such a name, because they were imported, get new ones.
+    """
+    added = _renamed(other.rules, {key: f"{other.name}.{key}" for key in other.rules})
+    parts = {key: replace(rule, is_public=False) for key, rule in added.items()}
+    meeting = grammar.rules.keys() & parts.keys()
+    own = _renamed(grammar.rules, _free_names(meeting, {*grammar.rules, *parts}))
+    return replace(grammar, rules={**own, **parts})
 
 
 def _has(grammar: Grammar, rule: Rule) -> bool:
