@@ -29,6 +29,7 @@ from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.tags import written
 from hri.speech.recognizers.typed import TypedRecognizer
 from hri.speech.tasks import hears_people
+from hri.speech.turn import QUESTION
 from hri.task.context import TaskContext
 from hri.task.lane import Lane
 from hri.task.order import said
@@ -397,8 +398,10 @@ class Companion:
 
     @property
     def is_calm(self) -> bool:
-        """Nobody talks and nothing moves."""
-        return not (self.talk.is_busy or self.motion.is_busy or self.listener.is_hearing.value)
+        """Nobody talks, nothing moves, and no question of a task is open."""
+        is_open = self.context.board.slot(QUESTION).value or not self.voice.is_idle
+        is_busy = self.talk.is_busy or self.motion.is_busy
+        return not (is_open or is_busy or self.listener.is_hearing.value)
 
 
 def _example(grammar: Grammar, rule: str) -> str:

@@ -43,7 +43,8 @@ class BlockingVerbs(ABC):
     ) -> bool | Utterance | None:
         """Ask a yes/no question; yes, no, a nod and a shake count. None without an answer.
 
-        With a `grammar`, its utterance is the answer. Asked again up to `retries` times.
+        With a `grammar`, looked for in the app's folder first, its utterance is the answer. Asked
+        again up to `retries` times.
         """
         answer: bool | Utterance | None = self.run(verbs.ask, question, timeout, grammar, retries)
         return answer

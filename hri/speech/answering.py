@@ -26,7 +26,7 @@ from hri.speech.pronunciation.lexicon import Lexicon, load_lexicon
 SHARED = "asking.jsgf"
 """The grammar with what every question lets people say, which is English."""
 CANCEL, AGAIN = "asking.cancel", "asking.again"
-"""Rules of what is no answer."""
+"""Rules of what does not answer."""
 BEFORE, AFTER = "asking.before", "asking.after"
 """Rules of what may be said around an answer."""
 EXACT = frozenset(("careful", "interrupts"))
@@ -37,8 +37,8 @@ def answering(grammar: Grammar) -> Grammar:
     """The grammar as it is heard while its question is open; in other languages as it is.
 
     Its rules count @anywhere, except those that move the robot or interrupt, and those that have a
-    sentence of fewer than FEWEST_PHONES sounds: "two" is heard in all kinds of speech. In 104
-    spoken sentences that were no answers, digits were found 45 times so, and sizes of pizza 3.
+    sentence of fewer than FEWEST_PHONES sounds: "two" is heard in all kinds of speech. Numbers
+    were found in 45 of 104 spoken sentences that did not answer, sizes of pizza in 3 of 80.
     """
     if is_other_language(grammar):
         return grammar

@@ -7,7 +7,8 @@ Ask(question, timeout=6, grammar="", retries=0)    True, False, or None without 
                        grammar, the utterance that answers
 Say(text)              as Speak
 
-A grammar is a name or a path; without one, that of the listener counts.
+A grammar is a name, also of a file in the app's folder, or a path; without one, that of the
+listener counts.
 """
 
 from hri.task.library import tasks_by_name

@@ -20,6 +20,22 @@ def test_the_users_folders_come_first(tmp_path, monkeypatch):
     assert paths.find("grammars", "companion.jsgf").parent == mine
 
 
+def test_own_folders_come_before_all_others(tmp_path, monkeypatch):
+    own, here = tmp_path / "own", tmp_path / "here"
+    for folder in (own, here):
+        (folder / "size").mkdir(parents=True)
+        (folder / "size.jsgf").write_text("")
+    (own / "companion.jsgf").write_text("")
+    monkeypatch.chdir(here)
+    for name in ("size", "size.jsgf"):
+        assert paths.find("grammars", name, [tmp_path, own]) == own / "size.jsgf"
+        assert paths.find("grammars", name).resolve() == here / "size.jsgf"
+    assert paths.find("grammars", "companion", [own]).parent == own
+    assert paths.find("grammars", "numbers", [own]).parent != own
+    with pytest.raises(HriError, match='did you mean "size"'):
+        paths.find("grammars", "sise", [own])
+
+
 def test_a_missing_thing_says_what_is_near():
     with pytest.raises(
         HriError, match=r'no "companoin.jsgf" in grammars - did you mean "companion"'

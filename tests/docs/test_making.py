@@ -53,6 +53,33 @@ def test_the_timer_of_the_page_rings(copied):
     assert {"timer.ended", "gesture.ended"} <= names
 
 
+TALKS = re.findall(r"^```dialogue\n(.*?)^```", PAGE, re.DOTALL | re.MULTILINE)
+
+
+@pytest.mark.parametrize("dialogue", TALKS)
+def test_the_talks_of_the_page_go_as_shown(copied, dialogue):
+    """Each line is typed a second after the robot has said what stands before it."""
+    robot = Robot(str(copied / "pizza"), "simulated", clock=FakeClock(), devices=TYPED)
+    keyboard = robot.resources.obtain("recognizer", TypedRecognizer)
+    shown = [line.split(": ", 1) for line in dialogue.splitlines()]
+    happened = []
+
+    def speak_up():
+        if len(happened) < len(shown) and shown[len(happened)][0] == "you":
+            line = shown[len(happened)][1]
+            happened.append(["you", line])
+            keyboard.type_line(line, robot.clock.now())
+
+    def hear(event):
+        happened.append(["robot", event.properties["text"]])
+        robot.clock.call_at(event.time + 1.0, speak_up)
+
+    robot.events.subscribe("speech.finished", hear)
+    robot.clock.call_at(0.5, speak_up)
+    live_for(robot, 26.0, *robot.app.load_tasks())
+    assert happened[: len(shown)] == shown
+
+
 def test_the_bell_of_the_page_rings_when_its_button_is_pressed(copied):
     robot = Robot(str(copied / "bell"), "simulated", clock=FakeClock(), devices=TYPED)
     robot.visitor.press(after=1.0)
