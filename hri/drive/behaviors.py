@@ -25,6 +25,9 @@ COMMAND = "drive.command"
 MOTION = "drive.motion"
 """The board slot that holds the motion that may write commands; empty when there is none."""
 
+LIFT = "drive.lift"
+"""The board slot with what lifts a spoken stop for an order that was said at a time, in seconds."""
+
 _USUAL = GateLimits()
 _SLACK = 0.03
 """Meters a second by which it may be too fast for who comes and still slows down gently."""

@@ -11,7 +11,7 @@ from hri.behavior.ports import Input, Output, Param
 from hri.core.errors import HriError, did_you_mean
 from hri.core.event_bus import Subscription
 from hri.core.signals import Event, People
-from hri.drive.behaviors import COMMAND, MOTION
+from hri.drive.behaviors import COMMAND, LIFT, MOTION
 from hri.drive.supervisor.announcement import announce
 from hri.drive.supervisor.base_bus import BaseBus
 from hri.hal.emergency_stop import EmergencyStop
@@ -56,6 +56,7 @@ class SupervisorRelay(Behavior):
         self._base = self._found(context)
         self._bus = self._base if isinstance(self._base, BaseBus) else None
         self._events = context.events
+        self._board.slot(LIFT).set(self.lift, context.clock.now())
         self._told = self._seen = -math.inf
         self._nearest = math.nan
         self._subscriptions: list[Subscription] = []
@@ -89,6 +90,7 @@ class SupervisorRelay(Behavior):
         for subscription in self._subscriptions:
             subscription.cancel()
         self._subscriptions.clear()
+        self._board.slot(LIFT).set(None, 0.0)
         if self._bus is not None:
             self._bus.unwatch(self._watcher)
         if self._base is not None:

@@ -20,11 +20,10 @@ from typing import ClassVar
 from hri.core.errors import HriError
 from hri.core.geometry import along_arc, wrapped
 from hri.core.signals import Pose2D, Twist
-from hri.drive.behaviors import COMMAND, MOTION, CommandGate
+from hri.drive.behaviors import COMMAND, LIFT, MOTION, CommandGate
 from hri.drive.nominal_pose import nominal_pose, note_arrival
 from hri.drive.own_gate import see_to_gate
 from hri.drive.progress import Patience
-from hri.drive.supervisor_relay import SupervisorRelay
 from hri.hal.drive import DriveSystem, Odometry, Stop, longest_move, too_long
 from hri.hal.motion import REST
 from hri.hal.motion_profile import velocity_for
@@ -243,8 +242,8 @@ class Pilot:
         """
         try:
             async with self._context.claim("drive"):
-                if (relay := self._context.find_behavior(SupervisorRelay)) is not None:
-                    relay.lift(said())
+                if (lift := self._context.board.slot(LIFT).value) is not None:
+                    lift(said())
                 self._current.set(self, self._clock.now())
                 is_over = await self._led(steer)
                 await self._roll_out()

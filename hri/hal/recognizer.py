@@ -68,6 +68,8 @@ class Segment:
 
     def goes_on_from(self, earlier: Segment) -> bool:
         """Whether a voice was found in it since an earlier snapshot of the same piece."""
+        if self.voice == 0.0:  # Nobody looked for one.
+            return abs((self.end - self.quiet) - (earlier.end - earlier.quiet)) >= 0.01
         return self.voice - earlier.voice >= LEAST_VOICE
 
 
