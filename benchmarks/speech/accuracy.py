@@ -13,6 +13,7 @@ from typing import Literal
 
 from benchmarks.speech import manners
 from benchmarks.speech.conditions import heard_in, padded
+from benchmarks.speech.texts import lines
 from benchmarks.speech.voices import spoken
 from hri.bench.speech import samples
 from hri.bench.speech.latency import Progress
@@ -126,8 +127,7 @@ def _manner_rows(listen: Listen, step: int) -> Iterator[Row]:
 
 def outside() -> list[str]:
     """The sentences of `outside.txt`."""
-    lines = Path(__file__).with_name("outside.txt").read_text(encoding="utf-8").splitlines()
-    return [line for line in lines if line and not line.startswith("#")]
+    return lines("outside.txt")
 
 
 def sounds(

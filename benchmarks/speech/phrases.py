@@ -8,6 +8,7 @@ from pathlib import Path
 
 from benchmarks.speech.accuracy import TOLD, hear
 from benchmarks.speech.conditions import heard_in
+from benchmarks.speech.texts import blocks
 from benchmarks.speech.voices import spoken
 from hri.bench.speech.latency import Progress
 from hri.bench.speech.listening import Listen
@@ -49,22 +50,12 @@ def rows(people: Recordings | None, listen: Listen, step: int, progress: Progres
         yield _row(f"sentences that sound alike taken, {condition}", near, outcomes["near"], None)
 
 
-def sentences() -> Iterator[tuple[str, str]]:
-    """The kind of each sentence of `phrases.txt`, or the phrase in it, and the sentence."""
-    heading = ""
-    for line in Path(__file__).with_name("phrases.txt").read_text(encoding="utf-8").splitlines():
-        if line.endswith(":"):
-            heading = line.removesuffix(":")
-        elif not line.startswith("#"):
-            yield heading, line
-
-
 @cache
 def _spoken(kind: str, step: int) -> list[Clip]:
     """The sentences of one kind in eight voices; what is to be heard of them is their phrase."""
     chosen = {
         text: "" if heading in OTHERS else heading
-        for heading, text in sentences()
+        for heading, text in blocks("phrases.txt")
         if kind == (heading if heading in OTHERS else "phrases")
     }
     return [

@@ -5,7 +5,7 @@ slt and awb of flite were never learned from: they show what becomes of a new sp
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from functools import cache, partial
 
 import numpy as np
@@ -26,11 +26,14 @@ NEW = ("slt", "awb")
 """Voices that nothing was learned from."""
 
 
-def spoken(sentences: Sequence[str]) -> Iterator[Clip]:
-    """Each sentence in each voice, between silences. Raises NotAvailable without flite."""
+def spoken(sentences: Sequence[str], voices: Collection[str] = ()) -> Iterator[Clip]:
+    """Each sentence in each of these voices, or in all, between silences.
+
+    Raises NotAvailable without flite.
+    """
     for sentence in sentences:
-        for voice, say in VOICES.items():
-            yield Clip(f"{voice}/{sentence}", say(sentence), sentence, voice=voice)
+        for voice in voices or VOICES:
+            yield Clip(f"{voice}/{sentence}", VOICES[voice](sentence), sentence, voice=voice)
 
 
 def _flite(voice: str, text: str) -> Samples:

@@ -36,7 +36,7 @@ def measure(quick: bool = False, recordings: Path | None = None, draw: int = 0) 
     `../shared/speech/real` beside a checkout is taken when it is there.
     Raises HriError when recordings cannot be read or a program fails.
     """
-    folder = recordings or _recordings_beside()
+    folder = recordings or recordings_beside()
     people = read_recordings(folder) if folder else None
     told = list(rows(people, listen, QUICK_STEP if quick else 1, draw))
     return report("speech", told, quick) | {"draw": draw}
@@ -59,6 +59,6 @@ def _longest(people: Recordings | None) -> list[Clip]:
     return sorted(people.orders, key=lambda clip: clip.seconds)[-1:] if people else []
 
 
-def _recordings_beside() -> Path | None:
+def recordings_beside() -> Path | None:
     folder = paths.house().parent / "shared" / "speech" / "real"
     return folder if (folder / "manifest.tsv").is_file() else None

@@ -1,0 +1,83 @@
+"""What the companion makes of typed lines and of clips, by whose turn it is."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from functools import cache
+
+from benchmarks.progress import progress
+from hri.bench.speech.flite_voices import RATE
+from hri.bench.speech.listening import ONE_CORE, Heard
+from hri.bench.speech.samples import Clip
+from hri.bench.speech.scoring import Outcome
+from hri.bench.workers import variables, worker_pool
+from hri.core import paths
+from hri.core.clock import FakeClock
+from hri.core.signals import Utterance
+from hri.hal.recognizer import Recognizer, Segment
+from hri.hal.resource import Description
+from hri.hal.resource_manager import ResourceManager
+from hri.speech import hearing
+from hri.speech.acceptance import STRICTNESS
+from hri.speech.grammar import Grammar, load_grammar
+from hri.speech.recognizers.automatic import AutomaticRecognizer
+from hri.speech.recognizers.typed import LineDecoder
+from hri.speech.turn import Turn
+
+NAME = "Robin"
+BATCH = 40
+"""Clips that a process hears at once."""
+
+
+@cache
+def companion() -> Grammar:
+    """Its grammar, with its name."""
+    return load_grammar(paths.find("grammars", "companion")).called(NAME)
+
+
+def typed(line: str, turn: Turn) -> Heard:
+    """What a typed line is."""
+    segment = Segment(0.0, 0.0, text=line)
+    decoder = LineDecoder(companion())
+    return _told(hearing.understand(decoder, companion(), segment, STRICTNESS, turn))
+
+
+def heard(clips: Sequence[Clip], turn: Turn, what: str) -> list[Outcome]:
+    """What the default engine makes of clips, in as many processes as there are cores."""
+    batches = [clips[start : start + BATCH] for start in range(0, len(clips), BATCH)]
+    cores = os.cpu_count() or 1
+    with variables(**ONE_CORE), worker_pool(cores) as pool:
+        done = progress(pool.map(hear_all, batches, [turn] * len(batches)), len(batches), what)
+        pieces = [one for batch in done for one in batch]
+    return [Outcome(clip, made) for clip, made in zip(clips, pieces, strict=True)]
+
+
+def hear_all(clips: Sequence[Clip], turn: Turn) -> list[list[Heard]]:
+    """What it makes of the pieces of speech of each clip, in this process."""
+    return [
+        [_told(one) for one in hearing.hear(clip.samples, RATE, _engine(), companion(), turn=turn)]
+        for clip in clips
+    ]
+
+
+@cache
+def _engine() -> Recognizer:
+    resources = ResourceManager((), FakeClock())
+    engine = AutomaticRecognizer(Description("recognizer", "Hri.Recognizer"), resources)
+    engine.activate()
+    engine.start(companion())
+    return engine
+
+
+def _told(one: hearing.Heard) -> Heard:
+    is_accepted = isinstance(one, Utterance)
+    return Heard(
+        is_accepted=is_accepted,
+        text=one.text,
+        rule=one.rule if isinstance(one, Utterance) else "",
+        tags=dict(one.tags) if isinstance(one, Utterance) else {},
+        confidence=one.confidence,
+        reason="" if isinstance(one, Utterance) else one.reason,
+        latency_s=one.latency,
+    )
