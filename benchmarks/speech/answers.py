@@ -6,9 +6,9 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from benchmarks.speech import companions_ears, printed
-from benchmarks.speech.companions_ears import companion, typed
+from benchmarks.speech import ears, printed
 from benchmarks.speech.conditions import heard_in
+from benchmarks.speech.ears import companion, typed
 from benchmarks.speech.texts import blocks
 from benchmarks.speech.voices import spoken
 from hri.bench.speech.listening import Heard
@@ -56,7 +56,7 @@ def rows(people: Recordings | None, step: int = 1) -> Iterator[Row]:
     said = list(spoken(list(kinds)))
     for condition in CONDITIONS:
         clips = list(heard_in(condition, said, [*people.orders, *people.read]))
-        outcomes = companions_ears.heard(clips, QUESTION, f"answers, {condition}")
+        outcomes = ears.heard(clips, QUESTION, f"answers, {condition}")
         tries = [
             Try(kinds[one.clip.sentence], one.clip.sentence, one.clip.voice, one.heard)
             for one in outcomes

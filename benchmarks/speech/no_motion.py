@@ -6,13 +6,14 @@ import os
 from collections.abc import Iterator, Sequence
 
 from benchmarks.progress import progress
-from benchmarks.speech import companions_ears, printed
-from benchmarks.speech.companions_ears import companion
+from benchmarks.speech import ears, printed
+from benchmarks.speech.ears import companion
 from benchmarks.speech.texts import lines
 from benchmarks.speech.voices import spoken
+from hri.bench.speech.listening import ONE_CORE
 from hri.bench.speech.samples import Recordings
 from hri.bench.table import Row, at_most, share
-from hri.bench.workers import worker_pool
+from hri.bench.workers import variables, worker_pool
 from hri.core.clock import FakeClock
 from hri.core.signals import Utterance
 from hri.drive.supervisor_relay import SupervisorRelay
@@ -57,7 +58,7 @@ def rows(people: Recordings | None, step: int = 1) -> Iterator[Row]:
     clips = list(spoken(turns, VOICES))
     told = [
         one.told()
-        for one in companions_ears.heard(clips, Turn(), "no motion, spoken")
+        for one in ears.heard(clips, Turn(), "no motion, spoken")
         if any(heard.rule in companion().marked("careful") for heard in one.accepted)
     ]
     yield share("@careful rules, spoken", len(told), len(clips), at_most(0)) | {"clips": told}
@@ -69,7 +70,7 @@ def typed(turns: Sequence[str]) -> tuple[list[str], list[str]]:
     The latter may move nothing, such as "follow me" to a robot that sees nobody.
     """
     batches = [turns[start : start + BATCH] for start in range(0, len(turns), BATCH)]
-    with worker_pool(os.cpu_count() or 1) as pool:
+    with variables(**ONE_CORE), worker_pool(os.cpu_count() or 1) as pool:
         lives = [*progress(pool.map(life, batches), len(batches), "no motion, typed")]
     return [one for moved, _ in lives for one in moved], [one for _, told in lives for one in told]
 
@@ -98,7 +99,8 @@ async def _turn(context: TaskContext, text: str) -> tuple[bool, Heard | None]:
     """Whether the base moves, and what was understood; afterwards it stands, released and awake."""
     listener, clock = context.behavior(Listener), context.clock
     base = context.resources.obtain("world", SimulatedWorld).base
-    before, made = base.way, []
+    before = base.way
+    made: list[Heard] = []
     listener.type_line(text, made.append)
     await clock.sleep(BEGINS)
     has_moved = base.way - before > MOVED

@@ -35,7 +35,7 @@ def main(about: str | None, rows: Callable[[Recordings | None, int], Iterator[Ro
 
 def line(row: Row) -> str:
     """A row of the table."""
-    mark = {True: "ok", False: "MISSED"}.get(row.get("passed"), "")
+    mark = ("ok" if row["passed"] else "MISSED") if "passed" in row else ""
     return f"{mark:6}  {row['what']:{WIDTH}} {_figure(row):>24}  {_limit(row)}".rstrip()
 
 

@@ -70,3 +70,8 @@ VOICES: dict[str, Callable[[str], Samples]] = {
     "en-us": partial(_own, EspeakVoice, "en-us"),
     "en-gb+f3": partial(_own, EspeakVoice, "en-gb+f3"),
 }
+TALKERS: dict[str, Callable[[str], Samples]] = VOICES | {
+    name: partial(_own, EspeakVoice, name)
+    for name in ("en-gb+m3", "en-gb-scotland", "en-us+f2", "en-029+m7")
+}
+"""Who talks to each other: more of them, for long talks."""

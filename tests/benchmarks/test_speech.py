@@ -1,19 +1,23 @@
+from collections import Counter
+from functools import partial
+
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from benchmarks.speech import accuracy, barge_in, conditions
+from benchmarks.speech import accuracy, answers, barge_in, conditions, no_motion, others, printed
 from benchmarks.speech.accuracy import MEASURES, outside
 from benchmarks.speech.kitchen import kitchen
 from benchmarks.speech.levels import above, active_power, frame_powers
 from benchmarks.speech.manners import MANNERS
+from benchmarks.speech.texts import blocks
 from hri.bench.speech import flite_voices, samples
 from hri.bench.speech.flite_voices import RATE
 from hri.bench.speech.listening import Hearing
 from hri.bench.speech.samples import ORDERS, ROBOT, Recordings
+from hri.bench.table import at_most, share, skipped
 from hri.speech.grammar import load_grammar
 from hri.speech.grammar.matching import parse
-from hri.speech.synthesizers.natural import NaturalVoice
 from tests.bench.heard import noise, piece
 
 
@@ -140,7 +144,70 @@ def test_every_clip_keeps_its_own_pieces_though_they_are_heard_in_batches():
 
 @pytest.mark.parametrize("draw", [103, 109, 116])
 def test_the_first_words_of_its_voice_are_not_obeyed_and_a_stop_word_over_them_is(draw):
-    interruption = barge_in.interrupted(NaturalVoice, -12.0, draw)
+    interruption = barge_in.interrupted(barge_in.NATURAL, -12.0, draw)
 
-    assert interruption.obeyed == 0
+    assert interruption.obeyed == ()
     assert interruption.delay < 0.6
+
+
+def test_sentences_have_the_heading_above_them():
+    found = list(blocks("phrases.txt"))
+    assert found[0][0] != ""
+    assert ("near", "be cheerful my dear") in found
+    assert not any(text.startswith("#") or text.endswith(":") for _, text in found)
+
+
+def test_the_first_answer_in_what_was_heard_is_what_a_sentence_was_taken_for():
+    def taken_for(*heard):
+        return answers.Try("yes", "yes please", "slt", heard).answer
+
+    yes, no = piece("yes", rule="yes"), piece("no", rule="no")
+    assert taken_for(yes, no) == "yes"
+    assert taken_for(piece("stop", rule="stop"), no) == "no"
+    assert taken_for(piece("yes", rule="yes", is_accepted=False)) == ""
+    assert taken_for() == ""
+
+
+def test_a_turn_that_moves_the_base_is_reported_and_so_are_those_after_it():
+    moving, careful = no_motion.life(["turn left", "follow me", "turn right"])
+    assert [told.partition(" - ")[0] for told in moving] == ["turn left", "turn right"]
+    assert [told.partition(" - ")[0] for told in careful] == [
+        "turn left",
+        "follow me",
+        "turn right",
+    ]
+
+
+def test_dialogs_have_two_who_take_turns():
+    for name, count in Counter(name for name, _ in blocks("dialogs.txt")).items():
+        assert count >= 8, name
+
+
+@pytest.mark.parametrize("kind", ["people", "dialogs", "talk"])
+def test_a_minute_of_talk_is_always_the_same_and_another_one_is_different(
+    people, kind, monkeypatch
+):
+    voices = {name: partial(_said, name) for name in others.TALKERS}
+    monkeypatch.setattr(others, "TALKERS", voices)
+    first, again, next_but_one = (others.talk(people, others.Minute(kind, n)) for n in (0, 0, 2))
+    assert np.array_equal(first, again)
+    assert not np.array_equal(first, next_but_one)
+    if kind != "people":
+        assert 60 <= len(first) / RATE < 64
+
+
+def _said(voice, text):
+    return noise(f"{voice}/{text}", text, seconds=0.06 * len(text)).samples
+
+
+def test_the_robot_replies_with_what_needs_nothing_to_be_filled_in():
+    assert "Hello there!" in others.replies()
+    assert "Did you sleep well?" in others.replies()
+    assert not any("{" in reply for reply in others.replies())
+
+
+def test_a_table_has_the_figure_the_limit_and_whether_it_is_met():
+    missed = printed.line(share("motions begun, typed", 3, 300, at_most(0)))
+    words = "MISSED motions begun, typed 3 of 300 (1.0 %) at most 0 %"
+    assert " ".join(missed.split()) == words
+    assert printed.line(skipped("speaking", "flite is not installed")).endswith("not installed")
