@@ -14,7 +14,7 @@ from hri.bench.speech.scoring import Outcome
 from hri.bench.workers import variables, worker_pool
 from hri.core import paths
 from hri.core.clock import FakeClock
-from hri.core.signals import Utterance
+from hri.core.signals import Rejection, Utterance
 from hri.hal.recognizer import Recognizer, Segment
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
@@ -71,13 +71,15 @@ def _engine() -> Recognizer:
 
 
 def _told(one: hearing.Heard) -> Heard:
-    is_accepted = isinstance(one, Utterance)
+    utterance = one if isinstance(one, Utterance) else None
     return Heard(
-        is_accepted=is_accepted,
+        is_accepted=utterance is not None,
         text=one.text,
-        rule=one.rule if isinstance(one, Utterance) else "",
-        tags=dict(one.tags) if isinstance(one, Utterance) else {},
+        rule=utterance.rule if utterance else "",
+        tags=dict(utterance.tags) if utterance else {},
         confidence=one.confidence,
-        reason="" if isinstance(one, Utterance) else one.reason,
+        reason=one.reason if isinstance(one, Rejection) else "",
         latency_s=one.latency,
+        start_s=one.start,
+        end_s=one.end,
     )

@@ -10,6 +10,7 @@ import os
 import random
 import tempfile
 import tomllib
+from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -38,10 +39,11 @@ from hri.task.context import TaskContext
 from hri.testing import live_for
 
 TURNS: Mapping[str, Turn] = {
-    "by who may mean it": Turn(),
-    "by who does not mean it": Turn(),  # Turn(is_addressed=False), once a turn says it
+    "unknown to whom": Turn(),
+    "not addressed": Turn(),  # Turn(is_addressed=False), once a turn says it
 }
-MINUTES = {"people": 18, "dialogs": 14, "talk": 18, "its own voice": 10}
+OWN = "its own voice"
+MINUTES = {"people": 18, "dialogs": 14, "talk": 18, OWN: 10}
 """How many minutes there are of each kind of talk."""
 CONDITIONS = ("clean", "12 dB")
 SECONDS = 60.0
@@ -65,8 +67,14 @@ class Minute:
         return CONDITIONS[self.number % len(CONDITIONS)]
 
     @property
+    def level(self) -> float:
+        """How loud its own voice is, see `barge_in.LEVELS`."""
+        return barge_in.LEVELS[self.number % len(barge_in.LEVELS)]
+
+    @property
     def name(self) -> str:
-        return f"{self.kind} {self.number}, {self.condition}"
+        heard_in = f"{self.level:g} dB" if self.kind == OWN else self.condition
+        return f"{self.kind} {self.number}, {heard_in}"
 
     def chance(self) -> random.Random:
         """The same at every run."""
@@ -78,6 +86,8 @@ class Taken:
     """Something that was taken for a command."""
 
     minute: Minute
+    said: str
+    """What was being said then."""
     text: str
     rule: str
     confidence: float
@@ -87,7 +97,8 @@ class Taken:
         return self.rule in companion().marked("careful")
 
     def told(self) -> str:
-        return f'{self.minute.name}: "{self.text}" <{self.rule}> {self.confidence:.2f}'
+        heard = f'"{self.text}" <{self.rule}> {self.confidence:.2f}'
+        return f"{self.minute.name}: {self.said} - {heard}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,47 +145,66 @@ def _minutes(all_of: Sequence[Listened], kind: str) -> float:
 
 def listened(people: Recordings, minute: Minute) -> Listened:
     """One minute, in this process."""
-    if minute.kind == "its own voice":
+    if minute.kind == OWN:
         taken = list(_own_voice(minute))
         return Listened(minute, SECONDS, dict.fromkeys(TURNS, taken))
-    clip = Clip(minute.name, talk(people, minute))
+    spoken = talk(people, minute)
+    clip = Clip(minute.name, spoken.sound)
     (clip,) = heard_in(minute.condition, [clip], [*people.orders, *people.read])
-    by_turn = {turn: list(_taken(minute, clip, turn)) for turn in set(TURNS.values())}
+    by_turn = {turn: list(_taken(minute, spoken, clip, turn)) for turn in set(TURNS.values())}
     taken_by_name = {name: by_turn[turn] for name, turn in TURNS.items()}
     return Listened(minute, clip.seconds, taken_by_name)
 
 
-def _taken(minute: Minute, clip: Clip, turn: Turn) -> Iterator[Taken]:
+def _taken(minute: Minute, spoken: Talk, clip: Clip, turn: Turn) -> Iterator[Taken]:
     (heard,) = hear_all([clip], turn)
     for one in heard:
         if one.is_accepted:
-            yield Taken(minute, one.text, one.rule, one.confidence)
+            said = spoken.said(one.start_s, one.end_s)
+            yield Taken(minute, said, one.text, one.rule, one.confidence)
 
 
 # --- who talks ---
 
 
-def talk(people: Recordings, minute: Minute) -> Samples:
+@dataclass(frozen=True, slots=True)
+class Talk:
     """A minute of one sentence after the other."""
+
+    sound: Samples
+    sentences: Sequence[str]
+    ends: Sequence[float]
+    """Seconds at which the pause behind each of them is over."""
+
+    def said(self, start: float, end: float) -> str:
+        """The sentences between two times in seconds."""
+        first, last = (bisect_left(self.ends, time) for time in (start, end))
+        return " / ".join(self.sentences[first : last + 1])
+
+
+def talk(people: Recordings, minute: Minute) -> Talk:
+    """A minute of talk, the same at every run."""
     chance = minute.chance()
-    noise = np.random.default_rng(minute.number)
-    sentences = _said(people, minute, chance)
+    clips = _said(people, minute, chance)
     pieces: list[Samples] = []
-    while (
-        sum(map(len, pieces)) < SECONDS * RATE and (sentence := next(sentences, None)) is not None
-    ):
-        gap = round(chance.uniform(*GAPS) * RATE)
-        pieces += [sentence, np.zeros(gap, np.int16)]
+    sentences: list[str] = []
+    ends: list[float] = []
+    while (length := sum(map(len, pieces))) < SECONDS * RATE and (clip := next(clips, None)):
+        gap = np.zeros(round(chance.uniform(*GAPS) * RATE), np.int16)
+        pieces += [clip.samples, gap]
+        sentences.append(clip.sentence or clip.name)
+        ends.append((length + len(clip.samples) + len(gap)) / RATE)
     sound = np.concatenate(pieces).astype(np.float64)
-    return np.asarray(np.round(sound + noise.normal(0.0, FLOOR, len(sound))), np.int16)
+    sound += np.random.default_rng(minute.number).normal(0.0, FLOOR, len(sound))
+    return Talk(np.asarray(np.round(sound), np.int16), sentences, ends)
 
 
-def _said(people: Recordings, minute: Minute, chance: random.Random) -> Iterator[Samples]:
+def _said(people: Recordings, minute: Minute, chance: random.Random) -> Iterator[Clip]:
     if minute.kind == "people":
         clips = [*people.orders, *people.read]
         random.Random(0).shuffle(clips)
         rounds = MINUTES["people"] // len(CONDITIONS)
-        yield from (clip.samples for clip in clips[minute.number // len(CONDITIONS) :: rounds])
+        yield from clips[minute.number // len(CONDITIONS) :: rounds]
         return
     voices = chance.sample(list(TALKERS), 2)
     levels = [chance.uniform(*LEVELS) for _ in voices]
@@ -182,7 +212,8 @@ def _said(people: Recordings, minute: Minute, chance: random.Random) -> Iterator
     for turn, text in texts:
         who = turn % 2 if minute.kind == "dialogs" else 0
         sound = trimmed(TALKERS[voices[who]](text).astype(np.float64))
-        yield np.asarray(np.round(sound * 10 ** (levels[who] / 20)), np.int16)
+        samples = np.asarray(np.round(sound * 10 ** (levels[who] / 20)), np.int16)
+        yield Clip(minute.name, samples, f"{voices[who]}: {text}")
 
 
 def _dialogs(chance: random.Random) -> Iterator[tuple[int, str]]:
@@ -210,14 +241,15 @@ def _own_voice(minute: Minute) -> Iterator[Taken]:
         for text in said:
             voice.say(text)
 
-    level = barge_in.LEVELS[minute.number % len(barge_in.LEVELS)]
     with tempfile.TemporaryDirectory() as folder:
-        robot = barge_in.talker(Path(folder), barge_in.NATURAL, level, minute.number)
+        robot = barge_in.talker(Path(folder), barge_in.NATURAL, minute.level, minute.number)
         events = live_for(robot, SECONDS, tell)
+    words = [event for event in events if event.name == "speech.said"]
     for event in events:
         if event.name == "speech.heard":
             heard = event.properties
-            yield Taken(minute, heard["text"], heard["rule"], heard["confidence"])
+            begun = [one.properties["text"] for one in words if one.time < heard["end"]]
+            yield Taken(minute, begun[-1], heard["text"], heard["rule"], heard["confidence"])
 
 
 def replies() -> list[str]:

@@ -60,5 +60,6 @@ def _longest(people: Recordings | None) -> list[Clip]:
 
 
 def recordings_beside() -> Path | None:
+    """The folder of recordings beside a checkout; None where there is none."""
     folder = paths.house().parent / "shared" / "speech" / "real"
     return folder if (folder / "manifest.tsv").is_file() else None

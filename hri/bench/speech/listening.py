@@ -30,6 +30,9 @@ class Heard:
     confidence: float
     reason: str
     latency_s: float
+    start_s: float = 0.0
+    end_s: float = 0.0
+    """From the beginning of the recording."""
 
     def told(self) -> str:
         """For people: the words and what became of them."""
@@ -99,4 +102,6 @@ def _heard(said: Mapping[str, Any]) -> Heard:
         confidence=said["confidence"] or 0.0,
         reason=said["reason"] or "",
         latency_s=said["latency_s"] or 0.0,
+        start_s=said["start_s"],
+        end_s=said["end_s"],
     )
