@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from abc import abstractmethod
 from collections import deque
+from typing import ClassVar
 
 import numpy as np
 
@@ -22,6 +23,8 @@ class Microphone(Resource):
 
     rate: int = 16000
     """Samples a second."""
+    is_recording: ClassVar[bool] = False
+    """Whether it hears a recording, which someone chose for the robot to hear."""
 
     def __init__(self, description: Description, manager: Resources) -> None:
         super().__init__(description, manager)

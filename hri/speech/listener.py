@@ -56,6 +56,8 @@ class _Piece:
     has_spoken: bool = False
     """Whether the robot spoke meanwhile."""
     was_question_open: bool = False
+    was_addressed: bool = False
+    """Whether someone turned to the robot meanwhile."""
     energy: float = 0.0
     """Of what the microphone heard."""
     foreign_energy: float = 0.0
@@ -77,10 +79,12 @@ class Listener(Behavior):
     runs; speech before the first grammar is loaded waits. When the recognizer refuses the first
     one, `grammar.refused` says why, and only typed lines are heard.
 
-    The marks of rules decide which are active, see `hri.speech.turn`. A sentence of a rule marked
-    @interrupts that is heard as clearly as over speech takes effect 0.16 s after its last sound,
-    before the pause that ends a piece of speech is over. The grammar decides how long that is, see
-    `hri.speech.turn_taking`. Linked to the speech and the
+    The marks of rules decide which are active, see `hri.speech.turn`. A phrase among other words
+    (@anywhere) counts with the robot's name, when someone turns to the robot (`is_addressed`), in
+    an open talk (`follow_up`), with `push_to_talk`, in a recording, and typed. A sentence of a rule
+    marked @interrupts that is heard as clearly as over speech takes effect 0.16 s after its last
+    sound, before the pause that ends a piece of speech is over. The grammar decides how long that
+    is, see `hri.speech.turn_taking`. Linked to the speech and the
     position of a voice, it subtracts that voice from what it hears. No sound is ever kept.
     """
 
@@ -93,6 +97,11 @@ class Listener(Behavior):
     position = Input[float]("double", "seconds of it that have been heard", is_optional=True)
     question = Input[bool](
         "boolean", "whether an answer is awaited; then rules marked @answer count", is_optional=True
+    )
+    is_addressed = Input[bool](
+        "boolean",
+        "whether someone turns to the robot; without a link, its name or an open talk shows it",
+        is_optional=True,
     )
     push_to_talk = Input[bool](
         "boolean", "hear only while it is true; always without a link", is_optional=True
@@ -110,7 +119,9 @@ class Listener(Behavior):
     robot_name = Param("", "what the robot is called; rules marked @name know it")
     strictness = Param(STRICTNESS, "confidence from which words count", minimum=0.0, maximum=1.0)
     follow_up = Param(
-        FOLLOW_UP, "seconds after the last word in which no wake word is needed", minimum=0.0
+        FOLLOW_UP,
+        "seconds after the last word in which the talk is open: no wake word or name is needed",
+        minimum=0.0,
     )
     reload = Param(False, "whether a grammar is read again when its file changes")
     latency_s = Param(0.15, "time that finding the words takes on a fake clock", minimum=0.0)
@@ -305,6 +316,7 @@ class Listener(Behavior):
         piece = self._piece
         piece.has_spoken |= is_speaking
         piece.was_question_open |= bool(self.question.value)
+        piece.was_addressed |= bool(self.is_addressed.value)
         piece.energy += _energy(heard)
         piece.foreign_energy += _energy(samples)
 
@@ -341,10 +353,15 @@ class Listener(Behavior):
             self._give_back()
 
     def _turn(self, piece: _Piece, start: float) -> Turn:
+        is_question_open = piece.was_question_open or bool(self.question.value)
+        is_awake = self._wakefulness.is_awake(start)
+        is_for_it = bool(self.push_to_talk.sources) or self._ear.microphone.is_recording
+        is_addressed = piece.was_addressed or bool(self.is_addressed.value)
         return Turn(
             is_speaking=piece.has_spoken,
-            is_question_open=piece.was_question_open or bool(self.question.value),
-            is_awake=self._wakefulness.is_awake(start),
+            is_question_open=is_question_open,
+            is_awake=is_awake,
+            is_addressed=is_addressed or is_for_it or is_awake or is_question_open,
         )
 
     def _understand(self, segment: Segment, piece: _Piece, turn: Turn, begun: float) -> Tell:

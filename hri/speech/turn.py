@@ -2,7 +2,8 @@
 
 Rules are marked in their comments (see `hri.speech.grammar.doc_comments`): while the robot speaks
 only those with `@interrupts` count; `@answer` counts while a question is open; and where any rule
-is marked `@wake`, the others count after one of those, as long as the talk goes on.
+is marked `@wake`, the others count after one of those, as long as the talk goes on. A rule marked
+`@anywhere` counts among other words only when they are said to the robot.
 """
 
 from __future__ import annotations
@@ -28,6 +29,8 @@ class Turn:
     """Whether the robot has asked something."""
     is_awake: bool = True
     """Whether no wake word is needed."""
+    is_addressed: bool = True
+    """Whether what is said is meant for the robot, also without its name."""
 
     def rules(self, grammar: Grammar) -> frozenset[str]:
         """The public rules that may be heard."""

@@ -172,11 +172,13 @@ class EngagementLevel(Behavior):
     )
     is_engaged = Output[bool]("boolean", "true while anyone is engaged")
     count = Output[float]("double", "how many are engaged")
+    is_looked_at = Output[bool]("boolean", "true while anyone in sight looks at the robot")
 
     def start(self, context: Context) -> None:
         self._events = context.events
         self._engaged: set[str] = set()
         self._level = UNENGAGED
+        self._is_looked_at = False
 
     def compute(self, now: float, dt: float) -> None:
         if (people := self.people.value) is not None:
@@ -184,10 +186,12 @@ class EngagementLevel(Behavior):
         self.level.send(self._level)
         self.is_engaged.send(bool(self._engaged))
         self.count.send(float(len(self._engaged)))
+        self.is_looked_at.send(self._is_looked_at)
 
     def _take(self, people: People) -> None:
         attended = people.person(people.attended)
         self._level = attended.engagement if attended else UNENGAGED
+        self._is_looked_at = any(one.is_visible and one.is_looking for one in people.persons)
         levels = {person.id: person.engagement for person in people.persons}
         # Who is on the way out comes back without having been away.
         now = {id for id, level in levels.items() if level == ENGAGED}

@@ -203,7 +203,9 @@ def test_a_text_means_what_the_answers_make_of_it_or_the_rules_that_count_or_all
 ):
     rules = turn.rules(many_ways)
     answers = many_ways.marked("answer") if turn.is_question_open else ()
-    ways = (parse(many_ways, text, some) for some in (answers, rules, None))
+    stops = many_ways.marked("interrupts") if "<any>" in text.split() else ()
+    ways = [parse(many_ways, text.replace("<any>", ""), stops)]
+    ways += (parse(many_ways, text, some) for some in (answers, rules, None))
     found = next(filter(None, ways), None)
     meant = [(one.share, parse(many_ways, one.text)) for one in others]
     doubt = sum(
@@ -261,3 +263,50 @@ def test_phrases_that_mean_the_same_or_are_less_specific_or_no_answers_are_not_d
     assert reason(grammar, "turn left i said turn left") == "turn"
     assert reason(grammar, "of course turn left", 0.9, asked) == "yes"
     assert reason(grammar, "of course or not now", 0.9, asked) == "low confidence"
+
+
+@pytest.fixture
+def phrases(write):
+    return load_grammar(
+        write(
+            "/** @anywhere */ public <leave> = see you later;\n"
+            "/** @anywhere */ public <greet> = good morning [<me>];\n"
+            "public <call> = my name is <any>;\n"
+            "/** @name */ <me> = robot | robin;\n"
+        )
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "rule"),
+    [
+        ("see you later", "leave"),
+        ("<any> see you later <any>", None),
+        ("<any> robin <any> see you later", "leave"),
+        ("<any> see you later <any> robot", "leave"),
+        ("well good morning robin", "greet"),
+        ("good morning everybody", None),
+        ("my name is <any>", "call"),
+    ],
+)
+def test_a_phrase_among_other_words_counts_when_they_are_said_to_the_robot(phrases, text, rule):
+    elsewhere = "not now"
+    assert reason(phrases, text, 0.9, Turn(is_addressed=False)) == (rule or elsewhere)
+    assert reason(phrases, text, 0.9, Turn()) != elsewhere
+
+
+def test_what_was_said_to_someone_else_says_so(phrases):
+    words = Hypothesis("<any> see you later", 0.9)
+    overheard = judge(phrases, PIECE, words, turn=Turn(is_addressed=False))
+    assert (overheard.reason, overheard.detail) == ("not now", "said to someone else")
+    typed = judge(
+        phrases, Segment(0, 0, text="then see you later"), words, turn=Turn(is_addressed=False)
+    )
+    assert typed.rule == "leave"
+
+
+def test_its_name_counts_only_where_nothing_else_is_likely(phrases):
+    turn, named = Turn(is_addressed=False), "<any> robin <any> see you later"
+    other = Alternative("<any> see you later", 0.2)
+    assert reason(phrases, named, 0.9, turn, other) == "not now"
+    assert reason(phrases, named, 0.9, turn, Alternative(other.text, 0.01)) == "leave"

@@ -8,7 +8,11 @@ from hri.behavior.ports import OutputPort
 from hri.core.errors import AuthoringError, HriError
 from hri.speech.behaviors import Listener
 
-from .fakes import TICK, HighMicrophone, Stage
+from .fakes import TICK, DeafMicrophone, HighMicrophone, Stage
+
+
+class RecordedMicrophone(DeafMicrophone):
+    is_recording = True
 
 
 def speaking(listener: Listener) -> OutputPort[bool]:
@@ -208,6 +212,55 @@ def test_a_wake_word_opens_the_talk_for_a_while(write):
         "speech.heard",
         "speech.rejected",
     ]
+
+
+PHRASES = """
+/** @anywhere */ public <leave> = see you later [<me>];
+/** @name */ <me> = robot;
+"""
+
+
+def leaving(write, microphone=DeafMicrophone, port="", value=True):
+    """What becomes of "see you later" among other words, said at 1 s, 4 s and 20 s."""
+    listener = Listener(grammar=str(write(PHRASES)))
+    if port:
+        getattr(listener, port).sources.append(OutputPort(value))
+    stage = Stage(listener, microphone)
+    among = ("<any> see you later <any>", 0.9)
+    stage.ears.script |= {1.0: among, 4.0: among, 20.0: among}
+    stage.run(21.0)
+    return [name.removeprefix("speech.") for name in stage.names()]
+
+
+def test_a_phrase_among_other_words_waits_for_someone_who_turns_to_the_robot(write):
+    assert leaving(write) == ["rejected"] * 3
+    assert leaving(write, port="is_addressed", value=False) == ["rejected"] * 3
+    for port in ("is_addressed", "question", "push_to_talk"):
+        assert leaving(write, port=port) == ["heard"] * 3
+
+
+def test_a_recording_is_meant_for_the_robot(write):
+    assert leaving(write, microphone=RecordedMicrophone) == ["heard"] * 3
+
+
+def test_its_name_opens_the_talk_for_phrases_among_other_words(write):
+    stage = Stage(Listener(grammar=str(write(PHRASES))))
+    among = ("<any> see you later <any>", 0.9)
+    stage.ears.script |= {1.0: ("<any> robot <any> see you later", 0.9), 5.0: among, 20.0: among}
+    stage.run(21.0)
+    assert stage.names() == ["speech.heard", "speech.heard", "speech.rejected"]
+
+
+def test_who_looked_while_they_spoke_is_heard_after_they_look_away(write):
+    listener = Listener(grammar=str(write(PHRASES)))
+    looks: OutputPort[bool] = OutputPort(True)
+    listener.is_addressed.sources.append(looks)
+    stage = Stage(listener)
+    stage.ears.script[1.0] = ("<any> see you later <any>", 0.9)
+    stage.run(0.8)
+    looks.value = False
+    stage.run(1.0)
+    assert stage.names() == ["speech.heard"]
 
 
 def test_push_to_talk_is_deaf_until_it_is_pushed_and_done_when_it_is_let_go():

@@ -48,6 +48,7 @@ class Notes(Behavior):
     is_seen = Input[bool]("boolean", "whether somebody is there")
     level = Input[str]("string", "engagement")
     count = Input[float]("double", "how many are engaged")
+    is_looked_at = Input[bool]("boolean", "whether anyone looks at the robot")
 
     def start(self, context: Context) -> None:
         self.rows: list[dict[str, object]] = []
@@ -147,6 +148,9 @@ def test_looking_away_and_back_is_told(theater):
         ("person.looked_away", "p1"),
         ("person.looked", "p1"),
     ]
+    looks = [row["now"] for row in shown.notes.rows if row["is_looked_at"]]
+    away = max(later - now for now, later in pairwise(looks))
+    assert away == pytest.approx(1.5, abs=0.3)
 
 
 def test_coming_nearer_and_going_away_is_told_with_the_distance(theater):

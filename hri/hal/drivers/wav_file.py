@@ -156,6 +156,7 @@ class WavMicrophone(Microphone):
     """Hears a file from the moment it is opened, then silence; a quiet one as loud as a voice."""
 
     parameters = ("file", "channel")
+    is_recording = True
 
     def _open(self) -> None:
         path = Path(self.description.text("file"))

@@ -46,8 +46,11 @@ _NOWHERE = SourceSpan(1, 1, 1, 1)
 _SILENCE = Sequence((), _NOWHERE)
 _HALF = math.log(0.5)
 """JSGF gives no odds for what is optional or repeated: both ways are equally likely."""
-_AMONG = (1.0, 0.025)
-"""Odds of nothing, and of other words, before or after a phrase that counts anywhere."""
+_BURIED = (1.0, 0.001)
+"""Odds of a phrase that counts anywhere alone, and among other words. If the second were likelier,
+whole commands would be taken for other words and a short phrase, "no thanks" for "thanks"."""
+_AMONG = (1.0, 0.05)
+"""Odds of nothing, and of other words, before or after such a phrase."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -306,7 +309,7 @@ class _Builder:
         """Let a rule follow: written out here, or jumped to when it ends where this one ends."""
         body, context = self._grammar.rules[name].expression, job.context
         if job.start == START and name in self._anywhere:
-            body = _among_others(body)
+            body = self._among_others(body)
         is_recursive = name in self._recursive
         if not job.is_last:
             inside = context.inside
@@ -326,6 +329,23 @@ class _Builder:
             entry = self._written[place] = self._new_node()
             self._jobs.append(inner._replace(start=entry, before=(), weight=0.0))
         self._arcs.add(job, entry, None, enter)
+
+    def _among_others(self, body: Expression) -> Expression:
+        """What may have other words before it and after it; of these, its name is known."""
+        span = body.span
+        words = Anything(span)
+        ways: list[Expression] = [_SILENCE, words]
+        names = [key for key, rule in self._grammar.rules.items() if "name" in rule.marks]
+        if names:
+            name = Alternative(
+                tuple(RuleReference(key, span) for key in names), (1.0,) * len(names), span
+            )
+            more = Optional(words, span)
+            ways += [Sequence((name, words), span), Sequence((words, name, more), span)]
+        odds = (_AMONG[0], *(_AMONG[1] for _ in ways[1:]))
+        others = Alternative(tuple(ways), odds, span)
+        among = Sequence((others, body, others), span)
+        return Alternative((body, among), _BURIED, span)
 
     def _sequence(self, job: _Job, items: tuple[Expression, ...]) -> Iterator[_Job]:
         if job.speaking is not _Speaking.SPOKEN:
@@ -383,13 +403,6 @@ class _Builder:
         if needs_one:
             yield inside._replace(start=behind, end=head)
         yield inside._replace(start=behind, end=job.end, after=job.after)
-
-
-def _among_others(body: Expression) -> Expression:
-    """What may have other words before it and after it."""
-    span = body.span
-    others = Alternative((_SILENCE, Anything(span)), _AMONG, span)
-    return Sequence((others, body, others), span)
 
 
 def _shares(weights: tuple[float, ...]) -> list[float]:

@@ -23,7 +23,7 @@ MARKS = MappingProxyType(
         "careful": "it moves the robot, so it must be heard without doubt",
         "answer": "it is only heard while a question is open",
         "interrupts": "it is heard while the robot speaks and under other grammars, too",
-        "anywhere": "it counts among other words, too",
+        "anywhere": "it counts among other words, too, when they are said to the robot",
         "wake": "other rules are heard only after it, and for a while after what was heard last",
         "aside": "what is said around a command and does not belong to it",
         "name": "what the robot is called; the app adds its name",

@@ -309,6 +309,8 @@ public <leave> = see you later {leave=true};
 public <age> = how old are you;
 public <name> = my name is <any>;
 public <move> = go forward two meters;
+/** @name */
+<me> = robot;
 """
 
 
@@ -325,6 +327,7 @@ def talk(tmp_path_factory):
         ("we are off now so see you later then", "leave", "see you later"),
         ("see you later", "leave", "see you later"),
         ("i was wondering how old are you by the way", "age", "how old are you"),
+        ("robot i was wondering how old are you by the way", "age", "robot how old are you"),
         ("my name is jonathan", "name", "my name is"),
         ("go forward two meters", "move", "go forward two meters"),
     ],
