@@ -146,6 +146,12 @@ def test_while_it_speaks_nothing_but_stop_counts():
     assert visit.pose_at(7.9).x == pytest.approx(0, abs=0.01)
 
 
+def test_a_greeting_among_other_words_counts_from_who_looks_at_it():
+    devices = [SMALL_SCREEN, SLOW_CAMERA]
+    visit = Visit(5.5, {2.0: "well good evening there what's new"}, devices=devices)
+    assert visit.heard() == ["greet"]
+
+
 def test_a_battery_that_is_not_known_is_not_called_full(monkeypatch):
     lines = {1.0: "how is your battery"}
     assert Visit(5, lines).said() == ["My battery is at 100 percent."]
