@@ -18,7 +18,7 @@ from hri.core.signals import Rejection, Utterance
 from hri.hal.recognizer import Recognizer, Segment
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
-from hri.speech import hearing
+from hri.speech import hearing, understanding
 from hri.speech.acceptance import STRICTNESS
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.recognizers.automatic import AutomaticRecognizer
@@ -40,7 +40,7 @@ def typed(line: str, turn: Turn) -> Heard:
     """What a typed line is."""
     segment = Segment(0.0, 0.0, text=line)
     decoder = LineDecoder(companion())
-    return _told(hearing.understand(decoder, companion(), segment, STRICTNESS, turn))
+    return _told(understanding.understand(decoder, companion(), segment, STRICTNESS, turn))
 
 
 def heard(clips: Sequence[Clip], turn: Turn, what: str) -> list[Outcome]:
@@ -70,7 +70,7 @@ def _engine() -> Recognizer:
     return engine
 
 
-def _told(one: hearing.Heard) -> Heard:
+def _told(one: understanding.Heard) -> Heard:
     utterance = one if isinstance(one, Utterance) else None
     return Heard(
         is_accepted=utterance is not None,

@@ -21,8 +21,8 @@ from hri.hal.resource import Description
 from hri.robot import Robot
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Listener
-from hri.speech.hearing import Heard
 from hri.speech.turn import Turn
+from hri.speech.understanding import Heard
 from hri.task.context import TaskContext
 from hri.testing import live_for
 

@@ -49,8 +49,9 @@ _HALF = math.log(0.5)
 _BURIED = (1.0, 0.001)
 """Odds of a phrase that counts anywhere alone, and among other words. If the second were likelier,
 whole commands would be taken for other words and a short phrase, "no thanks" for "thanks"."""
-_AMONG = (1.0, 0.05)
-"""Odds of nothing, and of other words, before or after such a phrase."""
+_AMONG = (1.0, 0.025, 0.00001)
+"""Odds of nothing, of other words, and of other words with its name, before or after such a phrase:
+names are said seldom, and much sounds like "robot"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -342,7 +343,7 @@ class _Builder:
             )
             more = Optional(words, span)
             ways += [Sequence((name, words), span), Sequence((words, name, more), span)]
-        odds = (_AMONG[0], *(_AMONG[1] for _ in ways[1:]))
+        odds = (*_AMONG[:2], *(_AMONG[2] for _ in ways[2:]))
         others = Alternative(tuple(ways), odds, span)
         among = Sequence((others, body, others), span)
         return Alternative((body, among), _BURIED, span)

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from hri.speech.grammar.grammar import Grammar
-from hri.speech.grammar.matching import MOST_WORDS, Parse, State, parse
+from hri.speech.grammar.matching import MOST_WORDS, Matcher, Parse, State, as_written, parse
 from hri.speech.grammar.words import typed
 
 MOST_COST = 2.0
@@ -119,11 +119,12 @@ def nearest(
     if exact is not None:
         return Tolerant(exact)
     said = typed(text)
-    forms = grammar.matcher.forms(said)
-    words = next((words for words in forms if _may_be_forgiven(grammar, words, said)), [])
+    matcher = grammar.made(as_written)  # Among other words everything would fit.
+    forms = matcher.forms(said)
+    words = next((words for words in forms if _may_be_forgiven(matcher, words, said)), [])
     if not 0 < len(words) <= MOST_WORDS:
         return None
-    for trace in _cheapest_first(words, grammar.matcher.begin(), most):
+    for trace in _cheapest_first(words, matcher.begin(), most):
         steps = _unwound(trace)
         found = parse(grammar, " ".join(step.word for step in steps if step.word), rules)
         if found is not None:
@@ -131,9 +132,9 @@ def nearest(
     return None
 
 
-def _may_be_forgiven(grammar: Grammar, words: list[str], said: list[str]) -> bool:
+def _may_be_forgiven(matcher: Matcher, words: list[str], said: list[str]) -> bool:
     """Whether every word is one of the grammar's or a little one; "oh" in 100 is a number."""
-    known, heard = grammar.matcher.words, {*said}
+    known, heard = matcher.words, {*said}
     return all(
         (word in known or word in LITTLE_WORDS) and (word in heard or word not in HESITATIONS)
         for word in words

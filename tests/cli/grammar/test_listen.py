@@ -125,7 +125,7 @@ def test_recordings_of_several_sentences_give_an_object_a_line(
     assert 1.2 < objects[0]["start_s"] < objects[0]["end_s"] < objects[1]["start_s"]
     assert objects[2]["reason"] == "no speech"
     fields = "file start_s end_s accepted text rule tags confidence reason latency_s sure"
-    fields += " unsure choices level_dbfs"
+    fields += " unsure choices begun may_go_on continues level_dbfs"
     assert all(list(one) == fields.split() for one in objects)
     assert "missing.wav" in told.err
 

@@ -197,7 +197,7 @@ def decoded(
 def _begun(search: Search, log_probabilities: Floats) -> str:
     """The words of a sentence that cannot end yet, where that is what was said."""
     path = search.begun()
-    if path is None or not path.words or path.score < CLEARLY_BEGUN:
+    if path is None or not path.words or path.score < CLEARLY_BEGUN or has_free(path):
         return ""
     fit = phrase_fit(path, log_probabilities, search.graph.phones)
     return said(path.words) if fit.nearness >= NEARLY_SAID else ""
