@@ -84,6 +84,13 @@ TWO = (
     ("thank you", "what do you see"),
 )
 """Two commands, one after the other."""
+HESITANT = (
+    ("go forward", "um", "two meters"),
+    ("turn left", "uh", "forty five degrees"),
+    ("show me a", "um", "happy face"),
+    ("what is", "uh", "your name"),
+)
+"""Sentences with a hesitation inside, a third of a second before it and behind it."""
 PAUSES: dict[float, Limit | None] = {0.3: None, 0.5: at_most(0.01), 0.8: at_most(0.05)}
 BETWEEN = 0.25
 
@@ -128,6 +135,14 @@ def rows(step: int = 1) -> Iterator[Row]:
         ]
         total = len(PARTED[::step]) * len(VOICES)
         yield share(f"cut by a pause of {pause} s", len(cut), total, limit) | {"clips": cut}
+    lost = [
+        f"{voice}: {parts} -> {[one.text for one in told]}"
+        for parts in HESITANT[::step]
+        for told, voice in _said_by_all(parts, 0.33)
+        if not _is_one(told, f"{parts[0]} {parts[2]}")
+    ]
+    total = len(HESITANT[::step]) * len(VOICES)
+    yield share("cut by a hesitation", len(lost), total, None) | {"clips": lost}
     both = [
         f"{voice}: {pair} -> {[one.text for one in told]}"
         for pair in TWO[::step]
@@ -159,6 +174,12 @@ def _said_by_all(parts: Sequence[str], pause: float) -> Iterator[tuple[list[Told
         for sound in sounds[1:]:
             whole = np.concatenate([whole, quiet, sound])
         yield _heard(whole.astype(np.int16)), voice
+
+
+class _Addressed(MemoryMicrophone):
+    """A microphone that hears only what is said to the robot."""
+
+    is_recording = True
 
 
 class _TimedEars(CtcRecognizer):
@@ -193,7 +214,7 @@ def _heard(sound: Samples) -> list[Told]:
     clock = FakeClock()
     bus = EventBus(clock)
     devices = ResourceManager((), clock)
-    microphone = MemoryMicrophone(Description("microphone", "Hri.MemoryMicrophone"), devices)
+    microphone = _Addressed(Description("microphone", "Hri.MemoryMicrophone"), devices)
     microphone.activate()
     devices.substitute("microphone", microphone)
     devices.substitute("recognizer", _ears())

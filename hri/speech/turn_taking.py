@@ -195,9 +195,9 @@ def _pauses(reading: Reading) -> float:
     if not reading.heard:
         return 1.0
     heard = reading.heard[-1]
-    if isinstance(heard, Rejection):
-        return UNFINISHED if heard.begun else 1.0
-    return 1.0 if heard.may_go_on else COMPLETE
+    if heard.begun:
+        return UNFINISHED
+    return COMPLETE if isinstance(heard, Utterance) and not heard.may_go_on else 1.0
 
 
 def _voice_end(segment: Segment) -> float:

@@ -24,7 +24,7 @@ def speaking(listener: Listener) -> OutputPort[bool]:
 
 def test_a_command_is_heard_with_its_meaning():
     stage = Stage(Listener())
-    stage.ears.script[1.0] = ("go forward ten meters", 0.72149)
+    stage.ears.script[1.0] = ("go forward ten meters", 0.92149)
 
     stage.run(1.0)
     assert stage.events == []
@@ -37,7 +37,7 @@ def test_a_command_is_heard_with_its_meaning():
         "text": "go forward ten meters",
         "rule": "move",
         "tags": {"distance": 10.0},
-        "confidence": 0.721,
+        "confidence": 0.921,
         "start": 0.5,
         "end": 1.0,
         "latency": pytest.approx(0.15, abs=TICK),

@@ -21,7 +21,9 @@ from hri.speech.recognizers.ctc.confidence import (
     shares,
 )
 from hri.speech.recognizers.ctc.conformer import FRAME, load_network
+from hri.speech.recognizers.ctc.features import Sound
 from hri.speech.recognizers.ctc.habits import Habits
+from hri.speech.recognizers.ctc.hesitations import hesitations, without
 from hri.speech.recognizers.ctc.key_phrases import (
     confidence_in_phrase,
     has_free,
@@ -29,7 +31,7 @@ from hri.speech.recognizers.ctc.key_phrases import (
     said_beside,
 )
 from hri.speech.recognizers.ctc.lattice import Path
-from hri.speech.recognizers.ctc.loudness import leveled, noise_of, sounding
+from hri.speech.recognizers.ctc.loudness import KEPT, leveled, noise_of, sounding
 from hri.speech.recognizers.ctc.phone_graph import Floats, compile
 from hri.speech.recognizers.ctc.posterior_stream import PosteriorStream
 from hri.speech.recognizers.ctc.ranking import ranked
@@ -44,6 +46,12 @@ CLEARLY_BEGUN = 4.0
 a sentence cost up to 3.6."""
 NEARLY_SAID = -1.0
 """Nearness of its words from which it counts: 61 of these 64, and 4 of 76 other sentences."""
+
+
+CLEAR = 0.5
+"""Confidence under which it is worth asking whether someone hesitated."""
+STILL = 1600
+"""Samples of silence at the end of a piece that do not make a hesitation an earlier one."""
 
 
 @dataclass
@@ -155,11 +163,29 @@ class CtcRecognizer(EndpointedRecognizer):
             sound = leveled(samples)
             part = sounding(sound)
             heard = self._network.posteriors(sound[part])
-            found = decoded(search, self._rivals, heard, rules, noise_of(sound))
+            found = self._decoded(sound[part], heard, rules, noise_of(sound), search)
             hypothesis = later(found, part.start / self.rate)
             early = Early(segment, rules, hypothesis)
             self._early = early
         return early.hypothesis
+
+    def _decoded(
+        self,
+        sound: Sound,
+        heard: Floats,
+        rules: frozenset[str] | None,
+        noise: float,
+        search: Search,
+    ) -> Hypothesis:
+        """What a piece says; where that is not clear, without what is only "um"."""
+        found = decoded(search, self._rivals, heard, rules, noise)
+        if found.confidence >= CLEAR or not (parts := hesitations(sound, heard)):
+            return found
+        rest = decoded(search, self._rivals, without(heard, parts), rules, noise)
+        if rest.confidence <= found.confidence and not rest.begun:
+            return found
+        is_at_end = parts[-1].stop * round(FRAME * self.rate) >= len(sound) - KEPT - STILL
+        return replace(rest, begun=rest.begun or rest.text) if is_at_end else rest
 
 
 def decoded(
