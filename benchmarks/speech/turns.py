@@ -126,15 +126,23 @@ def rows(step: int = 1) -> Iterator[Row]:
         yield share(f"heard, {what}", len(delays), total, at_least(0.95))
         yield _delay(f"last sound to event, {what}, median", delays, 0.5, at_most(median))
         yield _delay(f"last sound to event, {what}, p95", delays, 0.95, at_most(p95))
+    fluent = {
+        (parts, voice)
+        for parts in PARTED[::step]
+        for told, voice in _said_by_all(parts, 0.0)
+        if _is_one(told, " ".join(parts))
+    }
+    total = len(PARTED[::step]) * len(VOICES)
+    yield share("heard without a pause", len(fluent), total, None)
     for pause, limit in PAUSES.items():
         cut = [
             f"{voice}: {parts} -> {[one.text for one in told]}"
             for parts in PARTED[::step]
             for told, voice in _said_by_all(parts, pause)
-            if not _is_one(told, " ".join(parts))
+            if (parts, voice) in fluent and not _is_one(told, " ".join(parts))
         ]
-        total = len(PARTED[::step]) * len(VOICES)
-        yield share(f"cut by a pause of {pause} s", len(cut), total, limit) | {"clips": cut}
+        what = f"of these cut by a pause of {pause} s"
+        yield share(what, len(cut), len(fluent), limit) | {"clips": cut}
     lost = [
         f"{voice}: {parts} -> {[one.text for one in told]}"
         for parts in HESITANT[::step]

@@ -67,6 +67,8 @@ class Utterance:
     """Seconds from where the pause was long enough to the result."""
     command: str = ""
     """The same words without courtesies, names, and free words around the command."""
+    is_among_others: bool = False
+    """Whether it is a phrase among words that nobody listed."""
     begun: str = ""
     """The words of a longer sentence that may have begun: someone hesitates behind them."""
     may_go_on: bool = False

@@ -116,7 +116,7 @@ class Recognizer(Resource):
     def wait(self, segment: Segment, pauses: float) -> None:
         """Told in the loop, in a pause of the piece that a snapshot is of, when to end it.
 
-        That is after so many of the usual pauses, as long as the voice does not go on. For those
+        That is after this many of the usual pauses, as long as the voice does not go on. For those
         that cut sound into pieces.
         """
 

@@ -117,6 +117,7 @@ def judge(
         words=words,
         alternatives=hypothesis.alternatives,
         command=_command(grammar, found),
+        is_among_others=_is_among_others(grammar, found),
         begun=listed(hypothesis.begun),
         level_db=segment.level_db,
     )

@@ -211,7 +211,7 @@ class Endpointer:
         return None if self._piece is None else self._segment(self._piece, self._piece.samples)
 
     def wait(self, segment: Segment, pauses: float) -> None:
-        """End the open piece that a snapshot is of after so many of the usual pauses.
+        """End the open piece that a snapshot is of after this many of the usual pauses.
 
         At most after LONGEST_PAUSE. As soon as the voice goes on, one pause counts again.
         """

@@ -81,6 +81,16 @@ class _Sentence:
         before = () if self.is_told else (*self.before, self.heard)
         return _Sentence(heard, samples, turn, segment, before, self.replaces)
 
+    def goes_on_as(self, whole: Utterance, alone: Heard) -> bool:
+        """Whether one sentence was said, and not this one and what is new `alone` after it."""
+        if whole.is_among_others or _is_the_same(whole, self.heard):
+            return False
+        if isinstance(alone, Rejection) or not _is_the_same(whole, alone):
+            return True
+        # "Hello robot", "turn left": one sentence where it sounds like one.
+        is_clear = whole.confidence >= min(self.heard.confidence, alone.confidence)
+        return is_clear and not self.is_told
+
     def reading(self) -> Reading:
         return Reading((*self.before, self.heard), continues=self.replaces)
 
@@ -165,7 +175,7 @@ def _read(
         return Reading((heard,)), _Sentence(heard, segment.samples, turn, segment)
     both = np.concatenate([sentence.samples, new])
     whole, alone = judged(both, sentence.turn), judged(new, turn)
-    if isinstance(whole, Utterance) and not _means_one_of(whole, sentence.heard, alone):
+    if isinstance(whole, Utterance) and sentence.goes_on_as(whole, alone):
         last = sentence.extended(whole, both, segment)
         return last.reading(), last
     if isinstance(alone, Utterance):
@@ -177,17 +187,15 @@ def _read(
     return Reading((*sentence.before, whole)), sentence
 
 
-def _means_one_of(whole: Utterance, *parts: Heard) -> bool:
-    """Whether a sentence means what one of two parts of it means already."""
-    meanings = [(one.rule, one.tags) for one in parts if isinstance(one, Utterance)]
-    return (whole.rule, whole.tags) in meanings
+def _is_the_same(one: Utterance, other: Utterance) -> bool:
+    return (one.rule, one.tags) == (other.rule, other.tags)
 
 
 def _finished(heard: Heard, grammar: Grammar) -> Heard:
     """The same, and whether the speaker may go on with it. Behind "please" nothing follows."""
     if isinstance(heard, Rejection) or heard.text.split()[-1:] != heard.command.split()[-1:]:
         return heard
-    return replace(heard, may_go_on=may_go_on(grammar, heard.rule, heard.command))
+    return replace(heard, may_go_on=may_go_on(grammar, heard.rule, heard.text, heard.command))
 
 
 def _pauses(reading: Reading) -> float:

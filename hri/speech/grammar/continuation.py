@@ -10,19 +10,20 @@ from hri.speech.grammar.rules import Rules
 from hri.speech.grammar.words import ANY, typed
 
 
-def may_go_on(grammar: Rules, rule: str, command: str) -> bool:
+def may_go_on(grammar: Rules, rule: str, text: str, command: str) -> bool:
     """Whether words may follow that give a sentence of a public rule another rule or other tags.
 
-    `command` has the words of the sentence without those around it: words that are said aside or
-    free change nothing. Where in doubt they may: tags that follow are not compared with those that
-    are there. Raises what `build` raises.
+    `command` has the words of the sentence without those around it, which change nothing: free
+    words, and what is said aside. But all of `text` may be said aside before a sentence of another
+    rule, as "hello robot" is before "turn left". Where in doubt words may follow: tags are not
+    compared with those that are there. Raises what `build` raises.
     """
     walk = _Walk(grammar)
     for public, entry in walk.matcher.automaton.entries.items():
-        nodes = {entry}
-        for word in typed(command):
-            nodes = walk.step(nodes, word)
+        nodes = walk.along(entry, command)
         if nodes and walk.changes(nodes, public == rule):
+            return True
+        if public != rule and walk.goes_on(walk.along(entry, text, with_aside=True)):
             return True
     return False
 
@@ -35,15 +36,21 @@ class _Walk:
         rules = grammar.rules.items()
         self._aside = frozenset(name for name, rule in rules if "aside" in rule.marks)
 
-    def step(self, nodes: set[int], word: str) -> set[int]:
-        """The nodes behind a word."""
-        targets = self.matcher.automaton.targets
-        return {
-            targets[arc]
-            for node in self._silently(nodes)
-            for arc in self.matcher.leaving(node)[1].get(word, ())
-            if not self._is_aside(arc)
-        }
+    def along(self, entry: int, words: str, with_aside: bool = False) -> set[int]:
+        """The nodes behind words that begin at a node; none where no sentence begins with them."""
+        targets, nodes = self.matcher.automaton.targets, {entry}
+        for word in typed(words):
+            nodes = {
+                targets[arc]
+                for node in self._silently(nodes, with_aside)
+                for arc in self.matcher.leaving(node)[1].get(word, ())
+                if with_aside or not self._is_aside(arc)
+            }
+        return nodes
+
+    def goes_on(self, nodes: set[int]) -> bool:
+        """Whether a word may follow one of the nodes."""
+        return any(True for _ in self._spoken(self._silently(nodes)))
 
     def changes(self, nodes: set[int], is_same_rule: bool) -> bool:
         """Whether a word may follow one of the nodes, by another rule or with tags."""
@@ -68,13 +75,13 @@ class _Walk:
                     pending.append(target)
         return False
 
-    def _silently(self, nodes: set[int]) -> set[int]:
+    def _silently(self, nodes: set[int], with_aside: bool = False) -> set[int]:
         """The nodes, and those behind them that need no word."""
         seen, pending = set(nodes), list(nodes)
         targets = self.matcher.automaton.targets
         while pending:
             for arc in self.matcher.leaving(pending.pop())[0]:
-                if targets[arc] not in seen and not self._is_aside(arc):
+                if targets[arc] not in seen and (with_aside or not self._is_aside(arc)):
                     seen.add(targets[arc])
                     pending.append(targets[arc])
         return seen

@@ -32,7 +32,7 @@ public <shut> = close [the] shop | tea shop;
 def test_words_that_change_the_rule_or_the_tags_may_follow(write, text, expected):
     grammar = load_grammar(write(SHOP))
 
-    assert may_go_on(grammar, parse(grammar, text).rule, text) is expected
+    assert may_go_on(grammar, parse(grammar, text).rule, text, text) is expected
 
 
 def test_free_words_change_nothing(write):
@@ -44,4 +44,19 @@ def test_free_words_change_nothing(write):
     """
     grammar = load_grammar(write(rules))
 
-    assert not may_go_on(grammar, "hello", "good evening")
+    assert not may_go_on(grammar, "hello", "good evening", "good evening")
+
+
+@pytest.mark.parametrize(("text", "expected"), [("hello robot", True), ("bye robot", False)])
+def test_what_may_stand_before_another_command_may_go_on(write, text, expected):
+    rules = """
+    public <greet> = hello <me>;
+    public <leave> = bye <me>;
+    public <turn> = [<polite>] turn left;
+    <me> = robot;
+    /** @aside */
+    <polite> = hello <me> | please;
+    """
+    grammar = load_grammar(write(rules))
+
+    assert may_go_on(grammar, parse(grammar, text).rule, text, text) is expected
