@@ -188,7 +188,8 @@ def _alternatives(rule: Rule) -> Iterator[Alternative]:
 
 def _silent(grammar: Grammar, said: Mapping[str, Phrases]) -> Iterator[Finding]:
     for key in grammar.public_rules:
-        if () in said[key].said:
+        # What is only said with other rules may be left out there.
+        if () in said[key].said and "part" not in grammar.rules[key].marks:
             what = f"<{key}> allows silence, which is never heard"
             yield warning(
                 grammar.rules[key].place(), what, "leave at least one word outside of [ ] and *"
