@@ -1,7 +1,7 @@
 """Where a person's turn ends, and what was said in it: decided in its pauses, by the grammar.
 
 People pause within their sentences as long as between them. So each pause is looked at when it is
-0.2 s old: a sentence that nothing can change ends soon, one that may go on after the usual pause,
+0.16 s old: a sentence that nothing can change ends soon, one that may go on after the usual pause,
 and one that cannot end yet is waited for. Who goes on soon after that goes on with the same
 sentence where the grammar has one: what was understood is then taken back. Where it has none, two
 sentences were said.
@@ -16,6 +16,7 @@ import numpy as np
 
 from hri.core.signals import Rejection, Samples, Utterance
 from hri.hal.recognizer import Recognizer, Segment
+from hri.speech.endpoint import LONGEST
 from hri.speech.grammar import Grammar
 from hri.speech.grammar.continuation import may_go_on
 from hri.speech.turn import Turn
@@ -65,8 +66,11 @@ class _Sentence:
         assert self.segment.samples is not None
         if segment.number == self.segment.number:
             return None if self.is_told else segment.samples[len(self.segment.samples) :]
-        is_soon = segment.start < _voice_end(self.segment) + GOES_ON
-        return segment.samples if self.is_told and is_soon else None
+        ended = _voice_end(self.segment)
+        is_soon = segment.start < ended + GOES_ON
+        # Nobody goes on with one sentence for ever, and its sound is kept meanwhile.
+        is_short = ended - self.heard.start < LONGEST
+        return segment.samples if self.is_told and is_soon and is_short else None
 
     def extended(self, heard: Utterance, samples: Samples, segment: Segment) -> _Sentence:
         """The same sentence with more words."""

@@ -205,6 +205,16 @@ def test_who_begins_late_or_over_the_robot_begins_anew(ears, after, is_speaking)
     assert isinstance(reading.heard[0], Rejection)
 
 
+def test_a_sentence_is_not_kept_for_ever(write):
+    ears = Ears(load_grammar(write("public <count> = (go {n+=1})+;")))
+    heard = []
+    for _ in range(40):
+        ears.say("go")
+        heard += ears.end(after=0.3).heard
+
+    assert 15 < max(one.tags["n"] for one in heard) < 25
+
+
 def test_an_answer_may_go_on_though_its_question_is_over(ears):
     asked = Turn(is_question_open=True)
     ears.say("no", asked)
