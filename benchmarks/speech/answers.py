@@ -17,6 +17,10 @@ from hri.bench.table import Limit, Row, at_least, at_most, share
 from hri.core.errors import NotAvailable
 from hri.speech.turn import Turn
 
+KEPT_ASIDE = "answers.txt"
+"""Sentences that whoever writes grammars/answers.jsgf has not seen."""
+LEARNED = "answers_learned.txt"
+"""Sentences that it was written from: their rows have no limit."""
 OTHER = "other"
 """Heading of what is not an answer."""
 CONDITIONS = ("clean", "12 dB")
@@ -45,12 +49,19 @@ class Try:
 
 
 def rows(people: Recordings | None, step: int = 1) -> Iterator[Row]:
-    """Typed, then spoken by eight voices in each condition. Raises NotAvailable without flite or
-    recordings.
+    """Of both files: typed, then spoken by eight voices in each condition. Raises NotAvailable
+    without flite or recordings.
     """
-    kinds = {sentence: kind for kind, sentence in list(blocks("answers.txt"))[::step]}
+    yield from _rows(KEPT_ASIDE, people, step)
+    for row in _rows(LEARNED, people, step):
+        yield {key: value for key, value in row.items() if key not in ("limit", "side", "passed")}
+
+
+def _rows(file: str, people: Recordings | None, step: int) -> Iterator[Row]:
+    of = ", learned from" if file == LEARNED else ""
+    kinds = {sentence: kind for kind, sentence in list(blocks(file))[::step]}
     lines = [Try(kind, text, "typed", [typed(text, QUESTION)]) for text, kind in kinds.items()]
-    yield from _counted("typed", lines)
+    yield from _counted(f"typed{of}", lines)
     if people is None:
         raise NotAvailable("no recordings of people - name their folder with --recordings")
     said = list(spoken(list(kinds)))
@@ -61,7 +72,7 @@ def rows(people: Recordings | None, step: int = 1) -> Iterator[Row]:
             Try(kinds[one.clip.sentence], one.clip.sentence, one.clip.voice, one.heard)
             for one in outcomes
         ]
-        yield from _counted(f"spoken, {condition}", tries)
+        yield from _counted(f"spoken, {condition}{of}", tries)
 
 
 def _counted(how: str, tries: Sequence[Try]) -> Iterator[Row]:

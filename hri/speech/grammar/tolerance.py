@@ -34,7 +34,7 @@ class Cost(NamedTuple):
     """In the grammar, but not said."""
 
 
-_HESITATION = Cost(extra=0.1, missing=0.1)
+_HESITATION = Cost(extra=0.1, missing=None)
 _POLITENESS = Cost(extra=0.3, missing=0.5)
 _ARTICLE = Cost(extra=0.4, missing=0.4)
 _OPENING = Cost(extra=0.4, missing=None)
@@ -126,10 +126,17 @@ def nearest(
         return None
     for trace in _cheapest_first(words, matcher.begin(), most):
         steps = _unwound(trace)
+        edits = tuple(step.edit for step in steps if step.edit is not None)
         found = parse(grammar, " ".join(step.word for step in steps if step.word), rules)
-        if found is not None:
-            return Tolerant(found, tuple(step.edit for step in steps if step.edit is not None))
+        if found is not None and not _is_moved(edits):
+            return Tolerant(found, edits)
     return None
+
+
+def _is_moved(edits: Collection[Edit]) -> bool:
+    """Whether a word stands elsewhere than in the grammar: "is that right" asks."""
+    said = {edit.word for edit in edits if edit.kind == "+"}
+    return any(edit.kind == "-" and edit.word in said for edit in edits)
 
 
 def _may_be_forgiven(matcher: Matcher, words: list[str], said: list[str]) -> bool:
