@@ -68,6 +68,17 @@ def test_words_that_carry_meaning_are_never_forgiven(robot, text):
     assert nearest(robot, text) is None
 
 
+def test_a_hesitation_is_never_put_in(write):
+    assert nearest(load_grammar(write("public <yes> = [robot] mm hmm;")), "robot") is None
+
+
+def test_a_little_word_that_stands_elsewhere_is_not_forgiven(write):
+    grammar = load_grammar(write("public <yes> = that is right;"))
+
+    assert nearest(grammar, "is right").parse.text == "that is right"
+    assert nearest(grammar, "is that right") is None
+
+
 def test_the_cheapest_edits_win(write):
     grammar = load_grammar(write("public <a> = show the face;\npublic <b> = show some face;"))
 
