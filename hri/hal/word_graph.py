@@ -37,3 +37,5 @@ class WordGraph:
     (`hri.speech.grammar.words.free_words`)."""
     entries: Mapping[str, int]
     """Public rule: the node its sentences begin at; one silent arc leads there from `start`."""
+    expected: frozenset[str] = frozenset()
+    """The public rules that are likelier than others whenever they count."""

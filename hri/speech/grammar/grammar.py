@@ -124,7 +124,7 @@ def _either(one: Expression, other: Expression) -> Expression:
 
 
 def _graph(rules: Rules) -> WordGraph:
-    return word_graph(rules.made(build_spoken))
+    return replace(word_graph(rules.made(build_spoken)), expected=rules.marked("answer"))
 
 
 def flat_jsgf(grammar: Grammar) -> str:
