@@ -169,9 +169,10 @@ def _delay(what: str, delays: Sequence[float], part: float, limit: Limit | None)
 
 
 def _is_one(told: Sequence[Told], sentence: str) -> bool:
-    """Whether a sentence counts in the end, and nothing else does."""
+    """Whether a sentence counts in the end, and nothing else but a greeting, as in "hi robot"."""
     *before, last = told or [Told("", 0.0, continues=False)]
-    return last.means(sentence) and (not before or last.continues) and len(before) <= 1
+    is_alone = not before or last.continues or before[0].means("hello robot")
+    return last.means(sentence) and is_alone and len(before) <= 1
 
 
 def _said_by_all(parts: Sequence[str], pause: float) -> Iterator[tuple[list[Told], str]]:

@@ -39,8 +39,8 @@ class Grammar(Protocol):
         """Which word may follow which; made once."""
 
 
-LEAST_VOICE = 0.05
-"""Seconds of voice in a pause from which someone goes on; less is found in noise, too."""
+SAME_END = 0.01
+"""Seconds by which the end of one voice may be found at different times."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,8 +57,6 @@ class Segment:
     """The same for all snapshots of one piece, of which each one begins the next."""
     quiet: float = 0.0
     """Seconds at its end in which no voice was found any more."""
-    voice: float = 0.0
-    """Seconds of it in which a voice was found; they only grow while it goes on."""
     noise_db: float | None = None
     """Level of the noise before it, dB against full scale; None when nothing is known of it."""
     level_db: float | None = None
@@ -68,9 +66,8 @@ class Segment:
 
     def goes_on_from(self, earlier: Segment) -> bool:
         """Whether a voice was found in it since an earlier snapshot of the same piece."""
-        if self.voice == 0.0:  # Nobody looked for one.
-            return abs((self.end - self.quiet) - (earlier.end - earlier.quiet)) >= 0.01
-        return self.voice - earlier.voice >= LEAST_VOICE
+        ended, before = self.end - self.quiet, earlier.end - earlier.quiet
+        return abs(ended - before) >= SAME_END
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.signals import Samples
-from hri.hal.recognizer import LEAST_VOICE, Segment
+from hri.hal.recognizer import Segment
 from hri.speech.automatic_level import AutomaticLevel
 
 FRAME = 0.02
@@ -36,6 +36,8 @@ TRAILING = 0.2
 """Seconds that weak sounds may continue after the last near one: the extra pause when others
 talk.
 """
+LEAST_VOICE = 0.05
+"""Seconds of voice in a pause from which someone goes on; less is found in noise, too."""
 LONGEST_PAUSE = 3.0
 """Seconds of quiet that a piece can be made to wait for."""
 LONGEST = 20.0
@@ -218,7 +220,7 @@ class Endpointer:
         piece = self._piece
         if piece is not None and piece.number == segment.number:
             frames = min(round(pauses * self._pause), round(LONGEST_PAUSE / FRAME))
-            piece.wait = (round(segment.voice / FRAME), frames)
+            piece.wait = (piece.voice, frames)
 
     def listen(self, samples: Samples, end: float) -> list[Segment]:
         """Take the sound up to time `end`, in seconds; the pieces that ended in it."""
@@ -335,7 +337,6 @@ class Endpointer:
             samples=samples,
             number=piece.number,
             quiet=piece.quiet,
-            voice=piece.voice * FRAME,
             noise_db=round(piece.noise_db, 1),
             level_db=round(piece.level, 1),
         )

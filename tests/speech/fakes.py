@@ -65,8 +65,7 @@ class ScriptedEars(Recognizer):
         samples = np.zeros(round((now - end + 0.5) * self.rate), np.int16)
         quiet = max(0.0, now - (end - self.pause))
         number = 1 + sorted(self.script).index(end)
-        voice = now - quiet - (end - 0.5)
-        return Segment(end - 0.5, now, samples, number=number, quiet=quiet, voice=voice)
+        return Segment(end - 0.5, now, samples, number=number, quiet=quiet)
 
     @property
     def is_hearing(self) -> bool:

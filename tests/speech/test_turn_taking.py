@@ -71,8 +71,7 @@ class Ears:
 
     def _segment(self):
         count = len(self.samples)
-        voice = float(np.count_nonzero(self.samples))
-        return Segment(self.time - count, self.time, self.samples, number=self.number, voice=voice)
+        return Segment(self.time - count, self.time, self.samples, number=self.number)
 
 
 @pytest.fixture
