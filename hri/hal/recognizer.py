@@ -108,7 +108,10 @@ class Recognizer(Resource):
         """Take the sound up to time `end`; the pieces of speech that ended in it."""
 
     def mind(self, is_speaking: bool, now: float) -> None:
-        """Told whether the robot speaks, before each `listen`; for those whose pieces can wait."""
+        """Told whether the robot speaks, before each `listen`.
+
+        For those whose pieces can wait, and those that must not learn from its voice.
+        """
 
     def wait(self, segment: Segment, pauses: float) -> None:
         """Told in the loop, in a pause of the piece that a snapshot is of, when to end it.

@@ -3,8 +3,9 @@
 The loudest of late goes up to the level of a quiet voice, but never the noise above that of a quiet
 room: in a room with noise, and after a voice of usual loudness, nothing is changed. The gain falls
 at once where a sound would become too loud, and rises slowly: within an utterance it hardly
-changes. A recording, all of which is known, is amplified before
-(`hri.hal.drivers.recording_level`).
+changes. While the robot speaks it only falls, and nothing is learned: what is left of its voice
+does not say how loud others are, and must not become as loud as they are. A recording, all of which
+is known, is amplified before (`hri.hal.drivers.recording_level`).
 """
 
 from __future__ import annotations
@@ -45,6 +46,9 @@ def too_quiet(level_db: float | None) -> str:
 class AutomaticLevel:
     """Amplifies a stream, frame by frame of 20 ms."""
 
+    is_held = False
+    """Whether the robot's own voice is in the sound."""
+
     def __init__(self) -> None:
         self._loudest = LOUD_DB
         self._level = self._floor = QUIET_ROOM_DB
@@ -57,7 +61,8 @@ class AutomaticLevel:
 
     def take(self, frame: Samples, level: float) -> Samples:
         """The next frame, whose level is in dB against full scale, as loud as it counts."""
-        before, self._gain = self._gain, 10.0 ** (self._gain_for(level) / 20.0)
+        gain_db = self._held(level) if self.is_held else self._learned(level)
+        before, self._gain = self._gain, 10.0 ** (gain_db / 20.0)
         if before == self._gain == 1.0:
             return frame
         gains = np.linspace(min(before, self._gain), self._gain, len(frame))
@@ -69,7 +74,10 @@ class AutomaticLevel:
         louder: Samples = np.rint(samples * self._gain).clip(-32768, 32767).astype(np.int16)
         return louder
 
-    def _gain_for(self, level: float) -> float:
+    def _held(self, level: float) -> float:
+        return min(self.gain_db, max(0.0, LOUD_DB - level))
+
+    def _learned(self, level: float) -> float:
         self._loudest = max(level, self._loudest - FALL, LOUD_DB - MOST_DB)
         if level > ZEROS_DB:
             self._level += SMOOTHING * (level - self._level)

@@ -9,6 +9,7 @@ architecture of the partitioned-block-based acoustic echo controller", ICASSP 20
 from __future__ import annotations
 
 import math
+from collections import deque
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +32,8 @@ FIRST_DOUBT = 0.1
 With these figures 8, 14, 20 and 24 dB of an echo are gone in its first four seconds, in a room
 that rings for 0.1 s, and no less when someone speaks meanwhile.
 """
+ECHO_TAIL = 0.4
+"""Seconds that the robot's own voice may be heard after it has ended."""
 LEAD = 0.06
 """Seconds that the sound played is taken to be earlier than is known: it never may be late."""
 TOLERANCE = 0.05
@@ -38,6 +41,10 @@ TOLERANCE = 0.05
 FOREIGN_SHARE = 0.5
 """Share of a block's energy that must be left for it to pass as it is."""
 FULL_SCALE = 32768.0
+REMEMBERED = 30.0
+"""Seconds of sound of which is known how much was left: more than the longest piece of speech."""
+AFTER = 0.1
+"""Seconds from a sound to the end of the blocks that it comes in, at most."""
 
 Spectra = NDArray[np.complex128]
 
@@ -110,6 +117,29 @@ def _gain(heard: NDArray[np.float64], left: NDArray[np.float64]) -> float:
     if after >= before:
         return math.sqrt(before / after) if after else 0.0
     return min(1.0, after / before / FOREIGN_SHARE)
+
+
+class Leftover:
+    """How much of what the microphone heard of late was left without the robot's voice."""
+
+    def __init__(self) -> None:
+        self._blocks: deque[tuple[float, float, float]] = deque()
+
+    def add(self, heard: Samples, left: Samples, now: float) -> None:
+        """What was heard up to a time in seconds, and what is left of it."""
+        self._blocks.append((now, _energy(heard), _energy(left)))
+        while now - self._blocks[0][0] > REMEMBERED:
+            self._blocks.popleft()
+
+    def share(self, start: float, end: float) -> float:
+        """Share of the energy between two times in seconds that is left; 1 when none is known."""
+        blocks = [block for block in self._blocks if start <= block[0] <= end + AFTER]
+        before = sum(block[1] for block in blocks)
+        return sum(block[2] for block in blocks) / before if before else 1.0
+
+
+def _energy(samples: Samples) -> float:
+    return float(np.sum(np.square(samples, dtype=np.float64)))
 
 
 class OwnVoice:

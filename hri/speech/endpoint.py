@@ -212,6 +212,10 @@ class Endpointer:
         """
         return None if self._piece is None else self._segment(self._piece, self._piece.samples)
 
+    def hold_level(self, is_held: bool) -> None:
+        """Do not amplify more than now while it is held, as the robot's own voice is heard."""
+        self._automatic.is_held = is_held
+
     def wait(self, segment: Segment, pauses: float) -> None:
         """End the open piece that a snapshot is of after this many of the usual pauses.
 

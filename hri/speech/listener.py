@@ -19,7 +19,7 @@ from hri.core.signals import Rejection, Samples, Speech, Utterance
 from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer, Segment
 from hri.speech.acceptance import OVER_SPEECH, STRICTNESS
-from hri.speech.echo import EchoCanceller, OwnVoice
+from hri.speech.echo import ECHO_TAIL, EchoCanceller, Leftover, OwnVoice
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.merging import with_interrupts_of
 from hri.speech.grammar_stack import GrammarStack, Layer, Prepare, as_written
@@ -33,16 +33,18 @@ FOLDERS = "app.folders"
 """Slot of the board with the folders of the app and of those that it extends, its own first."""
 MOST_WAITING = 20
 """Pieces of speech that wait for their turn; beyond it the oldest are forgotten."""
-ECHO_TAIL = 0.4
-"""Seconds that the robot's own voice may be heard after it has ended."""
 OWN_SHARE = 0.5
 """Share of a sound's energy that must be left without the robot's voice to be someone else's."""
 LEARNING = 2.0
 """Seconds of the robot's voice after which most of it is subtracted."""
-UNLEARNED = 0.97
-"""Confidence from which words count before: what is left of its voice then sounds like a command,
-most often "halt", in one first sentence of ten (at most 0.95), while "stop" in quiet has 0.99 or
-more.
+CLEAR = 0.97
+"""Confidence from which words count before, and those of which little is left: what is left of its
+voice sounds like a command, most often "halt", in one first sentence of ten (at most 0.95), while
+"stop" in quiet has 0.99 or more.
+"""
+LITTLE = 0.25
+"""Share of a sound's energy without the robot's voice that may be only what is left of it: where
+that sounded like a command it had 0.24 at most, a stop word as loud as its voice has 0.28 and more.
 """
 
 Tell = Callable[[float], object]
@@ -58,10 +60,6 @@ class _Piece:
     was_question_open: bool = False
     was_addressed: bool = False
     """Whether someone turned to the robot meanwhile."""
-    energy: float = 0.0
-    """Of what the microphone heard."""
-    foreign_energy: float = 0.0
-    """Of what was left of it without the robot's own voice."""
     told: Callable[[Heard], object] | None = None
     """Who typed it wants to know what became of it."""
 
@@ -148,6 +146,7 @@ class Listener(Behavior):
         self._wakefulness = Wakefulness(self.follow_up)
         self._own_voice = OwnVoice(self._recognizer.rate)
         self._canceller = EchoCanceller()
+        self._leftover = Leftover()
         self._room = RoomListener(self._recognizer.rate)
         self._spoke = -ECHO_TAIL
         self._subtracted = 0.0  # seconds of its voice so far
@@ -290,6 +289,7 @@ class Listener(Behavior):
             self._wakefulness.extend(now)
         heard = self._ear.read(now)
         samples = self._without_own_voice(heard, now)
+        self._leftover.add(heard, samples, now)
         is_held = self.is_held
         is_let_go, self._was_held = self._was_held and not is_held, is_held
         if is_held:
@@ -303,7 +303,7 @@ class Listener(Behavior):
         if (self._ear.has_ended or is_deaf or is_let_go) and self._recognizer.is_hearing:
             segments += self._recognizer.flush()
         if was_hearing or self._recognizer.is_hearing or segments:
-            self._note(heard, samples, is_speaking)
+            self._note(is_speaking)
             if not was_hearing:
                 self._notice_going_on()
         elif not (is_deaf or is_speaking):
@@ -312,13 +312,11 @@ class Listener(Behavior):
         if segments or not self._recognizer.is_hearing:
             self._piece = _Piece()
 
-    def _note(self, heard: Samples, samples: Samples, is_speaking: bool) -> None:
+    def _note(self, is_speaking: bool) -> None:
         piece = self._piece
         piece.has_spoken |= is_speaking
         piece.was_question_open |= bool(self.question.value)
         piece.was_addressed |= bool(self.is_addressed.value)
-        piece.energy += _energy(heard)
-        piece.foreign_energy += _energy(samples)
 
     def _without_own_voice(self, heard: Samples, now: float) -> Samples:
         """Subtract the robot's own speech, if a voice is linked."""
@@ -418,11 +416,10 @@ class Listener(Behavior):
         """Find when a pause ends the turn: a sure "stop" does not wait for that."""
         reading = self._turns.read(segment, grammar, self.strictness, turn)
         heard = reading.heard[-1] if reading.heard else None
-        is_sure = (
+        is_clear = (
             isinstance(heard, Utterance)
             and heard.rule in grammar.marked("interrupts")
             and heard.confidence >= self.strictness + OVER_SPEECH * (1.0 - self.strictness)
-            and not self._is_own(heard, piece)
         )
 
         def tell(now: float) -> None:
@@ -430,6 +427,7 @@ class Listener(Behavior):
             if heard is None:
                 return
             early = (segment.number, _rule_of(heard))
+            is_sure = is_clear and not self._is_own(heard, piece)
             if is_sure and self._told_early != early:
                 self._told_early = early
                 self._tell(replace(heard, latency=now - begun), grammar, piece)
@@ -454,16 +452,18 @@ class Listener(Behavior):
 
     # --- telling ---
 
-    def _is_own(self, heard: Utterance, piece: _Piece) -> bool:
+    def _is_own(self, heard: Heard, piece: _Piece) -> bool:
         """Whether it is what the robot said itself, and that was most of the sound.
 
-        As long as its voice cannot be subtracted yet, whatever is not clear is taken for that.
+        As long as its voice cannot be subtracted yet, and where little is left without it,
+        whatever is not clear is taken for that.
         """
         if not piece.has_spoken:
             return False
-        if heard.start < self._learned and heard.confidence < UNLEARNED:
+        left = self._leftover.share(heard.start, heard.end)
+        if heard.confidence < CLEAR and (heard.start < self._learned or left < LITTLE):
             return True
-        if piece.foreign_energy >= OWN_SHARE * piece.energy:
+        if left >= OWN_SHARE:
             return False
         said = self._own_voice.said(heard.start - ECHO_TAIL, heard.end + ECHO_TAIL)
         return f" {heard.text} " in f" {' '.join(said)} "
@@ -519,10 +519,6 @@ class Listener(Behavior):
         self._early_worker.close()
         self._worker.close()
         self._grammars.close()
-
-
-def _energy(samples: Samples) -> float:
-    return float(np.sum(np.square(samples, dtype=np.float64)))
 
 
 def _rule_of(heard: Heard) -> str:

@@ -130,6 +130,24 @@ def test_in_a_room_with_noise_nothing_is_changed():
     assert np.array_equal(stream(sound.astype(np.int16)), sound.astype(np.int16))
 
 
+def test_while_the_level_is_held_it_only_falls_and_nothing_is_learned():
+    level, frame = AutomaticLevel(), np.ones(FRAME, np.int16)
+
+    def gain(db, frames=1):
+        for _ in range(frames):
+            level.take(frame, db)
+        return level.gain_db
+
+    before = gain(-85.0, 1000)
+    assert before == pytest.approx(20.0, abs=1.0)
+    level.is_held = True
+    assert gain(-105.0, 500) == before
+    assert gain(-45.0) == pytest.approx(5.0)
+    assert gain(-85.0, 500) == pytest.approx(5.0)
+    level.is_held = False
+    assert gain(-85.0) == pytest.approx(before, abs=0.1)
+
+
 @given(st.floats(-100, 0))
 def test_the_network_gets_speech_of_a_usual_level(db):
     voice = np.random.default_rng(0).normal(0, 3000, RATE) * 10 ** (db / 20)

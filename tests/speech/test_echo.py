@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 
 from hri.core.signals import Span, Speech
-from hri.speech.echo import BLOCK, LEAD, EchoCanceller, OwnVoice
+from hri.speech.echo import BLOCK, LEAD, REMEMBERED, EchoCanceller, Leftover, OwnVoice
 
 RATE = 16000
 
@@ -96,6 +96,20 @@ def test_what_was_played_is_known_from_the_position():
     assert voice.played(speech, 0.9, 1600, 10.4)[0] == 14400 - 1600 + lead
     assert not voice.played(speech, 5.0, 1600, 15.0).any()
     assert not voice.played(None, 0.0, 1600, 16.0).any()
+
+
+def test_how_much_was_left_is_known_by_the_time():
+    loud, soft, leftover = babble(0.1), babble(0.1) // 4, Leftover()
+    assert leftover.share(0.0, 1.0) == 1.0
+
+    for tick in range(1, 21):
+        leftover.add(loud, loud if tick > 10 else soft, tick / 10)
+
+    assert 0.05 < leftover.share(0.0, 0.8) < 0.07
+    assert leftover.share(1.05, 2.0) == 1.0
+    assert 0.5 < leftover.share(0.0, 2.0) < 0.6
+    leftover.add(loud, loud, 2.0 + REMEMBERED)
+    assert leftover.share(0.0, 1.5) == 1.0  # long ago
 
 
 def test_its_words_are_known_by_their_times():

@@ -12,6 +12,7 @@ from hri.robot import Robot, verbs
 from hri.simulation.simulated_devices import SimulatedSpeaker
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import SpeakOn, Voice
+from hri.speech.synthesizers.natural import NaturalVoice
 from hri.speech.tasks import wait_for_speech
 from hri.testing import live_for
 
@@ -21,6 +22,11 @@ STORY = (
     "Now I shall tell you of a robot that went to the sea. "
     "Say stop when it is enough, and I shall fall silent. "
     "It was a dark and stormy night, and nobody was there."
+)
+
+NIGHT = (
+    "Now I shall tell you of a robot that went to the sea. "
+    "It was a dark and stormy night, and nobody was there, but for a bird that could not sleep."
 )
 
 
@@ -37,16 +43,20 @@ APP = """<BehaviorNetwork name="talk" invocation_interval="1/30">
 class Talk:
     """A robot whose microphone hears its own speaker, and a person who says lines at times."""
 
-    def __init__(self, folder, seconds, lines, *jobs, level=-12.0):
+    def __init__(self, folder, seconds, lines, *jobs, level=-12.0, seed=3, natural=False):
         (folder / "talk.xml").write_text(APP)
         (folder / "app.toml").write_text('about = "talks"\nnetworks = ["talk.xml"]\n')
         clock = FakeClock()
-        robot = Robot(str(folder), "simulated", clock=clock, seed=3)
+        robot = Robot(str(folder), "simulated", clock=clock, seed=seed)
         world = robot.resources.obtain("world", SimulatedWorld)
         loud = Description("speaker", "Hri.SimulatedSpeaker", {"level": str(level)})
-        speaker = SimulatedSpeaker(loud, robot.resources)
-        speaker.activate()
-        robot.resources.substitute("speaker", speaker)
+        devices = [SimulatedSpeaker(loud, robot.resources)]
+        if natural:
+            voice = Description("voice", "Hri.NaturalVoice")
+            devices.append(NaturalVoice(voice, robot.resources))
+        for device in devices:
+            device.activate()
+            robot.resources.substitute(device.description.id, device)
         for time, line in lines.items():
             clock.call_at(time, lambda line=line: world.say(line, clock.now()))
         self.events = live_for(robot, seconds, *jobs)
@@ -69,6 +79,15 @@ def test_its_own_words_are_never_obeyed(tmp_path):
     assert talk.heard() == []
     assert [told["cut"] for told in talk.named("speech.finished")] == [False, False]
     assert {told["reason"] for told in talk.named("speech.rejected")} <= {"robot speaking"}
+
+
+def test_what_is_left_of_a_low_voice_is_not_made_a_command(tmp_path):
+    async def tell_of_the_night(context):
+        context.behavior(Voice).say(NIGHT)
+
+    talk = Talk(tmp_path, 4.8, {}, tell_of_the_night, level=-24.0, seed=12, natural=True)
+
+    assert talk.heard() == []
 
 
 @pytest.mark.parametrize("level", [-24.0, -6.0])

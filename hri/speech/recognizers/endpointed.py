@@ -8,6 +8,7 @@ from typing import ClassVar
 
 from hri.core.signals import Samples
 from hri.hal.recognizer import Hypothesis, Recognizer, Segment
+from hri.speech.echo import ECHO_TAIL
 from hri.speech.endpoint import PAUSE, Endpointer
 from hri.speech.recognizers.voice_activity import voice_detector
 
@@ -23,6 +24,12 @@ class EndpointedRecognizer(Recognizer):
     def _open(self) -> None:
         pause = self.description.number_within("pause", PAUSE, 0.2, 3.0)
         self._endpointer = Endpointer(self.rate, voice_detector, pause)
+        self._spoke = -ECHO_TAIL
+
+    def mind(self, is_speaking: bool, now: float) -> None:
+        if is_speaking:
+            self._spoke = now
+        self._endpointer.hold_level(now - self._spoke <= ECHO_TAIL)
 
     def listen(self, samples: Samples, end: float) -> list[Segment]:
         return self._endpointer.listen(samples, end)
