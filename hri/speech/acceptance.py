@@ -24,10 +24,6 @@ OVER_SPEECH = 0.4
 """The same while the robot speaks: the rest of the echo sometimes sounds like a command (up
 to 0.43 in the simulated room, where "stop" had 0.8 and more).
 """
-EXPECTED = 0.7
-"""Share of the strictness that is enough for an answer while a question is open: it is likely, and
-often short. Of right short sentences (8 phones at most) 93 % instead of 91 % are accepted then,
-88 % instead of 82 % at 12 dB; of foreign ones 0.6 % as before, and 6 % instead of 3 %."""
 UNASKED = 0.3
 """The same for someone who does not turn to the robot and does not say its name."""
 SURELY = 0.6
@@ -188,7 +184,7 @@ def needed(
     turn = turn or Turn()
     marks = grammar.rules[found.rule].marks
     if turn.is_question_open and "answer" in marks:
-        return strictness * EXPECTED
+        return strictness  # The engine knows that it is likely.
     share = CAREFUL if "careful" in marks else 0.0
     if turn.is_speaking:
         share = OVER_SPEECH

@@ -102,7 +102,9 @@ def test_while_the_robot_speaks_only_what_interrupts_counts(grammar):
 
 
 def test_an_answer_counts_while_a_question_is_open(grammar):
-    assert reason(grammar, "yes", 0.4, Turn(is_question_open=True)) == "yes"
+    asked = Turn(is_question_open=True, is_addressed=False)
+    assert reason(grammar, "yes", 0.5, asked) == "yes"
+    assert reason(grammar, "yes", 0.4, asked) == "low confidence"
     result = judge(grammar, PIECE, Hypothesis("yes", 0.9), 0.5, Turn())
     assert (result.reason, result.detail) == (
         "not now",
