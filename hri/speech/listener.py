@@ -46,6 +46,8 @@ LITTLE = 0.25
 """Share of a sound's energy without the robot's voice that may be only what is left of it: where
 that sounded like a command it had 0.24 at most, a stop word as loud as its voice has 0.28 and more.
 """
+RECENT = 0.2
+"""Seconds of sound that show whether its voice is subtracted, and nobody else speaks."""
 
 Tell = Callable[[float], object]
 """What is to be done in the loop with the result of a job, at a time."""
@@ -151,6 +153,7 @@ class Listener(Behavior):
         self._spoke = -ECHO_TAIL
         self._subtracted = 0.0  # seconds of its voice so far
         self._learned = 0.0  # when that was LEARNING
+        self._subtracts = False  # whether little of its voice has been left since
         self._turns = TurnTaking(self._recognizer)
         self._worked = Segment(0.0, 0.0)
         self._partial = ""
@@ -300,7 +303,8 @@ class Listener(Behavior):
         was_hearing = self._recognizer.is_hearing
         self._recognizer.mind(is_speaking, now)
         segments = self._recognizer.listen(samples[:0] if is_deaf else samples, now)
-        if (self._ear.has_ended or is_deaf or is_let_go) and self._recognizer.is_hearing:
+        is_over = self._ear.has_ended or is_deaf or is_let_go or self._begins_to_subtract(now)
+        if is_over and self._recognizer.is_hearing:
             segments += self._recognizer.flush()
         if was_hearing or self._recognizer.is_hearing or segments:
             self._note(is_speaking)
@@ -329,6 +333,17 @@ class Listener(Behavior):
             self._subtracted += len(heard) / self._recognizer.rate
             self._learned = now
         return self._canceller.cancel(heard, played)
+
+    def _begins_to_subtract(self, now: float) -> bool:
+        """Whether little of its voice is left for the first time.
+
+        What was left before ends there, so that it does not come before someone's words. While
+        someone speaks that waits: it would cut the words in two.
+        """
+        if self._subtracts or self._subtracted < LEARNING:
+            return False
+        self._subtracts = self._leftover.share(now - RECENT, now) < LITTLE
+        return self._subtracts
 
     # --- understanding ---
 

@@ -90,6 +90,12 @@ def test_what_is_left_of_a_low_voice_is_not_made_a_command(tmp_path):
     assert talk.heard() == []
 
 
+def test_stop_is_heard_as_soon_as_its_own_voice_is_known(tmp_path):
+    talk = Talk(tmp_path, 3.8, {2.34: "stop"}, tell, level=-6.0, seed=1, natural=True)
+
+    assert talk.heard() == ["stop"]
+
+
 @pytest.mark.parametrize("level", [-24.0, -6.0])
 def test_stop_is_heard_over_its_own_voice_and_empties_the_queue(tmp_path, level):
     talk = Talk(tmp_path, 9, {6.5: "stop"}, tell, level=level)
