@@ -32,7 +32,7 @@ from hri.speech.recognizers.ctc.key_phrases import (
 )
 from hri.speech.recognizers.ctc.lattice import Path
 from hri.speech.recognizers.ctc.loudness import KEPT, leveled, noise_of, sounding
-from hri.speech.recognizers.ctc.phone_graph import Floats, compile
+from hri.speech.recognizers.ctc.phone_graph import Floats, PhoneGraph, compile
 from hri.speech.recognizers.ctc.posterior_stream import PosteriorStream
 from hri.speech.recognizers.ctc.ranking import ranked
 from hri.speech.recognizers.ctc.rivals import Rivals
@@ -50,6 +50,8 @@ NEARLY_SAID = -1.0
 
 CLEAR = 0.5
 """Confidence under which it is worth asking whether someone hesitated."""
+SHORT = 4
+"""Letters of an answer that is short."""
 STILL = 1600
 """Samples of silence at the end of a piece that do not make a hesitation an earlier one."""
 
@@ -216,7 +218,8 @@ def decoded(
         sure = confidence_in_phrase(best, log_probabilities, phones, noise)
         alternatives += said_beside(best, search, log_probabilities, rules, noise)
     else:
-        sure = confidence(fit_of(best, rivals.score(scores, best.words), scores, phones), noise)
+        rival = rivals.score(scores, best.words) + unproven(best, search.graph)
+        sure = confidence(fit_of(best, rival, scores, phones), noise)
     return Hypothesis(said(best.words), sure, _times(best), tuple(alternatives), begun)
 
 
@@ -227,6 +230,14 @@ def _begun(search: Search, log_probabilities: Floats) -> str:
         return ""
     fit = phrase_fit(path, log_probabilities, search.graph.phones)
     return said(path.words) if fit.nearness >= NEARLY_SAID else ""
+
+
+def unproven(path: Path, graph: PhoneGraph) -> float:
+    """Natural log: what a sentence is worth because it is expected, which does not show that it was
+    said: all of it for a short one, since noise sounds like "no", too; nothing for a longer one.
+    """
+    letters = sum(map(len, path.words))
+    return graph.head_start(path.spans[0].place) * float(np.clip(2.0 - letters / SHORT, 0.0, 1.0))
 
 
 def later(hypothesis: Hypothesis, seconds: float) -> Hypothesis:
