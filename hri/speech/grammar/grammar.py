@@ -49,13 +49,20 @@ class Grammar(Rules):
         words = tuple(Token(word, _NOWHERE) for word in normalize(name))
         if not words:
             return self
+        # Kept for the next robot of that name, with all that is made of it.
+        names: dict[tuple[Token, ...], Grammar] = self.made(_names)
+        if (known := names.get(words)) is not None:
+            return known
         rules = {
             key: replace(rule, expression=_either(rule.expression, Sequence(words, _NOWHERE)))
             if "name" in rule.marks
             else rule
             for key, rule in self.rules.items()
         }
-        return replace(self, rules=rules)
+        called = replace(self, rules=rules)
+        names.clear()
+        names[words] = called
+        return called
 
     def words(self) -> frozenset[str]:
         """All words that can be said, lower case."""
@@ -121,6 +128,11 @@ class Grammar(Rules):
 
 def _either(one: Expression, other: Expression) -> Expression:
     return Alternative((one, other), (1.0, 1.0), one.span)
+
+
+def _names(rules: Rules) -> dict[tuple[Token, ...], Grammar]:
+    """The rules by the name that the robot was called last."""
+    return {}
 
 
 def _graph(rules: Rules) -> WordGraph:

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import partial
+from functools import lru_cache, partial
 from glob import escape
 from pathlib import Path
 
@@ -41,6 +41,12 @@ from hri.speech.grammar.rules import Rule
 SUFFIXES = paths.suffixes("grammars")
 MOST_FILES = 100
 """Files that one grammar may import, directly or not."""
+MOST_KEPT = 8
+"""Grammars that are kept, with all that was made of them, until the same files are read again."""
+
+_Sources = tuple[Path, tuple[tuple[Path, str | Expression], ...]]
+"""The path of a grammar, and the files that it was read from with their contents, in order."""
+_kept: dict[_Sources, Grammar] = {}
 
 
 def load_grammar(name: str | Path) -> Grammar:
@@ -50,7 +56,7 @@ def load_grammar(name: str | Path) -> Grammar:
     """
     path = name if isinstance(name, Path) else paths.find("grammars", name)
     grammar, errors = read_grammar(path)
-    errors = errors or analysis.errors(grammar)
+    errors = errors or grammar.made(analysis.errors)
     if errors:
         raise errors[0]
     return grammar
@@ -63,6 +69,11 @@ def read_grammar(path: Path) -> tuple[Grammar, list[AuthoringError]]:
     Raises HriError when the file, or one that it imports, cannot be read at all.
     """
     return _Loader().load(path)
+
+
+@lru_cache(maxsize=MOST_FILES)
+def _document(text: str, path: Path) -> Document:
+    return read_jsgf(text, path)
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,6 +121,7 @@ class _Loader:
         self._pending: list[_File] = []
         self._taken: set[str] = set()
         """Names that stand for a rule without a prefix."""
+        self._sources: list[tuple[Path, str | Expression]] = []
         self._root = Path()
         """The folder of the main file."""
 
@@ -134,11 +146,22 @@ class _Loader:
             names=frozenset({*main.own, *main.imported}),
             warnings=tuple(self._warnings),
         )
-        return grammar, self._errors
+        return grammar if self._errors else self._same_as_before(grammar), self._errors
+
+    def _same_as_before(self, grammar: Grammar) -> Grammar:
+        """The grammar that was read from the same files before, if it is kept."""
+        sources = (grammar.path, tuple(self._sources))
+        known = _kept.pop(sources, grammar)
+        _kept[sources] = known
+        for oldest in list(_kept)[:-MOST_KEPT]:
+            _kept.pop(oldest, None)
+        return known
 
     def _read(self, path: Path, prefix: str, is_heard: bool = False) -> _File:
         text, doubt = read_source(path)
-        document = read_jsgf(text, path)
+        # A separate copy, since its frames may come from what it extends.
+        document = replace(_document(text, path))
+        self._sources.append((path, text))
         self._errors += document.errors
         self._warnings += [*filter(None, [doubt]), *document.warnings]
         file = self._files[path.resolve()] = _File(document, prefix, is_heard)
@@ -269,6 +292,7 @@ class _Loader:
         else:
             try:
                 names, errors = read_names(path, use.name)
+                self._sources.append((path, names))
                 self._errors += errors
                 return Rule(key, names, is_public=False, span=use.span, path=path)
             except AuthoringError as error:

@@ -351,3 +351,23 @@ def test_a_list_with_a_name_that_no_file_has_is_one_line(tmp_path):
     file.write_text(f'#JSGF V1.0;\ngrammar a;\nimport "{name}" as <who>;\npublic <a> = <who>;\n')
     with pytest.raises(AuthoringError, match="no list of names"):
         load_grammar(file)
+
+
+def test_the_same_files_are_compiled_once_and_a_changed_one_again(tmp_path):
+    main, colors, names = (tmp_path / name for name in ("main.jsgf", "colors.jsgf", "names.txt"))
+    main.write_text(
+        '#JSGF V1.0;\ngrammar main;\nimport <colors.color>;\nimport "names.txt" as <person>;\n'
+        "public <see> = see <color> | ask <person>;"
+    )
+    colors.write_text("#JSGF V1.0;\ngrammar colors;\npublic <color> = red;")
+    names.write_text("ann\n")
+    first = load_grammar(main)
+    assert load_grammar(main) is first
+    assert first.called("Robin") is first.called("robin")
+
+    colors.write_text("#JSGF V1.0;\ngrammar colors;\npublic <color> = tan;")
+    second = load_grammar(main)
+    assert set(second.sentences(9)) == {"see tan", "ask ann"}
+    names.write_text("bob\n")
+    assert set(load_grammar(main).sentences(9)) == {"see tan", "ask bob"}
+    assert set(first.sentences(9)) == {"see red", "ask ann"}
