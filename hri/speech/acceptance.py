@@ -70,12 +70,7 @@ def judge(
     likely = [] if found is None else [found, *filter(None, meant)]
     doubt = min(1.0, sum(alternative.share for alternative in doubts))
     confidence = hypothesis.confidence * (1.0 - doubt)
-    words = tuple(
-        HeardWord(word.text, segment.start + word.start, segment.start + word.end)
-        for word in hypothesis.words
-    )
-    start = words[0].start if words else segment.start
-    end = words[-1].end if words else segment.end - segment.quiet
+    words, start, end = _times(segment, hypothesis)
     least = needed(grammar, found, strictness, turn)
     reason, detail = _reason(grammar, hypothesis, likely, rules, turn, least)
     choices: tuple[str, ...] = ()
@@ -90,19 +85,20 @@ def judge(
     if turn.is_speaking and reason:
         reason = "robot speaking"
     if reason or found is None:
-        rejection = Rejection(
+        doubted = likely if reason == "low confidence" else ()
+        return Rejection(
             reason,
             listed(hypothesis.text),
             confidence,
             start,
             end,
             detail,
+            sure=agreed(doubted),
+            unsure=disputed(doubted),
+            choices=choices if doubted else (),
             begun=listed(hypothesis.begun),
             level_db=segment.level_db,
         )
-        if reason != "low confidence" or found is None:
-            return rejection
-        return replace(rejection, sure=agreed(likely), unsure=disputed(likely), choices=choices)
     return Utterance(
         text=listed(found.text),
         rule=found.rule,
@@ -117,6 +113,17 @@ def judge(
         begun=listed(hypothesis.begun),
         level_db=segment.level_db,
     )
+
+
+def _times(segment: Segment, hypothesis: Hypothesis) -> tuple[tuple[HeardWord, ...], float, float]:
+    """The words by the clock, and when they begin and end."""
+    words = tuple(
+        HeardWord(word.text, segment.start + word.start, segment.start + word.end)
+        for word in hypothesis.words
+    )
+    if not words:
+        return (), segment.start, segment.end - segment.quiet
+    return words, words[0].start, words[-1].end
 
 
 def _command(grammar: Grammar, found: Parse) -> str:
@@ -153,9 +160,9 @@ def _choices(grammar: Grammar, found: Parse | None, other: str) -> tuple[str, ..
 
 def agreed(likely: Sequence[Parse]) -> dict[str, Any]:
     """The tags that all of some sentences have; none unless they are of one rule."""
-    first, *others = likely
-    if any(other.rule != first.rule for other in others):
+    if len({one.rule for one in likely}) != 1:
         return {}
+    first, *others = likely
     return {
         name: value
         for name, value in first.tags.items()

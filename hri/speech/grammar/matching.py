@@ -293,6 +293,10 @@ _History = tuple["_History | None", _Said, Actions]
 """The steps so far, the last one first: what it said, and what it did."""
 
 
+def _listed_words(parse: Parse) -> int:
+    return len(parse.text.split()) - len(parse.free)
+
+
 class Matcher:
     """Follows sentences through an automaton; remembers what it has worked out."""
 
@@ -380,7 +384,10 @@ class Matcher:
             if (first := next(found, None)) is None:
                 continue
             if self.is_open:
-                free += (first, *itertools.islice(found, MOST_FREE))
+                # Another form counts where more of its words are listed, not where it has fewer.
+                most = max(map(_listed_words, free), default=-1)
+                read = (first, *itertools.islice(found, MOST_FREE))
+                free += (one for one in read if _listed_words(one) > most)
             else:
                 yield first
                 yield from found

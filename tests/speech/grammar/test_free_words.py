@@ -200,3 +200,11 @@ def test_the_commands_show_both_meanings(write, tmp_path, capsys):
     told = capsys.readouterr().out
     assert "means turn: side=right or turn: side=left, which are equally specific" in told
     assert "1 of 2 sentences as expected" in told
+
+
+def test_the_words_around_a_phrase_stay_as_they_were_typed(write):
+    rules = "/** @anywhere */ public <leave> = bye; public <tired> = i've had enough of two;"
+    grammar = load_grammar(write(rules))
+
+    assert parse(grammar, "i have to run so bye for now").text == "i have to run so bye for now"
+    assert parse(grammar, "i have had enough of 2").text == "i've had enough of two"
