@@ -39,8 +39,8 @@ from hri.task.context import TaskContext
 from hri.testing import live_for
 
 TURNS: Mapping[str, Turn] = {
-    "unknown to whom": Turn(),
-    "not addressed": Turn(),  # Turn(is_addressed=False), once a turn says it
+    "addressed": Turn(),
+    "not addressed": Turn(is_addressed=False),
 }
 OWN = "its own voice"
 MINUTES = {"people": 18, "dialogs": 14, "talk": 18, OWN: 10}

@@ -7,22 +7,20 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import numpy as np
-
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.ports import Input, Output, Param
 from hri.core import paths
 from hri.core.clock import Worker
 from hri.core.errors import HriError
 from hri.core.origin import caused_by, origin
-from hri.core.signals import Rejection, Samples, Speech, Utterance
+from hri.core.signals import Rejection, Speech, Utterance
 from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer, Segment
 from hri.speech.acceptance import OVER_SPEECH, STRICTNESS
-from hri.speech.echo import ECHO_TAIL, EchoCanceller, Leftover, OwnVoice
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.merging import with_interrupts_of
 from hri.speech.grammar_stack import GrammarStack, Layer, Prepare, as_written
+from hri.speech.own_voice_filter import OwnVoiceFilter
 from hri.speech.recognizers.typed import LineDecoder
 from hri.speech.room_noise import RoomListener
 from hri.speech.turn import FOLLOW_UP, Turn, Wakefulness
@@ -33,21 +31,6 @@ FOLDERS = "app.folders"
 """Slot of the board with the folders of the app and of those that it extends, its own first."""
 MOST_WAITING = 20
 """Pieces of speech that wait for their turn; beyond it the oldest are forgotten."""
-OWN_SHARE = 0.5
-"""Share of a sound's energy that must be left without the robot's voice to be someone else's."""
-LEARNING = 2.0
-"""Seconds of the robot's voice after which most of it is subtracted."""
-CLEAR = 0.97
-"""Confidence from which words count before, and those of which little is left: what is left of its
-voice sounds like a command, most often "halt", in one first sentence of ten (at most 0.95), while
-"stop" in quiet has 0.99 or more.
-"""
-LITTLE = 0.25
-"""Share of a sound's energy without the robot's voice that may be only what is left of it: where
-that sounded like a command it had 0.24 at most, a stop word as loud as its voice has 0.28 and more.
-"""
-RECENT = 0.2
-"""Seconds of sound that show whether its voice is subtracted, and nobody else speaks."""
 
 Tell = Callable[[float], object]
 """What is to be done in the loop with the result of a job, at a time."""
@@ -146,14 +129,8 @@ class Listener(Behavior):
         self._waiting: deque[tuple[Segment, _Piece]] = deque(maxlen=MOST_WAITING)
         self._piece = _Piece()
         self._wakefulness = Wakefulness(self.follow_up)
-        self._own_voice = OwnVoice(self._recognizer.rate)
-        self._canceller = EchoCanceller()
-        self._leftover = Leftover()
+        self._own_voice = OwnVoiceFilter(self._recognizer.rate)
         self._room = RoomListener(self._recognizer.rate)
-        self._spoke = -ECHO_TAIL
-        self._subtracted = 0.0  # seconds of its voice so far
-        self._learned = 0.0  # when that was LEARNING
-        self._subtracts = False  # whether little of its voice has been left since
         self._turns = TurnTaking(self._recognizer)
         self._worked = Segment(0.0, 0.0)
         self._partial = ""
@@ -288,11 +265,11 @@ class Listener(Behavior):
         """Feed the endpointer; remember what happens during each piece."""
         is_speaking = bool(self.is_speaking.value)
         if is_speaking:
-            self._spoke = now
             self._wakefulness.extend(now)
-        heard = self._ear.read(now)
-        samples = self._without_own_voice(heard, now)
-        self._leftover.add(heard, samples, now)
+            if self.speech.sources:  # Else its voice cannot be subtracted.
+                self._own_voice.note_speaking(now)
+        position = self.position.value or 0.0
+        samples = self._own_voice.filtered(self._ear.read(now), self.speech.value, position, now)
         is_held = self.is_held
         is_let_go, self._was_held = self._was_held and not is_held, is_held
         if is_held:
@@ -303,7 +280,9 @@ class Listener(Behavior):
         was_hearing = self._recognizer.is_hearing
         self._recognizer.mind(is_speaking, now)
         segments = self._recognizer.listen(samples[:0] if is_deaf else samples, now)
-        is_over = self._ear.has_ended or is_deaf or is_let_go or self._begins_to_subtract(now)
+        is_over = (
+            self._ear.has_ended or is_deaf or is_let_go or self._own_voice.begins_to_subtract(now)
+        )
         if is_over and self._recognizer.is_hearing:
             segments += self._recognizer.flush()
         if was_hearing or self._recognizer.is_hearing or segments:
@@ -321,29 +300,6 @@ class Listener(Behavior):
         piece.has_spoken |= is_speaking
         piece.was_question_open |= bool(self.question.value)
         piece.was_addressed |= bool(self.is_addressed.value)
-
-    def _without_own_voice(self, heard: Samples, now: float) -> Samples:
-        """Subtract the robot's own speech, if a voice is linked."""
-        if not self.speech.sources or now - self._spoke > ECHO_TAIL:
-            rest = self._canceller.flush()
-            return np.concatenate([rest, heard]) if len(rest) else heard
-        position = self.position.value or 0.0
-        played = self._own_voice.played(self.speech.value, position, len(heard), now)
-        if self._subtracted < LEARNING and played.any():
-            self._subtracted += len(heard) / self._recognizer.rate
-            self._learned = now
-        return self._canceller.cancel(heard, played)
-
-    def _begins_to_subtract(self, now: float) -> bool:
-        """Whether little of its voice is left for the first time.
-
-        What was left before ends there, so that it does not come before someone's words. While
-        someone speaks that waits: it would cut the words in two.
-        """
-        if self._subtracts or self._subtracted < LEARNING:
-            return False
-        self._subtracts = self._leftover.share(now - RECENT, now) < LITTLE
-        return self._subtracts
 
     # --- understanding ---
 
@@ -393,7 +349,11 @@ class Listener(Behavior):
                 if self._told_early == (segment.number, _rule_of(heard)):
                     continue
                 result = replace(heard, latency=now - begun)
-                if isinstance(result, Utterance) and self._is_own(result, piece):
+                if (
+                    isinstance(result, Utterance)
+                    and piece.has_spoken
+                    and self._own_voice.is_own(result)
+                ):
                     result = _own_words(result)
                 with caused_by(segment.origin):
                     self._tell(result, grammar, piece)
@@ -468,20 +428,7 @@ class Listener(Behavior):
     # --- telling ---
 
     def _is_own(self, heard: Heard, piece: _Piece) -> bool:
-        """Whether it is what the robot said itself, and that was most of the sound.
-
-        As long as its voice cannot be subtracted yet, and where little is left without it,
-        whatever is not clear is taken for that.
-        """
-        if not piece.has_spoken:
-            return False
-        left = self._leftover.share(heard.start, heard.end)
-        if heard.confidence < CLEAR and (heard.start < self._learned or left < LITTLE):
-            return True
-        if left >= OWN_SHARE:
-            return False
-        said = self._own_voice.said(heard.start - ECHO_TAIL, heard.end + ECHO_TAIL)
-        return f" {heard.text} " in f" {' '.join(said)} "
+        return piece.has_spoken and self._own_voice.is_own(heard)
 
     def _tell_partial(self, words: str, turn: Turn) -> None:
         if words and words != self._partial and not turn.is_speaking:

@@ -1,0 +1,89 @@
+"""The robot's own voice in its ears: subtracted as far as it goes, and never obeyed."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hri.core.signals import Samples, Speech
+from hri.speech.echo import ECHO_TAIL, EchoCanceller, Leftover, OwnVoice
+from hri.speech.understanding import Heard
+
+OWN_SHARE = 0.5
+"""Share of a sound's energy that must be left without the robot's voice to be someone else's."""
+LEARNING = 2.0
+"""Seconds of the robot's voice after which most of it is subtracted."""
+CLEAR = 0.97
+"""Confidence from which words count before, and those of which little is left: what is left of its
+voice sounds like a command, most often "halt", in one first sentence of ten (at most 0.95), while
+"stop" in quiet has 0.99 or more.
+"""
+LITTLE = 0.25
+"""Share of a sound's energy without the robot's voice that may be only what is left of it: where
+that sounded like a command it had 0.24 at most, a stop word as loud as its voice has 0.28 and more.
+"""
+RECENT = 0.2
+"""Seconds of sound that show whether its voice is subtracted, and nobody else speaks."""
+
+
+class OwnVoiceFilter:
+    """What is heard without the robot's own voice, and whether words that are heard are its own."""
+
+    def __init__(self, rate: int) -> None:
+        """`rate` is the microphone's samples a second."""
+        self._rate = rate
+        self._own_voice = OwnVoice(rate)
+        self._canceller = EchoCanceller()
+        self._leftover = Leftover()
+        self._spoke = -ECHO_TAIL
+        self._subtracted = 0.0  # seconds of its voice so far
+        self._learned = 0.0  # when that was LEARNING
+        self._subtracts = False  # whether little of its voice has been left since
+
+    def note_speaking(self, now: float) -> None:
+        """The robot speaks at a time in seconds."""
+        self._spoke = now
+
+    def filtered(
+        self, heard: Samples, speech: Speech | None, position: float, now: float
+    ) -> Samples:
+        """The sound up to a time, without the `speech` of which `position` seconds were played."""
+        samples = self._cancelled(heard, speech, position, now)
+        self._leftover.add(heard, samples, now)
+        return samples
+
+    def _cancelled(
+        self, heard: Samples, speech: Speech | None, position: float, now: float
+    ) -> Samples:
+        if now - self._spoke > ECHO_TAIL:
+            rest = self._canceller.flush()
+            return np.concatenate([rest, heard]) if len(rest) else heard
+        played = self._own_voice.played(speech, position, len(heard), now)
+        if self._subtracted < LEARNING and played.any():
+            self._subtracted += len(heard) / self._rate
+            self._learned = now
+        return self._canceller.cancel(heard, played)
+
+    def begins_to_subtract(self, now: float) -> bool:
+        """Whether little of its voice is left for the first time.
+
+        What was left before ends there, so that it does not come before someone's words. While
+        someone speaks that waits: it would cut the words in two.
+        """
+        if self._subtracts or self._subtracted < LEARNING:
+            return False
+        self._subtracts = self._leftover.share(now - RECENT, now) < LITTLE
+        return self._subtracts
+
+    def is_own(self, heard: Heard) -> bool:
+        """Whether what was heard while the robot spoke is what it said, and most of the sound.
+
+        As long as its voice cannot be subtracted yet, and where little is left without it,
+        whatever is not clear is taken for that.
+        """
+        left = self._leftover.share(heard.start, heard.end)
+        if heard.confidence < CLEAR and (heard.start < self._learned or left < LITTLE):
+            return True
+        if left >= OWN_SHARE:
+            return False
+        said = self._own_voice.said(heard.start - ECHO_TAIL, heard.end + ECHO_TAIL)
+        return f" {heard.text} " in f" {' '.join(said)} "
