@@ -29,8 +29,10 @@ class Grammar(Protocol):
     def words(self) -> frozenset[str]:
         """All words that can be said."""
 
-    def flat_jsgf(self) -> str:
-        """The grammar as JSGF with a single public rule, without tags, imports and quotes."""
+    def flat_jsgf(self, rules: Collection[str] | None = None) -> str:
+        """The grammar, or only these of its public rules, as JSGF with a single public rule,
+        without tags, imports and quotes.
+        """
 
     def sample(self, most: int) -> list[str]:
         """Sentences of the grammar: all when there are not more, else some of all kinds."""

@@ -14,6 +14,7 @@ from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.simulation.world import SimulatedWorld
 from hri.speech.grammar import load_grammar
+from hri.speech.turn import Turn
 from hri.vision.detectors.detector_choice import load_detectors
 from hri.vision.gestures.gesture_patterns import answer_patterns
 from hri.vision.gestures.gesture_recognizer import GestureRecognizer
@@ -39,13 +40,15 @@ def test_what_the_person_says_is_heard_and_small_talk_is_not(manager: ResourceMa
     world = manager.obtain("world", SimulatedWorld)
     microphone = manager.obtain("microphone", Microphone)
     recognizer = manager.obtain("recognizer", Recognizer)
-    recognizer.start(load_grammar(house() / "grammars" / "companion.jsgf"))
+    companion = load_grammar(house() / "grammars" / "companion.jsgf")
+    recognizer.start(companion)
     world.say("go forward ten meters", 0.5)
     world.say("my sister went to Lisbon for the summer", 4.0)
     segments = []
     for tick in range(1, 9 * 30):
         segments += recognizer.listen(microphone.read(tick / 30), tick / 30)
-    hypotheses = [recognizer.decode(segment) for segment in segments]
+    rules = Turn().rules(companion)
+    hypotheses = [recognizer.decode(segment, rules) for segment in segments]
     assert len(segments) == 2
     assert segments[0].start == pytest.approx(0.2, abs=0.1)
     assert hypotheses[0].text == "go forward ten meters"

@@ -83,9 +83,11 @@ class Grammar(Rules):
         for key in analysis.reachable(self.rules, [rule] if rule else self.public_rules):
             yield from self.rules[key].nodes
 
-    def flat_jsgf(self) -> str:
-        """The same sentences as JSGF with a single public rule, without tags and imports."""
-        return flat_jsgf(self)
+    def flat_jsgf(self, rules: Collection[str] | None = None) -> str:
+        """The same sentences, perhaps only those of some rules, as JSGF with a single public rule,
+        without tags and imports.
+        """
+        return flat_jsgf(self, self.public_rules if rules is None else rules)
 
     def sentences(self, limit: int) -> Iterable[str]:
         """Sentences of the grammar, at most `limit`, the public rules taking turns."""
@@ -139,7 +141,7 @@ def _graph(rules: Rules) -> WordGraph:
     return replace(word_graph(rules.made(build_spoken)), expected=rules.marked("answer"))
 
 
-def flat_jsgf(grammar: Grammar) -> str:
+def flat_jsgf(grammar: Grammar, rules: Collection[str]) -> str:
     """See `Grammar.flat_jsgf`. PocketSphinx knows one public rule only and no dots in names.
 
     What can never be said is left out: with a `<VOID>` anywhere it hears nothing of the rest. So is
@@ -149,7 +151,7 @@ def flat_jsgf(grammar: Grammar) -> str:
     aside = [key for key, rule in grammar.rules.items() if "aside" in rule.marks]
     sayable = _Sayable(grammar.made(analysis.heights), aside)
     said = {key: sayable(rule.expression) for key, rule in grammar.rules.items()}
-    public = [key for key in grammar.public_rules if said[key] is not None]
+    public = [key for key in grammar.public_rules if key in rules and said[key] is not None]
     keys = [key for key in analysis.reachable(grammar.rules, public) if said[key] is not None]
     names = {
         key: f"r{number}_{re.sub(r'[^A-Za-z0-9]', '_', key)}" for number, key in enumerate(keys)

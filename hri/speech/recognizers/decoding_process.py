@@ -4,7 +4,7 @@ Run as a script; it imports nothing of `hri`. It reads requests on its standard 
 line of JSON, and answers each with a line of JSON on its standard output:
 
     {"lookup": ["go", "zorg"]}                              {"missing": ["zorg"]}
-    {"jsgf": "...", "pronunciations": {"zorg": "Z AO R G"}} {"error": ""}
+    {"jsgf": "...", "pronunciations": {"zorg": "Z AO R G"}} {"error": ""}   (the last few are kept)
     {"bytes": 32000}, then that number of bytes of 16-bit samples  {"words": [["go", 9, 12]],
     "score": 0.7}
 """
@@ -17,6 +17,8 @@ import signal
 import sys
 from typing import Any, BinaryIO
 
+NAMES = ("first", "second", "third", "fourth")
+"""Searches that are kept, since to take the grammar of the companion's answers takes 1.5 s."""
 MOST_STATES = 300
 """Phone models that are followed at a time. Without a limit sound that fits nothing, such as orders
 6 dB above babble, takes up to 1.2 s a second, with it 0.3; clean orders take 0.06 either way."""
@@ -25,13 +27,14 @@ MOST_STATES = 300
 def serve(requests: BinaryIO, answers: BinaryIO) -> None:
     """Answer until the requests end."""
     decoder = _decoder()
+    kept: dict[str, str] = {}
     for line in requests:
         request = json.loads(line)
         if "lookup" in request:
             missing = [word for word in request["lookup"] if decoder.lookup_word(word) is None]
             answer = {"missing": missing}
         elif "jsgf" in request:
-            answer = _take_grammar(decoder, request)
+            answer = _take_grammar(decoder, request, kept)
         else:
             decoder.reinit_feat()  # forgets what it has learnt of earlier sound
             answer = _decode(decoder, requests.read(request["bytes"]))
@@ -52,15 +55,23 @@ def _decoder() -> Any:
     )
 
 
-def _take_grammar(decoder: Any, request: dict[str, Any]) -> dict[str, Any]:
+def _take_grammar(decoder: Any, request: dict[str, Any], kept: dict[str, str]) -> dict[str, Any]:
+    """Make a grammar the one that is searched; `kept` are names of searches by their grammars."""
     for word, phones in request["pronunciations"].items():
         if decoder.lookup_word(word) is None:
             decoder.add_word(word, phones, True)
+    jsgf = request["jsgf"]
+    name = kept.pop(jsgf, None)
     try:
-        decoder.add_jsgf_string("grammar", request["jsgf"])
-        decoder.activate_search("grammar")
+        if name is None:
+            if len(kept) == len(NAMES):
+                kept.pop(next(iter(kept)))
+            name = next(name for name in NAMES if name not in kept.values())
+            decoder.add_jsgf_string(name, jsgf)
+        decoder.activate_search(name)
     except (ValueError, RuntimeError) as error:
         return {"error": str(error)}
+    kept[jsgf] = name
     return {"error": ""}
 
 

@@ -7,6 +7,7 @@ import subprocess
 import threading
 from collections.abc import Collection
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -38,7 +39,7 @@ class PocketSphinxRecognizer(EndpointedRecognizer):
         find_pocketsphinx()
         super()._open()
         self._process: subprocess.Popen[bytes] | None = None
-        self._grammar_request: dict[str, Any] | None = None
+        self._taken: _Taken | None = None
         self._talk = threading.Lock()
 
     def start(self, grammar: Grammar) -> None:
@@ -46,21 +47,36 @@ class PocketSphinxRecognizer(EndpointedRecognizer):
         with self._talk:
             words = sorted(grammar.words())
             missing = self._ask({"lookup": words})["missing"]
-            pronunciations = _pronunciations(load_lexicon(), words, missing)
-            request = {"jsgf": grammar.flat_jsgf(), "pronunciations": pronunciations}
-            answer = self._ask(request)
-            if answer["error"]:
-                what = f'PocketSphinx refuses the grammar "{grammar.name}": {answer["error"]}'
-                raise HriError(f"{what} - try `hri grammar check`")
-            self._grammar_request = request
+            self._take(
+                grammar, _pronunciations(load_lexicon(), words, missing), _while_idle(grammar)
+            )
+
+    def _take(
+        self, grammar: Grammar, pronunciations: dict[str, str], rules: frozenset[str] | None
+    ) -> None:
+        """Let the process listen for these rules alone: each of its frames takes as long as the
+        grammar is large, and the answers to questions make that of the companion six times as
+        large.
+        """
+        request = {"jsgf": grammar.flat_jsgf(rules), "pronunciations": pronunciations}
+        answer = self._ask(request)
+        if answer["error"]:
+            what = f'PocketSphinx refuses the grammar "{grammar.name}": {answer["error"]}'
+            raise HriError(f"{what} - try `hri grammar check`")
+        self._taken = _Taken(grammar, pronunciations, rules, request)
 
     def _decode(
         self, segment: Segment, samples: Samples, rules: Collection[str] | None
     ) -> Hypothesis:
         samples = samples[: len(samples) - round(max(0.0, segment.quiet - KEPT_QUIET) * self.rate)]
         sound = with_floor(samples).tobytes()
+        active = None if rules is None else frozenset(rules)
         with self._talk:
+            if (taken := self._taken) is None:
+                raise self.not_available("it has no grammar", "call start with a grammar first")
             try:
+                if taken.rules != active:
+                    self._take(taken.grammar, taken.pronunciations, active)
                 answer = self._ask({"bytes": len(sound)}, sound)
             except _TooSlow:
                 # The next piece may well be another thing; this one would only hang again.
@@ -87,8 +103,8 @@ class PocketSphinxRecognizer(EndpointedRecognizer):
             try:
                 if self._process is None:
                     self._process = _new_process()
-                    if self._grammar_request is not None:
-                        _exchange(self._process, self._grammar_request)
+                    if self._taken is not None:
+                        _exchange(self._process, self._taken.request)
                 answer = _exchange(self._process, request, payload)
             except _TooSlow:
                 self._end_process()
@@ -111,8 +127,26 @@ class PocketSphinxRecognizer(EndpointedRecognizer):
             self._end_process()
 
 
+@dataclass(frozen=True)
+class _Taken:
+    """What the process listens for."""
+
+    grammar: Grammar
+    pronunciations: dict[str, str]
+    """Those that it was given."""
+    rules: frozenset[str] | None
+    request: dict[str, Any]
+    """What a new process is asked first."""
+
+
 class _TooSlow(HriError):
     """The process did not answer in time, and was ended."""
+
+
+def _while_idle(grammar: Grammar) -> frozenset[str] | None:
+    """The rules that count while no question is open; all where there are no others."""
+    graph = grammar.graph()
+    return frozenset(graph.entries.keys() - graph.expected) or None
 
 
 def _pronunciations(lexicon: Lexicon, words: list[str], missing: list[str]) -> dict[str, str]:
