@@ -173,7 +173,9 @@ class RobotEnd:
             server, self._socket, self.wanted = self._socket, None, frozenset()
         if server is not None:
             with suppress(OSError):
-                server.close()
+                # The server would not see that it is closed while a thread still reads.
+                server.shutdown(socket.SHUT_RDWR)
+            server.close()
 
     def close(self) -> None:
         """End the link, and so the server; a second call does nothing."""

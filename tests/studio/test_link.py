@@ -53,6 +53,12 @@ def received(server, count):
     return found
 
 
+def test_the_server_sees_at_once_that_the_link_is_closed(link, server):
+    assert link.reader.is_alive(), "it waits for what the server sends"
+    link.close()
+    assert server.recv(1) == b""
+
+
 @given(st.lists(st.tuples(st.sampled_from((1, 2, 3)), st.binary(max_size=200))), st.integers(1, 50))
 def test_messages_survive_however_the_stream_is_cut(messages, size):
     stream = b"".join(packed(kind, content) for kind, content in messages)
