@@ -263,7 +263,8 @@ class Companion:
     def _examples(self) -> dict[str, str]:
         """One sentence for each command by its rule, those of the app's own grammar first."""
         grammar: Grammar = self.listener.loaded_grammar
-        rules = [rule for rule in grammar.public_rules if rule not in grammar.marked("answer")]
+        others = grammar.marked("answer") | grammar.marked("after")
+        rules = [rule for rule in grammar.public_rules if rule not in others]
         rules.sort(key=lambda rule: grammar.rules[rule].path != grammar.path)
         return {rule: example for rule in rules if (example := _example(grammar, rule))}
 

@@ -91,6 +91,12 @@ class Vocabulary:
     app: App
     """Knows the tasks."""
 
+    @property
+    def rules(self) -> tuple[str, ...]:
+        """The rules that are replied to: all but those that stand for others, such as "again"."""
+        public = self.grammar.public_rules
+        return tuple(key for key in public if not self.grammar.rules[key].stands_for)
+
 
 UNASKED = ("blocked", "bump", "battery_low", "nobody", "waiting", "no_stop")
 USUALLY_UNASKED = {
@@ -128,7 +134,7 @@ def _read(table: Table, vocabulary: Vocabulary, mistakes: Mistakes, is_own: bool
     name = mistakes.keep(lambda: table.string("name", "")) or ""
     voice = mistakes.keep(lambda: table.string("voice", "")) or ""
     entries = dict(mistakes.keep(lambda: list(table.tables("reply"))) or ())
-    rules = vocabulary.grammar.public_rules
+    rules = vocabulary.rules
     missing = [rule for rule in rules if rule not in entries]
     replies = {}
     for rule, entry in entries.items():
@@ -163,8 +169,7 @@ def _refuse_gaps(found: Replies, table: Table, vocabulary: Vocabulary, mistakes:
         mistakes.add(table.error(None, '"name" is missing in this file', "add name = ..."))
     given = table.data.get("reply")
     written = given if isinstance(given, dict) else {}
-    rules = vocabulary.grammar.public_rules
-    if missing := [rule for rule in rules if rule not in {*found.replies, *written}]:
+    if missing := [rule for rule in vocabulary.rules if rule not in {*found.replies, *written}]:
         mistakes.add(_unanswered(table, missing))
     for key in UNASKED:
         if key not in found.unasked and key not in table.data.get("unasked", {}):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from functools import partial
 from importlib.metadata import version
@@ -96,12 +97,12 @@ def _hassil() -> Iterator[Row]:
 def finder(grammar: Grammar) -> Callable[[str], object]:
     """What hassil makes of a sentence; None when it is not of the grammar.
 
-    Apart from tags, both write rules alike. Each public rule is an intent, which is how hassil is
-    used and where it is at its fastest.
+    Apart from tags and weights, both write rules alike. Each public rule is an intent, which is how
+    hassil is used and where it is at its fastest.
     """
     import hassil
 
-    lines = grammar.flat_jsgf().replace(";", "").splitlines()
+    lines = re.sub(r"/[\d.e+-]+/ ?|;", "", grammar.flat_jsgf()).splitlines()
     rules = dict(line.split(" = ", 1) for line in lines if " = " in line)
     commands = rules["public <sentence>"].split(" | ")
     intents = hassil.Intents.from_dict(

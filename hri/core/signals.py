@@ -69,6 +69,8 @@ class Utterance:
     """The same words without courtesies, names, and free words around the command."""
     is_among_others: bool = False
     """Whether it is a phrase among words that nobody listed."""
+    follow_up: str = ""
+    """The rule of its words, where they stand for the command before them: "the other way"."""
     begun: str = ""
     """The words of a longer sentence that may have begun: someone hesitates behind them."""
     may_go_on: bool = False

@@ -10,6 +10,7 @@ from hri.core.signals import HeardWord, Rejection, Utterance
 from hri.hal.recognizer import Alternative, Hypothesis, Segment
 from hri.speech.automatic_level import too_quiet
 from hri.speech.grammar import Grammar
+from hri.speech.grammar.follow_ups import out_of_place, resolved
 from hri.speech.grammar.matching import Parse, departure, meanings, parse
 from hri.speech.grammar.words import ANY, listed
 from hri.speech.turn import Turn
@@ -64,7 +65,7 @@ def judge(
         turn = replace(turn, is_addressed=True)  # What is typed is meant for it.
     found = _parse_of(grammar, hypothesis.text, rules, turn)
     alternatives = (*hypothesis.alternatives, *_as_specific(grammar, found, rules, turn))
-    others = [(other, parse(grammar, other.text)) for other in alternatives]
+    others = [(other, _meaning(grammar, other.text, turn)) for other in alternatives]
     doubts = [other for other, meaning in others if _differ(found, meaning)]
     meant = (meaning for other, meaning in others if other.share >= LIKELY)
     likely = [] if found is None else [found, *filter(None, meant)]
@@ -110,6 +111,7 @@ def judge(
         alternatives=hypothesis.alternatives,
         command=_command(grammar, found),
         is_among_others=_is_among_others(grammar, found),
+        follow_up="" if found.tree.rule == found.rule else found.tree.rule,
         begun=listed(hypothesis.begun),
         level_db=segment.level_db,
     )
@@ -211,7 +213,15 @@ def _parse_of(grammar: Grammar, text: str, rules: Collection[str], turn: Turn) -
     if interrupting and (found := parse(grammar, listed(text), interrupting)) is not None:
         return found
     answers = grammar.marked("answer") if turn.is_question_open else frozenset()
-    return parse(grammar, text, *filter(None, (answers, rules)), None)
+    return _meaning(grammar, text, turn, *filter(None, (answers, rules)), None)
+
+
+def _meaning(
+    grammar: Grammar, text: str, turn: Turn, *rules: Collection[str] | None
+) -> Parse | None:
+    """What a text means after what was said last."""
+    found = parse(grammar, text, *rules)
+    return None if found is None else resolved(grammar, found, turn.last)
 
 
 def _differ(one: Parse | None, other: Parse | None) -> bool:
@@ -278,5 +288,7 @@ def _when(rule: str, grammar: Grammar, turn: Turn) -> str:
     """When a rule counts that does not count now."""
     if turn.is_speaking:
         return "when the robot is silent"
+    if rule in out_of_place(grammar, turn.last):
+        return f"soon after {' or '.join(f'<{name}>' for name in grammar.rules[rule].after)}"
     is_answer = rule in grammar.marked("answer")
     return "while a question is open" if is_answer else "after the wake word"

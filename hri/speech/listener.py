@@ -18,6 +18,7 @@ from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer, Segment
 from hri.speech.acceptance import OVER_SPEECH, STRICTNESS
 from hri.speech.grammar import Grammar, load_grammar
+from hri.speech.grammar.follow_ups import FOLLOWED_FOR, Followed, can_be_followed
 from hri.speech.grammar.merging import with_interrupts_of
 from hri.speech.grammar_stack import GrammarStack, Layer, Prepare, as_written
 from hri.speech.own_voice_filter import OwnVoiceFilter
@@ -53,9 +54,10 @@ class Listener(Behavior):
     """Hears what the grammar allows: sound in, utterances out.
 
     Raises `speech.heard` (text, rule, tags, confidence, start, end, latency, command, may_go_on,
-    continues), `speech.rejected` (reason, detail, text, confidence, begun), `speech.partial` (text)
-    while someone speaks, `speech.interrupted` (text, rule) when a rule marked @interrupts is heard
-    over the robot's own voice, and `grammar.changed` (file) or `grammar.refused` (file, error).
+    continues, follow_up), `speech.rejected` (reason, detail, text, confidence, begun),
+    `speech.partial` (text) while someone speaks, `speech.interrupted` (text, rule) when a rule
+    marked @interrupts is heard over the robot's own voice, and `grammar.changed` (file) or
+    `grammar.refused` (file, error).
     When the person begins to speak again soon after something was heard, `speech.continued` (text)
     asks to wait with acting on it; then another `speech.heard` takes its place, or
     `speech.confirmed` (text) lets it count. Loads its models and grammars while the rest already
@@ -113,6 +115,9 @@ class Listener(Behavior):
     """Set it to be deaf for a while."""
     _held_until = 0.0
     _was_held = False
+    _followed: Followed | None = None
+    """The last command that others may follow, until some time."""
+    _followed_until = 0.0
     last_utterance: Utterance | None = None
     """The last utterance."""
 
@@ -331,6 +336,7 @@ class Listener(Behavior):
             is_question_open=is_question_open,
             is_awake=is_awake,
             is_addressed=is_addressed or is_for_it or is_awake or is_question_open,
+            last=self._followed if start <= self._followed_until else None,
         )
 
     def _understand(self, segment: Segment, piece: _Piece, turn: Turn, begun: float) -> Tell:
@@ -457,6 +463,9 @@ class Listener(Behavior):
         self._taken_back = ""
         self._wakefulness.extend(result.end)
         self.last_utterance = result
+        if result.rule in can_be_followed(grammar):
+            self._followed = Followed(result.rule, result.tags)
+            self._followed_until = result.end + FOLLOWED_FOR
         self.utterance.send(result)
         self.text.send(result.text)
         self.rule.send(result.rule)
@@ -474,6 +483,7 @@ class Listener(Behavior):
             command=result.command,
             may_go_on=result.may_go_on,
             continues=result.continues,
+            follow_up=result.follow_up,
         )
 
     def stop(self) -> None:

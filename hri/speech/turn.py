@@ -3,7 +3,8 @@
 Rules are marked in their comments (see `hri.speech.grammar.doc_comments`): while the robot speaks
 only those with `@interrupts` count; `@answer` counts while a question is open; and where any rule
 is marked `@wake`, the others count after one of those, as long as the talk goes on. A rule marked
-`@anywhere` counts among other words only when they are said to the robot.
+`@after` counts soon after one of the commands that it names, one marked `@anywhere` among other
+words only when they are said to the robot.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import math
 from dataclasses import dataclass
 
 from hri.speech.grammar import Grammar
+from hri.speech.grammar.follow_ups import Followed, out_of_place
 
 QUESTION = "question.open"
 """Slot of the board that is true while an answer is awaited."""
@@ -31,13 +33,15 @@ class Turn:
     """Whether no wake word is needed."""
     is_addressed: bool = True
     """Whether what is said is meant for the robot, also without its name."""
+    last: Followed | None = None
+    """The command that was understood a while ago at most, if others may follow it."""
 
     def rules(self, grammar: Grammar) -> frozenset[str]:
         """The public rules that may be heard."""
         interrupting = grammar.marked("interrupts")
         if self.is_speaking:
             return interrupting
-        rules = frozenset(grammar.public_rules)
+        rules = frozenset(grammar.public_rules) - out_of_place(grammar, self.last)
         if not self.is_question_open:
             rules -= grammar.marked("answer")
         waking = grammar.marked("wake")

@@ -199,7 +199,8 @@ def _finished(heard: Heard, grammar: Grammar) -> Heard:
     """The same, and whether the speaker may go on with it. Behind "please" nothing follows."""
     if isinstance(heard, Rejection) or heard.text.split()[-1:] != heard.command.split()[-1:]:
         return heard
-    return replace(heard, may_go_on=may_go_on(grammar, heard.rule, heard.text, heard.command))
+    rule = heard.follow_up or heard.rule
+    return replace(heard, may_go_on=may_go_on(grammar, rule, heard.text, heard.command))
 
 
 def _pauses(reading: Reading) -> float:

@@ -251,6 +251,19 @@ def test_a_new_way_takes_the_place_of_the_old_one():
     assert last.x < 4
 
 
+def test_what_is_said_after_an_order_changes_it():
+    lines = {1.0: "turn left ninety degrees", 7.0: "no the other way", 13.0: "a bit more"}
+    visit = Visit(20, lines)
+    heard = [event.properties for event in visit.named("speech.heard")]
+    assert [(one["rule"], one["follow_up"]) for one in heard] == [
+        ("turn", ""),
+        ("turn", "other_way"),
+        ("turn", "bit_more"),
+    ]
+    headings = [visit.pose_at(time).heading for time in (6.8, 12.8, 19.5)]
+    assert headings == pytest.approx([math.pi / 2, 0.0, -math.pi / 4], abs=0.06)
+
+
 @pytest.mark.slow
 def test_come_here_brings_it_to_the_person():
     visit = Visit(24, {1.5: "go back one meter", 9.0: "come to me"}, devices=[SMALL_SCREEN])

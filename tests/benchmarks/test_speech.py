@@ -5,7 +5,16 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from benchmarks.speech import accuracy, answers, barge_in, conditions, no_motion, others, printed
+from benchmarks.speech import (
+    accuracy,
+    answers,
+    barge_in,
+    conditions,
+    no_motion,
+    others,
+    peers,
+    printed,
+)
 from benchmarks.speech.accuracy import MEASURES, outside
 from benchmarks.speech.kitchen import kitchen
 from benchmarks.speech.levels import above, active_power, frame_powers
@@ -214,3 +223,10 @@ def test_a_table_has_the_figure_the_limit_and_whether_it_is_met():
     words = "MISSED motions begun, typed 3 of 300 (1.0 %) at most 0 %"
     assert " ".join(missed.split()) == words
     assert printed.line(skipped("speaking", "flite is not installed")).endswith("not installed")
+
+
+def test_hassil_takes_the_same_sentences():
+    pytest.importorskip("hassil", reason="hassil is not installed")
+    find = peers.finder(load_grammar(ROBOT))
+    assert find("robot go to the door") is not None
+    assert find("robot sing to the door") is None

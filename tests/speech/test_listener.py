@@ -44,6 +44,7 @@ def test_a_command_is_heard_with_its_meaning():
         "command": "go forward ten meters",
         "may_go_on": False,
         "continues": False,
+        "follow_up": "",
     }
 
 

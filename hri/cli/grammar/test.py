@@ -28,6 +28,7 @@ examples:
 A file of sentences:
   grammar companion                                # optional: the grammar these are for
   + go back one meter => move: distance=-1         # understood, with this rule and these tags
+  ++ a bit more => move: distance=-0.5             # the same, said after the line before
   + hello robot                                    # understood
   - fly to the moon                                # not understood
 To begin one: hri grammar expand FILE --random 20 --tags > my.txt

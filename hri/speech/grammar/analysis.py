@@ -10,6 +10,7 @@ from typing import TypeVar
 
 from hri.core.errors import AuthoringError, Place, did_you_mean
 from hri.speech.grammar import offers
+from hri.speech.grammar.doc_comments import LAST, DocTag
 from hri.speech.grammar.expressions import (
     Alternative,
     Anything,
@@ -42,6 +43,14 @@ def reachable(rules: RulesByKey, keys: Iterable[str]) -> list[str]:
             found[key] = None
             pending += reversed([node.name for node in rules[key].references])
     return list(found)
+
+
+def tag_names(grammar: Rules, keys: Iterable[str]) -> frozenset[str]:
+    """Names of all tags that an understood sentence of these rules may have."""
+    nodes = (node for key in reachable(grammar.rules, keys) for node in grammar.rules[key].nodes)
+    entries = [entry for node in nodes if isinstance(node, Tagged) for entry in node.entries]
+    used_up = {name for entry in entries for name in entry.takes if name != entry.name}
+    return frozenset({entry.name for entry in entries} - used_up)
 
 
 class Height(Fold[float]):
@@ -256,7 +265,8 @@ def errors(grammar: Rules) -> list[AuthoringError]:
     found = [*_undefined(grammar), *islice(left_recursion(grammar), MOST_CIRCLES)]
     if not found and not grammar.broken:
         found = [*_without_public(grammar), *_never_said(grammar), *_never_set(grammar)]
-        found = found or [*_too_free(grammar)] or [*_without_words(grammar)]
+        found = found or [*_lost_marks(grammar)] or [*_too_free(grammar)]
+        found = found or [*_without_words(grammar)]
     return sorted(found, key=lambda error: (error.place.line, error.place.column))
 
 
@@ -325,6 +335,43 @@ def _without_words(grammar: Rules) -> Iterator[AuthoringError]:
         yield AuthoringError(place, what, "write words instead")
 
 
+def _lost_marks(grammar: Rules) -> Iterator[AuthoringError]:
+    """Marks that name other commands which are not there, or contradict each other."""
+    for key in grammar.public_rules:
+        rule = grammar.rules[key]
+        named = {"after": rule.after, "as": tuple({rule.stands_for} - {LAST})}
+        for tag in rule.doc_tags:
+            if tag.name in named:
+                yield from _lost(grammar, rule, tag, named[tag.name])
+            if tag.name == "as" and "after" not in rule.marks:
+                remedy = "write the commands before it: @after move turn"
+                yield AuthoringError(rule.place(tag.span), "@as stands without @after", remedy)
+            if tag.name == "as" and "anywhere" in rule.marks:
+                what = "what stands for another command may not count @anywhere"
+                yield AuthoringError(rule.place(tag.span), what, "take one of the two marks out")
+
+
+def _lost(
+    grammar: Rules, rule: Rule, tag: DocTag, names: Collection[str]
+) -> Iterator[AuthoringError]:
+    others = [key for key in grammar.public_rules if key != rule.key]
+    if not tag.text:
+        what, remedy = f"@{tag.name} names no command", f"write one: @{tag.name} {others[0]}"
+        yield AuthoringError(rule.place(tag.span), what, remedy)
+        return
+    for name in names:
+        if name not in others:
+            what = f'@{tag.name} names "{name}", which is not a command of this grammar'
+            yield AuthoringError(rule.place(tag.span), what, did_you_mean(name, others))
+
+
+def _moves(grammar: Rules, rule: Rule) -> bool:
+    """Whether it moves the robot, itself or as the command that it stands for."""
+    meant = rule.after if rule.stands_for == LAST else [rule.stands_for]
+    others = (grammar.rules[key] for key in meant if key in grammar.rules)
+    return any("careful" in one.marks for one in (rule, *others))
+
+
 def _too_free(grammar: Rules) -> Iterator[AuthoringError]:
     """Commands that anything at all would be, and orders to move of which words are free."""
     free = settled(grammar, False, lambda rule, known: Unlisted(known)(rule.expression))
@@ -334,7 +381,7 @@ def _too_free(grammar: Rules) -> Iterator[AuthoringError]:
         if free[key] and (not silent[key] or "anywhere" in rule.marks):
             what = f"<{key}> can be said with <any> alone, so it takes whatever is said"
             yield AuthoringError(rule.place(), what, "write a word that must be said")
-        if "careful" in rule.marks:
+        if _moves(grammar, rule):
             yield from _free_orders(grammar, rule)
 
 

@@ -24,6 +24,8 @@ MARKS = MappingProxyType(
         "answer": "it is only heard while a question is open",
         "interrupts": "it is heard while the robot speaks and under other grammars, too",
         "anywhere": "it counts among other words, too, when they are said to the robot",
+        "after": "it is heard only for a while after one of the commands that it names",
+        "as": "it stands for the command that it names, or for the last one, with tags changed",
         "wake": "other rules are heard only after it, and for a while after what was heard last",
         "aside": "what is said around a command and does not belong to it",
         "name": "what the robot is called; the app adds its name",
@@ -33,6 +35,9 @@ MARKS = MappingProxyType(
 """The marks of a rule and what they mean."""
 OF_PARTS = frozenset(("aside", "name"))
 """Those of rules that need not be commands."""
+
+LAST = "last"
+"""Behind `@as`: the command that was said last."""
 
 STANDARD_TAGS = ("example", "see", "author", "version")
 """Doc tags of JSGF 1.0 that are not marks."""

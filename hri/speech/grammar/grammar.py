@@ -19,7 +19,6 @@ from hri.speech.grammar.expressions import (
     RuleReference,
     Sequence,
     SourceSpan,
-    Tagged,
     Token,
     rename,
     spell,
@@ -74,13 +73,10 @@ class Grammar(Rules):
 
     def tag_names(self, rule: str = "") -> frozenset[str]:
         """Names of all tags that an understood sentence, perhaps only of one rule, may have."""
-        tagged = [node for node in self._nodes(rule) if isinstance(node, Tagged)]
-        entries = [entry for node in tagged for entry in node.entries]
-        used_up = {name for entry in entries for name in entry.takes if name != entry.name}
-        return frozenset({entry.name for entry in entries} - used_up)
+        return analysis.tag_names(self, [rule] if rule else self.public_rules)
 
-    def _nodes(self, rule: str = "") -> Iterator[Expression]:
-        for key in analysis.reachable(self.rules, [rule] if rule else self.public_rules):
+    def _nodes(self) -> Iterator[Expression]:
+        for key in analysis.reachable(self.rules, self.public_rules):
             yield from self.rules[key].nodes
 
     def flat_jsgf(self, rules: Collection[str] | None = None) -> str:

@@ -92,6 +92,8 @@ class Parse:
     tree: Tree = field(default_factory=lambda: Tree("", 0, 0, ()))
     free: tuple[int, ...] = ()
     """The numbers of its words that `<any>` stands for, from 0."""
+    entries: Groups = field(default=(), repr=False, compare=False)
+    """All tags of its words, in the order in which they take effect."""
 
     def means_the_same(self, other: Parse) -> bool:
         """Whether both have the same rule and tags."""
@@ -400,7 +402,7 @@ class Matcher:
         text = " ".join(words)
         for history in self._histories(ways, rules):
             tree, groups, free = _reading(words, history)
-            yield Parse(text, tree.rule, evaluate(groups), tree, free)
+            yield Parse(text, tree.rule, evaluate(groups), tree, free, groups)
 
     def _ways(self, words: list[str]) -> list[_Ways] | None:
         """The ways through a sentence, before each word and at its end; None without any."""

@@ -46,6 +46,16 @@ class Rule:
         """Those of `hri.speech.grammar.doc_comments.MARKS` that its comment sets."""
         return frozenset(tag.name for tag in self.doc_tags if tag.name in MARKS)
 
+    @cached_property
+    def after(self) -> tuple[str, ...]:
+        """The commands after which it counts; empty for a rule that always does."""
+        return tuple(name for tag in self.doc_tags if tag.name == "after" for name in _names(tag))
+
+    @cached_property
+    def stands_for(self) -> str:
+        """The command that it means: another rule, or `LAST`; empty for one that means itself."""
+        return next((tag.text for tag in self.doc_tags if tag.name == "as"), "")
+
     @property
     def examples(self) -> tuple[str, ...]:
         """Sentences that its comment promises to be understood."""
@@ -55,6 +65,11 @@ class Rule:
         """The spot of a node of this rule; without one, of the rule itself."""
         span = span or self.span
         return Place(self.path, span.line, span.column)
+
+
+def _names(tag: DocTag) -> list[str]:
+    """Rules that stand behind a mark, with or without angle brackets."""
+    return [name.strip("<>,") for name in tag.text.split()]
 
 
 @dataclass(frozen=True)

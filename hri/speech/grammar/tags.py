@@ -247,9 +247,13 @@ def _quoted(text: str) -> str:
     return '"' + text.replace('"', '""') + '"'
 
 
-def evaluate(groups: Iterable[tuple[TagEntry, ...]]) -> dict[str, Value]:
-    """What remains when all tags, one group for each pair of braces, have taken effect."""
-    tags: dict[str, Value] = {}
+def evaluate(
+    groups: Iterable[tuple[TagEntry, ...]], before: Mapping[str, Value] | None = None
+) -> dict[str, Value]:
+    """What remains when all tags, one group for each pair of braces, have taken effect, on those
+    that were there before.
+    """
+    tags = dict(before or {})
     for entries in groups:
         used: set[str] = set()
         for entry in entries:

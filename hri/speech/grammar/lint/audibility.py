@@ -22,7 +22,7 @@ MOST_UNKNOWN = 20
 """Words that are told one by one."""
 MOST_SHORT = 5
 """Short commands that are told one by one, and longer ones of one word."""
-EXPECTED_SHORT = frozenset(("answer", "wake", "part"))
+EXPECTED_SHORT = frozenset(("answer", "after", "wake", "part"))
 """Marks of rules that may be short: heard in few moments, guards of the rest, or no commands."""
 
 

@@ -8,6 +8,7 @@
     + go back one meter => move:                ... by this rule, whatever its tags
     + hello robot => greet: {}                  understood, without any tag; or only "=>"
     + see you tomorrow                          understood, whatever it means
+    ++ a bit more => move: distance=-0.5        the same, when it is said after the line before
     - fly to the moon                           not understood
 
 Lines that begin with `#` or `//` are comments, and so is what follows ` #`. Tags are written as in
@@ -25,11 +26,12 @@ from pathlib import Path
 
 from hri.core.errors import AuthoringError, Mistakes, Place
 from hri.core.reading import read_text
+from hri.speech.grammar.follow_ups import Followed, can_be_followed, out_of_place, resolved
 from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.matching import Parse, meanings, parse, refusal
 from hri.speech.grammar.tags import TagEntry, Value, evaluate, read_entries, spell_tags
 
-_LINE = re.compile(r"(?P<sign>[+-])(?P<sentence>.*?)(?P<arrow>=>(?P<meaning>.*))?")
+_LINE = re.compile(r"(?P<sign>\+\+|[+-])(?P<sentence>.*?)(?P<arrow>=>(?P<meaning>.*))?")
 _MEANING = re.compile(r"(?:(?P<rule>[\w.-]+)\s*:(?:\s+|$))?(?P<tags>.*)", re.DOTALL)
 _COMMENT = re.compile(r"\s#.*")
 
@@ -77,6 +79,8 @@ class Expectation:
     sentence: str
     meaning: Meaning | None
     """None when the sentence must not be understood."""
+    is_follow_up: bool = False
+    """Whether it is said after what the line before says."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,16 +109,23 @@ class Failure:
 
 def failures(grammar: Grammar, expectations: Expectations) -> list[Failure]:
     """The expectations that a grammar does not meet, in their order."""
-    return [
-        Failure(line, came)
-        for line in expectations.lines
-        if (came := _disappointment(grammar, line))
-    ]
+    found: list[Failure] = []
+    last: Followed | None = None
+    for line in expectations.lines:
+        last = last if line.is_follow_up else None
+        rules = frozenset(grammar.public_rules) - out_of_place(grammar, last)
+        meant = parse(grammar, line.sentence, rules)
+        if meant is not None:
+            meant = resolved(grammar, meant, last)
+        if came := _disappointment(grammar, line, meant):
+            found.append(Failure(line, came))
+        if meant is not None and meant.rule in can_be_followed(grammar):
+            last = Followed(meant.rule, meant.tags)
+    return found
 
 
-def _disappointment(grammar: Grammar, line: Expectation) -> str:
+def _disappointment(grammar: Grammar, line: Expectation, found: Parse | None) -> str:
     """What is wrong with what was understood; empty when nothing is."""
-    found = parse(grammar, line.sentence)
     if found is not None and found.free and len(all_of := meanings(grammar, line.sentence)) > 1:
         told = " or ".join(str(meaning_of(one)) for one in all_of)
         return f"means {told}, which are equally specific, so that the robot asks"
@@ -180,14 +191,17 @@ def _grammar_of(line: str, place: Place) -> str:
 def _expectation(line: str, place: Place) -> Expectation:
     match = _LINE.fullmatch(line)
     if match is None:
-        remedy = "begin it with + (understood), - (not understood) or # (comment)"
+        remedy = (
+            "begin it with + (understood), ++ (after the line before), - (not understood)"
+            " or # (comment)"
+        )
         raise AuthoringError(place, "a line of another kind", remedy)
     sentence = match["sentence"].strip()
     if not sentence:
         raise AuthoringError(place, "no sentence", "write one behind the sign")
-    if match["sign"] == "+":
+    if match["sign"] != "-":
         meaning = read_meaning(match["meaning"], place) if match["arrow"] else Meaning()
-        return Expectation(place, sentence, meaning)
+        return Expectation(place, sentence, meaning, is_follow_up=match["sign"] == "++")
     if match["arrow"]:
         raise AuthoringError(place, "what is not understood means nothing", 'leave "=>" out')
     return Expectation(place, sentence, None)

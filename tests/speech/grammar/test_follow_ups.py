@@ -1,0 +1,114 @@
+"""What is said after a command changes that command, and means nothing else."""
+
+import math
+
+import pytest
+from hypothesis import given, strategies as st
+
+from hri.core.errors import AuthoringError
+from hri.hal.recognizer import Hypothesis, Segment
+from hri.speech.acceptance import judge
+from hri.speech.grammar import load_grammar
+from hri.speech.grammar.follow_ups import Followed, resolved
+from hri.speech.grammar.lint.expectations import failures, read_expectations
+from hri.speech.grammar.matching import parse
+from hri.speech.turn import Turn
+
+MOVES = """
+/** @careful */ public <move> = go forward {distance=0.5};
+/** @careful */ public <turn> = turn left {angle=90} | turn right {angle=-90};
+public <sing> = sing a song;
+/** @after move turn
+ *  @as last */
+public <other_way> = [no] the other way {distance*=-1 angle*=-1};
+/** @after move turn
+ *  @as turn */
+public <to_side> = no i mean left {angle=90};
+/** @after sing */
+public <liked> = i liked that;
+"""
+
+
+@pytest.fixture
+def moves(write):
+    return load_grammar(write(MOVES))
+
+
+def heard(grammar, text, last=None):
+    piece = Segment(1.0, 2.0, text=text)
+    return judge(grammar, piece, Hypothesis(text, 1.0), 0.5, Turn(last=last))
+
+
+def test_it_is_the_command_before_with_its_tags_changed(moves):
+    found = heard(moves, "no the other way", Followed("turn", {"angle": -30.0}))
+    assert (found.rule, found.tags, found.follow_up) == ("turn", {"angle": 30.0}, "other_way")
+    assert found.text == "no the other way"
+
+
+def test_another_command_takes_over_no_tags(moves):
+    found = heard(moves, "no i mean left", Followed("move", {"distance": 2.0}))
+    assert (found.rule, found.tags) == ("turn", {"angle": 90.0})
+
+
+@pytest.mark.parametrize("last", [None, Followed("sing", {})])
+def test_it_counts_only_after_what_it_names(moves, last):
+    found = heard(moves, "the other way", last)
+    assert found.reason == "not now"
+    assert found.detail == "<other_way> counts only soon after <move> or <turn>"
+    assert "other_way" not in Turn(last=last).rules(moves)
+
+
+def test_a_rule_of_its_own_counts_soon_after_another(moves):
+    assert heard(moves, "i liked that", Followed("sing")).rule == "liked"
+    assert heard(moves, "i liked that").reason == "not now"
+
+
+def test_what_moves_the_robot_must_be_heard_as_clearly_in_other_words(moves):
+    last = Followed("move", {"distance": 1.0})
+    said = Hypothesis("the other way", 0.52)
+    assert judge(moves, Segment(0.0, 1.0), said, 0.5, Turn(last=last)).reason == "low confidence"
+
+
+@given(angle=st.floats(-360, 360), times=st.integers(1, 6))
+def test_the_other_way_and_back_is_as_before(angle, times):
+    grammar = load_grammar("companion")
+    last = Followed("turn", {"angle": angle})
+    for _ in range(2 * times):
+        found = resolved(grammar, parse(grammar, "the other way", {"other_way"}), last)
+        last = Followed(found.rule, found.tags)
+    assert math.isclose(last.tags["angle"], angle, abs_tol=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("mark", "error"),
+    [
+        ("@after mvoe", '@after names "mvoe", which is not a command of this grammar'),
+        ("@after", "@after names no command"),
+        ("@as last", "@as stands without @after"),
+        ("@after move\n * @as trun", '@as names "trun"'),
+        ("@after move\n * @as last\n * @anywhere", "may not count @anywhere"),
+    ],
+)
+def test_a_mark_that_leads_nowhere_is_refused_with_its_place(write, mark, error):
+    text = f"public <move> = go on;\npublic <turn> = turn now;\n/** {mark} */\npublic <x> = and so;"
+    with pytest.raises(AuthoringError) as refused:
+        load_grammar(write(text))
+    assert error in str(refused.value)
+    assert refused.value.place.line >= 5
+
+
+def test_free_words_may_not_stand_for_an_order_to_move(write):
+    text = MOVES + "/** @after move\n * @as last */ public <like> = like <any>;"
+    with pytest.raises(AuthoringError, match="none of its words may be free"):
+        load_grammar(write(text))
+
+
+def test_lines_that_follow_the_line_before(moves, tmp_path):
+    path = tmp_path / "lines.txt"
+    path.write_text(
+        "+ turn left => turn: angle=90\n++ the other way => turn: angle=-90\n"
+        "++ the other way => turn: angle=90\n+ sing a song\n- the other way\n"
+        "+ turn right\n++ no i mean left => turn: angle=-90\n"
+    )
+    (failure,) = failures(moves, read_expectations(path))
+    assert str(failure).endswith("is understood as turn: angle=90 - expected turn: angle=-90")
