@@ -1,0 +1,1 @@
+"""How well the companion talks: conversations by several writers, played and judged."""
