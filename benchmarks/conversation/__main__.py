@@ -79,7 +79,7 @@ def _write(lines: list[transcript.Line], file: Path) -> None:
 
 
 def _judge(options: argparse.Namespace) -> None:
-    lines = [line for file in options.transcripts for line in transcript.read(file)]
+    lines = transcript.read_all(options.transcripts)
     if options.for_readers:
         print(*transcript.for_readers(lines), sep="\n")
         return

@@ -96,8 +96,20 @@ def read(file: Path) -> list[Line]:
     text = read_text(file, "transcript", LARGEST)
     try:
         return [_line(parse_json(line)) for line in text.splitlines() if line.strip()]
-    except (TypeError, KeyError, ValueError) as error:
+    except (AttributeError, TypeError, KeyError, ValueError) as error:
         raise HriError(f"{file} is not a transcript: {error} - play the talks again") from error
+
+
+def read_all(files: Sequence[Path]) -> list[Line]:
+    """Read transcripts of different talks. Raises HriError, also for a turn that two have."""
+    lines: dict[str, Line] = {}
+    for file in files:
+        for line in read(file):
+            if line.id in lines:
+                remedy = "judge transcripts of the same talks one by one"
+                raise HriError(f"{file} has the turn {line.id} a second time - {remedy}")
+            lines[line.id] = line
+    return list(lines.values())
 
 
 def _line(data: dict[str, Any]) -> Line:

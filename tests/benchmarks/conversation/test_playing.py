@@ -58,9 +58,12 @@ def test_the_same_talk_gives_the_same_transcript(played):
 def test_a_transcript_is_read_as_it_was_written(played, tmp_path):
     transcript.write(played, tmp_path / "new" / "open.jsonl")
     assert transcript.read(tmp_path / "new" / "open.jsonl") == played
-    (tmp_path / "no.jsonl").write_text('{"id": 1}\n')
-    with pytest.raises(HriError, match="is not a transcript"):
-        transcript.read(tmp_path / "no.jsonl")
+    for wrong in ('{"id": 1}', "[]", "1", "{"):
+        (tmp_path / "no.jsonl").write_text(wrong + "\n")
+        with pytest.raises(HriError, match="is not a transcript"):
+            transcript.read(tmp_path / "no.jsonl")
+    with pytest.raises(HriError, match="has the turn open/ann/1/1 a second time"):
+        transcript.read_all([tmp_path / "new" / "open.jsonl"] * 2)
 
 
 def test_what_it_says_much_later_is_its_own_idea():
