@@ -19,6 +19,7 @@ from hri.speech.grammar.giving import sure_tags
 from hri.task.task import TaskType
 
 from . import things
+from .reply_files import KIND, joined_entries, parts_of
 
 FILE = "replies.toml"
 # fmt: off
@@ -118,22 +119,31 @@ def load_replies(files: Sequence[Path], vocabulary: Vocabulary) -> Replies:
     """
     mistakes = Mistakes()
     own = vocabulary.app.folder / FILE
-    tables = [load_toml(path, "file of replies") for path in files]
-    found = Replies(unasked=USUALLY_UNASKED)
+    tables = [load_toml(path, KIND) for path in files]
+    found, is_whole = Replies(unasked=USUALLY_UNASKED), True
     for table in tables:
-        found = _joined(found, _read(table, vocabulary, mistakes, is_own=table.path == own))
+        parts, are_all = parts_of(table, mistakes)
+        is_whole = is_whole and are_all
+        found = _joined(found, _read(parts, vocabulary, mistakes, is_own=table.path == own))
     # The app may have no replies at all: then they are missing from there.
     last = tables[-1] if tables and tables[-1].path == own else Table({}, own, (), {})
-    _refuse_gaps(found, last, vocabulary, mistakes)
+    if is_whole:
+        _refuse_gaps(found, last, vocabulary, mistakes)
     mistakes.tell()
     return found
 
 
-def _read(table: Table, vocabulary: Vocabulary, mistakes: Mistakes, is_own: bool) -> Replies:
-    """One file; only the app's own must fit the grammar: those it extends may know other rules."""
+def _read(
+    parts: Sequence[Table], vocabulary: Vocabulary, mistakes: Mistakes, is_own: bool
+) -> Replies:
+    """One file and those it names, as one.
+
+    Only the app's own must fit the grammar: those it extends may know other rules.
+    """
+    table = parts[0]
     name = mistakes.keep(lambda: table.string("name", "")) or ""
     voice = mistakes.keep(lambda: table.string("voice", "")) or ""
-    entries = dict(mistakes.keep(lambda: list(table.tables("reply"))) or ())
+    entries = joined_entries(parts, mistakes)
     rules = vocabulary.rules
     missing = [rule for rule in rules if rule not in entries]
     replies = {}
@@ -149,7 +159,8 @@ def _read(table: Table, vocabulary: Vocabulary, mistakes: Mistakes, is_own: bool
     unasked = mistakes.keep(lambda: _unasked(table.table("unasked", optional=True))) or {}
     asked = mistakes.keep(lambda: table.array("question")) or ()
     questions = [mistakes.keep(partial(_question, entry)) for entry in asked]
-    mistakes.keep(table.finish)
+    for part in parts:
+        mistakes.keep(part.finish)
     return Replies(name, voice, replies, unasked, tuple(filter(None, questions)))
 
 

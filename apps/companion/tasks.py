@@ -31,6 +31,7 @@ from hri.task.context import TaskContext
 
 from .companion import COMPANY_SECONDS, Companion, authored_replies, vocabulary_of
 from .replies import FILE, Question, Replies, load_replies
+from .reply_files import with_named_files
 
 log = logging.getLogger("hri.task")
 
@@ -72,14 +73,17 @@ async def take_saved_replies(context: TaskContext) -> None:
     files = App.of(context).files(FILE)
     worker: Worker[Replies] = context.clock.worker(READING_SECONDS)
     vocabulary = vocabulary_of(context, companion.listener.loaded_grammar)
-    seen = _changed_at(files)
+    watched = with_named_files(files)
+    seen = _changed_at(watched)
     with context.queue("grammar.changed") as queue:
         while True:
             is_new_grammar = False
             with context.clock.move_on_after(LOOK_EVERY):
                 is_new_grammar = await queue.get() is not None
-            if not is_new_grammar and seen == (seen := _changed_at(files)):
+            if not is_new_grammar and seen == _changed_at(watched):
                 continue
+            watched = with_named_files(files)
+            seen = _changed_at(watched)
             grammar = companion.listener.loaded_grammar
             vocabulary = replace(vocabulary, grammar=grammar, stimuli=load_stimuli())
             try:
