@@ -8,7 +8,6 @@ from collections.abc import Callable, Sequence
 from string import Formatter
 from typing import Any
 
-from hri.core import paths
 from hri.core.errors import NotAvailable
 from hri.core.latest import Latest
 from hri.core.signals import Event, Person
@@ -25,7 +24,7 @@ from hri.hal.camera import Camera
 from hri.robot import verbs
 from hri.robot.app import App
 from hri.speech.behaviors import Listener, Voice
-from hri.speech.grammar import Grammar, load_grammar
+from hri.speech.grammar import Grammar
 from hri.speech.grammar.tags import written
 from hri.speech.recognizers.typed import TypedRecognizer
 from hri.speech.tasks import hears_people
@@ -59,7 +58,7 @@ ALIKE = 0.5
 
 def authored_replies(context: TaskContext) -> Replies:
     """The replies, checked against the grammar, the stimuli and the face that are in use."""
-    grammar = load_grammar(paths.find("grammars", context.behavior(Listener).grammar))
+    grammar = context.behavior(Listener).read_grammar()
     return load_replies(App.of(context).files(FILE), vocabulary_of(context, grammar))
 
 

@@ -150,7 +150,7 @@ def _read(
     for rule, entry in entries.items():
         if rule in rules:
             replies[rule] = mistakes.keep(partial(_reply, rule, entry, vocabulary)) or Reply()
-        elif is_own:
+        elif is_own and not _is_silent(rule, vocabulary):
             mend = "delete this table, or fix the grammar"
             if vocabulary.app.base is not None and vocabulary.app.grammar() is None:
                 mend = f"add the rule to a {GRAMMARS[0]} in {vocabulary.app.folder}"
@@ -162,6 +162,12 @@ def _read(
     for part in parts:
         mistakes.keep(part.finish)
     return Replies(name, voice, replies, unasked, tuple(filter(None, questions)))
+
+
+def _is_silent(rule: str, vocabulary: Vocabulary) -> bool:
+    """Whether a rule is about a topic that the app leaves out; its reply may stay."""
+    known = vocabulary.grammar.rules.get(rule)
+    return known is not None and not known.topics.isdisjoint(vocabulary.app.silent_topics)
 
 
 def _joined(below: Replies, above: Replies) -> Replies:

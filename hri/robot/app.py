@@ -31,6 +31,7 @@ from hri.core.python_file import load_module
 from hri.core.toml import Table, load_toml
 from hri.robot.starting import start_on
 from hri.speech.behaviors import Listener
+from hri.speech.grammar import load_grammar
 from hri.speech.listener import FOLDERS
 from hri.task.context import TaskContext
 from hri.task.task import TaskType, find_task
@@ -61,6 +62,8 @@ class App:
     """Names of events that may come from outside, beside those of 2003."""
     on: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     """Names of tasks that an event starts, by its name, in which `*` stands for any characters."""
+    silent_topics: tuple[str, ...] = ()
+    """Topics of its grammar's rules, `@topic`, that it does not hear."""
     base: Self | None = None
     """The app that it extends; what that one has is in the fields above, too."""
 
@@ -114,9 +117,24 @@ class App:
         for behavior in (one for network in networks for one in network.behaviors):
             if isinstance(behavior, Listener):
                 behavior.set_parameter("robot_name", behavior.robot_name or name)
+                behavior.set_parameter("silent_topics", " ".join(self.silent_topics))
                 if grammar is not None:
                     behavior.set_parameter("grammar", str(grammar))
+        self._refuse_unknown_topics(networks)
         return networks
+
+    def _refuse_unknown_topics(self, networks: list[Network]) -> None:
+        if not self.silent_topics:
+            return
+        behaviors = (one for network in networks for one in network.behaviors)
+        names = [one.grammar for one in behaviors if isinstance(one, Listener)]
+        known = {topic for name in names for topic in load_grammar(name).topics}
+        for app in self.line():
+            table = load_toml(app.folder / "app.toml")
+            for topic in table.strings("silent_topics", []):
+                if topic not in known:
+                    what = f'no rule of the grammar has the topic "{topic}"'
+                    raise table.error("silent_topics", what, did_you_mean(topic, known))
 
     def load_tasks(self) -> list[Job]:
         """What runs from the start: the tasks, and what starts others `[on]` events.
@@ -260,10 +278,11 @@ def _load(folder: Path, above: tuple[str, ...]) -> App:
     tasks = _added(base.tasks if base else (), table.strings("tasks", []))
     trusted = _added(base.trusted if base else (), table.strings("trusted", []))
     events = _added(base.events if base else (), table.strings("events", []))
+    silent = _added(base.silent_topics if base else (), table.strings("silent_topics", []))
     about = table.string("about", "")
     on = {**(base.on if base else {}), **_reactions(table)}
     table.finish()
-    return App(folder, about, networks, tasks, trusted, events, on, base)
+    return App(folder, about, networks, tasks, trusted, events, on, silent, base)
 
 
 def _base(table: Table, folder: Path, extends: str, above: tuple[str, ...]) -> App:

@@ -102,6 +102,7 @@ class Listener(Behavior):
     recognizer_id = Param("recognizer", "resource that finds the words")
     grammar = Param("companion", "name or path of the grammar")
     robot_name = Param("", "what the robot is called; rules marked @name know it")
+    silent_topics = Param("", "topics, @topic of rules, that are not heard; spaces between them")
     strictness = Param(STRICTNESS, "confidence from which words count", minimum=0.0, maximum=1.0)
     follow_up = Param(
         FOLLOW_UP,
@@ -155,7 +156,19 @@ class Listener(Behavior):
     def loaded_grammar(self) -> Grammar:
         """What is understood; there once the behavior has started."""
         layer = self._grammars.in_force
-        return self._first if layer is None or layer.heard is None else layer.heard
+        if layer is None or layer.heard is None:
+            return self._without_silent_topics(self._first)
+        return layer.heard
+
+    def read_grammar(self) -> Grammar:
+        """What its parameters say that it will hear first.
+
+        Raises HriError or AuthoringError when the file cannot be read.
+        """
+        return self._without_silent_topics(load_grammar(paths.find("grammars", self.grammar)))
+
+    def _without_silent_topics(self, grammar: Grammar) -> Grammar:
+        return grammar.without_topics(self.silent_topics.split())
 
     def use(self, grammar: str | Path) -> Layer:
         """Take another grammar, by name or path, in the place of the topmost one.
@@ -200,9 +213,10 @@ class Listener(Behavior):
         Where there is no other one, a grammar that the recognizer refuses serves for typed lines.
         """
         grammar = layer.grammar or load_grammar(layer.path)
-        heard = layer.prepare(grammar)
+        heard = layer.prepare(self._without_silent_topics(grammar))
         for below in layer.below:
-            heard = with_interrupts_of(heard, below.grammar or load_grammar(below.path))
+            other = below.grammar or load_grammar(below.path)
+            heard = with_interrupts_of(heard, self._without_silent_topics(other))
         unheard = None
         heard = heard.called(self.robot_name)
         try:

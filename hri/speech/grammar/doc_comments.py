@@ -42,7 +42,10 @@ LAST = "last"
 STANDARD_TAGS = ("example", "see", "author", "version")
 """Doc tags of JSGF 1.0 that are not marks."""
 
-KNOWN_TAGS = (*MARKS, *STANDARD_TAGS)
+TOPIC = "topic"
+"""The tag that names what a rule is about, `@topic teasing`; an app may leave a topic out."""
+
+KNOWN_TAGS = (*MARKS, TOPIC, *STANDARD_TAGS)
 
 _TAG = re.compile(r"(?<![^\s*])@([A-Za-z_]\w*)")
 _STARS = re.compile(r"^[ \t]*\*+", re.MULTILINE)

@@ -43,6 +43,22 @@ class Grammar(Rules):
         rules = {key: replace(rule, is_public=key in keys) for key, rule in self.rules.items()}
         return replace(self, rules=rules)
 
+    def without_topics(self, topics: Collection[str]) -> Grammar:
+        """The same rules, where those about one of these topics are commands no more."""
+        silent = frozenset(topics) & self.topics
+        if not silent:
+            return self
+        # Kept, with all that is made of it, for whoever leaves out the same topics.
+        kept: dict[frozenset[str], Grammar] = self.made(_quieter)
+        if silent not in kept:
+            rules = {
+                key: replace(rule, is_public=False) if rule.topics & silent else rule
+                for key, rule in self.rules.items()
+            }
+            kept.clear()
+            kept[silent] = replace(self, rules=rules)
+        return kept[silent]
+
     def called(self, name: str) -> Grammar:
         """The same rules for a robot with a name, which rules that are marked @name know then."""
         words = tuple(Token(word, _NOWHERE) for word in normalize(name))
@@ -130,6 +146,11 @@ def _either(one: Expression, other: Expression) -> Expression:
 
 def _names(rules: Rules) -> dict[tuple[Token, ...], Grammar]:
     """The rules by the name that the robot was called last."""
+    return {}
+
+
+def _quieter(rules: Rules) -> dict[frozenset[str], Grammar]:
+    """The rules by the topics that were left out last."""
     return {}
 
 

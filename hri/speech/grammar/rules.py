@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from hri.core.errors import AuthoringError, Place
-from hri.speech.grammar.doc_comments import MARKS, DocTag
+from hri.speech.grammar.doc_comments import MARKS, TOPIC, DocTag
 from hri.speech.grammar.expressions import Expression, RuleReference, SourceSpan, walk
 from hri.speech.grammar.jsgf import Import, NameListImport
 
@@ -55,6 +55,12 @@ class Rule:
     def stands_for(self) -> str:
         """The command that it means: another rule, or `LAST`; empty for one that means itself."""
         return next((tag.text for tag in self.doc_tags if tag.name == "as"), "")
+
+    @cached_property
+    def topics(self) -> frozenset[str]:
+        """What its comment says it is about, the words behind @topic."""
+        texts = (tag.text for tag in self.doc_tags if tag.name == TOPIC)
+        return frozenset(word for text in texts for word in text.split())
 
     @property
     def examples(self) -> tuple[str, ...]:
@@ -104,6 +110,11 @@ class Rules:
     def public_rules(self) -> tuple[str, ...]:
         """Names of the public rules of the main file, in its order; imported ones only help."""
         return tuple(key for key, rule in self.rules.items() if rule.is_public)
+
+    @cached_property
+    def topics(self) -> frozenset[str]:
+        """What the public rules are about."""
+        return frozenset().union(*(self.rules[key].topics for key in self.public_rules))
 
     def marked(self, mark: str) -> frozenset[str]:
         """The public rules with a mark, which is one of `doc_comments.MARKS`."""
