@@ -5,9 +5,13 @@ from __future__ import annotations
 import difflib
 import math
 from collections.abc import Callable, Sequence
-from string import Formatter
+from pathlib import Path
 from typing import Any
 
+from hri.conversation.choosing import Moment, Pool, Spoken, pools
+from hri.conversation.day import clock_words, part_of_day
+from hri.conversation.motions import turn_words, way_words
+from hri.core import paths
 from hri.core.errors import NotAvailable
 from hri.core.latest import Latest
 from hri.core.signals import Event, Person
@@ -15,6 +19,7 @@ from hri.drive import navigation_tasks
 from hri.drive.behaviors import CommandGate
 from hri.drive.supervisor_relay import SupervisorRelay
 from hri.emotion.behaviors import EmotionModel
+from hri.emotion.personality import FOLDER, personality_path
 from hri.emotion.stimulus import load_stimuli
 from hri.face.behaviors import FaceRenderer
 from hri.face.model import load_face
@@ -37,7 +42,8 @@ from hri.task.task_run import Job
 from hri.vision.tasks import people_of
 
 from . import things
-from .replies import FILE, Question, Replies, Reply, Vocabulary, load_replies
+from .replies import FILE, Question, Replies, Vocabulary, load_replies
+from .reply_texts import fields_of
 
 ALWAYS = ("stop", "wake")
 """Rules that count even while it sleeps."""
@@ -48,6 +54,10 @@ FOR_GOOD = 1e9
 QUIET_SECONDS = 60.0
 GREETINGS = ("greet", "wake")
 """Rules that end its being quiet."""
+FAREWELLS = ("leave", "good_night", "sleep")
+"""Rules that end a talk; it asks no question then."""
+UNTOLD = ("stop", "help", "greet", "leave", "good_night")
+"""Rules that it does not name first when asked what can be said; how to stop it is named last."""
 EXAMPLES = 4
 """Commands that it names at once when it is asked what can be said, and how to stop it."""
 COMPANY_SECONDS = 45.0
@@ -66,7 +76,10 @@ def vocabulary_of(context: TaskContext, grammar: Grammar) -> Vocabulary:
     """What the replies may use."""
     face = load_face(context.behavior(FaceRenderer).face)
     app = App.of(context)
-    return Vocabulary(grammar, load_stimuli(), face.expressions, load_gestures(face), app)
+    own = personality_path(context.behavior(EmotionModel).personality).stem
+    personalities = {own, *(Path(name).stem for name in paths.names(FOLDER))}
+    gestures = load_gestures(face)
+    return Vocabulary(grammar, load_stimuli(), face.expressions, gestures, app, personalities)
 
 
 class Companion:
@@ -92,7 +105,7 @@ class Companion:
         self.has_asked_to_keep = False
         self.silent_until = -math.inf
         self.last_contact = -math.inf
-        self._turns: dict[str, int] = {}
+        self._spoken = Spoken()
         self._named = 0
         self._has_hinted = False
         self._is_held = False
@@ -109,10 +122,18 @@ class Companion:
 
     # --- replying ---
 
-    def reply(self, rule: str, text: str, tags: dict[str, Any], may_go_on: bool = False) -> None:
+    def reply(
+        self,
+        rule: str,
+        text: str,
+        tags: dict[str, Any],
+        may_go_on: bool = False,
+        goes_on: bool = False,
+    ) -> None:
         """Do what the file says of this rule.
 
-        Whoever may go on with the sentence has the floor a little longer before it answers.
+        Whoever may go on with the sentence has the floor a little longer before it answers. A
+        sentence that goes on with the one before it is not the same said again.
         """
         self.last_contact = self.context.clock.now()
         self._has_hinted = self._is_held = False
@@ -130,14 +151,20 @@ class Companion:
             self.context.events.raise_event(reply.event, text=text, **tags)
         if reply.task is not None:
             self._perform(reply.task, {"text": text, **tags})
-        words = objection or self._words(rule, reply, text, tags)
-        if reply.show:
+        may_speak = may_speak or self.may_speak
+        is_wanted = may_speak and not objection
+        template, pool = self._choose(rule, goes_on) if is_wanted else ("", Pool())
+        words = objection or self._filled_in(template, text, tags)
+        # What it says of its feeling must not be hidden by another face.
+        if reply.show and not pool.is_of_feeling:
             label = str(tags.get("emotion", "neutral")) if reply.show[0] == "{" else reply.show
             self.face.start(self._show, label)
         if reply.gesture:
             self.make(reply.gesture)
-        if words and (may_speak or self.may_speak):
+        if words and may_speak:
             self.talk.start(self._say_after, FLOOR_SECONDS if may_go_on else 0.0, words)
+        if rule in FAREWELLS:
+            self.last_contact = -math.inf
 
     async def _say_after(self, context: TaskContext, seconds: float, words: str) -> None:
         await context.clock.sleep(seconds)
@@ -221,28 +248,50 @@ class Companion:
         """Whether it may talk: it was not asked to be quiet."""
         return self.context.clock.now() >= self.silent_until
 
-    def _words(self, rule: str, reply: Reply, text: str, tags: dict[str, Any]) -> str:
-        if not reply.say:
-            return ""
-        turn = self._turns[rule] = self._turns.get(rule, -1) + 1
-        template = reply.say[turn % len(reply.say)]
+    def _choose(self, rule: str, goes_on: bool) -> tuple[str, Pool]:
+        """What to say to a rule at this moment, with its braces, and where it is from."""
+        now = self.context.clock.now()
+        moment = Moment(
+            self.emotion.feeling().label,
+            part_of_day(self.context.clock.wall().hour),
+            personality_path(self.emotion.personality).stem,
+            self._spoken.answer(rule, now) and not goes_on,
+        )
+        template, pool = self._spoken.choose(pools(self.replies.replies[rule].wording, moment), now)
+        if template:
+            self._spoken.note(template, now)
+        return template, pool
+
+    def _filled_in(self, template: str, text: str, tags: dict[str, Any]) -> str:
+        """A text with what its braces stand for."""
         facts: dict[str, Callable[[], object]] = {
             "text": lambda: text,
             "name": lambda: self.replies.name,
-            "time": lambda: f"{self.context.clock.wall():%H:%M}",
+            "time": self._time_words,
             "battery": self._percent_of_battery,
-            "why": lambda: self.emotion.why_words(str(tags.get("emotion", ""))),
+            "why": lambda: _aloud(self.emotion.why_words(str(tags.get("emotion", "")))),
             "feeling": self.emotion.feeling_words,
-            "why_stopped": lambda: self.guard.explain() or self.replies.unasked["no_stop"],
+            "why_stopped": self._why_stopped,
             "commands": self._commands,
         }
+        if "direction" not in tags:  # a tag of that name is the app's own
+            facts["direction"] = lambda: _direction(tags)
         values: dict[str, object] = {key: written(value) for key, value in tags.items()}
         # Only what is filled in is asked for: commands are named in turns.
-        fields = {field for _, field, _, _ in Formatter().parse(template) if field}
+        fields = set(fields_of(template))
         values.update((field, facts[field]()) for field in fields & facts.keys())
         if "battery" in fields and values["battery"] is None:
             return self.replies.unasked["battery_unknown"]
         return template.format_map(values)
+
+    def _time_words(self) -> str:
+        wall = self.context.clock.wall()
+        return clock_words(wall.hour, wall.minute)
+
+    def _why_stopped(self) -> str:
+        """Why it stopped, as a sentence."""
+        why = self.guard.explain()
+        return f"{why.rstrip('.')}." if why else self.replies.unasked["no_stop"]
 
     def _percent_of_battery(self) -> int | None:
         """None while it is not known."""
@@ -251,13 +300,17 @@ class Companion:
         return None if level is None else round(100 * level)
 
     def _commands(self) -> str:
-        """Examples of some commands, own ones first and others each time; the last one stops it."""
+        """Examples of some commands, own ones first and others each time; the last one stops it.
+
+        Who asks what can be said knows how to greet it, and how to ask that.
+        """
         examples = self._examples()
         stops = [example for rule, example in examples.items() if rule == "stop"]
-        others = [example for rule, example in examples.items() if rule != "stop"]
+        others = [example for rule, example in examples.items() if rule not in UNTOLD]
         first = self._named if self._named < len(others) else 0
         self._named = first + EXAMPLES
-        return ", ".join(others[first : first + EXAMPLES] + stops)
+        named = [f'"{example}"' for example in others[first : first + EXAMPLES] + stops]
+        return f"{', '.join(named[:-1])}, or {named[-1]}" if len(named) > 1 else "".join(named)
 
     def _examples(self) -> dict[str, str]:
         """One sentence for each command by its rule, those of the app's own grammar first."""
@@ -272,7 +325,7 @@ class Companion:
     def _drive(self, job: Job, *arguments: Any) -> str | None:
         """Start a motion; while the order does not let the base move, return why it does not."""
         if not self.guard.lift(said()):
-            return f"{self.guard.explain()}. {self.replies.unasked['waiting']}"
+            return f"{self._why_stopped()} {self.replies.unasked['waiting']}"
         self.motion.start(job, *arguments)
         return None
 
@@ -408,3 +461,17 @@ def _example(grammar: Grammar, rule: str) -> str:
     """What its comment gives as an example, else its first sentence."""
     given = grammar.rules[rule].examples
     return given[0] if given else next(iter(grammar.sentences_of(rule, 1)), "")
+
+
+def _direction(tags: dict[str, Any]) -> str:
+    """Where a motion leads, in words; empty without tags of one."""
+    if "angle" in tags:
+        return turn_words(float(tags["angle"]))
+    return way_words(float(tags["distance"])) if "distance" in tags else ""
+
+
+def _aloud(reason: str) -> str:
+    """A reason for a feeling as it is said aloud, not as a record has it."""
+    reason = reason.replace(", and there is no special reason.", ". Nothing much has happened yet.")
+    reason = reason.replace("I have had ", "I've had ").replace("I have been ", "I've been ")
+    return reason.replace("I am ", "I'm ")

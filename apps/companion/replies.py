@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-import string
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property, partial
 from inspect import Parameter
 from pathlib import Path
 
+from hri.conversation.choosing import Wording
 from hri.core.errors import AuthoringError, HriError, Mistakes, did_you_mean
 from hri.core.event_bus import OWN_SUBJECTS
 from hri.core.toml import Table, load_toml
@@ -20,6 +20,7 @@ from hri.task.task import TaskType
 
 from . import things
 from .reply_files import KIND, joined_entries, parts_of
+from .reply_texts import check_braces, fields_of, read_wording
 
 FILE = "replies.toml"
 # fmt: off
@@ -33,10 +34,10 @@ AFTER_YES = ("keep",)
 """What may be done after a yes: begin to save feelings."""
 FILLED_IN = ("text", "name", "time", "battery", "why", "why_stopped", "feeling", "commands")
 """What may stand in braces, beside the tags of the grammar."""
+MOTION = ("distance", "angle")
+"""Tags of a motion: a rule that gives one may have {direction} in its texts."""
 HEARD = "text"
 """What a task or an event may take beside the tags: the words that were heard."""
-LONGEST = 5000
-"""Characters of what is said; voices say no more."""
 _EVENT = re.compile(r"[A-Za-z]\w*(\.\w+)+")
 
 
@@ -44,7 +45,7 @@ _EVENT = re.compile(r"[A-Za-z]\w*(\.\w+)+")
 class Reply:
     """What is done when a rule was heard."""
 
-    say: tuple[str, ...] = ()
+    wording: Wording = field(default_factory=Wording)
     feel: str = ""
     intensity: float = 1.0
     show: str = ""
@@ -55,6 +56,11 @@ class Reply:
     """The task that `action` names, when it is not one of ACTIONS."""
     event: str = ""
     """What is raised, with the tags as its properties."""
+
+    @property
+    def say(self) -> list[str]:
+        """All that it may say."""
+        return self.wording.texts()
 
 
 @dataclass(frozen=True)
@@ -91,6 +97,12 @@ class Vocabulary:
     gestures: Collection[str]
     app: App
     """Knows the tasks."""
+    personalities: Collection[str] = ()
+
+    @cached_property
+    def tags(self) -> frozenset[str]:
+        """Names of all tags of the grammar."""
+        return self.grammar.tag_names()
 
     @property
     def rules(self) -> tuple[str, ...]:
@@ -208,16 +220,15 @@ def _unasked(spoken: Table) -> dict[str, str]:
     for key in set(spoken.keys()) - set(known):
         raise spoken.error(key, f'unknown key "{key}"', did_you_mean(key, known))
     for key in USUALLY_UNASKED.keys() & unasked.keys():
-        filled_in = _fields(USUALLY_UNASKED[key])
-        _check_braces(spoken, unasked[key], filled_in, key)
+        filled_in = fields_of(USUALLY_UNASKED[key])
+        check_braces(spoken, unasked[key], filled_in, key)
     return unasked
 
 
 def _reply(rule: str, entry: Table, vocabulary: Vocabulary) -> Reply:
-    say = entry.data.get("say")
-    texts = entry.strings("say") if isinstance(say, list) else [entry.string("say", "")]
-    for text in texts:
-        _check_braces(entry, text, (*FILLED_IN, *vocabulary.grammar.tag_names()))
+    is_motion = not vocabulary.grammar.tag_names(rule).isdisjoint(MOTION)
+    braces = {*FILLED_IN, *vocabulary.tags, *(["direction"] if is_motion else [])}
+    wording = read_wording(entry, braces, vocabulary.personalities)
     show = entry.string("show", "")
     if show and not show.startswith("{") and show not in vocabulary.expressions:
         remedy = did_you_mean(show, sorted(vocabulary.expressions))
@@ -234,8 +245,7 @@ def _reply(rule: str, entry: Table, vocabulary: Vocabulary) -> Reply:
     action, task = _action(rule, entry, vocabulary)
     event = _event(entry)
     entry.finish()
-    said = tuple(text for text in texts if text)
-    return Reply(said, feel, intensity, show, gesture, action, task, event)
+    return Reply(wording, feel, intensity, show, gesture, action, task, event)
 
 
 def _action(rule: str, entry: Table, vocabulary: Vocabulary) -> tuple[str, TaskType | None]:
@@ -294,24 +304,3 @@ def _question(entry: Table) -> Question:
     question = Question(ask, yes, no, entry.string("action", "", among=AFTER_YES))
     entry.finish()
     return question
-
-
-def _fields(text: str) -> list[str]:
-    return [field for _, field, _, _ in string.Formatter().parse(text) if field]
-
-
-def _check_braces(entry: Table, text: str, known: Collection[str], key: str = "say") -> None:
-    if len(text) > LONGEST:
-        raise entry.error(key, f"a text of {len(text)} characters", f"keep it within {LONGEST}")
-    try:
-        parts = list(string.Formatter().parse(text))
-    except ValueError as error:
-        raise entry.error(key, f"{error}", "close every {brace}") from error
-    for _, name, form, conversion in parts:
-        if name is None:
-            continue
-        if form or conversion:
-            what = f"{{{name}}} has a format, which braces do not take"
-            raise entry.error(key, what, f"write {{{name}}}")
-        if name not in known:
-            raise entry.error(key, f"nothing fills in {{{name}}}", did_you_mean(name, known))

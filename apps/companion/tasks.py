@@ -120,6 +120,7 @@ async def converse(context: TaskContext) -> None:
                     heard.get("command") or heard["text"],
                     dict(heard["tags"]),
                     bool(heard.get("may_go_on")),
+                    bool(heard.get("continues")),
                 )
             except (LookupError, ValueError, TypeError) as error:
                 # A reply that cannot be filled in costs this reply, not the companion.

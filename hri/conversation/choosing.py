@@ -28,7 +28,7 @@ class Wording:
 
     say: Texts = ()
     again: Texts = ()
-    """Said when the same was said to the robot a short time ago."""
+    """Said when the robot has answered the same a short time ago."""
     feeling: Mapping[str, Texts] = field(default_factory=dict)
     """By a word or label of `hri.conversation.feelings.KNOWN`."""
     hour: Mapping[str, Texts] = field(default_factory=dict)
@@ -52,7 +52,7 @@ class Moment:
     part_of_day: str = "morning"
     personality: str = "neutral"
     is_again: bool = False
-    """Whether the same was said to the robot within RECENT_SECONDS."""
+    """Whether it has answered the same within RECENT_SECONDS."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,18 +83,18 @@ def pools(wording: Wording, moment: Moment) -> list[Pool]:
 
 
 class Spoken:
-    """Remembers when which text was said, and when which rule was heard."""
+    """Remembers when which text was said, and when which rule was answered."""
 
     def __init__(self, most: int = MOST_REMEMBERED) -> None:
         """`most` is the number of texts, and of rules, that are remembered."""
         self._most = most
         self._said: OrderedDict[str, float] = OrderedDict()
-        self._heard: OrderedDict[str, float] = OrderedDict()
+        self._answered: OrderedDict[str, float] = OrderedDict()
 
-    def hear(self, rule: str, now: float) -> bool:
-        """Note that a rule was heard; whether it was heard within RECENT_SECONDS before."""
-        before = self._heard.get(rule, -math.inf)
-        self._note(self._heard, rule, now)
+    def answer(self, rule: str, now: float) -> bool:
+        """Note that a rule is answered; whether it was, too, within RECENT_SECONDS before."""
+        before = self._answered.get(rule, -math.inf)
+        self._note(self._answered, rule, now)
         return now - before < RECENT_SECONDS
 
     def choose(self, found: Sequence[Pool], now: float) -> tuple[str, Pool]:

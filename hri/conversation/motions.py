@@ -8,7 +8,7 @@ LITTLE_DEG, QUARTER_DEG, HALF_DEG = 20.0, 90.0, 180.0
 
 
 def way_words(distance: float) -> str:
-    """A straight way of so many meters, after "going"; below 0 it leads back."""
+    """A straight way in meters, after "going"; below 0 it leads back."""
     side = "back" if distance < 0 else "forward"
     meters = abs(distance)
     if _is_near(meters, USUAL_M):
@@ -21,7 +21,7 @@ def way_words(distance: float) -> str:
 
 
 def turn_words(angle: float) -> str:
-    """A turn of so many degrees, after "turning"; above 0 it is to the left."""
+    """A turn in degrees, after "turning"; above 0 it is to the left."""
     side = "right" if angle < 0 else "left"
     degrees = abs(angle)
     if _is_near(degrees, QUARTER_DEG):

@@ -11,7 +11,7 @@ from hri.speech.recognizers.typed import TypedRecognizer
 from hri.testing import live_for
 from tests.devices import TYPED
 
-ASIDE = "Say: you may move again."
+ASIDE = "Just say: you may move again."
 
 
 def live(robot, seconds, lines, deeds=()):
@@ -41,14 +41,18 @@ def touch(robot):
 
 def test_the_next_order_moves_it_with_the_usual_reply():
     said, x = live(companion(), 9, {1: "stop", 3: "go back one meter"})
-    assert said == ["I stopped.", "Okay: go back one meter."]
+    assert said == ["I stopped.", "Going back 1 meter."]
     assert x == pytest.approx(-1.0, abs=0.03)
 
 
 def test_it_goes_on_with_nothing_before_that_and_may_still_be_told_that_it_may():
     lines = {1: "go forward five meters", 4: "stop", 6: "hello", 9: "you may move again"}
     said, x = live(companion(), 13, lines)
-    assert said[1:] == ["I stopped.", "Hello! It is good to see you.", "Thank you. I am careful."]
+    assert said[1:] == [
+        "I stopped.",
+        "Good morning! It's good to see you.",
+        "Thanks. I'll be careful.",
+    ]
     assert 0.1 < x < 1.0
 
 
@@ -96,7 +100,7 @@ def test_a_line_for_the_listener_counts_as_said():
         return lambda robot: robot.context.behavior(Listener).type_line(text)
 
     said, x = live(robot, 9, {}, {1: type_line("stop"), 3: type_line("go back one meter")})
-    assert said == ["I stopped.", "Okay: go back one meter."]
+    assert said == ["I stopped.", "Going back 1 meter."]
     assert x == pytest.approx(-1.0, abs=0.03)
 
 

@@ -213,7 +213,7 @@ def _said(voice, text):
 
 
 def test_the_robot_replies_with_what_needs_nothing_to_be_filled_in():
-    assert "Hello there!" in others.replies()
+    assert "Hello! How nice." in others.replies()
     assert "Did you sleep well?" in others.replies()
     assert not any("{" in reply for reply in others.replies())
 

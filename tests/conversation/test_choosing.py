@@ -57,8 +57,8 @@ def test_the_memory_is_bounded(texts):
     spoken = Spoken(most=5)
     for number, text in enumerate(texts):
         spoken.note(text, float(number))
-        spoken.hear(text, float(number))
-    assert max(len(spoken._said), len(spoken._heard)) <= 5
+        spoken.answer(text, float(number))
+    assert max(len(spoken._said), len(spoken._answered)) <= 5
     assert MOST_REMEMBERED >= 5
 
 
@@ -67,11 +67,11 @@ def test_where_nothing_fits_nothing_is_said():
     assert pools(Wording(), Moment()) == []
 
 
-def test_a_rule_is_heard_again_for_five_minutes():
+def test_a_rule_is_answered_again_for_five_minutes():
     spoken = Spoken()
-    heard = [spoken.hear("name", now) for now in (0.0, 299.0, 600.0)]
-    assert heard == [False, True, False]
-    assert not spoken.hear("time", 600.0)
+    answered = [spoken.answer("name", now) for now in (0.0, 299.0, 600.0)]
+    assert answered == [False, True, False]
+    assert not spoken.answer("time", 600.0)
 
 
 ALL = Wording(
@@ -103,7 +103,7 @@ def test_again_comes_first_and_the_rest_is_left_when_it_is_used_up():
     assert texts_at(is_again=True, feeling="anger") == [("Hi again.",), ("What?",)]
     spoken, told = Spoken(), []
     for now in (0.0, 10.0, 20.0):
-        found = pools(ALL, Moment(is_again=spoken.hear("greet", now)))
+        found = pools(ALL, Moment(is_again=spoken.answer("greet", now)))
         told.append(spoken.choose(found, now)[0])
         spoken.note(told[-1], now)
     assert told == ["Hi.", "Hi again.", "Hi."]

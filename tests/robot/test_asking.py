@@ -171,7 +171,7 @@ def test_a_refusal_is_an_answer_where_the_author_has_a_rule_for_it(tmp_path):
 def test_who_is_not_heard_hears_so(tmp_path):
     order = Order(tmp_path, [], lambda context: ask_size(context, retries=1))
     assert order.answers == [None]
-    said = ["Which size?", "Which size?", "Sorry, I did not hear an answer."]
+    said = ["Which size?", "Which size?", "Sorry, I didn't hear an answer."]
     assert order.named("speech.said")[:3] == said
     assert order.named("question.unanswered")[0] == "Which size?"
 

@@ -1,0 +1,80 @@
+"""What a `[reply.RULE]` table may say, and when: `say` and the lists beside it.
+
+    say = "Hi there!"                         # or a list: ["Hi there!", "Hello!"]
+    again = ["Hello again!"]                  # it has answered the same within five minutes
+    feeling.angry = ["Hello."]                # it is angry: instead of the others
+    hour.morning = ["Good morning!"]          # in the morning: beside `say`
+    personality.shy = ["Oh. Hi."]             # it is shy: beside `say`
+
+Which one is said at a moment is decided in `hri.conversation.choosing`.
+"""
+
+from __future__ import annotations
+
+import string
+from collections.abc import Collection
+
+from hri.conversation.choosing import Texts, Wording
+from hri.conversation.day import PARTS
+from hri.conversation.feelings import KNOWN
+from hri.core.errors import did_you_mean
+from hri.core.toml import Table
+
+LONGEST = 5000
+"""Characters of what is said; voices say no more."""
+
+
+def read_wording(entry: Table, braces: Collection[str], personalities: Collection[str]) -> Wording:
+    """The texts of a reply; `braces` are the names that may stand in braces.
+
+    Raises AuthoringError for a name that is not known, and for a text that cannot be filled in.
+    """
+    return Wording(
+        _texts(entry, "say", braces),
+        _texts(entry, "again", braces),
+        _texts_by_name(entry, "feeling", KNOWN, braces),
+        _texts_by_name(entry, "hour", PARTS, braces),
+        _texts_by_name(entry, "personality", personalities, braces),
+    )
+
+
+def _texts(table: Table, key: str, braces: Collection[str]) -> Texts:
+    """A text, or a list of texts; an empty one says nothing."""
+    is_list = isinstance(table.data.get(key), list)
+    texts = table.strings(key) if is_list else [table.string(key, "")]
+    for text in texts:
+        check_braces(table, text, braces, key)
+    return tuple(text for text in texts if text)
+
+
+def _texts_by_name(
+    entry: Table, key: str, known: Collection[str], braces: Collection[str]
+) -> dict[str, Texts]:
+    given = entry.table(key, optional=True)
+    for name in given.keys():  # noqa: SIM118 - a Table is not a dictionary
+        if name not in known:
+            raise given.error(name, f'unknown {key} "{name}"', did_you_mean(name, known))
+    return {name: _texts(given, name, braces) for name in given.data}
+
+
+def fields_of(text: str) -> list[str]:
+    """The names in braces in a text."""
+    return [field for _, field, _, _ in string.Formatter().parse(text) if field]
+
+
+def check_braces(table: Table, text: str, known: Collection[str], key: str) -> None:
+    """Refuse a text that is too long, or in which something is never filled in."""
+    if len(text) > LONGEST:
+        raise table.error(key, f"a text of {len(text)} characters", f"keep it within {LONGEST}")
+    try:
+        parts = list(string.Formatter().parse(text))
+    except ValueError as error:
+        raise table.error(key, f"{error}", "close every {brace}") from error
+    for _, name, form, conversion in parts:
+        if name is None:
+            continue
+        if form or conversion:
+            what = f"{{{name}}} has a format, which braces do not take"
+            raise table.error(key, what, f"write {{{name}}}")
+        if name not in known:
+            raise table.error(key, f"nothing fills in {{{name}}}", did_you_mean(name, known))
