@@ -156,7 +156,7 @@ class Companion:
         template, pool = self._choose(rule, goes_on) if is_wanted else ("", Pool())
         words = objection or self._filled_in(template, text, tags)
         # What it says of its feeling must not be hidden by another face.
-        if reply.show and not pool.is_of_feeling:
+        if reply.show and not pool.is_felt:
             label = str(tags.get("emotion", "neutral")) if reply.show[0] == "{" else reply.show
             self.face.start(self._show, label)
         if reply.gesture:
@@ -474,4 +474,4 @@ def _aloud(reason: str) -> str:
     """A reason for a feeling as it is said aloud, not as a record has it."""
     reason = reason.replace(", and there is no special reason.", ". Nothing much has happened yet.")
     reason = reason.replace("I have had ", "I've had ").replace("I have been ", "I've been ")
-    return reason.replace("I am ", "I'm ")
+    return reason.replace("that is how I am", "that's just how I am").replace("I am ", "I'm ")

@@ -26,18 +26,18 @@ LOOKING_S = 5.0
 AHEAD = math.radians(15)
 """To each side; what is farther aside is on the left or on the right."""
 WORDS: Mapping[str, str] = {
-    "learned": "Now I know your {thing}.",
+    "learned": "Got it. Now I know your {thing}.",
     "nothing_shown": "I don't see your {thing}. Hold it up close, and say: this is my {thing}.",
-    "no_camera": "I have no camera to see your {thing} with.",
-    "not_learned": "I could not see enough of your {thing}. Hold it nearer, in more light.",
+    "no_camera": "I don't have a camera to see your {thing} with.",
+    "not_learned": "I couldn't see enough of your {thing}. Hold it closer, in better light.",
     "sees": "I see {things}.",
-    "sees_nothing": "I see nothing that I know.",
+    "sees_nothing": "I don't see anything I know.",
     "sees_at": "I see your {thing} {place}.",
-    "not_in_sight": "I do not see your {thing} now. Say: find my {thing}.",
-    "found": "Here is your {thing}.",
-    "not_found": "I looked around, and I did not find your {thing}.",
-    "forgotten": "I have forgotten your {thing}.",
-    "unknown_thing": "I do not know your {thing}. Hold it up and say: this is my {thing}.",
+    "not_in_sight": "I don't see your {thing} right now. Say: find my {thing}.",
+    "found": "Here's your {thing}.",
+    "not_found": "I looked around, but I couldn't find your {thing}.",
+    "forgotten": "Okay, I forgot your {thing}.",
+    "unknown_thing": "I don't know your {thing} yet. Hold it up and say: this is my {thing}.",
 }
 """What it says of them; `replies.toml` may say otherwise in [unasked]."""
 

@@ -60,8 +60,8 @@ class Pool:
     """Texts that fit for the same reason."""
 
     texts: Texts = ()
-    is_of_feeling: bool = False
-    """Whether they were written for what the robot feels."""
+    is_felt: bool = False
+    """Whether the reply has texts for what the robot feels; then its face shows that, too."""
 
 
 def pools(wording: Wording, moment: Moment) -> list[Pool]:
@@ -70,11 +70,10 @@ def pools(wording: Wording, moment: Moment) -> list[Pool]:
     `again` comes before all others. `feeling` replaces the rest; without one for this feeling, the
     texts for this hour, those for this personality, and `say` count together, in this order.
     """
-    found = []
-    if moment.is_again and wording.again:
-        found.append(Pool(wording.again))
-    if felt := wording.feeling.get(fitting(moment.feeling, wording.feeling)):
-        found.append(Pool(felt, is_of_feeling=True))
+    felt = wording.feeling.get(fitting(moment.feeling, wording.feeling), ())
+    found = [Pool(wording.again, bool(felt))] if moment.is_again else []
+    if felt:
+        found.append(Pool(felt, is_felt=True))
     else:
         hour = wording.hour.get(moment.part_of_day, ())
         own = wording.personality.get(moment.personality, ())

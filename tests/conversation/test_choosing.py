@@ -95,7 +95,9 @@ def test_hour_and_personality_widen_what_is_said():
 def test_a_feeling_replaces_it():
     assert texts_at(feeling="anger", part_of_day="night") == [("What?",)]
     assert texts_at(feeling="hate") == [("You.",)]
-    assert [pool.is_of_feeling for pool in pools(ALL, Moment(feeling="anger"))] == [True]
+    assert [pool.is_felt for pool in pools(ALL, Moment(feeling="anger"))] == [True]
+    assert [pool.is_felt for pool in pools(ALL, Moment("anger", is_again=True))] == [True, True]
+    assert [pool.is_felt for pool in pools(ALL, Moment("joy", is_again=True))] == [False, False]
 
 
 def test_again_comes_first_and_the_rest_is_left_when_it_is_used_up():

@@ -49,7 +49,7 @@ def test_the_joke_of_the_page_is_told(copied):
 
 def test_the_timer_of_the_page_rings(copied):
     said, names = said_by(copied / "kitchen", {1.0: "set a timer for three seconds"}, 7)
-    assert said == ["Okay, I will tell you.", "3 seconds are over."]
+    assert said == ["Okay, I'll let you know.", "3 seconds are over."]
     assert {"timer.ended", "gesture.ended"} <= names
 
 

@@ -17,4 +17,4 @@ def test_it_keeps_time_and_jokes():
     events = live_for(robot, 9.0, *robot.app.load_tasks())
     said = [event.properties["text"] for event in events if event.name == "speech.said"]
     joke = "What is brown and sticky? A stick."
-    assert said == ["Okay, I will tell you.", joke, "5 seconds are over."]
+    assert said == ["Okay, I'll let you know.", joke, "5 seconds are over."]
