@@ -42,7 +42,7 @@ from hri.task.task_run import Job
 from hri.vision.tasks import people_of
 
 from . import things
-from .replies import FILE, Question, Replies, Vocabulary, load_replies
+from .replies import FILE, Question, Replies, Reply, Vocabulary, load_replies
 from .reply_texts import fields_of
 
 ALWAYS = ("stop", "wake")
@@ -52,6 +52,8 @@ FLOOR_SECONDS = 0.4
 SHOW_SECONDS = 4.0
 FOR_GOOD = 1e9
 QUIET_SECONDS = 60.0
+ABOUT_THE_LAST = ("why_that", "say_again")
+"""Rules that speak of the reply before them."""
 GREETINGS = ("greet", "wake")
 """Rules that end its being quiet."""
 FAREWELLS = ("leave", "good_night", "sleep")
@@ -106,6 +108,9 @@ class Companion:
         self.silent_until = -math.inf
         self.last_contact = -math.inf
         self._spoken = Spoken()
+        self._last: Reply | None = None
+        """The reply that people mean who ask why."""
+        self._said_last = ""
         self._named = 0
         self._has_hinted = False
         self._is_held = False
@@ -163,10 +168,13 @@ class Companion:
             self.make(reply.gesture)
         if words and may_speak:
             self.talk.start(self._say_after, FLOOR_SECONDS if may_go_on else 0.0, words)
+        if rule not in ABOUT_THE_LAST:
+            self._last = reply
         if rule in FAREWELLS:
             self.last_contact = -math.inf
 
     async def _say_after(self, context: TaskContext, seconds: float, words: str) -> None:
+        self._said_last = words
         await context.clock.sleep(seconds)
         await verbs.say(context, words)
 
@@ -233,7 +241,7 @@ class Companion:
     def say(self, words: str) -> None:
         """Say it, interrupting other speech; nothing while it is asked to be quiet."""
         if self.may_speak:
-            self.talk.start(verbs.say, words)
+            self.talk.start(self._say_after, 0.0, words)
 
     def words(self, key: str, **facts: str) -> str:
         """What [unasked] says, filled in."""
@@ -273,6 +281,8 @@ class Companion:
             "feeling": self.emotion.feeling_words,
             "why_stopped": self._why_stopped,
             "commands": self._commands,
+            "said": lambda: self._said_last or self.replies.unasked["nothing_said"],
+            "because": lambda: self._because(text, tags),
         }
         if "direction" not in tags:  # a tag of that name is the app's own
             facts["direction"] = lambda: _direction(tags)
@@ -283,6 +293,15 @@ class Companion:
         if "battery" in fields and values["battery"] is None:
             return self.replies.unasked["battery_unknown"]
         return template.format_map(values)
+
+    def _because(self, text: str, tags: dict[str, Any]) -> str:
+        """Why it did or said what it did last."""
+        last = self._last
+        if last is not None and last.because:
+            return self._filled_in(last.because, text, tags)
+        if last is not None and (last.action or last.task is not None):
+            return self.replies.unasked["asked_to"]
+        return _aloud(self.emotion.why_words(""))
 
     def _time_words(self) -> str:
         wall = self.context.clock.wall()

@@ -32,7 +32,18 @@ ACTIONS = (
 """What the companion itself can do; other actions are tasks."""
 AFTER_YES = ("keep",)
 """What may be done after a yes: begin to save feelings."""
-FILLED_IN = ("text", "name", "time", "battery", "why", "why_stopped", "feeling", "commands")
+FILLED_IN = (
+    "text",
+    "name",
+    "time",
+    "battery",
+    "why",
+    "why_stopped",
+    "feeling",
+    "commands",
+    "said",
+    "because",
+)
 """What may stand in braces, beside the tags of the grammar."""
 MOTION = ("distance", "angle")
 """Tags of a motion: a rule that gives one may have {direction} in its texts."""
@@ -56,6 +67,8 @@ class Reply:
     """The task that `action` names, when it is not one of ACTIONS."""
     event: str = ""
     """What is raised, with the tags as its properties."""
+    because: str = ""
+    """The answer to "why" after it; empty for that it was asked to, or for what it feels."""
 
     @property
     def say(self) -> list[str]:
@@ -118,6 +131,8 @@ USUALLY_UNASKED = {
     "unanswered": "Sorry, I did not hear an answer.",
     "refused": "Okay, never mind.",
     "awake": "I am awake.",
+    "nothing_said": "I haven't said anything yet.",
+    "asked_to": "Because you asked me to.",
     "battery_unknown": "I do not know how full my battery is.",
     **things.WORDS,
 }
@@ -244,8 +259,10 @@ def _reply(rule: str, entry: Table, vocabulary: Vocabulary) -> Reply:
     intensity = entry.number("intensity", 1.0, minimum=0, maximum=1)
     action, task = _action(rule, entry, vocabulary)
     event = _event(entry)
+    because = entry.string("because", "")
+    check_braces(entry, because, braces, "because")
     entry.finish()
-    return Reply(wording, feel, intensity, show, gesture, action, task, event)
+    return Reply(wording, feel, intensity, show, gesture, action, task, event, because)
 
 
 def _action(rule: str, entry: Table, vocabulary: Vocabulary) -> tuple[str, TaskType | None]:

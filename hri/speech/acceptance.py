@@ -10,6 +10,7 @@ from hri.core.signals import HeardWord, Rejection, Utterance
 from hri.hal.recognizer import Alternative, Hypothesis, Segment
 from hri.speech.automatic_level import too_quiet
 from hri.speech.grammar import Grammar
+from hri.speech.grammar.doc_comments import ANY_COMMAND
 from hri.speech.grammar.follow_ups import out_of_place, resolved
 from hri.speech.grammar.matching import Parse, departure, meanings, parse
 from hri.speech.grammar.words import ANY, listed
@@ -289,6 +290,7 @@ def _when(rule: str, grammar: Grammar, turn: Turn) -> str:
     if turn.is_speaking:
         return "when the robot is silent"
     if rule in out_of_place(grammar, turn.last):
-        return f"soon after {' or '.join(f'<{name}>' for name in grammar.rules[rule].after)}"
+        named = [f"<{name}>" for name in grammar.rules[rule].after if name != ANY_COMMAND]
+        return f"soon after {' or '.join(named) or 'another command'}"
     is_answer = rule in grammar.marked("answer")
     return "while a question is open" if is_answer else "after the wake word"

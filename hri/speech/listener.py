@@ -119,6 +119,8 @@ class Listener(Behavior):
     _followed: Followed | None = None
     """The last command that others may follow, until some time."""
     _followed_until = 0.0
+    _understood_until = 0.0
+    """When what was understood last, whatever it was, is over."""
     last_utterance: Utterance | None = None
     """The last utterance."""
 
@@ -350,8 +352,14 @@ class Listener(Behavior):
             is_question_open=is_question_open,
             is_awake=is_awake,
             is_addressed=is_addressed or is_for_it or is_awake or is_question_open,
-            last=self._followed if start <= self._followed_until else None,
+            last=self._last(start),
         )
+
+    def _last(self, now: float) -> Followed | None:
+        """What was understood a while ago at most."""
+        if now <= self._followed_until:
+            return self._followed
+        return Followed() if now <= self._understood_until else None
 
     def _understand(self, segment: Segment, piece: _Piece, turn: Turn, begun: float) -> Tell:
         """Decode a piece; runs in the worker."""
@@ -477,6 +485,7 @@ class Listener(Behavior):
         self._taken_back = ""
         self._wakefulness.extend(result.end)
         self.last_utterance = result
+        self._understood_until = result.end + FOLLOWED_FOR
         if result.rule in can_be_followed(grammar):
             self._followed = Followed(result.rule, result.tags)
             self._followed_until = result.end + FOLLOWED_FOR

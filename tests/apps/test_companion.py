@@ -264,6 +264,15 @@ def test_what_is_said_after_an_order_changes_it():
     assert headings == pytest.approx([math.pi / 2, 0.0, -math.pi / 4], abs=0.06)
 
 
+def test_it_says_again_what_it_said_and_why():
+    lines = {1: "what is your name", 5: "what did you say", 9.5: "turn left", 15: "why"}
+    visit = Visit(19, lines)
+    assert visit.heard() == ["name", "say_again", "turn", "why_that"]
+    name, again, _, why = visit.said()
+    assert name in again
+    assert why == "Because you asked me to."
+
+
 @pytest.mark.slow
 def test_come_here_brings_it_to_the_person():
     visit = Visit(24, {1.5: "go back one meter", 9.0: "come to me"}, devices=[SMALL_SCREEN])

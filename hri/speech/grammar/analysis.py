@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from hri.core.errors import AuthoringError, Place, did_you_mean
 from hri.speech.grammar import offers
-from hri.speech.grammar.doc_comments import LAST, DocTag
+from hri.speech.grammar.doc_comments import ANY_COMMAND, LAST, DocTag
 from hri.speech.grammar.expressions import (
     Alternative,
     Anything,
@@ -339,13 +339,16 @@ def _lost_marks(grammar: Rules) -> Iterator[AuthoringError]:
     """Marks that name other commands which are not there, or contradict each other."""
     for key in grammar.public_rules:
         rule = grammar.rules[key]
-        named = {"after": rule.after, "as": tuple({rule.stands_for} - {LAST})}
+        named = {"after": {*rule.after} - {ANY_COMMAND}, "as": {rule.stands_for} - {LAST}}
         for tag in rule.doc_tags:
             if tag.name in named:
                 yield from _lost(grammar, rule, tag, named[tag.name])
             if tag.name == "as" and "after" not in rule.marks:
                 remedy = "write the commands before it: @after move turn"
                 yield AuthoringError(rule.place(tag.span), "@as stands without @after", remedy)
+            if tag.name == "as" and rule.stands_for == LAST and ANY_COMMAND in rule.after:
+                what, remedy = "not every command has another form", "name them: @after move turn"
+                yield AuthoringError(rule.place(tag.span), what, remedy)
             if tag.name == "as" and "anywhere" in rule.marks:
                 what = "what stands for another command may not count @anywhere"
                 yield AuthoringError(rule.place(tag.span), what, "take one of the two marks out")

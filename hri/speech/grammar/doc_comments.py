@@ -36,6 +36,8 @@ MARKS = MappingProxyType(
 OF_PARTS = frozenset(("aside", "name"))
 """Those of rules that need not be commands."""
 
+ANY_COMMAND = "any"
+"""Behind `@after`: whatever was understood last."""
 LAST = "last"
 """Behind `@as`: the command that was said last."""
 

@@ -26,6 +26,8 @@ public <other_way> = [no] the other way {distance*=-1 angle*=-1};
 public <to_side> = no i mean left {angle=90};
 /** @after sing */
 public <liked> = i liked that;
+/** @after any */
+public <why> = why is that;
 """
 
 
@@ -63,6 +65,12 @@ def test_a_rule_of_its_own_counts_soon_after_another(moves):
     assert heard(moves, "i liked that").reason == "not now"
 
 
+@pytest.mark.parametrize("last", [Followed("sing"), Followed()])
+def test_a_rule_may_count_after_whatever_was_understood(moves, last):
+    assert heard(moves, "why is that", last).rule == "why"
+    assert heard(moves, "why is that").detail.endswith("only soon after another command")
+
+
 def test_what_moves_the_robot_must_be_heard_as_clearly_in_other_words(moves):
     last = Followed("move", {"distance": 1.0})
     said = Hypothesis("the other way", 0.52)
@@ -86,6 +94,7 @@ def test_the_other_way_and_back_is_as_before(angle, times):
         ("@after", "@after names no command"),
         ("@as last", "@as stands without @after"),
         ("@after move\n * @as trun", '@as names "trun"'),
+        ("@after any\n * @as last", "not every command has another form"),
         ("@after move\n * @as last\n * @anywhere", "may not count @anywhere"),
     ],
 )

@@ -121,6 +121,8 @@ def failures(grammar: Grammar, expectations: Expectations) -> list[Failure]:
             found.append(Failure(line, came))
         if meant is not None and meant.rule in can_be_followed(grammar):
             last = Followed(meant.rule, meant.tags)
+        elif meant is not None:
+            last = last or Followed()
     return found
 
 
