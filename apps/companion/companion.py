@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-import difflib
 import math
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections import deque
+from collections.abc import Callable, Mapping
+from itertools import islice
 from typing import Any
 
 from hri.conversation.choosing import Moment, Pool, Spoken, pools
+from hri.conversation.curiosity import Curiosity
 from hri.conversation.day import clock_words, part_of_day
+from hri.conversation.examples import different, nearest_sentence, sayings
+from hri.conversation.floor import GIVES_WAY_SECONDS, NEVER, Scene, gives_way
+from hri.conversation.gist import Gist
 from hri.conversation.motions import turn_words, way_words
-from hri.core import paths
+from hri.conversation.puzzlement import Kind, Puzzle, Puzzlement, as_said
 from hri.core.errors import NotAvailable
 from hri.core.latest import Latest
 from hri.core.signals import Event, Person
@@ -19,7 +23,7 @@ from hri.drive import navigation_tasks
 from hri.drive.behaviors import CommandGate
 from hri.drive.supervisor_relay import SupervisorRelay
 from hri.emotion.behaviors import EmotionModel
-from hri.emotion.personality import FOLDER, personality_path
+from hri.emotion.personality import personality_path
 from hri.emotion.stimulus import load_stimuli
 from hri.face.behaviors import FaceRenderer
 from hri.face.model import load_face
@@ -28,10 +32,11 @@ from hri.hal.battery import Battery
 from hri.hal.camera import Camera
 from hri.robot import verbs
 from hri.robot.app import App
+from hri.speech.automatic_level import VERY_QUIET_DB
 from hri.speech.behaviors import Listener, Voice
-from hri.speech.grammar import Grammar
+from hri.speech.grammar import Grammar, parse
 from hri.speech.grammar.tags import written
-from hri.speech.recognizers.typed import TypedRecognizer
+from hri.speech.grammar.words import normalize
 from hri.speech.tasks import hears_people
 from hri.speech.turn import QUESTION
 from hri.task.context import TaskContext
@@ -42,7 +47,7 @@ from hri.task.task_run import Job
 from hri.vision.tasks import people_of
 
 from . import things
-from .replies import FILE, Question, Replies, Reply, Vocabulary, load_replies
+from .replies import FILE, Question, Replies, Reply, Vocabulary, known_personalities, load_replies
 from .reply_texts import fields_of
 
 ALWAYS = ("stop", "wake")
@@ -62,10 +67,15 @@ UNTOLD = ("stop", "help", "greet", "leave", "good_night")
 """Rules that it does not name first when asked what can be said; how to stop it is named last."""
 EXAMPLES = 4
 """Commands that it names at once when it is asked what can be said, and how to stop it."""
-COMPANY_SECONDS = 45.0
-"""How long after the last words someone who is seen counts as company."""
-ALIKE = 0.5
-"""Share of letters in common, of 1, from which a typed line is like a command."""
+CLEAR = 0.3
+"""Confidence from which words that do not count say what a sentence was about."""
+MOST_HEARD = 100
+"""Rules that are remembered."""
+ENDING = ("stop", "quiet", "release", "sleep")
+"""Actions that help no one who does not know what to say."""
+NOTICED_AFTER = 0.3
+"""Seconds after which the ears know that someone has begun to speak."""
+LOOK_EVERY = 0.02
 
 
 def authored_replies(context: TaskContext) -> Replies:
@@ -79,9 +89,9 @@ def vocabulary_of(context: TaskContext, grammar: Grammar) -> Vocabulary:
     face = load_face(context.behavior(FaceRenderer).face)
     app = App.of(context)
     own = personality_path(context.behavior(EmotionModel).personality).stem
-    personalities = {own, *(Path(name).stem for name in paths.names(FOLDER))}
     gestures = load_gestures(face)
-    return Vocabulary(grammar, load_stimuli(), face.expressions, gestures, app, personalities)
+    known = {own, *known_personalities()}
+    return Vocabulary(grammar, load_stimuli(), face.expressions, gestures, app, known)
 
 
 class Companion:
@@ -103,19 +113,29 @@ class Companion:
         self.face = Lane(context)
         self.gestures = Lane(context)
         self.lessons = Lane(context)
+        self.floor = Lane(context)
         self.is_asleep = False
         self.has_asked_to_keep = False
         self.silent_until = -math.inf
         self.last_contact = -math.inf
-        self._spoken = Spoken()
         self._last: Reply | None = None
         """The reply that people mean who ask why."""
         self._said_last = ""
         self._named = 0
-        self._has_hinted = False
+        self.puzzlement = Puzzlement()
+        self._spoken = Spoken()
+        self.curiosity = Curiosity(f"{context.clock.wall():%Y-%m-%d %H:%M}")
+        self.heard: deque[str] = deque(maxlen=MOST_HEARD)
+        """The rules that people said, the last one last."""
+        self._last_voice = self._last_farewell = self._last_dialogue = NEVER
         self._is_held = False
         for name in ("question.refused", "question.unanswered"):
             context.events.subscribe(name, self._give_up)
+        context.events.subscribe("question.*", self._note_dialogue)
+
+    def vocabulary(self) -> Vocabulary:
+        """What its replies may use."""
+        return vocabulary_of(self.context, self.listener.loaded_grammar)
 
     @classmethod
     def of(cls, context: TaskContext) -> Companion:
@@ -140,8 +160,12 @@ class Companion:
         Whoever may go on with the sentence has the floor a little longer before it answers. A
         sentence that goes on with the one before it is not the same said again.
         """
-        self.last_contact = self.context.clock.now()
-        self._has_hinted = self._is_held = False
+        self.last_contact = now = self.context.clock.now()
+        self._is_held = False
+        self.puzzlement.understand()
+        self.heard.append(rule)
+        if rule in FAREWELLS:
+            self._last_farewell = now
         reply = self.replies.replies.get(rule)
         if reply is None or (self.is_asleep and rule not in ALWAYS):
             return
@@ -190,39 +214,106 @@ class Companion:
         self.motion.resume()
         self.talk.resume()
 
-    def puzzle(self, reason: str, text: str, choices: Sequence[str] = ()) -> None:
-        """Show that it did not understand someone; the first time, say what is nearest to it. Of
-        two commands that are as likely, ask which was meant.
+    def puzzle(self, heard: Mapping[str, Any]) -> None:
+        """Answer someone who was not understood; `heard` is what `speech.rejected` says of it.
 
-        What is typed is meant for it. A sound is as far as it was like a command in a conversation.
+        Of two commands that are as likely, it asks which was meant. Words that were not said to it
+        get no answer.
         """
-        is_typed = bool(self.context.resources.opened(TypedRecognizer))
-        is_talking = self.context.clock.now() - self.last_contact < COMPANY_SECONDS
-        is_meant = reason == "not in grammar" if is_typed else reason == "low confidence"
-        is_meant = is_meant or bool(choices)
-        if self._is_held or not is_meant or self.is_asleep or not (is_typed or is_talking):
+        now = self.context.clock.now()
+        is_typed = bool(heard.get("is_typed"))
+        if not is_typed and heard["reason"] not in ("no speech", "robot speaking"):
+            self._last_voice = now
+        if self._is_held or self.is_asleep:
+            return
+        if choices := heard.get("choices", ()):
+            self.puzzlement.last = now
+            self.face.start(self._show, "confused")
+            self.tell("which", one=choices[0], other=choices[1])
+            return
+        puzzle = self._puzzle_of(heard, is_typed)
+        examples = self._examples()
+        commands = [as_said(one) for rule, one in examples.items() if self._is_worth_offering(rule)]
+        answer = self.puzzlement.answer(puzzle, commands, now)
+        if answer is None:
             return
         self.face.start(self._show, "confused")
-        if choices:
-            one, other = choices
-            self.say(self.replies.unasked["which"].format(one=one, other=other))
-        elif not self._has_hinted:
-            self._has_hinted = True
-            nearest = self._most_like(text) if is_typed else text
-            self.say(self.replies.unasked["not_understood"].format(nearest=nearest))
+        nearest = as_said(self._most_like(str(heard["text"])))
+        # What is said of any sentence may take the place of what was said a short while ago.
+        words = self._fresh(answer.kind, Kind.REPHRASE)
+        self.say(words.format_map({"nearest": nearest, **answer.facts}))
+
+    def _puzzle_of(self, heard: Mapping[str, Any], is_typed: bool) -> Puzzle:
+        """What is known of a sentence that was not understood."""
+        grammar: Grammar = self.listener.loaded_grammar
+        text, level = str(heard["text"]), heard.get("level_db")
+        # Of a sound that is like none of its sentences, the nearest one says nothing.
+        is_clear = is_typed or heard.get("confidence", 0.0) >= CLEAR
+        words = (text if is_clear else "") or str(heard.get("begun", ""))
+        is_named = is_clear and self.replies.name.lower() in normalize(text)
+        found = parse(grammar, text) if is_clear else None
+        gist = grammar.made(Gist.of)
+        rule = found.rule if found is not None else gist.rule_of(words)
+        is_answer = rule in grammar.marked("answer")
+        topic = "" if is_answer else self.replies.about.get(rule, "")
+        example = "" if is_answer else self._examples().get(rule, "")
+        return Puzzle(
+            reason=heard["reason"],
+            is_typed=is_typed,
+            is_addressed=is_named or self._is_for_it(heard),
+            is_turned_to=bool(heard.get("is_looked_at")) or is_named,
+            is_quiet=level is not None and level < VERY_QUIET_DB,
+            topic=topic,
+            nearest=as_said(example),
+            strange=gist.strange(text) if is_typed else (),
+            answers=self._answers(grammar),
+            is_answer=is_answer,
+        )
+
+    def _answers(self, grammar: Grammar) -> list[str]:
+        """Two things that would answer the question that is open, or the only one."""
+        if not self.context.board.slot(QUESTION).value:
+            return []
+        if grammar.marked("answer"):
+            return ["yes", "no"]
+        others = grammar.marked("interrupts")
+        # What may be said around an answer belongs to other grammars.
+        own = [rule for rule in grammar.public_rules if rule not in others and "." not in rule]
+        found = (text for rule in own for text in different(grammar, rule))
+        return [as_said(text) for text in islice(found, 2)]
+
+    def _is_for_it(self, heard: Mapping[str, Any]) -> bool:
+        """Whether words were said to it: who is seen, and looks aside, talks to someone else."""
+        is_looked_at = bool(heard.get("is_looked_at"))
+        return is_looked_at or (bool(heard.get("is_addressed")) and self.person() is None)
+
+    def _is_worth_offering(self, rule: str) -> bool:
+        """Whether a command helps someone who does not know any: none that ends something."""
+        reply = self.replies.replies.get(rule, Reply())
+        is_chat = bool(reply.feel) or rule in FAREWELLS
+        tells = any("{commands}" in text or "{why_stopped}" in text for text in reply.say)
+        return not (is_chat or tells or reply.action in ENDING)
+
+    def _note_dialogue(self, event: Event) -> None:
+        """A task asks, or was answered: it may go on to ask."""
+        if not self._is_own_question(str(event.properties.get("text", ""))):
+            self._last_dialogue = event.time
+
+    def _is_own_question(self, text: str) -> bool:
+        return text in [question.ask for question in self.replies.questions]
 
     def _give_up(self, event: Event) -> None:
         """Say that a question of a task is over, before the task goes on."""
-        words = self.replies.unasked[event.name.replace("question.", "")]
-        is_own = event.properties["text"] in [question.ask for question in self.replies.questions]
+        words = self.words(event.name.replace("question.", ""))
+        is_own = self._is_own_question(str(event.properties["text"]))
         if words and not is_own and self.may_speak:
             self.voice.say(words)
 
     def _most_like(self, text: str) -> str:
         """The example of a command that is most like a text; else the question for all of them."""
         examples = self._examples()
-        near = difflib.get_close_matches(text, examples.values(), n=1, cutoff=ALIKE)
-        return near[0] if near else examples.get("help", next(iter(examples.values()), ""))
+        near = nearest_sentence(self.listener.loaded_grammar, text)
+        return near or examples.get("help", next(iter(examples.values()), ""))
 
     def _perform(self, task: TaskType, tags: dict[str, Any]) -> None:
         """Start a task of the app with the tags it takes; a text that it returns is said."""
@@ -244,8 +335,15 @@ class Companion:
             self.talk.start(self._say_after, 0.0, words)
 
     def words(self, key: str, **facts: str) -> str:
-        """What [unasked] says, filled in."""
-        return self.replies.unasked[key].format_map(facts)
+        """What [unasked] says, filled in: of several texts the one that was said longest ago."""
+        return self._fresh(key).format_map(facts)
+
+    def _fresh(self, *keys: str) -> str:
+        """A text of [unasked] that was not said of late: of the first of these keys, if it can."""
+        now = self.context.clock.now()
+        text, _ = self._spoken.choose([Pool(self.replies.unasked[key]) for key in keys], now)
+        self._spoken.note(text, now)
+        return text
 
     def tell(self, key: str, **facts: str) -> None:
         """Say what [unasked] says."""
@@ -281,7 +379,7 @@ class Companion:
             "feeling": self.emotion.feeling_words,
             "why_stopped": self._why_stopped,
             "commands": self._commands,
-            "said": lambda: self._said_last or self.replies.unasked["nothing_said"],
+            "said": lambda: self._said_last or self.words("nothing_said"),
             "because": lambda: self._because(text, tags),
         }
         if "direction" not in tags:  # a tag of that name is the app's own
@@ -291,7 +389,7 @@ class Companion:
         fields = set(fields_of(template))
         values.update((field, facts[field]()) for field in fields & facts.keys())
         if "battery" in fields and values["battery"] is None:
-            return self.replies.unasked["battery_unknown"]
+            return self.words("battery_unknown")
         return template.format_map(values)
 
     def _because(self, text: str, tags: dict[str, Any]) -> str:
@@ -300,7 +398,7 @@ class Companion:
         if last is not None and last.because:
             return self._filled_in(last.because, text, tags)
         if last is not None and (last.action or last.task is not None):
-            return self.replies.unasked["asked_to"]
+            return self.words("asked_to")
         return _aloud(self.emotion.why_words(""))
 
     def _time_words(self) -> str:
@@ -310,7 +408,7 @@ class Companion:
     def _why_stopped(self) -> str:
         """Why it stopped, as a sentence."""
         why = self.guard.explain()
-        return f"{why.rstrip('.')}." if why else self.replies.unasked["no_stop"]
+        return f"{why.rstrip('.')}." if why else self.words("no_stop")
 
     def _percent_of_battery(self) -> int | None:
         """None while it is not known."""
@@ -334,17 +432,14 @@ class Companion:
     def _examples(self) -> dict[str, str]:
         """One sentence for each command by its rule, those of the app's own grammar first."""
         grammar: Grammar = self.listener.loaded_grammar
-        others = grammar.marked("answer") | grammar.marked("after")
-        rules = [rule for rule in grammar.public_rules if rule not in others]
-        rules.sort(key=lambda rule: grammar.rules[rule].path != grammar.path)
-        return {rule: example for rule in rules if (example := _example(grammar, rule))}
+        return {rule: examples[0] for rule, examples in sayings(grammar).items()}
 
     # --- actions, named as in replies.toml; what one returns is said instead of the reply ---
 
     def _drive(self, job: Job, *arguments: Any) -> str | None:
         """Start a motion; while the order does not let the base move, return why it does not."""
         if not self.guard.lift(said()):
-            return f"{self._why_stopped()} {self.replies.unasked['waiting']}"
+            return f"{self._why_stopped()} {self.words('waiting')}"
         self.motion.start(job, *arguments)
         return None
 
@@ -354,7 +449,7 @@ class Companion:
     async def _move_on(self, context: TaskContext, distance: float) -> None:
         travelled = await verbs.move(context, distance)
         if abs(travelled) < 0.9 * abs(distance):
-            self.say(self.replies.unasked["blocked"])
+            self.tell("blocked")
 
     def _turn(self, tags: dict[str, Any]) -> str | None:
         angle = math.radians(float(tags.get("angle", 90.0)))
@@ -368,11 +463,11 @@ class Companion:
 
     async def _come_here(self, context: TaskContext) -> None:
         if not self.camera.is_on or not await navigation_tasks.come_here(context):
-            self.say(self.replies.unasked["nobody"])
+            self.tell("nobody")
 
     async def _go_along(self, context: TaskContext) -> None:
         if self.person() is None or not await navigation_tasks.follow(context):
-            self.say(self.replies.unasked["nobody"])
+            self.tell("nobody")
 
     def _find(self, tags: dict[str, Any]) -> str | None:
         return self._drive(things.find, self, tags["thing"])
@@ -416,7 +511,7 @@ class Companion:
 
     def _wake(self, tags: dict[str, Any]) -> str | None:
         if not self.is_asleep:
-            return self.replies.unasked["awake"]
+            return self.words("awake")
         self.is_asleep = False
         self.voice.quiet_until = self.silent_until
         self._settle()
@@ -428,10 +523,80 @@ class Companion:
     # --- asking ---
 
     def questions(self) -> list[Question]:
-        """What it may ask now: whether it may keep what it feels, only once, and only people."""
+        """What it may ask now: first whether it may keep what it feels, only once, and only people.
+
+        Then what fits what it can do: without a base, it offers no ride.
+        """
         may_ask = self.emotion.may_ask_to_keep and hears_people(self.context)
         may_ask = may_ask and not self.has_asked_to_keep
-        return [q for q in self.replies.questions if q.action != "keep" or may_ask]
+        keeping = [q for q in self.replies.questions if q.action == "keep" and may_ask]
+        return keeping or [q for q in self.replies.questions if q.action != "keep"]
+
+    def next_question(self) -> Question | None:
+        """The question that it asks next; None when none fits the hour and what was said."""
+        questions = self.questions()
+        place = self.curiosity.choose(questions, self.heard, self.context.clock.wall())
+        return None if place is None else questions[place]
+
+    def agree(self, question: Question) -> str | None:
+        """Do what a yes to a question asks for; what is said then instead of its words, if any."""
+        if question.show:
+            self.face.start(self._show, question.show)
+        if question.action == "keep":
+            self.emotion.begin_keeping()
+        elif question.action:
+            words: str | None = getattr(self, f"_{question.action}")({})
+            return words
+        return None
+
+    def scene(self, wondered: float) -> Scene:
+        """How things stand for who would begin to speak, and asked last at a time in seconds."""
+        context = self.context
+        now = context.clock.now()
+        return Scene(
+            now=now,
+            hour=context.clock.wall().hour,
+            is_asleep=self.is_asleep,
+            is_quiet=not self.may_speak,
+            is_voice_heard=bool(self.listener.is_hearing.value) or self._is_held,
+            is_speaking=self.talk.is_busy or not self.voice.is_idle,
+            is_question_open=bool(context.board.slot(QUESTION).value),
+            is_driving=self.motion.is_busy or context.manager.claims.holder("drive") is not None,
+            is_seen=self.person() is not None,
+            understood=self.last_contact,
+            voice=self._last_voice,
+            puzzled=self.puzzlement.last,
+            farewell=self._last_farewell,
+            dialogue=self._last_dialogue,
+            wondered=wondered,
+        )
+
+    def ask(self, question: Question) -> None:
+        """Ask one of its questions; it gives way to who begins to speak at the same time."""
+        self.talk.start(self._ask, question)
+        self.floor.start(self._give_way, question.ask)
+
+    async def _ask(self, context: TaskContext, question: Question) -> None:
+        self.has_asked_to_keep |= question.action == "keep"
+        answer = await verbs.ask(context, question.ask)
+        self.curiosity.note(question.ask, context.clock.wall())
+        if answer is None:
+            return
+        self.last_contact = context.clock.now()
+        words = (self.agree(question) or question.yes) if answer else question.no
+        if words:
+            await verbs.say(context, words)
+
+    async def _give_way(self, context: TaskContext, words: str) -> None:
+        """Fall silent when someone began to speak about when these words of the robot began."""
+        begun = await _begun(context, words)
+        while context.clock.now() < begun + GIVES_WAY_SECONDS + NOTICED_AFTER:
+            voice = self.listener.other_voice(begun)
+            if voice is not None and gives_way(begun, voice):
+                self.listener.let_speak()
+                self.talk.stop()
+                return
+            await context.clock.sleep(LOOK_EVERY)
 
     # --- what the face shows ---
 
@@ -447,6 +612,11 @@ class Companion:
             self.face.start(verbs.show, "listening", quiet_for)
         else:
             self.face.stop()
+
+    def is_showing(self, label: str) -> bool:
+        """Whether it shows an expression instead of what it feels."""
+        shown = self.context.board.slot(verbs.SHOWN).value
+        return shown is not None and shown.label == label
 
     async def _show(self, context: TaskContext, label: str) -> None:
         await verbs.show(context, label, SHOW_SECONDS)
@@ -476,10 +646,12 @@ class Companion:
         return not (is_open or is_busy or self.listener.is_hearing.value)
 
 
-def _example(grammar: Grammar, rule: str) -> str:
-    """What its comment gives as an example, else its first sentence."""
-    given = grammar.rules[rule].examples
-    return given[0] if given else next(iter(grammar.sentences_of(rule, 1)), "")
+async def _begun(context: TaskContext, words: str) -> float:
+    """When the robot's words begin to be heard, in seconds; does not come back without them."""
+    with context.queue("speech.said") as queue:
+        while (event := await queue.get()).properties["text"] != words:
+            pass
+    return event.time
 
 
 def _direction(tags: dict[str, Any]) -> str:

@@ -10,9 +10,13 @@ from inspect import Parameter
 from pathlib import Path
 
 from hri.conversation.choosing import Wording
+from hri.conversation.curiosity import DAY
+from hri.conversation.day import PARTS
+from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, Mistakes, did_you_mean
 from hri.core.event_bus import OWN_SUBJECTS
 from hri.core.toml import Table, load_toml
+from hri.emotion.personality import FOLDER as PERSONALITIES
 from hri.robot.app import GRAMMARS, App
 from hri.speech.grammar import Grammar
 from hri.speech.grammar.giving import sure_tags
@@ -30,8 +34,8 @@ ACTIONS = (
 )
 # fmt: on
 """What the companion itself can do; other actions are tasks."""
-AFTER_YES = ("keep",)
-"""What may be done after a yes: begin to save feelings."""
+AFTER_YES = ("keep", "come", "follow", "see")
+"""What may be done after a yes: begin to save feelings, or one of the actions that need no tag."""
 FILLED_IN = (
     "text",
     "name",
@@ -85,6 +89,14 @@ class Question:
     no: str
     action: str = ""
     """What is done after a yes."""
+    show: str = ""
+    """An expression that is shown after a yes."""
+    hour: tuple[str, ...] = ()
+    """Parts of the day at which it may be asked; any without one."""
+    once: str = ""
+    """DAY for a question that is asked once a day."""
+    after: tuple[str, ...] = ()
+    """Rules of which one must have been heard before."""
 
 
 @dataclass(frozen=True)
@@ -96,8 +108,16 @@ class Replies:
     """Whose voice it speaks with; empty for that of the configuration."""
     replies: Mapping[str, Reply] = field(default_factory=dict)
     """By public rule of the grammar."""
-    unasked: Mapping[str, str] = field(default_factory=dict)
+    unasked: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    """By key: what is said by itself, in one of several ways."""
+    about: Mapping[str, str] = field(default_factory=dict)
+    """By rule: what it is about, as "Something about {topic}?" says it."""
     questions: tuple[Question, ...] = ()
+
+
+def known_personalities() -> set[str]:
+    """Names of the personalities in the search folders."""
+    return {Path(name).stem for name in paths.names(PERSONALITIES)}
 
 
 @dataclass(frozen=True)
@@ -110,7 +130,7 @@ class Vocabulary:
     gestures: Collection[str]
     app: App
     """Knows the tasks."""
-    personalities: Collection[str] = ()
+    personalities: Collection[str] = field(default_factory=known_personalities)
 
     @cached_property
     def tags(self) -> frozenset[str]:
@@ -125,18 +145,29 @@ class Vocabulary:
 
 
 UNASKED = ("blocked", "bump", "battery_low", "nobody", "waiting", "no_stop")
-USUALLY_UNASKED = {
-    "not_understood": "Sorry, I did not understand. You can say: {nearest}.",
-    "which": "Do you mean {one}, or {other}?",
-    "unanswered": "Sorry, I did not hear an answer.",
-    "refused": "Okay, never mind.",
-    "awake": "I am awake.",
-    "nothing_said": "I haven't said anything yet.",
-    "asked_to": "Because you asked me to.",
-    "battery_unknown": "I do not know how full my battery is.",
-    **things.WORDS,
+USUALLY_UNASKED: Mapping[str, tuple[str, ...]] = {
+    "answers": ('Sorry, I didn\'t get that. You can say "{one}" or "{other}".',),
+    "caught": ("Something about {topic}? Say it another way, please.",),
+    "near": ('I almost got that. Try "{nearest}".',),
+    "strange_word": ('I don\'t know the word "{word}" yet.',),
+    "strange": ("I heard you, but I don't know those words yet.",),
+    "not_understood": ("Sorry, I didn't get that. Could you say it another way?",),
+    "unclear": ("Sorry, I didn't catch that. Could you say it again?",),
+    "too_quiet": ("Sorry, that was too quiet for me. Could you speak up?",),
+    "no_question": ("I didn't ask anything just now.",),
+    "offer": ('I still don\'t get it. You could say "{one}" or "{other}".',),
+    "which": ("Do you mean {one}, or {other}?",),
+    "unanswered": ("Sorry, I didn't hear an answer.",),
+    "refused": ("Okay, never mind.",),
+    "awake": ("I was awake all along.",),
+    "nothing_said": ("I haven't said anything yet.",),
+    "asked_to": ("Because you asked me to.",),
+    "battery_unknown": ("I don't know how full my battery is.",),
+    **{key: (text,) for key, text in things.WORDS.items()},
 }
 """What need not be written."""
+MORE_FILLED_IN: Mapping[str, tuple[str, ...]] = {"not_understood": ("nearest",)}
+"""What else may stand in braces in what is said by itself."""
 
 
 def load_replies(files: Sequence[Path], vocabulary: Vocabulary) -> Replies:
@@ -184,11 +215,12 @@ def _read(
             remedy = did_you_mean(rule, missing, mend)
             mistakes.add(entry.error(None, f'the grammar has no rule "{rule}"', remedy))
     unasked = mistakes.keep(lambda: _unasked(table.table("unasked", optional=True))) or {}
+    about = mistakes.keep(lambda: _about(table, vocabulary, is_own)) or {}
     asked = mistakes.keep(lambda: table.array("question")) or ()
-    questions = [mistakes.keep(partial(_question, entry)) for entry in asked]
+    questions = [mistakes.keep(partial(_question, entry, vocabulary, is_own)) for entry in asked]
     for part in parts:
         mistakes.keep(part.finish)
-    return Replies(name, voice, replies, unasked, tuple(filter(None, questions)))
+    return Replies(name, voice, replies, unasked, about, tuple(filter(None, questions)))
 
 
 def _is_silent(rule: str, vocabulary: Vocabulary) -> bool:
@@ -203,6 +235,7 @@ def _joined(below: Replies, above: Replies) -> Replies:
         above.voice or below.voice,
         {**below.replies, **above.replies},
         {**below.unasked, **above.unasked},
+        {**below.about, **above.about},
         (*below.questions, *above.questions),
     )
 
@@ -229,15 +262,45 @@ def _unanswered(table: Table, missing: Sequence[str]) -> AuthoringError:
     return table.error(None, f"no reply to the {rules} of the grammar", remedy)
 
 
-def _unasked(spoken: Table) -> dict[str, str]:
+def _unasked(spoken: Table) -> dict[str, tuple[str, ...]]:
     known = (*UNASKED, *USUALLY_UNASKED)
-    unasked = {key: spoken.string(key) for key in known if key in spoken}
+    unasked = {key: _texts(spoken, key) for key in known if key in spoken}
     for key in set(spoken.keys()) - set(known):
         raise spoken.error(key, f'unknown key "{key}"', did_you_mean(key, known))
     for key in USUALLY_UNASKED.keys() & unasked.keys():
-        filled_in = fields_of(USUALLY_UNASKED[key])
-        check_braces(spoken, unasked[key], filled_in, key)
+        usual = [field for text in USUALLY_UNASKED[key] for field in fields_of(text)]
+        for text in unasked[key]:
+            check_braces(spoken, text, (*usual, *MORE_FILLED_IN.get(key, ())), key)
     return unasked
+
+
+def _texts(table: Table, key: str) -> tuple[str, ...]:
+    """A text, or a list of them; those that are empty say nothing."""
+    is_list = isinstance(table.data.get(key), list)
+    texts = table.strings(key) if is_list else [table.string(key)]
+    return tuple(text for text in texts if text)
+
+
+def _about(table: Table, vocabulary: Vocabulary, is_own: bool) -> dict[str, str]:
+    """What rules are about; only those of the app's own file must be in the grammar."""
+    if "about" not in table:
+        return {}
+    entries = table.table("about")
+    topics = {rule: entries.string(rule) for rule in entries.keys()}  # noqa: SIM118 - a Table
+    if is_own:
+        _refuse_unknown_rules(entries, None, topics, vocabulary)
+    return topics
+
+
+def _refuse_unknown_rules(
+    table: Table, key: str | None, rules: Collection[str], vocabulary: Vocabulary
+) -> None:
+    """Refuse a name that is not a rule of the grammar; `key` is where it is written."""
+    known = vocabulary.grammar.rules
+    for rule in rules:
+        if rule not in known:
+            remedy = did_you_mean(rule, vocabulary.grammar.public_rules)
+            raise table.error(key or rule, f'the grammar has no rule "{rule}"', remedy)
 
 
 def _reply(rule: str, entry: Table, vocabulary: Vocabulary) -> Reply:
@@ -245,9 +308,8 @@ def _reply(rule: str, entry: Table, vocabulary: Vocabulary) -> Reply:
     braces = {*FILLED_IN, *vocabulary.tags, *(["direction"] if is_motion else [])}
     wording = read_wording(entry, braces, vocabulary.personalities)
     show = entry.string("show", "")
-    if show and not show.startswith("{") and show not in vocabulary.expressions:
-        remedy = did_you_mean(show, sorted(vocabulary.expressions))
-        raise entry.error("show", f'the face has no expression "{show}"', remedy)
+    if not show.startswith("{"):
+        _expression(entry, show, vocabulary)
     gesture = entry.string("gesture", "")
     if gesture and gesture not in vocabulary.gestures:
         remedy = did_you_mean(gesture, sorted(vocabulary.gestures))
@@ -316,8 +378,29 @@ def _event(entry: Table) -> str:
     return event
 
 
-def _question(entry: Table) -> Question:
+def _question(entry: Table, vocabulary: Vocabulary, is_own: bool) -> Question:
     ask, yes, no = entry.string("ask"), entry.string("yes", ""), entry.string("no", "")
-    question = Question(ask, yes, no, entry.string("action", "", among=AFTER_YES))
+    action = entry.string("action", "", among=AFTER_YES)
+    show = _expression(entry, entry.string("show", ""), vocabulary)
+    hour, after = _listed(entry, "hour"), _listed(entry, "after")
+    for part in hour:
+        if part not in PARTS:
+            raise entry.error("hour", f'hour is "{part}"', did_you_mean(part, PARTS))
+    if is_own:
+        _refuse_unknown_rules(entry, "after", after, vocabulary)
+    once = entry.string("once", "", among=(DAY,))
     entry.finish()
-    return question
+    return Question(ask, yes, no, action, show, hour, once, after)
+
+
+def _listed(entry: Table, key: str) -> tuple[str, ...]:
+    """What may be a text or a list of texts."""
+    return _texts(entry, key) if key in entry else ()
+
+
+def _expression(entry: Table, show: str, vocabulary: Vocabulary) -> str:
+    """An expression of the face. Raises AuthoringError for one that it does not have."""
+    if show and show not in vocabulary.expressions:
+        remedy = did_you_mean(show, sorted(vocabulary.expressions))
+        raise entry.error("show", f'the face has no expression "{show}"', remedy)
+    return show

@@ -5,6 +5,7 @@ wonder      asks a yes/no question now and then
 take_saved_replies  reads the replies again when they are saved
 notice      reacts to a bump and a low battery, and feels ignored; the triggers in
             emotions/stimuli handle other events
+attend      nods to who talks for long, and shows that it thinks
 watch_keys  space stops it, r releases a base that must be released, m mutes the microphone, v turns
             the camera off and on, c switches captions, escape ends
 """
@@ -12,12 +13,12 @@ watch_keys  space stops it, r releases a base that must be released, m mutes the
 from __future__ import annotations
 
 import logging
-import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+from hri.conversation.floor import NEVER, may_begin
 from hri.core.clock import Worker
 from hri.core.errors import HriError
 from hri.core.origin import KEYBOARD, caused_by
@@ -25,21 +26,18 @@ from hri.core.signals import Event
 from hri.emotion.stimulus import load_stimuli
 from hri.face.behaviors import FaceRenderer
 from hri.hal.screen import Screen
-from hri.robot import verbs
 from hri.robot.app import App
 from hri.task.context import TaskContext
 
-from .companion import COMPANY_SECONDS, Companion, authored_replies, vocabulary_of
-from .replies import FILE, Question, Replies, load_replies
+from .companion import Companion, authored_replies, vocabulary_of
+from .presence import attend
+from .replies import FILE, Replies, load_replies
 from .reply_files import with_named_files
+
+__all__ = ["attend", "check", "converse", "notice", "take_saved_replies", "watch_keys", "wonder"]
 
 log = logging.getLogger("hri.task")
 
-FIRST_QUESTION = 7.0
-"""Seconds of calm after a conversation before it asks a question itself."""
-BETWEEN_QUESTIONS = 40.0
-UNSEEN_SECONDS = 20.0
-"""The same for someone who is not seen."""
 LOOK_EVERY = 1.0
 """Seconds between looks at whether the replies have been saved."""
 READING_SECONDS = 0.05
@@ -111,7 +109,7 @@ async def converse(context: TaskContext) -> None:
             elif event.name == "speech.confirmed":
                 companion.resume()
             elif event.name == "speech.rejected":
-                companion.puzzle(heard["reason"], heard["text"], heard.get("choices", ()))
+                companion.puzzle(heard)
             if event.name != "speech.heard":
                 continue
             try:
@@ -130,38 +128,16 @@ async def converse(context: TaskContext) -> None:
 
 
 async def wonder(context: TaskContext) -> None:
-    """Ask a question now and then, when someone is there and it is calm."""
+    """Ask a question now and then, when someone is there and nothing goes on."""
     companion = Companion.of(context)
-    clock = context.clock
-    count, last = 0, -math.inf
+    wondered = NEVER
     while companion.replies.questions:
-        await clock.sleep(0.5)
-        now = clock.now()
-        since = now - companion.last_contact
-        patience = COMPANY_SECONDS if companion.person() is not None else UNSEEN_SECONDS
-        is_company = FIRST_QUESTION < since < patience
-        if not is_company or now - last < BETWEEN_QUESTIONS or now < companion.silent_until:
+        await context.clock.sleep(0.5)
+        if not may_begin(companion.scene(wondered)):
             continue
-        if companion.is_asleep or not companion.is_calm:
-            continue
-        questions = companion.questions()
-        if not questions:
-            continue
-        question = questions[count % len(questions)]
-        companion.talk.start(_ask, companion, question)
-        count, last = count + (question.action != "keep"), now
-
-
-async def _ask(context: TaskContext, companion: Companion, question: Question) -> None:
-    companion.has_asked_to_keep |= question.action == "keep"
-    answer = await verbs.ask(context, question.ask)
-    if answer is None:
-        return
-    companion.last_contact = context.clock.now()
-    if answer and question.action == "keep":
-        companion.emotion.begin_keeping()
-    if words := (question.yes if answer else question.no):
-        await verbs.say(context, words)
+        if (question := companion.next_question()) is not None:
+            wondered = context.clock.now()
+            companion.ask(question)
 
 
 async def notice(context: TaskContext) -> None:
@@ -200,7 +176,7 @@ def _talk_about(companion: Companion, words: str) -> None:
     """What hurts or worries it is talked about first, before any question."""
     if not companion.is_asleep:
         companion.last_contact = max(companion.last_contact, companion.context.clock.now())
-        companion.say(companion.replies.unasked[words])
+        companion.tell(words)
 
 
 async def watch_keys(context: TaskContext) -> None:

@@ -257,8 +257,8 @@ def replies() -> list[str]:
     text = (paths.find("apps", "companion") / "replies.toml").read_text(encoding="utf-8")
     told = tomllib.loads(text)
     says = [reply.get("say", []) for reply in told["reply"].values()]
+    says += told["unasked"].values()
     found = [words for say in says for words in ([say] if isinstance(say, str) else say)]
-    found += told["unasked"].values()
     found += [question[key] for question in told["question"] for key in ("ask", "yes", "no")]
     return [words for words in found if "{" not in words]
 

@@ -17,6 +17,7 @@ from hri.core.signals import Rejection, Speech, Utterance
 from hri.hal.microphone import Microphone
 from hri.hal.recognizer import Recognizer, Segment
 from hri.speech.acceptance import OVER_SPEECH, STRICTNESS
+from hri.speech.endpoint import PRE_ROLL
 from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.follow_ups import FOLLOWED_FOR, Followed, can_be_followed
 from hri.speech.grammar.merging import with_interrupts_of
@@ -48,16 +49,21 @@ class _Piece:
     """Whether someone turned to the robot meanwhile."""
     told: Callable[[Heard], object] | None = None
     """Who typed it wants to know what became of it."""
+    has_floor: bool = False
+    """Whether it counts as if the robot had not spoken, which fell silent for it."""
+    is_typed: bool = False
+    is_for_it: bool = False
+    """Whether it was meant for the robot, also where it only belongs to an open talk."""
 
 
 class Listener(Behavior):
     """Hears what the grammar allows: sound in, utterances out.
 
     Raises `speech.heard` (text, rule, tags, confidence, start, end, latency, command, may_go_on,
-    continues, follow_up), `speech.rejected` (reason, detail, text, confidence, begun),
-    `speech.partial` (text) while someone speaks, `speech.interrupted` (text, rule) when a rule
-    marked @interrupts is heard over the robot's own voice, and `grammar.changed` (file) or
-    `grammar.refused` (file, error).
+    continues, follow_up), `speech.rejected` (reason, detail, text, confidence, begun, is_typed,
+    is_addressed, is_looked_at, level_db), `speech.partial` (text) while someone speaks,
+    `speech.interrupted` (text, rule) when a rule marked @interrupts is heard over the robot's own
+    voice, and `grammar.changed` (file) or `grammar.refused` (file, error).
     When the person begins to speak again soon after something was heard, `speech.continued` (text)
     asks to wait with acting on it; then another `speech.heard` takes its place, or
     `speech.confirmed` (text) lets it count. Loads its models and grammars while the rest already
@@ -318,9 +324,26 @@ class Listener(Behavior):
 
     def _note(self, is_speaking: bool) -> None:
         piece = self._piece
-        piece.has_spoken |= is_speaking
+        piece.has_spoken |= is_speaking and not piece.has_floor
         piece.was_question_open |= bool(self.question.value)
         piece.was_addressed |= bool(self.is_addressed.value)
+
+    # --- whose turn it is ---
+
+    def other_voice(self, begun: float) -> float | None:
+        """When the voice that is heard now began, in seconds; None without one.
+
+        Also None where it may be what is left of the robot's own voice, which began at `begun`.
+        """
+        segment = self._recognizer.open_segment
+        if segment is None:
+            return None
+        voice = segment.start + PRE_ROLL
+        return voice if voice < begun or self._own_voice.is_subtracted else None
+
+    def let_speak(self) -> None:
+        """Judge what is being said as if the robot had not spoken: it falls silent for it."""
+        self._piece.has_floor, self._piece.has_spoken = True, False
 
     # --- understanding ---
 
@@ -334,6 +357,8 @@ class Listener(Behavior):
         if self._waiting:
             segment, piece = self._waiting.popleft()
             turn = self._turn(piece, segment.start)
+            piece.is_typed = bool(segment.text)
+            piece.is_for_it = piece.is_typed or turn.is_addressed
             is_read = self._turns.has_read(segment, layer.heard, turn)
             worker = self._early_worker if is_read else self._worker
             worker.submit(lambda: self._understand(segment, piece, turn, now))
@@ -480,6 +505,10 @@ class Listener(Behavior):
                 unsure=list(result.unsure),
                 choices=list(result.choices),
                 begun=result.begun,
+                is_typed=piece.is_typed,
+                is_addressed=piece.is_for_it,
+                is_looked_at=piece.is_typed or piece.was_addressed,
+                level_db=result.level_db,
             )
             return
         self._taken_back = ""

@@ -74,6 +74,11 @@ class OwnVoiceFilter:
         self._subtracts = self._leftover.share(now - RECENT, now) < LITTLE
         return self._subtracts
 
+    @property
+    def is_subtracted(self) -> bool:
+        """Whether little of its voice is left, so that a voice in the rest is another one."""
+        return self._subtracts
+
     def is_own(self, heard: Heard) -> bool:
         """Whether what was heard while the robot spoke is what it said, and most of the sound.
 

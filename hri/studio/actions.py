@@ -7,6 +7,8 @@ from collections.abc import Awaitable, Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from hri.conversation.examples import nearest_sentence
+from hri.conversation.puzzlement import as_said
 from hri.core.clock import Clock
 from hri.core.errors import HriError
 from hri.core.origin import STUDIO, caused_by
@@ -18,6 +20,7 @@ from hri.simulation.room import Wall
 from hri.simulation.visitor import Visitor
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Listener, Voice
+from hri.speech.grammar import Grammar
 from hri.speech.understanding import Heard
 from hri.studio.commands import checked
 from hri.studio.request_queue import STOP
@@ -116,11 +119,14 @@ def _hush(asked: Asked) -> None:
 
 def _hear(asked: Asked, text: str) -> Awaitable[dict[str, Any]]:
     told: list[Heard] = []
-    asked.context.behavior(Listener).type_line(text, told.append)
-    return _understood(asked.context.clock, told)
+    listener = asked.context.behavior(Listener)
+    listener.type_line(text, told.append)
+    return _understood(asked.context.clock, told, listener.loaded_grammar, text)
 
 
-async def _understood(clock: Clock, told: Sequence[Heard]) -> dict[str, Any]:
+async def _understood(
+    clock: Clock, told: Sequence[Heard], grammar: Grammar, text: str
+) -> dict[str, Any]:
     """What became of a typed sentence: the rule and tags, or why it does not count."""
     until = clock.now() + UNDERSTOOD_WITHIN
     while not told and clock.now() < until:
@@ -128,7 +134,9 @@ async def _understood(clock: Clock, told: Sequence[Heard]) -> dict[str, Any]:
     if not told:
         return {"understood": None, "reason": "not yet: other words came before"}
     if isinstance(heard := told[0], Rejection):
-        return {"understood": False, "reason": heard.reason, "detail": heard.detail}
+        nearest = as_said(nearest_sentence(grammar, text))
+        why = {"reason": heard.reason, "detail": heard.detail, "nearest": nearest}
+        return {"understood": False, **why}
     return {
         "understood": True,
         "text": heard.text,

@@ -66,8 +66,9 @@ COMMANDS: Mapping[str, Command] = {
     HEAR: Command(
         "hear a typed sentence as if it had been said",
         _TEXT,
-        answer="`understood` is true, with `text`, `rule` and `tags`; false, with `reason` and "
-        "`detail`; or null where other words came before and it is not known yet, with `reason`",
+        answer="`understood` is true, with `text`, `rule` and `tags`; false, with `reason`, "
+        "`detail` and `nearest`, a sentence that is like it; or null where other words came before "
+        "and it is not known yet, with `reason`",
     ),
     "say": Command("say a text", _TEXT),
     "hush": Command("end what is being said, and forget what waits"),

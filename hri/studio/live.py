@@ -10,6 +10,8 @@ from typing import Any
 
 from hri.behavior.device_behaviors import CameraFrames
 from hri.behavior.runner import Runner
+from hri.conversation.examples import nearest_sentence, sayings
+from hri.conversation.puzzlement import as_said
 from hri.core.errors import HriError
 from hri.core.geometry import Pose3D, seen_from
 from hri.core.signals import Event, Frame, Image, People, Person, Pose2D
@@ -28,6 +30,7 @@ from hri.robot.recording import REJECTED
 from hri.simulation.room import Box, Circle, Room, Wall
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Listener, Voice
+from hri.speech.grammar import Grammar
 from hri.studio import topics
 from hri.studio.history import LogLines, MoodHistory, Trail, Troubles, TypedSentences
 from hri.studio.link import RobotEnd
@@ -65,10 +68,14 @@ class Live:
         self._moods, self._trail, self._troubles = MoodHistory(), Trail(), Troubles()
         self._log = LogLines(robot.clock.now)
         self.typed = TypedSentences()
+        self._grammar: Grammar | None = None
+        self._told: list[topics.Saying] = []
+        """What can be said by that grammar."""
         self._looks: Mapping[str, tuple[float, Callable[[TaskContext, float], Any]]] = {
             # topic: seconds between two looks, and the look
             "about": (1.0, self._about),
             "speech": (0.1, self._speech),
+            "sayings": (1.0, self._sayings),
             "feeling": (0.1, self._feeling),
             "moods": (1.0, self._mood_history),
             "people": (0.1, self._people),
@@ -135,6 +142,7 @@ class Live:
             typed = self.typed.take(str(event.properties.get("text", "")))
             if typed is not None and event.name == "speech.rejected":
                 told |= {"text": typed, "detail": event.properties.get("detail", ""), "typed": True}
+                told["nearest"] = self._nearest(typed)
         self._link.add_event({**told, "t": round(event.time, 3), "event": event.name})
 
     def _note_stop(self, event: Event) -> None:
@@ -206,6 +214,26 @@ class Live:
             "is_held": listener is not None and listener.is_held,
             "is_speaking": voice is not None and not voice.is_idle,
         }
+
+    def _sayings(self, context: TaskContext, now: float) -> list[topics.Saying]:
+        listener = context.find_behavior(Listener)
+        grammar = None if listener is None else listener.loaded_grammar
+        if grammar is not self._grammar:
+            self._grammar = grammar
+            found = {} if grammar is None else sayings(grammar)
+            self._told = [
+                {
+                    "rule": rule,
+                    "about": "" if grammar is None else grammar.rules[rule].doc.partition("\n")[0],
+                    "examples": [as_said(text) for text in examples],
+                }
+                for rule, examples in found.items()
+            ]
+        return self._told
+
+    def _nearest(self, text: str) -> str:
+        """The sentence that can be said and is most like a text; empty when none is near."""
+        return "" if self._grammar is None else as_said(nearest_sentence(self._grammar, text))
 
     def _feeling(self, context: TaskContext, now: float) -> topics.Feeling | None:
         emotion = context.find_behavior(EmotionModel)

@@ -34,6 +34,14 @@ class Speech(TypedDict):
     is_speaking: bool
 
 
+class Saying(TypedDict):
+    """What can be said: some sentences of a rule of the grammar, and what it is about."""
+
+    rule: str
+    about: str
+    examples: list[str]
+
+
 class FeelingCause(TypedDict):
     """A cause of the feeling, with its share of it from 0 to 1."""
 
@@ -238,6 +246,7 @@ class Answer(TypedDict):
 TOPICS: Mapping[str, Any] = {
     "about": About,
     "speech": Speech,
+    "sayings": list[Saying],
     "feeling": Feeling | None,
     "moods": Moods,
     "people": Eyes,

@@ -285,7 +285,7 @@ def test_a_grammar_that_does_not_extend_the_companion_is_all_that_is_heard(put):
     grammar = "#JSGF V1.0; grammar joke;\npublic <joke> = tell me a joke;\n"
     robot = robot_of(put({**JOKE, "grammar.jsgf": grammar}))
     events = live(robot, 9, {1.0: "what is your name", 6.0: "tell me a joke"})
-    hint = "Sorry, I didn't get that. You could say: tell me a joke."
+    hint = 'I don\'t know the word "name" yet.'
     assert said(events) == [hint, "What is brown and sticky? A stick."]
 
 
@@ -401,9 +401,10 @@ def test_what_is_not_understood_is_shown_and_hinted_at_once(put):
     }
     events = live(robot, 15, lines, looks)
     assert said(events) == [
-        "Sorry, I didn't get that. You could say: tell me a joke.",
+        'I almost got that. Try "tell me a joke".',
+        'That was close. I do know "tell me a joke".',
         "My name is Robin.",
-        "Sorry, I didn't get that. You could say: what can i say.",
+        "I heard you, but I don't know those words yet.",
     ]
     assert seen == {2.0: "confused", 5.5: "confused"}
 

@@ -183,7 +183,7 @@ def test_a_hint_takes_no_time_from_who_answers(tmp_path):
         keyboard = context.resources.obtain("recognizer", TypedRecognizer)
 
         def answer(event):
-            if "get that" in event.properties["text"]:
+            if "You can say" in event.properties["text"] or "Is it" in event.properties["text"]:
                 later = event.time + 3.0
                 context.clock.call_at(later, lambda: keyboard.type_line("small", later))
 

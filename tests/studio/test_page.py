@@ -38,6 +38,23 @@ def test_it_shows_the_face_what_it_sees_feels_and_says():
     used(script)
 
 
+def test_what_can_be_said_stands_beside_the_conversation_and_is_written_by_a_choice():
+    def script(page, studio):
+        expect(page.locator("#saying-list option").first).to_have_text("hello")
+        page.fill("#seek", "battery")
+        expect(page.locator("#saying-list optgroup")).to_have_count(1)
+        page.locator("#saying-list").select_option("how is your battery")
+        expect(page.locator("#text")).to_have_value("how is your battery")
+        page.fill("#text", "turn the lights on")
+        page.keyboard.press("Enter")
+        told = page.locator("#lines .ignored")
+        expect(told).to_contain_text("turn the lights on")
+        expect(told).to_contain_text('Nearest: "turn left"')
+        expect(page.locator("#lines .robot").last).to_contain_text("turning")
+
+    used(script)
+
+
 def test_the_stop_key_works_everywhere_and_the_stop_stays_until_it_is_released():
     def script(page, studio):
         page.fill("#text", "go forward")
@@ -53,7 +70,7 @@ def test_the_stop_key_works_everywhere_and_the_stop_stays_until_it_is_released()
 def test_everything_is_reached_by_the_keyboard_and_has_a_name():
     def script(page, studio):
         names = page.evaluate(
-            """() => [...document.querySelectorAll("button, input")]
+            """() => [...document.querySelectorAll("button, input, select")]
                  .filter((one) => one.offsetParent !== null && !one.disabled)
                  .map((one) => one.innerText || one.labels?.[0]?.innerText || "")"""
         )
@@ -68,7 +85,7 @@ def test_everything_is_reached_by_the_keyboard_and_has_a_name():
             )
         assert all(names)
         assert set(names) <= reached
-        page.locator("body").press("?")
+        page.locator("#keys").press("?")  # in a field it would be written
         expect(page.locator("#help")).to_be_visible()
         page.keyboard.press("Enter")
         expect(page.locator("#help")).to_be_hidden()

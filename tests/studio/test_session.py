@@ -191,8 +191,9 @@ def test_only_of_what_was_typed_the_words_of_a_rejection_are_told(studio, client
     finally:
         studio._link.add_event = tell
     said, typed = found
-    assert said.keys() & {"text", "detail", "typed"} == set()
+    assert said.keys() & {"text", "detail", "typed", "nearest"} == set()
     assert (typed["text"], typed["typed"]) == ("Turn  arround", True)
+    assert typed["nearest"].startswith("turn ")
     assert typed["detail"] == 'after "turn": around, left, right - did you mean "around"?'
 
 
@@ -334,6 +335,24 @@ def test_a_typed_sentence_is_answered_with_what_became_of_it(client):
     assert all(
         f"`{key}`" in about for key in (*moved.keys() - {"result"}, *strange.keys() - {"result"})
     )
+
+
+def test_what_is_typed_and_not_understood_gets_an_answer_aloud(client, robot):
+    said = []
+    robot.events.subscribe("speech.said", lambda event: said.append(event.properties["text"]))
+    client.post("/api/v1/hush")
+    client.post("/api/v1/hear", json={"text": "turn the lights on"})
+    while not said:
+        told(client, "base", lambda base: True)
+
+
+def test_what_can_be_said_is_told_by_rule(client):
+    shown = told(client, "sayings", bool)
+    by_rule = {one["rule"]: one for one in shown}
+    assert by_rule["turn"]["examples"][0] == "turn left"
+    assert by_rule["turn"]["about"].startswith("On the spot")
+    assert by_rule["help"]["examples"][0] == "what can I say"
+    assert "yes" not in by_rule
 
 
 def test_a_push_against_the_base_is_felt(client, robot):

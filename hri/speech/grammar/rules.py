@@ -47,6 +47,12 @@ class Rule:
         return frozenset(tag.name for tag in self.doc_tags if tag.name in MARKS)
 
     @cached_property
+    def topics(self) -> frozenset[str]:
+        """What its comment says it is about, the words behind @topic."""
+        texts = (tag.text for tag in self.doc_tags if tag.name == TOPIC)
+        return frozenset(word for text in texts for word in text.split())
+
+    @cached_property
     def after(self) -> tuple[str, ...]:
         """The commands after which it counts; empty for a rule that always does."""
         return tuple(name for tag in self.doc_tags if tag.name == "after" for name in _names(tag))
@@ -55,12 +61,6 @@ class Rule:
     def stands_for(self) -> str:
         """The command that it means: another rule, or `LAST`; empty for one that means itself."""
         return next((tag.text for tag in self.doc_tags if tag.name == "as"), "")
-
-    @cached_property
-    def topics(self) -> frozenset[str]:
-        """What its comment says it is about, the words behind @topic."""
-        texts = (tag.text for tag in self.doc_tags if tag.name == TOPIC)
-        return frozenset(word for text in texts for word in text.split())
 
     @property
     def examples(self) -> tuple[str, ...]:

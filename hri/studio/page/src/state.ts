@@ -1,6 +1,6 @@
 // What the page knows of the robot: plain values, and how a message changes them. No browser here.
 
-import type { Base, RobotEvent, Values, World } from "./topics";
+import type { Base, RobotEvent, Saying, Values, World } from "./topics";
 
 export type * from "./topics";
 
@@ -61,9 +61,16 @@ export function lineOf(event: RobotEvent): Line | null {
   }
 }
 
-/** Why a sentence does not count; of one that was typed also what could have followed, and what is near. */
+/** Why a sentence does not count; of one that was typed also what could have followed, and the nearest sentence. */
 function whyIgnored(event: RobotEvent): string {
-  return [event.reason, event.typed === true ? event.detail : ""].filter(Boolean).join(": ");
+  const why = [event.reason, event.typed === true ? event.detail : ""].filter(Boolean).join(": ");
+  return event.typed === true && event.nearest ? `${why}. Nearest: "${event.nearest}"` : why;
+}
+
+/** What can be said, of which some words or the rule have these letters; all without letters. */
+export function matching(sayings: readonly Saying[], letters: string): Saying[] {
+  const wanted = letters.trim().toLowerCase();
+  return sayings.filter((one) => [one.rule, one.about, ...one.examples].some((text) => text.toLowerCase().includes(wanted)));
 }
 
 /** The properties of an event in one line. */

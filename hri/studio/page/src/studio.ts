@@ -11,7 +11,7 @@ import { MoodCurve } from "./mood";
 import { LivePicture } from "./picture";
 import { RoomForm } from "./room";
 import { KEYS, RecordingsView } from "./recordings_view";
-import { empty, forgetEvents, putCommand, summary, take, type Device, type RobotEvent, type SeenPerson, type State, type Values } from "./state";
+import { empty, forgetEvents, matching, putCommand, summary, take, type Device, type RobotEvent, type Saying, type SeenPerson, type State, type Values } from "./state";
 import { hashOf, viewOf, VIEWS } from "./views";
 import type { ComposerView } from "./composer/view";
 
@@ -123,6 +123,7 @@ function drawLive(): void {
   parts.draw("feeling", [feeling], () => drawFeeling(feeling));
   parts.draw("moods", [moods], () => curve.draw(moods));
   parts.draw("lines", [state.lines], drawLines);
+  parts.draw("sayings", [state.values.sayings, sought()], () => drawSayings(state.values.sayings ?? []));
   parts.draw("events", [state.events], drawEvents);
   parts.draw("speech", [speech], () => drawSpeech(speech));
   parts.draw("people", [people, pictures.camera.canvas.width], () => drawPeople(people?.persons ?? [], people?.is_on ?? false));
@@ -144,6 +145,23 @@ function drawLines(): void {
   const isAtEnd = said.scrollHeight - said.scrollTop - said.clientHeight < 40;
   list(element("lines"), state.lines, (line) => ({ text: line.text, detail: line.detail, kind: line.who, time: line.time }));
   if (isAtEnd) said.scrollTop = said.scrollHeight;
+}
+
+/** The letters that are looked for in what can be said. */
+function sought(): string {
+  return element<HTMLInputElement>("seek").value;
+}
+
+/** What can be said, by rule; what is chosen is written into the field, to be sent or changed. */
+function drawSayings(sayings: Saying[]): void {
+  element("sayings").hidden = sayings.length === 0;
+  replace(element("saying-list"), matching(sayings, sought()).map((one) => {
+    const group = document.createElement("optgroup");
+    group.label = one.rule.replaceAll("_", " ");
+    group.title = one.about;
+    group.append(...one.examples.map((text) => new Option(text)));
+    return group;
+  }));
 }
 
 function drawEvents(): void {
@@ -294,6 +312,9 @@ function bind(): void {
       event.preventDefault();
       run();
     });
+  element("seek").addEventListener("input", drawSoon);
+  const chosen = element<HTMLSelectElement>("saying-list");
+  chosen.addEventListener("input", () => (element<HTMLInputElement>("text").value = chosen.value));
   for (const [command, words] of VISITOR) {
     const button = document.createElement("button");
     button.type = "button";

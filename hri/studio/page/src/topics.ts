@@ -19,6 +19,13 @@ export interface Speech {
   is_speaking: boolean;
 }
 
+/** What can be said: some sentences of a rule of the grammar, and what it is about. */
+export interface Saying {
+  rule: string;
+  about: string;
+  examples: string[];
+}
+
 /** A cause of the feeling, with its share of it from 0 to 1. */
 export interface FeelingCause {
   name: string;
@@ -195,6 +202,7 @@ export interface Answer {
 export interface Values {
   about?: About;
   speech?: Speech;
+  sayings?: Saying[];
   feeling?: Feeling | null;
   moods?: Moods;
   people?: Eyes;

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { MOST_EVENTS, ago, bounds, empty, forgetEvents, freeName, lineOf, movables, putCommand, summary, take } from "../src/state";
+import { MOST_EVENTS, ago, bounds, empty, forgetEvents, freeName, lineOf, movables, putCommand, summary, take, matching } from "../src/state";
 
 const feeling = { label: "joy", words: "happy", why: "", pleasure: 0.5, arousal: 0, dominance: 0, emotions: {}, drives: {}, causes: [] };
 
@@ -39,6 +39,20 @@ test("what was heard, ignored and said are lines", () => {
 
 test("rejected words are not shown", () => {
   assert.equal(lineOf({ t: 0, event: "speech.rejected", text: "a secret", reason: "not now" })!.text, "ignored");
+});
+
+test("a typed sentence that is ignored is shown with the nearest one, what was said never", () => {
+  const event = { t: 0, event: "speech.rejected", text: "turn arround", reason: "not in grammar", detail: "", nearest: "turn around" };
+  assert.equal(lineOf({ ...event, typed: true })!.detail, 'not in grammar. Nearest: "turn around"');
+  assert.equal(lineOf(event)!.detail, "not in grammar");
+});
+
+test("what can be said is found by its words, its rule, and what it is about", () => {
+  const turn = { rule: "turn", about: "On the spot.", examples: ["turn left"] };
+  const time = { rule: "time", about: "", examples: ["what time is it"] };
+  assert.deepEqual(matching([turn, time], ""), [turn, time]);
+  assert.deepEqual(matching([turn, time], " SPOT"), [turn]);
+  assert.deepEqual(matching([turn, time], "what"), [time]);
 });
 
 test("a typed sentence that is ignored is shown with the reason", () => {

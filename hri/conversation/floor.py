@@ -1,0 +1,103 @@
+"""Whose turn it is to begin: when the robot may say something that nobody asked for.
+
+It never talks into a sentence, a question, a dialogue or a drive, nor after a farewell, at night,
+or when it did not understand what people said last.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+NEVER = -math.inf
+
+CALM_SECONDS = 7.0
+"""After the last word of anyone."""
+COMPANY_SECONDS = 45.0
+"""How long after the last words someone who is seen counts as company."""
+UNSEEN_SECONDS = 20.0
+"""The same for someone who is not seen."""
+BETWEEN_SECONDS = 40.0
+"""From one of its questions to the next."""
+FAREWELL_SECONDS = 20.0
+"""After a farewell, and for as long as no one says anything else."""
+DIALOGUE_SECONDS = 20.0
+"""How long a dialogue may go on after a question of a task, while that thinks."""
+NIGHT = (22, 6)
+"""Hours of the day at which the night begins and ends."""
+GIVES_WAY_SECONDS = 0.3
+"""Seconds after its beginning in which whoever begins to speak still has the floor first."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """How things stand; times are seconds of the clock."""
+
+    now: float
+    hour: int = 12
+    """Of the wall clock, 0 to 23."""
+    is_asleep: bool = False
+    is_quiet: bool = False
+    """Whether it was asked to be quiet."""
+    is_voice_heard: bool = False
+    """Whether someone speaks, to whomever."""
+    is_speaking: bool = False
+    """Whether the robot speaks, or is about to."""
+    is_question_open: bool = False
+    is_driving: bool = False
+    is_seen: bool = False
+    """Whether a person is in sight."""
+    understood: float = NEVER
+    """When it last understood someone."""
+    voice: float = NEVER
+    """When a voice was last heard, also of sentences that were rejected."""
+    puzzled: float = NEVER
+    """When it last did not understand a sentence that was meant for it."""
+    farewell: float = NEVER
+    """When someone last said goodbye, or sent it to sleep."""
+    dialogue: float = NEVER
+    """When a task last asked something, or got an answer."""
+    wondered: float = NEVER
+    """When it last asked something by itself."""
+
+
+def is_night(hour: int) -> bool:
+    """Whether people may sleep at an hour of the day."""
+    begins, ends = NIGHT
+    return hour >= begins or hour < ends
+
+
+def why_silent(scene: Scene) -> str:
+    """Why the robot must not begin to speak; empty when it may."""
+    now = scene.now
+    patience = COMPANY_SECONDS if scene.is_seen else UNSEEN_SECONDS
+    reasons = {
+        "it sleeps": scene.is_asleep,
+        "it was asked to be quiet": scene.is_quiet,
+        "someone speaks": scene.is_voice_heard,
+        "it speaks": scene.is_speaking,
+        "a question is open": scene.is_question_open,
+        "it drives": scene.is_driving,
+        "it is night": is_night(scene.hour),
+        "it did not understand": scene.puzzled > scene.understood,
+        "someone said goodbye": now - scene.farewell < FAREWELL_SECONDS
+        or NEVER < scene.understood <= scene.farewell,
+        "a dialogue goes on": now - scene.dialogue < DIALOGUE_SECONDS,
+        "someone spoke just now": now - max(scene.understood, scene.voice) < CALM_SECONDS,
+        "no one is there": now - scene.understood >= patience,
+        "it asked just now": now - scene.wondered < BETWEEN_SECONDS,
+    }
+    return next((why for why, holds in reasons.items() if holds), "")
+
+
+def may_begin(scene: Scene) -> bool:
+    """Whether the robot may say something that nobody asked for."""
+    return not why_silent(scene)
+
+
+def gives_way(begun: float, voice: float) -> bool:
+    """Whether a voice that began at a time had the floor before the robot, which began at another.
+
+    `voice` may lie before `begun`: the first sounds of a word do not count as a voice yet.
+    """
+    return voice - begun <= GIVES_WAY_SECONDS

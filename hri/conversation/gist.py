@@ -1,0 +1,107 @@
+"""What a sentence that no rule allows seems to be about: the rule whose words are nearest to it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from hri.speech.grammar.expressions import Token
+from hri.speech.grammar.rules import Rules
+from hri.speech.grammar.words import normalize
+
+# fmt: off
+LITTLE = frozenset((
+    "a", "about", "all", "also", "am", "an", "and", "any", "are", "as", "at", "be", "because",
+    "been", "bring", "but", "by", "can", "can't", "cannot", "could", "did", "didn't", "do",
+    "does", "doesn't", "don't", "ever", "for", "from", "get", "give", "going", "got", "had",
+    "has", "have", "he", "he's", "her", "here", "hey", "him", "his", "how", "i", "i'd",
+    "i'll", "i'm", "i've", "if", "in", "into", "is", "isn't", "it", "it's", "its", "just",
+    "keep", "kindly", "know", "let", "let's", "like", "make", "may", "me", "more", "much",
+    "my", "no", "not", "now", "of", "off", "oh", "ok", "okay", "on", "one", "or", "our",
+    "out", "please", "put", "really", "said", "she", "she's", "should", "so", "some", "still",
+    "take", "than", "that", "that's", "the", "them", "then", "there", "these", "they",
+    "they're", "thing", "things", "think", "this", "to", "too", "up", "us", "very", "want",
+    "was", "we", "we're", "well", "were", "what", "what's", "when", "where", "which", "who",
+    "who's", "why", "will", "with", "won't", "would", "yes", "you", "you'll", "you're",
+    "your",
+))
+# fmt: on
+"""Words that say nothing about the subject."""
+LEAST_SHARE = 0.4
+"""Share of the telling words of a sentence that a rule must have to be the subject."""
+MOST_RULES = 3
+"""A word that more rules have does not tell one from another."""
+ENDINGS = ("ing", "ed", "s")
+
+
+@dataclass(frozen=True)
+class Gist:
+    """The telling words of each public rule of a grammar."""
+
+    words: Mapping[str, frozenset[str]]
+    """By rule, without their endings."""
+    known: frozenset[str]
+    """All words of the commands, as they are written."""
+
+    @classmethod
+    def of(cls, grammar: Rules) -> Gist:
+        """The words of a grammar.
+
+        Those of answers, of courtesies, and of what follows a command say nothing of a subject.
+        """
+        answers, follow_ups = grammar.marked("answer"), grammar.marked("after")
+        rules = [rule for rule in grammar.public_rules if rule not in answers]
+        every = {rule: frozenset(_words_of(grammar, rule)) for rule in rules}
+        telling = {rule: words - LITTLE for rule, words in every.items() if rule not in follow_ups}
+        stems = {rule: frozenset(map(_stem, words)) for rule, words in telling.items()}
+        spread = Counter(stem for words in stems.values() for stem in words)
+        rare = {stem for stem, count in spread.items() if count <= MOST_RULES}
+        known = frozenset(word for words in every.values() for word in words)
+        return cls({rule: words & rare for rule, words in stems.items()}, known)
+
+    def rule_of(self, text: str) -> str:
+        """The rule that a text is most likely about; empty when it may be about anything."""
+        spread = Counter(stem for words in self.words.values() for stem in words)
+        # A word that many rules have does not show another subject, a strange one does.
+        stems = [
+            _stem(word)
+            for word in normalize(text)
+            if word not in LITTLE and (_stem(word) in spread or word not in self.known)
+        ]
+        scores = {
+            rule: sum(1 / spread[stem] for stem in stems if stem in words)
+            for rule, words in self.words.items()
+            if sum(stem in words for stem in stems) >= LEAST_SHARE * len(stems)
+        }
+        ranked = sorted(scores, key=lambda rule: -scores[rule])
+        is_tied = len(ranked) > 1 and scores[ranked[0]] == scores[ranked[1]]
+        return ranked[0] if ranked and scores[ranked[0]] > 0 and not is_tied else ""
+
+    def strange(self, text: str) -> list[str]:
+        """The words of a text that no rule has, in order."""
+        return [word for word in dict.fromkeys(normalize(text)) if word not in self.known | LITTLE]
+
+
+def _words_of(grammar: Rules, rule: str) -> Iterator[str]:
+    """The words of a rule and of all that it refers to."""
+    done, pending = set(), [rule]
+    while pending:
+        key = pending.pop()
+        if key in done or key not in grammar.rules:
+            continue
+        done.add(key)
+        yield from _tokens(grammar.rules[key].nodes)
+        pending.extend(reference.name for reference in grammar.rules[key].references)
+
+
+def _tokens(nodes: Iterable[object]) -> Iterator[str]:
+    return (node.text for node in nodes if isinstance(node, Token))
+
+
+def _stem(word: str) -> str:
+    """A word without an ending: "turning" is "turn"."""
+    for ending in ENDINGS:
+        if word.endswith(ending) and len(word) - len(ending) >= 3:
+            return word.removesuffix(ending)
+    return word

@@ -1,0 +1,167 @@
+"""What the robot answers to a sentence that it does not understand.
+
+Which kind of answer it is depends on what is known of the sentence: what it seems to be about,
+which of its words are strange, whether it was hard to hear, and how many before it were not
+understood either. The same arguments give the same answer. How each kind is worded is another
+matter, see [unasked] of a companion's replies.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import deque
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+UNCLEAR_REASONS = ("low confidence", "unlike the sound")
+OFFER_AT = 3
+"""How many sentences in a row were not understood when it offers what can be said."""
+MOST_TO_STRANGERS = 3
+"""Answers in a row to a voice that may be meant for others: a radio must not be talked to."""
+ROW_SECONDS = 60.0
+"""Sentences that are further apart are not in a row."""
+MOST_REMEMBERED = 200
+"""Commands that were offered that are remembered."""
+
+
+class Kind(StrEnum):
+    """How it answers. Each is a key of [unasked] in replies.toml."""
+
+    ANSWERS = "answers"
+    """A question is open, and it says what would answer it: {one} or {other}."""
+    CAUGHT = "caught"
+    """It got the subject: {topic}."""
+    NEAR = "near"
+    """It knows a sentence that is like it: {nearest}."""
+    STRANGE_WORD = "strange_word"
+    """It does not know {word}."""
+    STRANGE = "strange"
+    """It heard words, and knows none of them."""
+    REPHRASE = "not_understood"
+    """It knows the words, and not the sentence."""
+    UNCLEAR = "unclear"
+    """It did not hear well."""
+    TOO_QUIET = "too_quiet"
+    """The voice was too quiet."""
+    NO_QUESTION = "no_question"
+    """An answer, and nothing was asked."""
+    OFFER = "offer"
+    """It says what can be said: {one} or {other}."""
+
+
+@dataclass(frozen=True, slots=True)
+class Puzzle:
+    """A sentence that was not understood, and what is known of it."""
+
+    reason: str
+    """As `Rejection` has it."""
+    is_typed: bool = False
+    is_addressed: bool = True
+    """Whether it was said to the robot: with its name, with a look, or in an open talk."""
+    is_turned_to: bool = False
+    """Whether there is no doubt about that: it was typed, or whoever said it looks at the robot."""
+    is_quiet: bool = False
+    """Whether the voice was very quiet."""
+    topic: str = ""
+    """What it seems to be about, as it is said: "turning"."""
+    nearest: str = ""
+    """A sentence that is like it."""
+    strange: Sequence[str] = ()
+    """Its words that are not in the grammar; known only of a typed sentence."""
+    answers: Sequence[str] = ()
+    """What would answer the question that is open."""
+    is_answer: bool = False
+    """Whether it would answer a question, and none is open."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """How it answers, and what fills in the words."""
+
+    kind: Kind
+    facts: Mapping[str, str] = field(default_factory=dict)
+    offered: tuple[str, ...] = ()
+    """The commands that it names."""
+
+
+def is_meant(puzzle: Puzzle, row: int) -> bool:
+    """Whether a sentence deserves an answer; `row` counts it and those before it, from 1."""
+    if not puzzle.is_addressed or puzzle.reason in ("no speech", "robot speaking"):
+        return False
+    if puzzle.reason == "not now" and not puzzle.is_typed:
+        return False  # "Yes" and "sure" are also what people say to what they hear.
+    return puzzle.is_turned_to or row <= MOST_TO_STRANGERS
+
+
+def decide(
+    puzzle: Puzzle, row: int, commands: Sequence[str], offered: Collection[str] = ()
+) -> Answer | None:
+    """The answer to a sentence; None when it was hardly said to the robot.
+
+    `row` counts this sentence and those before it that were not understood, from 1; `commands` are
+    examples of what can be said, and `offered` those that were named before.
+    """
+    if not is_meant(puzzle, row):
+        return None
+    if puzzle.answers:
+        return Answer(Kind.ANSWERS, {"one": puzzle.answers[0], "other": puzzle.answers[-1]})
+    if row % OFFER_AT == 0 and len(named := _unheard(commands, offered)) > 1:
+        return Answer(Kind.OFFER, {"one": named[0], "other": named[-1]}, named)
+    if puzzle.is_answer:
+        return Answer(Kind.NO_QUESTION)
+    if puzzle.is_quiet:
+        return Answer(Kind.TOO_QUIET)
+    if puzzle.topic:
+        return Answer(Kind.CAUGHT, {"topic": puzzle.topic})
+    if puzzle.nearest:
+        return Answer(Kind.NEAR, {"nearest": puzzle.nearest})
+    if puzzle.is_typed:
+        return _of_typed(puzzle)
+    # Of a voice it cannot be known which it was: bad to hear, or of words that it does not know.
+    return Answer(Kind.UNCLEAR if puzzle.reason in UNCLEAR_REASONS and row == 1 else Kind.STRANGE)
+
+
+def _of_typed(puzzle: Puzzle) -> Answer:
+    if len(puzzle.strange) == 1:
+        return Answer(Kind.STRANGE_WORD, {"word": puzzle.strange[0]})
+    return Answer(Kind.STRANGE if puzzle.strange else Kind.REPHRASE)
+
+
+def _unheard(commands: Sequence[str], offered: Collection[str]) -> tuple[str, ...]:
+    """Two commands, or the only one: of those that were not named yet, else of all."""
+    new = [command for command in commands if command not in offered]
+    left = new if len(new) >= min(2, len(commands)) else list(commands)
+    # Those that stand side by side are alike: forward and left.
+    return tuple(dict.fromkeys((left[0], left[len(left) // 2]))) if left else ()
+
+
+def as_said(sentence: str) -> str:
+    """A sentence of a grammar, which has only small letters, as it is written for people."""
+    return re.sub(r"\bi\b", "I", sentence)
+
+
+class Puzzlement:
+    """Remembers what was not understood, and what it offered."""
+
+    def __init__(self) -> None:
+        self.row = 0
+        """Sentences in a row that were not understood."""
+        self.last = -math.inf
+        """Seconds of the clock, of the last of them that it answered."""
+        self._offered: deque[str] = deque(maxlen=MOST_REMEMBERED)
+
+    def understand(self) -> None:
+        """Something was understood: the row ends."""
+        self.row = 0
+
+    def answer(self, puzzle: Puzzle, commands: Sequence[str], now: float) -> Answer | None:
+        """The answer to a sentence at a time, see `decide`; it counts for the row."""
+        row = self.row + 1 if now - self.last < ROW_SECONDS else 1
+        answer = decide(puzzle, row, commands, self._offered)
+        if answer is None:
+            return None
+        self.row, self.last = row, now
+        self._offered.extend(answer.offered)
+        return answer

@@ -1,0 +1,149 @@
+"""The companion leaves no one without an answer, and does not talk over people."""
+
+from datetime import datetime
+
+import pytest
+
+from hri.conversation.puzzlement import Kind
+from hri.core.clock import FakeClock
+from hri.robot import verbs
+from hri.speech.behaviors import Listener
+from tests.apps.test_companion import SLOW_CAMERA, Visit
+from tests.devices import SMALL_SCREEN
+
+UNKNOWN = ["my dog died", "fly to the moon", "play some music", "sing me a song"]
+
+
+def typing(lines):
+    """A job that types lines at times, as the page of the studio does: no keyboard is open."""
+
+    async def job(context):
+        for time, line in lines.items():
+            await context.clock.sleep_until(time)
+            context.behavior(Listener).type_line(line)
+
+    return job
+
+
+def typed(seconds, lines, **more):
+    return Visit(seconds, {}, jobs=[typing(lines)], **more)
+
+
+def questions(visit):
+    return [event.properties["text"] for event in visit.named("question.asked")]
+
+
+def test_each_line_that_is_typed_gets_an_answer_and_none_twice():
+    lines = {1.0 + 5 * number: line for number, line in enumerate(UNKNOWN * 2)}
+    visit = typed(42, lines)
+    assert visit.heard() == []
+    said = visit.said()
+    assert len(said) == len(lines)
+    assert len({*said}) == len(said)
+    assert not [text for text in said if "what can I say" in text.lower()]
+
+
+@pytest.mark.parametrize(
+    ("line", "answer"),
+    [
+        ("turn the lights on", "Something about turning? Say it another way, please."),
+        ("fly me to you", 'I don\'t know the word "fly" yet.'),
+        ("fly to the moon", "I heard you, but I don't know those words yet."),
+        ("what is today like", "Sorry, I didn't get that. Could you say it another way?"),
+        ("yes please", "I didn't ask anything just now."),
+    ],
+)
+def test_the_answer_says_what_is_known_of_the_line(line, answer):
+    assert typed(5, {1.0: line}).said() == [answer]
+
+
+def test_the_third_time_it_offers_what_can_be_said():
+    said = typed(17, {1.0: "my dog died", 6.0: "oh my dog", 11.0: "he was old"}).said()
+    assert said[2].startswith("I still don't get it. You could say \"")
+
+
+def test_who_talks_to_it_is_answered_and_who_talks_to_others_is_not():
+    lost = {9.0: "the train to the seaside was late again on monday"}
+    assert Visit(14, lost).said() == []
+    talk = Visit(14, {6.0: "what is your name", **lost})
+    assert talk.named("speech.rejected")[0].properties["is_addressed"]
+    assert talk.said()[1] == "Sorry, I didn't catch that. Could you say it again?"
+
+
+def test_all_kinds_of_answers_have_three_ways_or_more():
+    visit = Visit(1, {})
+    unasked = visit.robot.board.slot("companion").value.replies.unasked
+    assert all(len({*unasked[kind]}) >= 3 for kind in Kind)
+
+
+def test_no_question_comes_after_what_was_not_understood():
+    assert questions(typed(20, {1.0: "hello", 5.0: "my dog died"})) == []
+    assert len(questions(typed(20, {1.0: "hello", 5.0: "my dog died", 9.0: "hello"}))) == 1
+
+
+def test_no_question_comes_after_a_farewell():
+    assert questions(Visit(22, {1.0: "hello robot", 6.0: "good night robot"})) == []
+
+
+def test_no_question_comes_into_a_dialogue():
+    async def order(context):
+        await verbs.ask(context, "Do you want a pizza?", timeout=2)
+        await context.clock.sleep(15)
+        await verbs.ask(context, "Is that right?", timeout=2)
+
+    visit = Visit(22, {1.0: "hello robot"}, jobs=[order])
+    assert questions(visit) == ["Do you want a pizza?", "Is that right?"]
+
+
+def test_no_question_comes_while_a_task_of_an_app_drives():
+    async def drive(context):
+        await verbs.move(context, 4.0)
+
+    visit = Visit(14, {1.0: "hello robot"}, jobs=[drive], devices=[SMALL_SCREEN])
+    assert visit.pose_at(13).x > 2
+    assert questions(visit) == []
+
+
+LONG = "my sister went to the seaside for the summer with all of her friends and the dog " * 2
+
+
+def nods(visit):
+    return [event for event in visit.named("gesture.ended") if event.properties["name"] == "nod"]
+
+
+def test_it_nods_to_who_talks_for_long_and_looks_at_it():
+    assert len(nods(Visit(11, {2.0: LONG}, devices=[SMALL_SCREEN, SLOW_CAMERA]))) >= 1
+    assert nods(Visit(11, {2.0: LONG})) == []
+
+
+def test_it_shows_that_it_thinks_where_an_answer_takes_its_time():
+    shown = []
+
+    async def look(context):
+        slot = context.board.slot(verbs.SHOWN)
+        while True:
+            await context.clock.sleep(0.1)
+            shown.append("" if slot.value is None else slot.value.label)
+
+    jobs = [look, typing({4.0: "what is your name"})]
+    Visit(10, {}, parameters={"listener": {"latency_s": 2.0}}, jobs=jobs)
+    assert "thinking" in shown
+    assert shown[-1] == ""
+
+
+def test_at_night_it_asks_nothing(monkeypatch):
+    monkeypatch.setattr(FakeClock, "wall", lambda self: datetime(2026, 5, 4, 23, 0))
+    assert questions(Visit(14, {1.0: "hello robot"})) == []
+
+
+@pytest.mark.parametrize("before", [0.3, 0.1])
+def test_who_begins_to_speak_with_it_has_the_floor(before):
+    first = Visit(13, {1.0: "hello robot"})
+    (asked,) = [event for event in first.named("speech.said") if event.time > 7]
+    visit = Visit(asked.time + 4, {1.0: "hello robot", asked.time - before: "what is your name"})
+    assert visit.heard() == ["greet", "name"]
+    assert visit.said()[-1] == "My name is Robin."
+    assert questions(visit) == []
+    # Who began before its ears knew it cuts it short.
+    cut = [event for event in visit.named("speech.finished") if event.properties["cut"]]
+    assert all(event.time < asked.time + 0.3 for event in cut)
