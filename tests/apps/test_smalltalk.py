@@ -1,0 +1,168 @@
+"""Small talk: each rule has fitting replies, and each example means its rule."""
+
+import tomllib
+from collections import Counter
+
+import pytest
+
+from hri.emotion.stimulus import load_stimuli
+from hri.face.model import load_face
+from hri.face.motion.gesture_tracks import load_gestures
+from hri.robot.app import load_app
+from hri.speech.grammar import parse
+from hri.speech.grammar.loader import load_grammar
+
+TOPICS = (
+    "about_me",
+    "about_you",
+    "cannot",
+    "comfort",
+    "courtesy",
+    "friendship",
+    "fun",
+    "talk",
+    "teasing",
+)
+LONGEST = 160
+"""Characters of a reply: some ten seconds of speech."""
+FOLDER = load_app("smalltalk").folder
+
+
+def replies(topic):
+    """The [reply.RULE] tables of a topic."""
+    with (FOLDER / f"{topic}.toml").open("rb") as file:
+        return tomllib.load(file)["reply"]
+
+
+def texts(entry):
+    """All that a reply may say, with the key that it is said under."""
+    for key, value in entry.items():
+        if isinstance(value, list):
+            yield from ((key, text) for text in value)
+        elif isinstance(value, dict):
+            for name, those in value.items():
+                yield from ((f"{key}.{name}", text) for text in those)
+
+
+def rules_of(grammar):
+    """The rules of small talk, without those of the companion."""
+    return [key for key in grammar.public_rules if grammar.rules[key].topics]
+
+
+def understood(grammar, text):
+    """What a sentence means while no question is open."""
+    return parse(grammar, text, frozenset(grammar.public_rules) - grammar.marked("answer"))
+
+
+@pytest.fixture(scope="module")
+def smalltalk():
+    return load_grammar(FOLDER / "grammar.jsgf")
+
+
+@pytest.fixture(scope="module")
+def companion():
+    return load_grammar(FOLDER / "grammar.jsgf").called("robin")
+
+
+def test_every_rule_is_answered_in_the_file_of_its_topic(smalltalk):
+    assert smalltalk.topics == frozenset(TOPICS)
+    by_topic = {topic: set(replies(topic)) for topic in TOPICS}
+    of_rules = {
+        topic: {key for key in smalltalk.public_rules if topic in smalltalk.rules[key].topics}
+        for topic in TOPICS
+    }
+    assert by_topic == of_rules
+    assert len(rules_of(smalltalk)) == sum(map(len, by_topic.values())) > 150
+
+
+def test_every_file_of_small_talk_is_read_with_the_replies():
+    with (FOLDER / "replies.toml").open("rb") as file:
+        also = tomllib.load(file)["also"]
+    assert sorted(also) == [f"{topic}.toml" for topic in TOPICS]
+
+
+@pytest.mark.parametrize("topic", TOPICS)
+def test_every_reply_has_several_texts_and_shows_on_the_face(topic):
+    face = load_face("person")
+    gestures, stimuli = load_gestures(face), load_stimuli()
+    for rule, entry in replies(topic).items():
+        assert len(entry["say"]) >= 2, rule
+        assert {"show", "gesture", "feel"} & entry.keys(), rule
+        assert entry.get("show", "neutral") in face.expressions, rule
+        assert entry.get("gesture", "nod") in gestures, rule
+        assert entry.get("feel", "praise") in stimuli, rule
+
+
+def test_no_text_is_long_or_said_for_two_reasons():
+    said = Counter()
+    for topic in TOPICS:
+        for rule, entry in replies(topic).items():
+            for key, text in texts(entry):
+                assert 2 <= len(text) <= LONGEST, (rule, key)
+                assert text[0].isupper() or text[0] == "{", (rule, key)
+                assert text[-1] in ".!?", (rule, key)
+                said[text] += 1
+    assert [text for text, times in said.items() if times > 1] == []
+
+
+def test_every_example_means_its_rule_to_the_companion(smalltalk, companion):
+    for rule in rules_of(smalltalk):
+        examples = smalltalk.rules[rule].examples
+        assert examples, rule
+        for example in examples:
+            found = understood(companion, example)
+            assert found is not None, example
+            assert found.rule == rule, example
+
+
+@pytest.mark.parametrize(
+    ("text", "rule"),
+    [
+        ("i am sad", "i_am_sad"),
+        ("i am not sad", "i_am_happy"),
+        ("i'm not happy", "i_am_sad"),
+        ("hey robin how old are you", "age"),
+        ("good evening what's new", "whats_new"),
+        ("so what is your favorite color", "favorite_color"),
+        ("hi", "hi"),
+        ("hello robin", "greet"),
+        ("you are an idiot", "insult"),
+        ("i love you so much", "i_love_you"),
+        ("stop it", "stop"),
+        ("are you tired", "are_you_tired"),
+        ("will it rain tomorrow", "weather"),
+        ("could you tell us a joke please", "joke"),
+        ("i want to die", "in_danger"),
+        ("i wish i was dead", "in_danger"),
+        ("turn around", "turn"),
+        ("what is my name", "know_me"),
+        ("what is your name", "name"),
+    ],
+)
+def test_what_people_say_is_understood(companion, text, rule):
+    found = understood(companion, text)
+    assert found is not None
+    assert found.rule == rule
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "you are not stupid",
+        "you are not an idiot",
+        "i am not hungry",
+        "i do not want to die",
+        "i don't hate you",
+        "the man told the woman about the house",
+    ],
+)
+def test_what_is_denied_or_said_of_others_is_not_taken_for_its_opposite(companion, text):
+    found = understood(companion, text)
+    assert found is None or found.rule not in {"insult", "scold", "in_danger", "i_am_hungry"}
+
+
+def test_who_speaks_of_dying_is_told_whom_to_call():
+    """No joke and no cheer: each text names a number or someone to turn to."""
+    entry = replies("comfort")["in_danger"]
+    assert all("988" in text for _, text in texts(entry))
+    assert "gesture" not in entry
