@@ -34,8 +34,9 @@ ACTIONS = (
 )
 # fmt: on
 """What the companion itself can do; other actions are tasks."""
-AFTER_YES = ("keep", "come", "follow", "see")
-"""What may be done after a yes: begin to save feelings, or one of the actions that need no tag."""
+AFTER_YES = ("keep", "see")
+"""What may be done after a yes: begin to save feelings, or say what it sees. Nothing that moves the
+base: a nod, or a "yes" in other people's talk, is not heard as clearly as an order must be."""
 FILLED_IN = (
     "text",
     "name",
