@@ -36,6 +36,7 @@ class WordGraph:
     """All words, lower case, each once. `<any>` and `<any 1-3>` are as many that nobody listed
     (`hri.speech.grammar.words.free_words`)."""
     entries: Mapping[str, int]
-    """Public rule: the node its sentences begin at; one silent arc leads there from `start`."""
+    """Public rule: the node its own words begin at. One silent arc leads there, from `start` or
+    from behind what may be said before many rules."""
     expected: frozenset[str] = frozenset()
     """The public rules that are likelier than others whenever they count."""

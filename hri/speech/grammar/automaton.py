@@ -2,7 +2,9 @@
 
 The rules are written out where they are used. A rule that stands at the end of another (right
 recursion is the common case) is written once and jumped to; one that stands in the middle of
-itself, which no finite automaton can follow for ever, is written out NESTED_DEPTH rules deep.
+itself, which no finite automaton can follow for ever, is written out NESTED_DEPTH rules deep. What
+may be said before and behind many commands, "hey robot could you please", is written once for all
+that have it: it leads to a hub, and from there to the words of each.
 Arcs carry the actions that build the parse tree: a path from the start to the end is one reading
 of one sentence, and of the arcs that leave a node the first one was written first.
 """
@@ -10,6 +12,7 @@ of one sentence, and of the arcs that leave a node the first one was written fir
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum, auto
@@ -26,11 +29,11 @@ from hri.speech.grammar.expressions import (
     Repeat,
     RuleReference,
     Sequence,
-    SourceSpan,
     Tagged,
     Token,
 )
 from hri.speech.grammar.extent import too_large
+from hri.speech.grammar.framing import NOTHING, Frame, Framed, unframed
 from hri.speech.grammar.rules import Rules
 from hri.speech.grammar.tags import TagEntry
 from hri.speech.grammar.words import ANY
@@ -42,16 +45,14 @@ NESTED_DEPTH = 5
 """How often a rule may stand inside itself, other than at its end; more than `expansion` goes."""
 
 START, FINAL = 0, 1
-_NOWHERE = SourceSpan(1, 1, 1, 1)
-_SILENCE = Sequence((), _NOWHERE)
+_SILENCE = NOTHING
 _HALF = math.log(0.5)
 """JSGF gives no odds for what is optional or repeated: both ways are equally likely."""
-_BURIED = (1.0, 0.001)
-"""Odds of a phrase that counts anywhere alone, and among other words. If the second were likelier,
-whole commands would be taken for other words and a short phrase, "no thanks" for "thanks"."""
-_AMONG = (1.0, 0.025, 0.00001)
-"""Odds of nothing, of other words, and of other words with its name, before or after such a phrase:
-names are said seldom, and much sounds like "robot"."""
+_BEFORE = (1.0, 0.001, 0.0000004)
+_BEHIND = (1.0, 0.000022, 0.00000001)
+"""Odds of nothing, of other words, and of other words with its name, before or behind a phrase that
+counts anywhere: if other words were likelier, whole commands would be taken for them and a short
+phrase, "no thanks" for "thanks". Names are said seldom, and much sounds like "robot"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +62,8 @@ class Enter:
     rule: str
     is_last: bool
     """True at the end of another rule: it then ends where that one ends, without a Leave."""
+    is_command: bool = False
+    """The public rule that the whole sentence belongs to, with all that was said before."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +107,9 @@ class Automaton:
     """Natural logarithms; those of one node add up to one."""
     actions: list[Actions]
     entries: Mapping[str, int]
-    """The node behind the only arc from START for each public rule that can be said."""
+    """The node where the words of each public rule begin that can be said. The only arc that leads
+    there comes from a hub, where the words end that are said before many rules; START leads to the
+    first hub."""
 
 
 class _Speaking(Enum):
@@ -203,32 +208,79 @@ class _Builder:
         self._size = 2
         self._written: dict[tuple[str, int, _Speaking], int] = {}
         """Where the rules at the end of others begin, by name and context."""
+        self._entries: dict[str, int] = {}
+        self._begun: dict[tuple[Frame, ...], int] = {(): START}
+        """The hubs behind what may be said before sentences."""
+        self._ending: dict[tuple[Frame, ...], int] = {(): FINAL}
+        """Where what may be said behind them begins."""
+        self._commands: Counter[tuple[Frame, ...]] = Counter()
+        """Public rules whose sentences begin with these frames."""
         self._contexts = 0
+        self._top = self._context((), {})
         self._jobs: list[_Job] = []
 
     def build(self) -> Automaton:
         rules = self._grammar.public_rules
         if (key := too_large(self._grammar, MOST_ARCS)) is not None:
             raise self._too_large(key)
-        top = self._context((), {})
-        for key in rules:
-            self._jobs = [
-                _Job(
-                    RuleReference(key, self._grammar.rules[key].span),
-                    START,
-                    FINAL,
-                    _Speaking.SPOKEN,
-                    top,
-                    is_last=True,
-                    weight=-math.log(len(rules)),
-                )
-            ]
+        commands = {key: self._parts(key) for key in rules}
+        self._commands = Counter(
+            parts.before[:count]
+            for parts in commands.values()
+            for count in range(len(parts.before) + 1)
+        )
+        for key, parts in commands.items():
+            self._command(key, parts)
             while self._jobs:
                 self._work(self._jobs.pop())
                 if len(self._arcs.sources) + self._contexts > MOST_ARCS:
                     raise self._too_large(key)
-        written = {key: self._written[key, top.number, _Speaking.SPOKEN] for key in rules}
-        return _trimmed(self._size, self._arcs, written)
+        return _trimmed(self._size, self._arcs, self._entries)
+
+    def _parts(self, key: str) -> Framed:
+        """The words of a public rule, and what may be said around them."""
+        expression = self._grammar.rules[key].expression
+        parts = unframed(expression)
+        if self._is_silent(parts.body):
+            parts = Framed((), expression, ())
+        if key in self._anywhere:
+            before, behind = (self._others(odds) for odds in (_BEFORE, _BEHIND))
+            parts = Framed((before, *parts.before), parts.body, (*parts.after, behind))
+        return parts
+
+    def _command(self, key: str, parts: Framed) -> None:
+        """A public rule, from the hub behind what may be said before its own words."""
+        hub, entry = self._hub(parts.before), self._new_node()
+        self._entries[key] = entry
+        enter = Enter(key, is_last=True, is_command=True)
+        first = self._job(_SILENCE, hub, entry, -math.log(self._commands[parts.before]))
+        self._arcs.add(first, entry, None, (enter,))
+        body = self._job(parts.body, entry, self._end(parts.after))
+        body = body._replace(speaking=_Speaking.SPOKEN, is_last=not parts.after)
+        if parts.before or parts.after:
+            self._jobs.append(body)
+        else:
+            self._write_once(body, key, ())
+
+    def _job(self, node: Expression, start: int, end: int, weight: float = 0.0) -> _Job:
+        return _Job(node, start, end, _Speaking.ANY, self._top, weight=weight)
+
+    def _hub(self, frames: tuple[Frame, ...]) -> int:
+        """Where frames lead that are said before sentences."""
+        if frames not in self._begun:
+            start = self._hub(frames[:-1])
+            hub = self._begun[frames] = self._new_node()
+            weight = math.log(self._commands[frames] / self._commands[frames[:-1]])
+            self._jobs.append(self._job(frames[-1], start, hub, weight))
+        return self._begun[frames]
+
+    def _end(self, frames: tuple[Frame, ...]) -> int:
+        """Where frames begin that are said behind sentences."""
+        if frames not in self._ending:
+            end = self._end(frames[1:])
+            start = self._ending[frames] = self._new_node()
+            self._jobs.append(self._job(frames[0], start, end))
+        return self._ending[frames]
 
     def _too_large(self, key: str) -> AuthoringError:
         what = f"<{key}> written out takes more than {MOST_ARCS:,} steps"
@@ -309,8 +361,6 @@ class _Builder:
     def _reference(self, job: _Job, name: str) -> None:
         """Let a rule follow: written out here, or jumped to when it ends where this one ends."""
         body, context = self._grammar.rules[name].expression, job.context
-        if job.start == START and name in self._anywhere:
-            body = self._among_others(body)
         is_recursive = name in self._recursive
         if not job.is_last:
             inside = context.inside
@@ -324,29 +374,30 @@ class _Builder:
         if not (job.is_last or is_recursive):
             self._jobs.append(inner._replace(before=enter))
             return
-        place = (name, context.number, job.speaking)
+        self._write_once(inner, name, enter)
+
+    def _write_once(self, job: _Job, name: str, actions: Actions) -> None:
+        """Let a rule follow that is written out the first time, and then jumped to."""
+        place = (name, job.context.number, job.speaking)
         entry = self._written.get(place)
         if entry is None:
             entry = self._written[place] = self._new_node()
-            self._jobs.append(inner._replace(start=entry, before=(), weight=0.0))
-        self._arcs.add(job, entry, None, enter)
+            self._jobs.append(job._replace(start=entry, before=(), weight=0.0))
+        self._arcs.add(job, entry, None, actions)
 
-    def _among_others(self, body: Expression) -> Expression:
-        """What may have other words before it and after it; of these, its name is known."""
-        span = body.span
-        words = Anything(span)
+    def _others(self, odds: tuple[float, float, float]) -> Frame:
+        """Other words before or behind what counts among them; of these, its name is known."""
+        words = Anything(NOTHING.span)
         ways: list[Expression] = [_SILENCE, words]
         names = [key for key, rule in self._grammar.rules.items() if "name" in rule.marks]
         if names:
+            span = words.span
             name = Alternative(
                 tuple(RuleReference(key, span) for key in names), (1.0,) * len(names), span
             )
             more = Optional(words, span)
             ways += [Sequence((name, words), span), Sequence((words, name, more), span)]
-        odds = (*_AMONG[:2], *(_AMONG[2] for _ in ways[2:]))
-        others = Alternative(tuple(ways), odds, span)
-        among = Sequence((others, body, others), span)
-        return Alternative((body, among), _BURIED, span)
+        return Frame(tuple(ways), (*odds[:2], *(odds[2] for _ in ways[2:])), words.span)
 
     def _sequence(self, job: _Job, items: tuple[Expression, ...]) -> Iterator[_Job]:
         if job.speaking is not _Speaking.SPOKEN:

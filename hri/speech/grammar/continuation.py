@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from hri.speech.grammar.automaton import Actions, Enter, Leave
+from hri.speech.grammar.automaton import START, Actions, Enter, Leave
 from hri.speech.grammar.matching import Matcher, matcher_of
 from hri.speech.grammar.rules import Rules
 from hri.speech.grammar.words import ANY, typed
@@ -23,9 +23,7 @@ def may_go_on(grammar: Rules, rule: str, text: str, command: str) -> bool:
         nodes = walk.along(entry, command)
         if nodes and walk.changes(nodes, public == rule):
             return True
-        if public != rule and walk.goes_on(walk.along(entry, text, with_aside=True)):
-            return True
-    return False
+    return walk.goes_on(walk.along(START, text, without=rule))
 
 
 class _Walk:
@@ -36,15 +34,18 @@ class _Walk:
         rules = grammar.rules.items()
         self._aside = frozenset(name for name, rule in rules if "aside" in rule.marks)
 
-    def along(self, entry: int, words: str, with_aside: bool = False) -> set[int]:
-        """The nodes behind words that begin at a node; none where no sentence begins with them."""
-        targets, nodes = self.matcher.automaton.targets, {entry}
+    def along(self, node: int, words: str, without: str = "") -> set[int]:
+        """The nodes behind words that begin at a node; none where no sentence begins with them.
+
+        Not by words said aside; or by these, too, but not by those of one public rule.
+        """
+        targets, nodes = self.matcher.automaton.targets, {node}
         for word in typed(words):
             nodes = {
                 targets[arc]
-                for node in self._silently(nodes, with_aside)
+                for node in self._silently(nodes, without)
                 for arc in self.matcher.leaving(node)[1].get(word, ())
-                if with_aside or not self._is_aside(arc)
+                if without or not self._is_aside(arc)
             }
         return nodes
 
@@ -75,13 +76,14 @@ class _Walk:
                     pending.append(target)
         return False
 
-    def _silently(self, nodes: set[int], with_aside: bool = False) -> set[int]:
+    def _silently(self, nodes: set[int], without: str = "") -> set[int]:
         """The nodes, and those behind them that need no word."""
         seen, pending = set(nodes), list(nodes)
         targets = self.matcher.automaton.targets
         while pending:
             for arc in self.matcher.leaving(pending.pop())[0]:
-                if targets[arc] not in seen and (with_aside or not self._is_aside(arc)):
+                is_barred = self._begins(arc, without) if without else self._is_aside(arc)
+                if targets[arc] not in seen and not is_barred:
                     seen.add(targets[arc])
                     pending.append(targets[arc])
         return seen
@@ -92,6 +94,9 @@ class _Walk:
             for word, arcs in self.matcher.leaving(node)[1].items():
                 if word != ANY:
                     yield from (arc for arc in arcs if not self._is_aside(arc))
+
+    def _begins(self, arc: int, rule: str) -> bool:
+        return Enter(rule, is_last=True, is_command=True) in self.matcher.automaton.actions[arc]
 
     def _is_aside(self, arc: int) -> bool:
         actions = self.matcher.automaton.actions[arc]

@@ -20,6 +20,7 @@ from hri.speech.grammar.expressions import (
     Token,
 )
 from hri.speech.grammar.fold import Fold
+from hri.speech.grammar.framing import unframed
 from hri.speech.grammar.rules import Rules
 
 
@@ -41,10 +42,14 @@ _WORD = _Part(1)
 def too_large(grammar: Rules, most: int) -> str | None:
     """The public rule with which the arcs of a grammar are more than `most`; None for fewer.
 
-    It counts the least that is written: a rule inside itself counts as nothing.
+    It counts the least that is written: a rule inside itself counts as nothing, and so does
+    what may be said around many rules.
     """
     counted = _Counted(may_defer=bool(grammar.made(analysis.recursive_of)))
-    rules = {key: counted(rule.expression) for key, rule in grammar.rules.items()}
+    rules = {
+        key: counted(unframed(rule.expression).body if rule.is_public else rule.expression)
+        for key, rule in grammar.rules.items()
+    }
     reached = set(analysis.reachable(grammar.rules, grammar.public_rules))
     used = {name for key in reached for name in rules[key].inside}
     sizes: dict[str, int] = {}

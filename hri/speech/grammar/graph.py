@@ -36,11 +36,17 @@ class _Reduction:
 
     def __init__(self, automaton: Automaton) -> None:
         self._entries = automaton.entries
-        self._kept = {START, FINAL, *automaton.entries.values()}
-        """Nodes that stay themselves."""
         arcs = list(zip(automaton.words, automaton.targets, automaton.weights, strict=True))
         first = automaton.first
         self._leaving = [arcs[begin:end] for begin, end in itertools.pairwise(first)]
+        begins = {*automaton.entries.values()}
+        hubs = [
+            node
+            for node, leaving in enumerate(self._leaving)
+            if any(target in begins for _, target, _ in leaving)
+        ]
+        self._kept = {START, FINAL, *begins, *hubs}
+        """Nodes that stay themselves."""
         order = self._order()
         self._skip_silence(order)
         self._pull_back(order)

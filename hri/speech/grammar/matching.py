@@ -308,6 +308,13 @@ class Matcher:
         """All words that are listed."""
         self.is_open = ANY in automaton.words
         """Whether any words are free."""
+        self._commands = {
+            arc: action.rule
+            for arc, actions in enumerate(automaton.actions)
+            for action in actions
+            if isinstance(action, Enter) and action.is_command
+        }
+        """The arcs that lead to the own words of public rules."""
         self._leaving: dict[int, tuple[list[int], Mapping[str, list[int]]]] = {}
         self._states: dict[tuple[int, ...], State] = {}
         self._room = MOST_NODES
@@ -400,9 +407,23 @@ class Matcher:
         self, words: list[str], ways: list[_Ways], rules: Collection[str] | None
     ) -> Iterator[Parse]:
         text = " ".join(words)
-        for history in self._histories(ways, rules):
-            tree, groups, free = _reading(words, history)
-            yield Parse(text, tree.rule, evaluate(groups), tree, free, groups)
+        for rule in self._rules_in(ways):
+            if rules is None or rule in rules:
+                for history in self._histories(ways, rule):
+                    tree, groups, free = _reading(words, history)
+                    yield Parse(text, rule, evaluate(groups), tree, free, groups)
+
+    def _rules_in(self, ways: list[_Ways]) -> list[str]:
+        """The public rules that allow a sentence, in the order they were written."""
+        commands = self._commands
+        found = {
+            commands[arc]
+            for here in ways
+            for arcs in here.values()
+            for arc in arcs
+            if arc in commands
+        }
+        return [rule for rule in self.automaton.entries if rule in found]
 
     def _ways(self, words: list[str]) -> list[_Ways] | None:
         """The ways through a sentence, before each word and at its end; None without any."""
@@ -435,15 +456,13 @@ class Matcher:
             alive = before
         return found[::-1]
 
-    def _histories(
-        self, ways: list[_Ways], rules: Collection[str] | None
-    ) -> Iterator[_History | None]:
-        """What the ways do, in the order they were written.
+    def _histories(self, ways: list[_Ways], rule: str) -> Iterator[_History | None]:
+        """What the ways through a public rule do, in the order they were written.
 
         Ways that have done the same so far are followed together: thousands of them are one
         history when they differ in nothing that shows.
         """
-        automaton = self.automaton
+        automaton, commands = self.automaton, self._commands
         stack: list[tuple[int, list[int], _History | None]] = [(0, [START], None)]
         while stack:
             position, nodes, history = stack.pop()
@@ -456,6 +475,8 @@ class Matcher:
                     yield history
                 quiet: list[int] = []
                 for arc in sorted(arcs) if len(arcs) > 1 else arcs:
+                    if commands.get(arc, rule) != rule:
+                        continue
                     said = _said(automaton.words[arc])
                     actions, target = automaton.actions[arc], automaton.targets[arc]
                     if said is not _Said.NOTHING or actions:
@@ -465,10 +486,6 @@ class Matcher:
                         quiet.append(target)
                 pending += reversed(quiet)
             for (said, actions), targets in reversed(further.items()):
-                if history is None and rules is not None:
-                    enter = actions[0]
-                    if isinstance(enter, Enter) and enter.rule not in rules:
-                        continue
                 # A node that several ways lead to is followed once: they would double at each word.
                 distinct = list(dict.fromkeys(targets))
                 passed = position + (said is not _Said.NOTHING)
@@ -533,7 +550,12 @@ def _reading(words: list[str], history: _History | None) -> tuple[Tree, Groups, 
         if said is _Said.FREE:
             free.append(position)
         for action in actions:
-            if isinstance(action, Enter):
+            if isinstance(action, Enter) and action.is_command:
+                # What was said before its own words belongs to it, too.
+                open_rules.append(_Open(top.copy(), 0, action.rule, (), action.is_last))
+                children = open_rules[-1].children
+                top.clear()
+            elif isinstance(action, Enter):
                 children = []
                 open_rules.append(_Open(children, position, action.rule, (), action.is_last))
             elif isinstance(action, Defer):

@@ -22,6 +22,7 @@ from hri.speech.grammar.expressions import (
     Tagged,
     Token,
 )
+from hri.speech.grammar.framing import framed
 from hri.speech.grammar.tags import TagEntry, evaluate
 
 SPAN = SourceSpan(1, 1, 1, 1)
@@ -119,8 +120,10 @@ def expressions() -> st.SearchStrategy[Expression]:
 
 
 def grammars() -> st.SearchStrategy[Grammar]:
-    """Grammars of three rules, two of them public."""
-    return st.tuples(*[expressions() for _ in RULES]).map(
+    """Grammars of three rules, two of them public, some with the third before or behind them."""
+    frames = st.sampled_from([None, RuleReference("c", SPAN)])
+    commands = st.tuples(expressions(), frames, frames).map(lambda parts: framed(*parts))
+    return st.tuples(commands, commands, expressions()).map(
         lambda bodies: Grammar(
             "test",
             Path("test.jsgf"),

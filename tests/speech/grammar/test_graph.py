@@ -86,8 +86,9 @@ def test_every_graph_keeps_its_promises(grammar):
         leaving = graph.weights[graph.sources == node]
         assert np.exp(leaving.astype(float)).sum() == pytest.approx(1.0, abs=1e-4)
     assert set(graph.entries) <= set(grammar.public_rules)
-    starts = graph.targets[graph.sources == graph.start]
-    assert sorted(starts) == sorted(graph.entries.values())
+    begins = np.isin(graph.targets, list(graph.entries.values()))
+    assert (graph.labels[begins] == SILENT).all()
+    assert sorted(graph.targets[begins]) == sorted(graph.entries.values())
 
 
 def test_every_listed_sentence_is_in_the_graph(companion):
@@ -107,6 +108,20 @@ def test_beginnings_and_endings_are_shared(write):
 
     assert sorted(graph.words[label] for label in graph.labels if label >= 0) == [
         "ann", "bob", "call", "cy", "li", "now", "wu",
+    ]  # fmt: skip
+
+
+def test_what_is_said_around_many_rules_is_there_once(tmp_path):
+    path = tmp_path / "test.jsgf"
+    path.write_text(
+        "#JSGF V1.0;\n/** @before <nice>\n * @after <late>\n */\ngrammar test;\n"
+        "public <a> = x; public <b> = y; public <c> = z; <nice> = please; <late> = now;"
+    )
+
+    graph = load_grammar(path).graph()
+
+    assert sorted(graph.words[label] for label in graph.labels if label >= 0) == [
+        "now", "please", "x", "y", "z",
     ]  # fmt: skip
 
 

@@ -32,11 +32,10 @@ class Sounds:
         return SOUNDS[word]
 
 
-def word_graph(arcs: list[tuple[int, int, int, float]], size: int) -> WordGraph:
-    """Arcs (source, target, word or -1, weight); node 0 is start, the last one final.
-
-    Two public rules: "all" begins at node 0, "late" at node 1.
-    """
+def word_graph(
+    arcs: list[tuple[int, int, int, float]], size: int, entries: Mapping[str, int] = {"all": 0}
+) -> WordGraph:
+    """Arcs (source, target, word or -1, weight); node 0 is start, the last one final."""
     sources, targets, labels, weights = zip(*sorted(arcs), strict=True)
     return WordGraph(
         size=size,
@@ -47,7 +46,7 @@ def word_graph(arcs: list[tuple[int, int, int, float]], size: int) -> WordGraph:
         labels=np.array(labels, np.int32),
         weights=np.array(weights, np.float32),
         words=WORDS,
-        entries={"all": 0, "late": 1},
+        entries=entries,
     )
 
 

@@ -237,7 +237,9 @@ def unproven(path: Path, graph: PhoneGraph) -> float:
     said: all of it for a short one, since noise sounds like "no", too; nothing for a longer one.
     """
     letters = sum(map(len, path.words))
-    return graph.head_start(path.spans[0].place) * float(np.clip(2.0 - letters / SHORT, 0.0, 1.0))
+    return graph.head_start(span.place for span in path.spans) * float(
+        np.clip(2.0 - letters / SHORT, 0.0, 1.0)
+    )
 
 
 def later(hypothesis: Hypothesis, seconds: float) -> Hypothesis:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import heapq
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import count
+from typing import NamedTuple
 
 import numpy as np
 
-from hri.speech.recognizers.ctc.phone_graph import NOWHERE, Floats, Indices, PhoneGraph
+from hri.speech.recognizers.ctc.phone_graph import NOWHERE, Entry, Floats, Indices, PhoneGraph
 
 _MASKS = tuple(128 >> bit for bit in range(8))
 _ROOM = 256
@@ -22,11 +24,11 @@ MOST_STEPS = 2000
 class Trellis:
     """All that happened in a search, frame by frame: enough to walk back along any path."""
 
-    def __init__(self, graph: PhoneGraph, opening: Floats) -> None:
+    def __init__(self, graph: PhoneGraph, entries: Sequence[Entry]) -> None:
         self.graph = graph
-        self.opening = opening
-        """[places] Weight of beginning a sentence there."""
         self.frames = -1
+        self._entries = _by_hub(entries)
+        self._ways_into: dict[int, _Ways] = {}
         self._entered: list[bytes] = []
         self._resting: list[bytes] = []
         self._exits = np.empty((_ROOM, len(graph.exit_states)), np.float32)
@@ -50,21 +52,46 @@ class Trellis:
     def arrive(self, frame: int, out: Floats) -> None:
         """[places] Best score of being there after a number of frames: from a word, or to begin."""
         graph = self.graph
-        np.add(self.opening, self._silence[frame], out=out)
+        out.fill(NOWHERE)
+        if self._entries:
+            out[graph.starts] = graph.start_weights + np.float32(self._silence[frame])
         np.maximum.reduceat(self._exits[frame], graph.exit_groups, out=self._groups)
         links = self._groups.take(graph.link_sources)
         links += graph.link_weights
         linked = out[: len(graph.link_groups)]
         np.maximum(linked, np.maximum.reduceat(links, graph.link_groups), out=linked)
+        for hub, places, weights in self._entries:
+            out[places] = np.maximum(out[places], out[hub] + weights)
 
     def beginning(self, place: int, frame: int) -> float:
         """Score of beginning a sentence at a place after a number of frames of silence."""
-        return float(self.opening[place]) + self._silence[frame]
+        return self._ways(place).opening + self._silence[frame]
 
     def ways_into(self, place: int, frame: int) -> tuple[Indices, Floats]:
         """Exits that lead into a place, and the scores of coming by them, after frames."""
-        exits, weights = self.graph.exits_into(place)
-        return exits, self._exits[frame, exits] + weights
+        ways = self._ways(place)
+        return ways.exits, self._exits[frame, ways.exits] + ways.weights
+
+    def _ways(self, place: int) -> _Ways:
+        known = self._ways_into.get(place)
+        if known is None:
+            known = self._ways_into[place] = self._find_ways(place)
+        return known
+
+    def _find_ways(self, place: int) -> _Ways:
+        """Into the place itself, and into hubs that lead to it."""
+        graph = self.graph
+        before = [(place, np.float32(0.0))]
+        for hub, places, weights in self._entries:
+            before += [(hub, weight) for weight in weights[places == place]]
+        into = [graph.exits_into(at) for at, _ in before]
+        openings = [graph.start_weights[graph.starts == at] + more for at, more in before]
+        weighted = [own + more for (_, own), (_, more) in zip(into, before, strict=True)]
+        return _Ways(
+            float(np.concatenate(openings).max(initial=NOWHERE)),
+            np.concatenate([exits for exits, _ in into]),
+            np.concatenate(weighted),
+        )
 
     def entered(self, state: int, frame: int) -> bool:
         """Whether the phone of a state came from outside in the frame that made it `frame`."""
@@ -73,6 +100,29 @@ class Trellis:
     def rests(self, state: int, frame: int) -> bool:
         """Whether the best path to a state ends in the blank after a number of frames."""
         return bool(self._resting[frame][state >> 3] & _MASKS[state & 7])
+
+
+class _Ways(NamedTuple):
+    """How a place is reached."""
+
+    opening: float
+    """Weight of beginning a sentence there."""
+    exits: Indices
+    weights: Floats
+    """[exits]"""
+
+
+def _by_hub(entries: Sequence[Entry]) -> list[Entry]:
+    """One entry for each hub, each of its places once, by the best weight."""
+    found = []
+    for hub in sorted({entry.hub for entry in entries}):
+        here = [entry for entry in entries if entry.hub == hub]
+        places = np.concatenate([entry.places for entry in here])
+        order = places.argsort(kind="stable")
+        distinct, firsts = np.unique(places[order], return_index=True)
+        weights = np.concatenate([entry.weights for entry in here])[order]
+        found.append(Entry(hub, distinct, np.maximum.reduceat(weights, firsts)))
+    return found
 
 
 @dataclass(frozen=True, slots=True)
@@ -194,10 +244,8 @@ class Walk:
         return list(found.values())
 
     def _score_at(self, place: int, frame: int) -> float:
-        begin = self._trellis.beginning(place, frame)
-        if place >= len(self._graph.link_groups):
-            return begin
-        return max(begin, float(self._trellis.ways_into(place, frame)[1].max()))
+        _, scores = self._trellis.ways_into(place, frame)
+        return max(self._trellis.beginning(place, frame), float(scores.max(initial=NOWHERE)))
 
 
 @dataclass(frozen=True, slots=True)

@@ -44,8 +44,8 @@ def _along_all(graph: PhoneGraph, scores: Floats) -> Doubles:
     link_weights, exit_weights = np.exp(graph.link_weights), np.exp(graph.exit_weights)
     doubled_parents = graph.parents[graph.doubled]
     opening = np.zeros(graph.places)
-    for places, weights in graph.entries.values():
-        opening[places] = np.exp(weights)
+    for entry in graph.entries.values():
+        opening[entry.places] = np.exp(entry.weights)
     phone, blank, groups = np.zeros(size), np.zeros(size), np.zeros(len(graph.exit_groups))
     onward = np.concatenate([np.zeros(size), opening])
     scale = 0.0

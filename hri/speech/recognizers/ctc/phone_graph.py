@@ -6,10 +6,11 @@ words that begin alike share their states, and a list of ten thousand names stay
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict, deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +42,16 @@ class Pronouncing(Protocol):
     def pronunciations(self, word: str) -> Sequence[Sequence[str]]: ...
 
 
+class Entry(NamedTuple):
+    """Where the own words of a public rule begin."""
+
+    hub: int
+    """The place that leads there."""
+    places: Indices
+    weights: Floats
+    """[places] Of getting there from the hub."""
+
+
 @dataclass(frozen=True, eq=False)
 class PhoneGraph:
     """States 0..size-1 are phones of words; places are nodes of the grammar where words begin.
@@ -49,6 +60,9 @@ class PhoneGraph:
     phone of a word. Exits are the ends of words, in groups by the node of the grammar they lead
     to; links lead from those groups over silent arcs to places, in groups by place. Groups are
     given by the index of their first member. The last linked place is the end of sentences.
+
+    Hubs are places, too: the start, and those behind what may be said before many rules. From them
+    the entries lead to the own words of each public rule.
     """
 
     words: tuple[str, ...]
@@ -69,10 +83,14 @@ class PhoneGraph:
     link_groups: Indices
     """[linked places] The linked places come first."""
     places: int
-    entries: Mapping[str, tuple[Indices, Floats]]
-    """Public rule -> the places where its sentences begin, and the weights of getting there."""
+    starts: Indices
+    """The places that need nothing said before: hubs, and where words begin that lead to some."""
+    start_weights: Floats
+    """[starts]"""
+    entries: Mapping[str, Entry]
+    """Of the public rules."""
     expected: frozenset[int]
-    """Places where sentences of expected rules begin: EXPECTED is in their weights."""
+    """Places where expected rules begin: EXPECTED is in their weights."""
     _into: dict[int, tuple[Indices, Floats]] = field(default_factory=dict, repr=False)
 
     @property
@@ -80,9 +98,11 @@ class PhoneGraph:
         """Place where sentences end."""
         return len(self.link_groups) - 1
 
-    def head_start(self, place: int) -> float:
-        """Natural log: what a sentence is worth that begins at a place, because it is expected."""
-        return EXPECTED if place in self.expected else 0.0
+    def head_start(self, places: Iterable[int]) -> float:
+        """Natural log: what a sentence is worth whose words begin at places, because its rule is
+        expected.
+        """
+        return 0.0 if self.expected.isdisjoint(places) else EXPECTED
 
     def exits_into(self, place: int) -> tuple[Indices, Floats]:
         """Exits that lead into a place, each with the weight of its link."""
@@ -110,10 +130,12 @@ def compile(graph: WordGraph, lexicon: Pronouncing) -> PhoneGraph:
     """
     spoken = graph.labels >= 0
     begins = set(graph.sources[spoken].tolist())
-    reach = _reach(graph, begins | {graph.final})
+    leads = _leads(graph)
+    hubs = {graph.start, *(hub for hub, _ in leads.values())}
+    reach = _reach(graph, begins | {graph.final, *hubs})
     arrived = sorted(set(graph.targets[spoken].tolist()))
     linked = sorted({place for node in arrived for place in reach[node]} - {graph.final})
-    order = [*linked, graph.final, *sorted(begins - set(linked))]
+    order = [*linked, graph.final, *sorted({*begins, *hubs} - set(linked))]
     place_of = {node: index for index, node in enumerate(order)}
 
     forest = _Forest()
@@ -134,7 +156,13 @@ def compile(graph: WordGraph, lexicon: Pronouncing) -> PhoneGraph:
         for node, weight in reach[source].items()
     )
     link_places, link_sources, link_weights = _columns(links)
-    starts = {rule: reach[node].keys() - {graph.final} for rule, node in graph.entries.items()}
+    starts, start_weights = _opened(reach[graph.start], place_of)
+    entries = {}
+    for rule, (hub, weight) in leads.items():
+        places, weights = _opened(reach[graph.entries[rule]], place_of)
+        if rule in graph.expected:
+            weight += EXPECTED
+        entries[rule] = Entry(place_of[hub], places, weights + np.float32(weight))
     return PhoneGraph(
         words=graph.words,
         size=size,
@@ -149,16 +177,31 @@ def compile(graph: WordGraph, lexicon: Pronouncing) -> PhoneGraph:
         link_weights=link_weights.astype(np.float32),
         link_groups=_firsts(link_places),
         places=len(order),
-        entries={
-            rule: _entry(
-                {node: reach[graph.entries[rule]][node] for node in nodes},
-                place_of,
-                EXPECTED if rule in graph.expected else 0.0,
-            )
-            for rule, nodes in starts.items()
-        },
-        expected=frozenset(place_of[node] for rule in graph.expected for node in starts[rule]),
+        starts=starts,
+        start_weights=start_weights,
+        entries=entries,
+        expected=frozenset(
+            place for rule in graph.expected for place in entries[rule].places.tolist()
+        ),
     )
+
+
+def _leads(graph: WordGraph) -> dict[str, tuple[int, float]]:
+    """For each public rule, the hub that leads to its own words, and the weight of doing so.
+
+    Which rules count changes from sentence to sentence, so that all are equally likely.
+    """
+    silent = np.flatnonzero(graph.labels < 0)
+    into = {
+        target: (source, weight + math.log(len(graph.entries)))
+        for source, target, weight in zip(
+            graph.sources[silent].tolist(),
+            graph.targets[silent].tolist(),
+            graph.weights[silent].tolist(),
+            strict=True,
+        )
+    }
+    return {rule: into.get(node, (graph.start, 0.0)) for rule, node in graph.entries.items()}
 
 
 class _Forest:
@@ -221,8 +264,11 @@ def _sounds_of(word: str, lexicon: Pronouncing) -> list[list[int]]:
 
 
 def _reach(graph: WordGraph, wanted: set[int]) -> dict[int, dict[int, float]]:
-    """For every node, which wanted nodes silent arcs lead to (itself too), by the best weight."""
-    silent = np.flatnonzero(graph.labels < 0)
+    """For every node, which wanted nodes silent arcs lead to (itself too), by the best weight; but
+    not from a hub on to the rules.
+    """
+    begins = np.isin(graph.targets, list(graph.entries.values()))
+    silent = np.flatnonzero((graph.labels < 0) & ~begins)
     onward: dict[int, list[tuple[int, float]]] = defaultdict(list)
     before: dict[int, list[int]] = defaultdict(list)
     for source, target, weight in zip(
@@ -277,9 +323,7 @@ def _range(firsts: Indices, group: int, size: int) -> tuple[int, int]:
     return int(firsts[group]), end
 
 
-def _entry(
-    reached: Mapping[int, float], place_of: Mapping[int, int], weight: float
-) -> tuple[Indices, Floats]:
+def _opened(reached: Mapping[int, float], place_of: Mapping[int, int]) -> tuple[Indices, Floats]:
+    """The places of nodes, and their weights."""
     places = [place_of[node] for node in reached]
-    weights = np.array(list(reached.values()), np.float32) + np.float32(weight)
-    return np.array(places, np.intp), weights
+    return np.array(places, np.intp), np.array(list(reached.values()), np.float32)

@@ -35,11 +35,9 @@ class Search:
 
     def begin(self, rules: Collection[str] | None = None) -> None:
         """Forget all frames. Sentences of these public rules are looked for; None is all."""
-        opening = np.full(self.graph.places, NOWHERE, np.float32)
-        for rule, (places, weights) in self.graph.entries.items():
-            if rules is None or rule in rules:
-                np.maximum.at(opening, places, weights)
-        self.trellis = Trellis(self.graph, opening)
+        entries = self.graph.entries.items()
+        active = [entry for rule, entry in entries if rules is None or rule in rules]
+        self.trellis = Trellis(self.graph, active)
         self._phone.fill(NOWHERE)
         self._blank.fill(NOWHERE)
         self._settle(0.0, b"")

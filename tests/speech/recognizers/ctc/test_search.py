@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import itertools
+import math
+from collections.abc import Collection
 
 import numpy as np
 from hypothesis import given, settings, strategies as st
@@ -24,15 +26,20 @@ from tests.speech.recognizers.word_graphs import (
 )
 
 
-def all_sentences(graph: WordGraph, longest: int) -> dict[tuple[int, ...], float]:
-    """Every sentence up to a length, with the weight of its best way."""
-    arcs = list(zip(graph.sources, graph.targets, graph.labels, graph.weights, strict=True))
+def all_sentences(
+    graph: WordGraph, longest: int, rules: Collection[str]
+) -> dict[tuple[int, ...], float]:
+    """Every sentence up to a length, with the weight of its best way; all rules are as likely."""
+    barred = {node for rule, node in graph.entries.items() if rule not in rules}
+    every = zip(graph.sources, graph.targets, graph.labels, graph.weights, strict=True)
+    arcs = [arc for arc in every if arc[1] not in barred]
+    even = math.log(len(graph.entries))
     found: dict[tuple[int, ...], float] = {}
     waiting: list[tuple[int, tuple[int, ...], float]] = [(graph.start, (), 0.0)]
     while waiting:
         node, words, weight = waiting.pop()
         if node == graph.final and words:
-            found[words] = max(found.get(words, -np.inf), weight)
+            found[words] = max(found.get(words, -np.inf), weight + even)
         for source, target, label, more in arcs:
             said = words if label < 0 else (*words, int(label))
             if source == node and len(said) <= longest:
@@ -80,21 +87,47 @@ def word_graphs(draw: st.DrawFn) -> WordGraph:
     return word_graph(arcs, size)
 
 
+@st.composite
+def framed_graphs(draw: st.DrawFn) -> WordGraph:
+    """Words that may be said before two of three rules, and words behind these two."""
+
+    def words(source: int, target: int) -> list[tuple[int, int, int, float]]:
+        count = draw(st.integers(1, 2))
+        labels = [draw(st.integers(0, len(WORDS) - 1)) for _ in range(count)]
+        weights = [draw(st.sampled_from([0.0, -0.5, -2.0])) for _ in labels]
+        arcs = zip(labels, weights, strict=True)
+        return [(source, target, label, weight) for label, weight in arcs]
+
+    # 0 is the start, 1 leads to the hub 2; 3 and 4 are the rules behind it, 5 the one without.
+    even = -np.log(3.0)
+    arcs = [(0, 1, -1, -0.7), (0, 2, -1, -0.1), (6, 7, -1, -0.1)]
+    arcs += [(2, 3, -1, even), (2, 4, -1, even), (0, 5, -1, even)]
+    arcs += words(1, 2) + words(3, 6) + words(4, 6) + words(5, 7) + words(6, 7)
+    return word_graph(list({arc[:3]: arc for arc in arcs}.values()), 8, {"a": 3, "b": 4, "c": 5})
+
+
 @settings(max_examples=120, deadline=None)
-@given(word_graphs(), st.integers(0, 2**32 - 1), st.integers(1, 7))
+@given(
+    word_graphs() | framed_graphs(),
+    st.sets(st.sampled_from(["a", "b"])),
+    st.integers(0, 2**32 - 1),
+    st.integers(1, 7),
+)
 def test_the_best_sentences_are_those_of_trying_everything(
-    graph: WordGraph, seed: int, frames: int
+    graph: WordGraph, idle: set[str], seed: int, frames: int
 ) -> None:
+    rules = graph.entries.keys() - idle
     scores = random_scores(seed, frames)
     expected = sorted(
         (
             (weight + score_of_words(words, scores), words)
-            for words, weight in all_sentences(graph, 5).items()
+            for words, weight in all_sentences(graph, 5, rules).items()
         ),
         reverse=True,
     )
     expected = [(score, words) for score, words in expected if score > -1e6]
     search = Search(compile(graph, Sounds()))
+    search.begin(rules)
     search.advance(scores[: frames // 2])
     search.advance(scores[frames // 2 :])
     paths = Walk(search.trellis).sentences(3, 100.0)
@@ -134,8 +167,9 @@ def test_the_words_so_far_are_there_while_it_goes_on() -> None:
 
 
 def test_only_the_rules_that_are_active_are_heard() -> None:
-    arcs = [(0, 1, -1, 0.0), (0, 2, WORDS.index("go"), 0.0), (1, 2, WORDS.index("no"), 0.0)]
-    search = Search(compile(word_graph(arcs, 3), Sounds()))
+    arcs = [(0, 1, -1, 0.0), (0, 2, -1, 0.0)]
+    arcs += [(1, 3, WORDS.index("go"), 0.0), (2, 3, WORDS.index("no"), 0.0)]
+    search = Search(compile(word_graph(arcs, 4, {"early": 1, "late": 2}), Sounds()))
     for rules, expected in ((None, ("go",)), ({"late"}, ("no",)), (set(), None)):
         search.begin(rules)
         search.advance(spelled("blank", "G", "OW"))
