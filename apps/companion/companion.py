@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable, Mapping
-from itertools import islice
+from collections.abc import Callable
 from typing import Any
 
 from hri.conversation.choosing import Moment, Pool, Spoken, pools
 from hri.conversation.curiosity import Curiosity
 from hri.conversation.day import clock_words, part_of_day
-from hri.conversation.examples import different, nearest_sentence, sayings
-from hri.conversation.floor import GIVES_WAY_SECONDS, NEVER, Scene, gives_way
-from hri.conversation.gist import Gist
-from hri.conversation.motions import turn_words, way_words
-from hri.conversation.puzzlement import Kind, Puzzle, Puzzlement, as_said
+from hri.conversation.examples import sayings
+from hri.conversation.floor import NEVER
+from hri.conversation.puzzlement import Puzzlement
 from hri.core.errors import NotAvailable
 from hri.core.latest import Latest
 from hri.core.signals import Event, Person
@@ -32,12 +29,9 @@ from hri.hal.battery import Battery
 from hri.hal.camera import Camera
 from hri.robot import verbs
 from hri.robot.app import App
-from hri.speech.automatic_level import VERY_QUIET_DB
 from hri.speech.behaviors import Listener, Voice
-from hri.speech.grammar import Grammar, parse
+from hri.speech.grammar import Grammar
 from hri.speech.grammar.tags import written
-from hri.speech.grammar.words import normalize
-from hri.speech.tasks import hears_people
 from hri.speech.turn import QUESTION
 from hri.task.context import TaskContext
 from hri.task.lane import Lane
@@ -47,7 +41,8 @@ from hri.task.task_run import Job
 from hri.vision.tasks import people_of
 
 from . import things
-from .replies import FILE, Question, Replies, Reply, Vocabulary, known_personalities, load_replies
+from .facts import Commands, aloud, direction_words
+from .replies import FILE, Replies, Reply, Vocabulary, known_personalities, load_replies
 from .reply_texts import fields_of
 
 ALWAYS = ("stop", "wake")
@@ -63,19 +58,8 @@ GREETINGS = ("greet", "wake")
 """Rules that end its being quiet."""
 FAREWELLS = ("leave", "good_night", "sleep")
 """Rules that end a talk; it asks no question then."""
-UNTOLD = ("stop", "help", "greet", "leave", "good_night")
-"""Rules that it does not name first when asked what can be said; how to stop it is named last."""
-EXAMPLES = 4
-"""Commands that it names at once when it is asked what can be said, and how to stop it."""
-CLEAR = 0.3
-"""Confidence from which words that do not count say what a sentence was about."""
 MOST_HEARD = 100
 """Rules that are remembered."""
-ENDING = ("stop", "quiet", "release", "sleep")
-"""Actions that help no one who does not know what to say."""
-NOTICED_AFTER = 0.3
-"""Seconds after which the ears know that someone has begun to speak."""
-LOOK_EVERY = 0.02
 
 
 def authored_replies(context: TaskContext) -> Replies:
@@ -121,14 +105,15 @@ class Companion:
         self._last: Reply | None = None
         """The reply that people mean who ask why."""
         self._said_last = ""
-        self._named = 0
+        self._commands = Commands()
         self.puzzlement = Puzzlement()
         self._spoken = Spoken()
         self.curiosity = Curiosity(f"{context.clock.wall():%Y-%m-%d %H:%M}")
         self.heard: deque[str] = deque(maxlen=MOST_HEARD)
         """The rules that people said, the last one last."""
-        self._last_voice = self._last_farewell = self._last_dialogue = NEVER
-        self._is_held = False
+        self.last_voice = self.last_farewell = self.last_dialogue = NEVER
+        self.is_held = False
+        """Whether it waits: the person goes on with the sentence that it acts on."""
         for name in ("question.refused", "question.unanswered"):
             context.events.subscribe(name, self._give_up)
         context.events.subscribe("question.*", self._note_dialogue)
@@ -161,11 +146,11 @@ class Companion:
         sentence that goes on with the one before it is not the same said again.
         """
         self.last_contact = now = self.context.clock.now()
-        self._is_held = False
+        self.is_held = False
         self.puzzlement.understand()
         self.heard.append(rule)
         if rule in FAREWELLS:
-            self._last_farewell = now
+            self.last_farewell = now
         reply = self.replies.replies.get(rule)
         if reply is None or (self.is_asleep and rule not in ALWAYS):
             return
@@ -175,7 +160,7 @@ class Companion:
         if reply.feel:
             # Whoever talks is taken to be the one it attends to.
             self.emotion.feel(reply.feel, reply.intensity, people_of(self.context).attended)
-        objection = getattr(self, f"_{reply.action}")(tags) if reply.action else None
+        objection = self.act(reply.action, tags) if reply.action else None
         if reply.event:
             self.context.events.raise_event(reply.event, text=text, **tags)
         if reply.task is not None:
@@ -187,7 +172,7 @@ class Companion:
         # What it says of its feeling must not be hidden by another face.
         if reply.show and not pool.is_felt:
             label = str(tags.get("emotion", "neutral")) if reply.show[0] == "{" else reply.show
-            self.face.start(self._show, label)
+            self.show(label)
         if reply.gesture:
             self.make(reply.gesture)
         if words and may_speak:
@@ -204,100 +189,20 @@ class Companion:
 
     def hold(self) -> None:
         """Wait: the person goes on with the sentence that it acts on."""
-        self._is_held = True
+        self.is_held = True
         self.motion.hold()
         self.talk.hold()
 
     def resume(self) -> None:
         """Act on the sentence after all; what the person added changes nothing."""
-        self._is_held = False
+        self.is_held = False
         self.motion.resume()
         self.talk.resume()
-
-    def puzzle(self, heard: Mapping[str, Any]) -> None:
-        """Answer someone who was not understood; `heard` is what `speech.rejected` says of it.
-
-        Of two commands that are as likely, it asks which was meant. Words that were not said to it
-        get no answer.
-        """
-        now = self.context.clock.now()
-        is_typed = bool(heard.get("is_typed"))
-        if not is_typed and heard["reason"] not in ("no speech", "robot speaking"):
-            self._last_voice = now
-        if self._is_held or self.is_asleep:
-            return
-        if choices := heard.get("choices", ()):
-            self.puzzlement.last = now
-            self.face.start(self._show, "confused")
-            self.tell("which", one=choices[0], other=choices[1])
-            return
-        puzzle = self._puzzle_of(heard, is_typed)
-        examples = self._examples()
-        commands = [as_said(one) for rule, one in examples.items() if self._is_worth_offering(rule)]
-        answer = self.puzzlement.answer(puzzle, commands, now)
-        if answer is None:
-            return
-        self.face.start(self._show, "confused")
-        nearest = as_said(self._most_like(str(heard["text"])))
-        # What is said of any sentence may take the place of what was said a short while ago.
-        words = self._fresh(answer.kind, Kind.REPHRASE)
-        self.say(words.format_map({"nearest": nearest, **answer.facts}))
-
-    def _puzzle_of(self, heard: Mapping[str, Any], is_typed: bool) -> Puzzle:
-        """What is known of a sentence that was not understood."""
-        grammar: Grammar = self.listener.loaded_grammar
-        text, level = str(heard["text"]), heard.get("level_db")
-        # Of a sound that is like none of its sentences, the nearest one says nothing.
-        is_clear = is_typed or heard.get("confidence", 0.0) >= CLEAR
-        words = (text if is_clear else "") or str(heard.get("begun", ""))
-        is_named = is_clear and self.replies.name.lower() in normalize(text)
-        found = parse(grammar, text) if is_clear else None
-        gist = grammar.made(Gist.of)
-        rule = found.rule if found is not None else gist.rule_of(words)
-        is_answer = rule in grammar.marked("answer")
-        topic = "" if is_answer else self.replies.about.get(rule, "")
-        example = "" if is_answer else self._examples().get(rule, "")
-        return Puzzle(
-            reason=heard["reason"],
-            is_typed=is_typed,
-            is_addressed=is_named or self._is_for_it(heard),
-            is_turned_to=bool(heard.get("is_looked_at")) or is_named,
-            is_quiet=level is not None and level < VERY_QUIET_DB,
-            topic=topic,
-            nearest=as_said(example),
-            strange=gist.strange(text) if is_typed else (),
-            answers=self._answers(grammar),
-            is_answer=is_answer,
-        )
-
-    def _answers(self, grammar: Grammar) -> list[str]:
-        """Two things that would answer the question that is open, or the only one."""
-        if not self.context.board.slot(QUESTION).value:
-            return []
-        if grammar.marked("answer"):
-            return ["yes", "no"]
-        others = grammar.marked("interrupts")
-        # What may be said around an answer belongs to other grammars.
-        own = [rule for rule in grammar.public_rules if rule not in others and "." not in rule]
-        found = (text for rule in own for text in different(grammar, rule))
-        return [as_said(text) for text in islice(found, 2)]
-
-    def _is_for_it(self, heard: Mapping[str, Any]) -> bool:
-        """Whether words were said to it: who is seen, and looks aside, talks to someone else."""
-        is_looked_at = bool(heard.get("is_looked_at"))
-        return is_looked_at or (bool(heard.get("is_addressed")) and self.person() is None)
-
-    def _is_worth_offering(self, rule: str) -> bool:
-        """Whether a command helps someone who does not know any: none that ends something."""
-        reply = self.replies.replies.get(rule, Reply())
-        is_chat = bool(reply.feel) or rule in FAREWELLS
-        tells = any("{commands}" in text or "{why_stopped}" in text for text in reply.say)
-        return not (is_chat or tells or reply.action in ENDING)
 
     def _note_dialogue(self, event: Event) -> None:
         """A task asks, or was answered: it may go on to ask."""
         if not self._is_own_question(str(event.properties.get("text", ""))):
-            self._last_dialogue = event.time
+            self.last_dialogue = event.time
 
     def _is_own_question(self, text: str) -> bool:
         return text in [question.ask for question in self.replies.questions]
@@ -308,12 +213,6 @@ class Companion:
         is_own = self._is_own_question(str(event.properties["text"]))
         if words and not is_own and self.may_speak:
             self.voice.say(words)
-
-    def _most_like(self, text: str) -> str:
-        """The example of a command that is most like a text; else the question for all of them."""
-        examples = self._examples()
-        near = nearest_sentence(self.listener.loaded_grammar, text)
-        return near or examples.get("help", next(iter(examples.values()), ""))
 
     def _perform(self, task: TaskType, tags: dict[str, Any]) -> None:
         """Start a task of the app with the tags it takes; a text that it returns is said."""
@@ -336,9 +235,9 @@ class Companion:
 
     def words(self, key: str, **facts: str) -> str:
         """What [unasked] says, filled in: of several texts the one that was said longest ago."""
-        return self._fresh(key).format_map(facts)
+        return self.fresh(key).format_map(facts)
 
-    def _fresh(self, *keys: str) -> str:
+    def fresh(self, *keys: str) -> str:
         """A text of [unasked] that was not said of late: of the first of these keys, if it can."""
         now = self.context.clock.now()
         text, _ = self._spoken.choose([Pool(self.replies.unasked[key]) for key in keys], now)
@@ -375,15 +274,15 @@ class Companion:
             "name": lambda: self.replies.name,
             "time": self._time_words,
             "battery": self._percent_of_battery,
-            "why": lambda: _aloud(self.emotion.why_words(str(tags.get("emotion", "")))),
+            "why": lambda: aloud(self.emotion.why_words(str(tags.get("emotion", "")))),
             "feeling": self.emotion.feeling_words,
             "why_stopped": self._why_stopped,
-            "commands": self._commands,
+            "commands": lambda: self._commands.words(self.examples()),
             "said": lambda: self._said_last or self.words("nothing_said"),
             "because": lambda: self._because(text, tags),
         }
         if "direction" not in tags:  # a tag of that name is the app's own
-            facts["direction"] = lambda: _direction(tags)
+            facts["direction"] = lambda: direction_words(tags)
         values: dict[str, object] = {key: written(value) for key, value in tags.items()}
         # Only what is filled in is asked for: commands are named in turns.
         fields = set(fields_of(template))
@@ -399,7 +298,7 @@ class Companion:
             return self._filled_in(last.because, text, tags)
         if last is not None and (last.action or last.task is not None):
             return self.words("asked_to")
-        return _aloud(self.emotion.why_words(""))
+        return aloud(self.emotion.why_words(""))
 
     def _time_words(self) -> str:
         wall = self.context.clock.wall()
@@ -416,25 +315,17 @@ class Companion:
         level = battery.level(self.context.clock.now()) if battery else 1.0
         return None if level is None else round(100 * level)
 
-    def _commands(self) -> str:
-        """Examples of some commands, own ones first and others each time; the last one stops it.
-
-        Who asks what can be said knows how to greet it, and how to ask that.
-        """
-        examples = self._examples()
-        stops = [example for rule, example in examples.items() if rule == "stop"]
-        others = [example for rule, example in examples.items() if rule not in UNTOLD]
-        first = self._named if self._named < len(others) else 0
-        self._named = first + EXAMPLES
-        named = [f'"{example}"' for example in others[first : first + EXAMPLES] + stops]
-        return f"{', '.join(named[:-1])}, or {named[-1]}" if len(named) > 1 else "".join(named)
-
-    def _examples(self) -> dict[str, str]:
+    def examples(self) -> dict[str, str]:
         """One sentence for each command by its rule, those of the app's own grammar first."""
         grammar: Grammar = self.listener.loaded_grammar
         return {rule: examples[0] for rule, examples in sayings(grammar).items()}
 
     # --- actions, named as in replies.toml; what one returns is said instead of the reply ---
+
+    def act(self, action: str, tags: dict[str, Any]) -> str | None:
+        """Do one of ACTIONS; what is to be said instead of the reply, if anything."""
+        words: str | None = getattr(self, f"_{action}")(tags)
+        return words
 
     def _drive(self, job: Job, *arguments: Any) -> str | None:
         """Start a motion; while the order does not let the base move, return why it does not."""
@@ -520,84 +411,6 @@ class Companion:
     def _eyes(self, tags: dict[str, Any]) -> None:
         self.switch_camera(tags.get("eyes") == "open")
 
-    # --- asking ---
-
-    def questions(self) -> list[Question]:
-        """What it may ask now: first whether it may keep what it feels, only once, and only people.
-
-        Then what fits what it can do: without a base, it offers no ride.
-        """
-        may_ask = self.emotion.may_ask_to_keep and hears_people(self.context)
-        may_ask = may_ask and not self.has_asked_to_keep
-        keeping = [q for q in self.replies.questions if q.action == "keep" and may_ask]
-        return keeping or [q for q in self.replies.questions if q.action != "keep"]
-
-    def next_question(self) -> Question | None:
-        """The question that it asks next; None when none fits the hour and what was said."""
-        questions = self.questions()
-        place = self.curiosity.choose(questions, self.heard, self.context.clock.wall())
-        return None if place is None else questions[place]
-
-    def agree(self, question: Question) -> str | None:
-        """Do what a yes to a question asks for; what is said then instead of its words, if any."""
-        if question.show:
-            self.face.start(self._show, question.show)
-        if question.action == "keep":
-            self.emotion.begin_keeping()
-        elif question.action:
-            words: str | None = getattr(self, f"_{question.action}")({})
-            return words
-        return None
-
-    def scene(self, wondered: float) -> Scene:
-        """How things stand for who would begin to speak, and asked last at a time in seconds."""
-        context = self.context
-        now = context.clock.now()
-        return Scene(
-            now=now,
-            hour=context.clock.wall().hour,
-            is_asleep=self.is_asleep,
-            is_quiet=not self.may_speak,
-            is_voice_heard=bool(self.listener.is_hearing.value) or self._is_held,
-            is_speaking=self.talk.is_busy or not self.voice.is_idle,
-            is_question_open=bool(context.board.slot(QUESTION).value),
-            is_driving=self.motion.is_busy or context.manager.claims.holder("drive") is not None,
-            is_seen=self.person() is not None,
-            understood=self.last_contact,
-            voice=self._last_voice,
-            puzzled=self.puzzlement.last,
-            farewell=self._last_farewell,
-            dialogue=self._last_dialogue,
-            wondered=wondered,
-        )
-
-    def ask(self, question: Question) -> None:
-        """Ask one of its questions; it gives way to who begins to speak at the same time."""
-        self.talk.start(self._ask, question)
-        self.floor.start(self._give_way, question.ask)
-
-    async def _ask(self, context: TaskContext, question: Question) -> None:
-        self.has_asked_to_keep |= question.action == "keep"
-        answer = await verbs.ask(context, question.ask)
-        self.curiosity.note(question.ask, context.clock.wall())
-        if answer is None:
-            return
-        self.last_contact = context.clock.now()
-        words = (self.agree(question) or question.yes) if answer else question.no
-        if words:
-            await verbs.say(context, words)
-
-    async def _give_way(self, context: TaskContext, words: str) -> None:
-        """Fall silent when someone began to speak about when these words of the robot began."""
-        begun = await _begun(context, words)
-        while context.clock.now() < begun + GIVES_WAY_SECONDS + NOTICED_AFTER:
-            voice = self.listener.other_voice(begun)
-            if voice is not None and gives_way(begun, voice):
-                self.listener.let_speak()
-                self.talk.stop()
-                return
-            await context.clock.sleep(LOOK_EVERY)
-
     # --- what the face shows ---
 
     def _settle(self) -> None:
@@ -617,6 +430,10 @@ class Companion:
         """Whether it shows an expression instead of what it feels."""
         shown = self.context.board.slot(verbs.SHOWN).value
         return shown is not None and shown.label == label
+
+    def show(self, label: str) -> None:
+        """Show an expression for a few seconds, instead of another one."""
+        self.face.start(self._show, label)
 
     async def _show(self, context: TaskContext, label: str) -> None:
         await verbs.show(context, label, SHOW_SECONDS)
@@ -644,25 +461,3 @@ class Companion:
         is_open = self.context.board.slot(QUESTION).value or not self.voice.is_idle
         is_busy = self.talk.is_busy or self.motion.is_busy
         return not (is_open or is_busy or self.listener.is_hearing.value)
-
-
-async def _begun(context: TaskContext, words: str) -> float:
-    """When the robot's words begin to be heard, in seconds; does not come back without them."""
-    with context.queue("speech.said") as queue:
-        while (event := await queue.get()).properties["text"] != words:
-            pass
-    return event.time
-
-
-def _direction(tags: dict[str, Any]) -> str:
-    """Where a motion leads, in words; empty without tags of one."""
-    if "angle" in tags:
-        return turn_words(float(tags["angle"]))
-    return way_words(float(tags["distance"])) if "distance" in tags else ""
-
-
-def _aloud(reason: str) -> str:
-    """A reason for a feeling as it is said aloud, not as a record has it."""
-    reason = reason.replace(", and there is no special reason.", ". Nothing much has happened yet.")
-    reason = reason.replace("I have had ", "I've had ").replace("I have been ", "I've been ")
-    return reason.replace("that is how I am", "that's just how I am").replace("I am ", "I'm ")

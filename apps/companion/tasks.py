@@ -29,8 +29,10 @@ from hri.hal.screen import Screen
 from hri.robot.app import App
 from hri.task.context import TaskContext
 
+from .asking import ask, next_question, scene
 from .companion import Companion, authored_replies, vocabulary_of
 from .presence import attend
+from .puzzled import puzzle
 from .replies import FILE, Replies, load_replies
 from .reply_files import with_named_files
 
@@ -109,7 +111,7 @@ async def converse(context: TaskContext) -> None:
             elif event.name == "speech.confirmed":
                 companion.resume()
             elif event.name == "speech.rejected":
-                companion.puzzle(heard)
+                puzzle(companion, heard)
             if event.name != "speech.heard":
                 continue
             try:
@@ -133,11 +135,11 @@ async def wonder(context: TaskContext) -> None:
     wondered = NEVER
     while companion.replies.questions:
         await context.clock.sleep(0.5)
-        if not may_begin(companion.scene(wondered)):
+        if not may_begin(scene(companion, wondered)):
             continue
-        if (question := companion.next_question()) is not None:
+        if (question := next_question(companion)) is not None:
             wondered = context.clock.now()
-            companion.ask(question)
+            ask(companion, question)
 
 
 async def notice(context: TaskContext) -> None:

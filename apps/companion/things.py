@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from hri.core.errors import HriError
-from hri.core.signals import FoundObject
+from hri.core.signals import FoundObject, Person
+from hri.hal.camera import Camera
 from hri.robot.finding import find_object
 from hri.task.context import TaskContext
 from hri.vision.objects.object_tasks import (
@@ -17,9 +18,6 @@ from hri.vision.objects.object_tasks import (
     learn_object,
     objects_of,
 )
-
-if TYPE_CHECKING:
-    from .companion import Companion
 
 LOOKING_S = 5.0
 """How long a thing is shown."""
@@ -42,57 +40,73 @@ WORDS: Mapping[str, str] = {
 """What it says of them; `replies.toml` may say otherwise in [unasked]."""
 
 
-async def learn(context: TaskContext, companion: Companion, thing: str) -> None:
+class Teller(Protocol):
+    """Who sees things, and speaks of them."""
+
+    context: TaskContext
+    camera: Camera
+
+    def person(self) -> Person | None:
+        """The one it attends to, when they are in sight."""
+
+    def words(self, key: str, **facts: str) -> str:
+        """What it says, by a key of WORDS."""
+
+    def tell(self, key: str, **facts: str) -> None:
+        """Say it."""
+
+
+async def learn(context: TaskContext, teller: Teller, thing: str) -> None:
     """Look at what is held up, and say whether that was enough."""
     try:
         await learn_object(context, thing, LOOKING_S)
     except NoCamera:
-        companion.tell("no_camera", thing=thing)
+        teller.tell("no_camera", thing=thing)
     except NothingShown:
-        companion.tell("nothing_shown", thing=thing)
+        teller.tell("nothing_shown", thing=thing)
     except HriError:
-        companion.tell("not_learned", thing=thing)
+        teller.tell("not_learned", thing=thing)
     else:
-        companion.tell("learned", thing=thing)
+        teller.tell("learned", thing=thing)
 
 
-async def forget(context: TaskContext, companion: Companion, thing: str) -> None:
+async def forget(context: TaskContext, teller: Teller, thing: str) -> None:
     """Forget it, and say so."""
     try:
         await forget_object(context, thing)
     except HriError:
-        companion.tell("unknown_thing", thing=thing)
+        teller.tell("unknown_thing", thing=thing)
     else:
-        companion.tell("forgotten", thing=thing)
+        teller.tell("forgotten", thing=thing)
 
 
-async def find(context: TaskContext, companion: Companion, thing: str) -> None:
+async def find(context: TaskContext, teller: Teller, thing: str) -> None:
     """Look around for it, and go there."""
-    is_found = companion.camera.is_on and await find_object(context, thing)
-    companion.tell("found" if is_found else "not_found", thing=thing)
+    is_found = teller.camera.is_on and await find_object(context, thing)
+    teller.tell("found" if is_found else "not_found", thing=thing)
 
 
-def seen_words(companion: Companion) -> str:
+def seen_words(teller: Teller) -> str:
     """What is in sight."""
-    names = [f"your {name}" for name in dict.fromkeys(one.name for one in _seen(companion))]
-    if companion.person() is not None:
+    names = [f"your {name}" for name in dict.fromkeys(one.name for one in _seen(teller))]
+    if teller.person() is not None:
         names.append("you")
     if not names:
-        return companion.words("sees_nothing")
+        return teller.words("sees_nothing")
     *others, last = names
-    return companion.words("sees", things=f"{', '.join(others)} and {last}" if others else last)
+    return teller.words("sees", things=f"{', '.join(others)} and {last}" if others else last)
 
 
-def where_words(companion: Companion, thing: str) -> str:
+def where_words(teller: Teller, thing: str) -> str:
     """Where a thing is."""
-    for one in _seen(companion):
+    for one in _seen(teller):
         if one.name == thing:
-            return companion.words("sees_at", thing=thing, place=_place(one))
-    return companion.words("not_in_sight", thing=thing)
+            return teller.words("sees_at", thing=thing, place=_place(one))
+    return teller.words("not_in_sight", thing=thing)
 
 
-def _seen(companion: Companion) -> tuple[FoundObject, ...]:
-    return objects_of(companion.context) if companion.camera.is_on else ()
+def _seen(teller: Teller) -> tuple[FoundObject, ...]:
+    return objects_of(teller.context) if teller.camera.is_on else ()
 
 
 def _place(one: FoundObject) -> str:

@@ -1,0 +1,108 @@
+"""The companion's own questions: when it may ask, what it asks, and what it does after a yes."""
+
+from __future__ import annotations
+
+from hri.conversation.floor import GIVES_WAY_SECONDS, Scene, gives_way
+from hri.robot import verbs
+from hri.speech.tasks import hears_people
+from hri.speech.turn import QUESTION
+from hri.task.context import TaskContext
+
+from .companion import Companion
+from .replies import Question
+
+NOTICED_AFTER = 0.3
+"""Seconds after which the ears know that someone has begun to speak."""
+LOOK_EVERY = 0.02
+
+
+def scene(companion: Companion, wondered: float) -> Scene:
+    """How things stand for who would begin to speak, and asked last at a time in seconds."""
+    context = companion.context
+    is_heard = bool(companion.listener.is_hearing.value)
+    is_claimed = context.manager.claims.holder("drive") is not None
+    return Scene(
+        now=context.clock.now(),
+        hour=context.clock.wall().hour,
+        is_asleep=companion.is_asleep,
+        is_quiet=not companion.may_speak,
+        is_voice_heard=is_heard or companion.is_held,
+        is_speaking=companion.talk.is_busy or not companion.voice.is_idle,
+        is_question_open=bool(context.board.slot(QUESTION).value),
+        is_driving=companion.motion.is_busy or is_claimed,
+        is_seen=companion.person() is not None,
+        understood=companion.last_contact,
+        voice=companion.last_voice,
+        puzzled=companion.puzzlement.last,
+        farewell=companion.last_farewell,
+        dialogue=companion.last_dialogue,
+        wondered=wondered,
+    )
+
+
+def next_question(companion: Companion) -> Question | None:
+    """The question that it asks next; None when none fits the hour and what was said."""
+    questions = _questions(companion)
+    at = companion.context.clock.wall()
+    place = companion.curiosity.choose(questions, companion.heard, at)
+    return None if place is None else questions[place]
+
+
+def _questions(companion: Companion) -> list[Question]:
+    """What it may ask now: first whether it may keep what it feels, only once, and only people.
+
+    Then what fits what it can do: without a base, it offers no ride.
+    """
+    may_ask = companion.emotion.may_ask_to_keep and hears_people(companion.context)
+    may_ask = may_ask and not companion.has_asked_to_keep
+    questions = companion.replies.questions
+    keeping = [question for question in questions if question.action == "keep" and may_ask]
+    return keeping or [question for question in questions if question.action != "keep"]
+
+
+def ask(companion: Companion, question: Question) -> None:
+    """Ask one of its questions; it gives way to who begins to speak at the same time."""
+    companion.talk.start(_ask, companion, question)
+    companion.floor.start(_give_way, companion, question.ask)
+
+
+async def _ask(context: TaskContext, companion: Companion, question: Question) -> None:
+    companion.has_asked_to_keep |= question.action == "keep"
+    answer = await verbs.ask(context, question.ask)
+    companion.curiosity.note(question.ask, context.clock.wall())
+    if answer is None:
+        return
+    companion.last_contact = context.clock.now()
+    words = (_agree(companion, question) or question.yes) if answer else question.no
+    if words:
+        await verbs.say(context, words)
+
+
+def _agree(companion: Companion, question: Question) -> str | None:
+    """Do what a yes to a question asks for; what is said then instead of its words, if any."""
+    if question.show:
+        companion.show(question.show)
+    if question.action == "keep":
+        companion.emotion.begin_keeping()
+        return None
+    return companion.act(question.action, {}) if question.action else None
+
+
+async def _give_way(context: TaskContext, companion: Companion, words: str) -> None:
+    """Fall silent when someone began to speak about when these words of the robot began."""
+    begun = await _begun(context, words)
+    while context.clock.now() < begun + GIVES_WAY_SECONDS + NOTICED_AFTER:
+        voice = companion.listener.other_voice(begun)
+        if voice is not None and gives_way(begun, voice):
+            companion.listener.let_speak()
+            companion.talk.stop()
+            return
+        await context.clock.sleep(LOOK_EVERY)
+
+
+async def _begun(context: TaskContext, words: str) -> float:
+    """When the robot's words begin to be heard, in seconds; does not come back without them."""
+    with context.queue("speech.said") as queue:
+        while (event := await queue.get()).properties["text"] != words:
+            pass
+    return event.time

@@ -1,0 +1,120 @@
+"""What the companion answers to what it does not understand.
+
+`hri.conversation.puzzlement` decides on the kind of answer; here is what it has to know for that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import islice
+from typing import Any
+
+from hri.conversation.examples import different, nearest_sentence
+from hri.conversation.gist import Gist
+from hri.conversation.puzzlement import Answer, Kind, Puzzle, as_said
+from hri.speech.automatic_level import VERY_QUIET_DB
+from hri.speech.grammar import Grammar, parse
+from hri.speech.grammar.words import normalize
+from hri.speech.turn import QUESTION
+
+from .companion import FAREWELLS, Companion
+from .replies import Reply
+
+CLEAR = 0.3
+"""Confidence from which words that do not count say what a sentence was about."""
+ENDING = ("stop", "quiet", "release", "sleep")
+"""Actions that help no one who does not know what to say."""
+
+
+def puzzle(companion: Companion, heard: Mapping[str, Any]) -> None:
+    """Answer someone who was not understood; `heard` is what `speech.rejected` says of it.
+
+    Of two commands that are as likely, it asks which was meant. Words that were not said to it
+    get no answer.
+    """
+    now = companion.context.clock.now()
+    is_typed = bool(heard.get("is_typed"))
+    if not is_typed and heard["reason"] not in ("no speech", "robot speaking"):
+        companion.last_voice = now
+    if companion.is_held or companion.is_asleep:
+        return
+    if choices := heard.get("choices", ()):
+        companion.puzzlement.last = now
+        companion.show("confused")
+        companion.tell("which", one=choices[0], other=choices[1])
+        return
+    examples = companion.examples()
+    offers = [as_said(one) for rule, one in examples.items() if _is_worth_offering(companion, rule)]
+    answer = companion.puzzlement.answer(_puzzle_of(companion, heard, is_typed), offers, now)
+    if answer is not None:
+        _tell(companion, answer, str(heard["text"]))
+
+
+def _tell(companion: Companion, answer: Answer, text: str) -> None:
+    companion.show("confused")
+    nearest = as_said(_most_like(companion, text))
+    # What is said of any sentence may take the place of what was said a short while ago.
+    words = companion.fresh(answer.kind, Kind.REPHRASE)
+    companion.say(words.format_map({"nearest": nearest, **answer.facts}))
+
+
+def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -> Puzzle:
+    """What is known of a sentence that was not understood."""
+    grammar: Grammar = companion.listener.loaded_grammar
+    text, level = str(heard["text"]), heard.get("level_db")
+    # Of a sound that is like none of its sentences, the nearest one says nothing.
+    is_clear = is_typed or heard.get("confidence", 0.0) >= CLEAR
+    words = (text if is_clear else "") or str(heard.get("begun", ""))
+    is_named = is_clear and companion.replies.name.lower() in normalize(text)
+    found = parse(grammar, text) if is_clear else None
+    gist = grammar.made(Gist.of)
+    rule = found.rule if found is not None else gist.rule_of(words)
+    is_answer = rule in grammar.marked("answer")
+    topic = "" if is_answer else companion.replies.about.get(rule, "")
+    example = "" if is_answer else companion.examples().get(rule, "")
+    return Puzzle(
+        reason=heard["reason"],
+        is_typed=is_typed,
+        is_addressed=is_named or _is_for_it(companion, heard),
+        is_turned_to=bool(heard.get("is_looked_at")) or is_named,
+        is_quiet=level is not None and level < VERY_QUIET_DB,
+        topic=topic,
+        nearest=as_said(example),
+        strange=gist.strange(text) if is_typed else (),
+        answers=_answers(companion, grammar),
+        is_answer=is_answer,
+    )
+
+
+def _answers(companion: Companion, grammar: Grammar) -> list[str]:
+    """Two things that would answer the question that is open, or the only one."""
+    if not companion.context.board.slot(QUESTION).value:
+        return []
+    if grammar.marked("answer"):
+        return ["yes", "no"]
+    others = grammar.marked("interrupts")
+    # What may be said around an answer belongs to other grammars.
+    own = [rule for rule in grammar.public_rules if rule not in others and "." not in rule]
+    found = (text for rule in own for text in different(grammar, rule))
+    return [as_said(text) for text in islice(found, 2)]
+
+
+def _is_for_it(companion: Companion, heard: Mapping[str, Any]) -> bool:
+    """Whether words were said to it: who is seen, and looks aside, talks to someone else."""
+    is_looked_at = bool(heard.get("is_looked_at"))
+    return is_looked_at or (bool(heard.get("is_addressed")) and companion.person() is None)
+
+
+def _is_worth_offering(companion: Companion, rule: str) -> bool:
+    """Whether a command helps someone who does not know any: none that ends something."""
+    reply = companion.replies.replies.get(rule, Reply())
+    is_chat = bool(reply.feel) or rule in FAREWELLS
+    tells = any("{commands}" in text or "{why_stopped}" in text for text in reply.say)
+    return not (is_chat or tells or reply.action in ENDING)
+
+
+def _most_like(companion: Companion, text: str) -> str:
+    """The example of a command that is most like a text; else the question for all of them."""
+    examples = companion.examples()
+    near = nearest_sentence(companion.listener.loaded_grammar, text)
+    return near or examples.get("help", next(iter(examples.values()), ""))
