@@ -379,6 +379,29 @@ def test_all_mistakes_of_own_replies_are_told_at_once(put):
     assert [e.place.line for e in error.value.errors] == [2, 3]
 
 
+QUESTION = """[[question]]
+ask = "Shall I dance?"
+yes = "Here I go."
+action = "{}"
+"""
+
+
+@pytest.mark.parametrize(
+    "action", ["move", "turn", "come", "follow", "find", "release", "wake", "dance", "Hri.Move"]
+)
+def test_a_yes_to_a_question_moves_nothing(put, action):
+    """Neither an action that moves the base, or lets it move, nor a task that may."""
+    files = {**DANCE, "replies.toml": DANCE["replies.toml"] + QUESTION.format(action)}
+    with pytest.raises(AuthoringError) as error:
+        robot_of(put(files))
+    assert f'replies.toml:6:1: action is "{action}" - ' in str(error.value)
+    assert "keep, see" in str(error.value)
+
+
+def test_a_question_may_look_around(put):
+    robot_of(put({**DANCE, "replies.toml": DANCE["replies.toml"] + QUESTION.format("see")}))
+
+
 def shown(robot, times):
     """The expressions that are shown in place of a felt one at these times."""
     seen = {}
