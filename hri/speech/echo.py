@@ -123,19 +123,29 @@ class Leftover:
     """How much of what the microphone heard of late was left without the robot's voice."""
 
     def __init__(self) -> None:
-        self._blocks: deque[tuple[float, float, float]] = deque()
+        self._blocks: deque[tuple[float, float, float, int]] = deque()
 
     def add(self, heard: Samples, left: Samples, now: float) -> None:
         """What was heard up to a time in seconds, and what is left of it."""
-        self._blocks.append((now, _energy(heard), _energy(left)))
+        self._blocks.append((now, _energy(heard), _energy(left), len(left)))
         while now - self._blocks[0][0] > REMEMBERED:
             self._blocks.popleft()
 
     def share(self, start: float, end: float) -> float:
         """Share of the energy between two times in seconds that is left; 1 when none is known."""
-        blocks = [block for block in self._blocks if start <= block[0] <= end + AFTER]
+        blocks = self._between(start, end)
         before = sum(block[1] for block in blocks)
         return sum(block[2] for block in blocks) / before if before else 1.0
+
+    def level_db(self, start: float, end: float) -> float:
+        """Level of what is left between two times in seconds, dB against full scale."""
+        blocks = self._between(start, end)
+        count = max(1, sum(block[3] for block in blocks))
+        power = sum(block[2] for block in blocks) / count / FULL_SCALE**2
+        return 10.0 * math.log10(max(power, 1e-12))
+
+    def _between(self, start: float, end: float) -> list[tuple[float, float, float, int]]:
+        return [block for block in self._blocks if start <= block[0] <= end + AFTER]
 
 
 def _energy(samples: Samples) -> float:

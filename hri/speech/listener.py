@@ -49,6 +49,8 @@ class _Piece:
     """Whether someone turned to the robot meanwhile."""
     told: Callable[[Heard], object] | None = None
     """Who typed it wants to know what became of it."""
+    is_own_known: bool = False
+    """Whether it was known at its beginning what the robot's own voice would leave of itself."""
     has_floor: bool = False
     """Whether it counts as if the robot had not spoken, which fell silent for it."""
     is_typed: bool = False
@@ -315,9 +317,13 @@ class Listener(Behavior):
         if was_hearing or self._recognizer.is_hearing or segments:
             self._note(is_speaking)
             if not was_hearing:
+                self._piece.is_own_known = self._own_voice.is_known
                 self._notice_going_on()
         elif not (is_deaf or is_speaking):
             self._room.hear(samples)
+        if not is_deaf:
+            seconds = len(samples) / self._recognizer.rate
+            self._own_voice.note_voice(self._voice_begun, seconds, now)
         self._waiting.extend((segment, self._piece) for segment in segments)
         if segments or not self._recognizer.is_hearing:
             self._piece = _Piece()
@@ -335,11 +341,19 @@ class Listener(Behavior):
 
         Also None where it may be what is left of the robot's own voice, which began at `begun`.
         """
-        segment = self._recognizer.open_segment
-        if segment is None:
+        segment, voice = self._recognizer.open_segment, self._voice_begun
+        if segment is None or voice is None or voice < begun:
+            return voice
+        if not self._piece.is_own_known or segment.noise_db is None:
             return None
-        voice = segment.start + PRE_ROLL
-        return voice if voice < begun or self._own_voice.is_subtracted else None
+        is_other = self._own_voice.is_other(voice, self._clock.now(), segment.noise_db)
+        return voice if is_other else None
+
+    @property
+    def _voice_begun(self) -> float | None:
+        """When the voice that is heard now began, in seconds; None without one."""
+        segment = self._recognizer.open_segment
+        return None if segment is None else segment.start + PRE_ROLL
 
     def let_speak(self) -> None:
         """Judge what is being said as if the robot had not spoken: it falls silent for it."""

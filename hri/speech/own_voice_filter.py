@@ -21,6 +21,9 @@ LITTLE = 0.25
 """Share of a sound's energy without the robot's voice that may be only what is left of it: where
 that sounded like a command it had 0.24 at most, a stop word as loud as its voice has 0.28 and more.
 """
+FAR_ABOVE = 20.0
+"""Decibels above the noise at which a voice is not what is left of the robot's own: that had 17 at
+most, people in the simulated room 27 and more."""
 RECENT = 0.2
 """Seconds of sound that show whether its voice is subtracted, and nobody else speaks."""
 
@@ -38,6 +41,8 @@ class OwnVoiceFilter:
         self._subtracted = 0.0  # seconds of its voice so far
         self._learned = 0.0  # when that was LEARNING
         self._subtracts = False  # whether little of its voice has been left since
+        self._sounded = -ECHO_TAIL  # when it was last to be heard
+        self._unheard = 0.0  # seconds of its voice since a voice was heard with it
 
     def note_speaking(self, now: float) -> None:
         """The robot speaks at a time in seconds."""
@@ -58,10 +63,15 @@ class OwnVoiceFilter:
             rest = self._canceller.flush()
             return np.concatenate([rest, heard]) if len(rest) else heard
         played = self._own_voice.played(speech, position, len(heard), now)
-        if self._subtracted < LEARNING and played.any():
-            self._subtracted += len(heard) / self._rate
-            self._learned = now
+        if played.any():
+            self._note_sound(len(heard) / self._rate, now)
         return self._canceller.cancel(heard, played)
+
+    def _note_sound(self, seconds: float, now: float) -> None:
+        self._sounded = now
+        if self._subtracted < LEARNING:
+            self._subtracted += seconds
+            self._learned = now
 
     def begins_to_subtract(self, now: float) -> bool:
         """Whether little of its voice is left for the first time.
@@ -74,10 +84,25 @@ class OwnVoiceFilter:
         self._subtracts = self._leftover.share(now - RECENT, now) < LITTLE
         return self._subtracts
 
+    def note_voice(self, begun: float | None, dt: float, now: float) -> None:
+        """A voice is heard that began at a time in seconds, or none, in the last `dt` seconds.
+
+        As long as none is while the robot speaks, its own does not get to the microphone.
+        """
+        if begun is None and self._sounded == now:
+            self._unheard += dt
+        elif begun is not None and begun <= self._sounded:
+            self._unheard = 0.0
+
     @property
-    def is_subtracted(self) -> bool:
-        """Whether little of its voice is left, so that a voice in the rest is another one."""
-        return self._subtracts
+    def is_known(self) -> bool:
+        """Whether it is known what of its voice gets to the microphone: little, or nothing."""
+        return self._subtracts or self._unheard >= LEARNING
+
+    def is_other(self, begun: float, now: float, noise_db: float) -> bool:
+        """Whether a voice that began at a time is someone else's, if that is known."""
+        is_loud = self._leftover.level_db(begun, now) >= noise_db + FAR_ABOVE
+        return is_loud and self._leftover.share(begun, now) >= LITTLE
 
     def is_own(self, heard: Heard) -> bool:
         """Whether what was heard while the robot spoke is what it said, and most of the sound.

@@ -1,15 +1,17 @@
 """The companion leaves no one without an answer, and does not talk over people."""
 
 from datetime import datetime
+from functools import cache
 
 import pytest
 
 from hri.conversation.puzzlement import Kind
 from hri.core.clock import FakeClock
+from hri.hal.resource import Description
 from hri.robot import verbs
 from hri.speech.behaviors import Listener
 from tests.apps.test_companion import SLOW_CAMERA, Visit
-from tests.devices import SMALL_SCREEN
+from tests.devices import BLIND, SMALL_SCREEN
 
 UNKNOWN = ["my dog died", "fly to the moon", "play some music", "sing me a song"]
 
@@ -136,14 +138,47 @@ def test_at_night_it_asks_nothing(monkeypatch):
     assert questions(Visit(14, {1.0: "hello robot"})) == []
 
 
-@pytest.mark.parametrize("before", [0.3, 0.1])
-def test_who_begins_to_speak_with_it_has_the_floor(before):
-    first = Visit(13, {1.0: "hello robot"})
-    (asked,) = [event for event in first.named("speech.said") if event.time > 7]
-    visit = Visit(asked.time + 4, {1.0: "hello robot", asked.time - before: "what is your name"})
+@cache
+def first_question(level=None):
+    """When it begins to say its first question, and nobody speaks meanwhile."""
+    visit = Visit(12, {1.0: "hello robot"}, devices=room(level))
+    (asked,) = [event for event in visit.named("speech.said") if event.time > 7]
+    return asked.time
+
+
+def room(level=None):
+    """Devices of a room in which its voice is heard as loud as that, in dB, or not at all."""
+    loud = Description("speaker", "Hri.SimulatedSpeaker", {"level": str(level)}, "world")
+    return [SMALL_SCREEN, BLIND, *([] if level is None else [loud])]
+
+
+@pytest.mark.parametrize(
+    ("after", "level"), [(-0.3, None), (-0.1, None), (0.1, None), (0.25, None), (0.15, -6)]
+)
+def test_who_begins_to_speak_with_it_has_the_floor(after, level):
+    asked = first_question(level)
+    lines = {1.0: "hello robot", asked + after: "what is your name"}
+    visit = Visit(asked + 4, lines, devices=room(level))
     assert visit.heard() == ["greet", "name"]
     assert visit.said()[-1] == "My name is Robin."
     assert questions(visit) == []
     # Who began before its ears knew it cuts it short.
     cut = [event for event in visit.named("speech.finished") if event.properties["cut"]]
-    assert all(event.time < asked.time + 0.3 for event in cut)
+    assert all(event.time < max(asked, asked + after) + 0.3 for event in cut)
+
+
+def test_who_begins_later_does_not_have_the_floor():
+    asked = first_question()
+    visit = Visit(asked + 3, {1.0: "hello robot", asked + 0.5: "what is your name"})
+    assert visit.heard() == ["greet"]
+    assert [event.properties["reason"] for event in visit.named("speech.rejected")] == [
+        "robot speaking"
+    ]
+
+
+@pytest.mark.parametrize("level", [-30, -20, -6])
+def test_it_does_not_give_way_to_its_own_voice(level):
+    visit = Visit(first_question(level) + 3, {1.0: "hello robot"}, devices=room(level))
+    assert visit.heard() == ["greet"]
+    assert [event.properties["cut"] for event in visit.named("speech.finished")] == [False, False]
+    assert len(visit.said()) == 2

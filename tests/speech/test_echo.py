@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from hri.core.signals import Span, Speech
 from hri.speech.echo import BLOCK, LEAD, REMEMBERED, EchoCanceller, Leftover, OwnVoice
@@ -110,6 +111,15 @@ def test_how_much_was_left_is_known_by_the_time():
     assert 0.5 < leftover.share(0.0, 2.0) < 0.6
     leftover.add(loud, loud, 2.0 + REMEMBERED)
     assert leftover.share(0.0, 1.5) == 1.0  # long ago
+
+
+def test_how_loud_is_what_was_left():
+    left = Leftover()
+    assert left.level_db(0.0, 1.0) == -120.0
+    left.add(np.full(1600, 3277, np.int16), np.full(1600, 3277, np.int16), 0.1)
+    left.add(np.full(1600, 3277, np.int16), np.full(1600, 328, np.int16), 1.0)
+    assert left.level_db(0.0, 0.2) == pytest.approx(-20.0, abs=0.01)
+    assert left.level_db(0.9, 1.0) == pytest.approx(-40.0, abs=0.1)
 
 
 def test_its_words_are_known_by_their_times():
