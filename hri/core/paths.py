@@ -6,6 +6,7 @@ import difflib
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 
 from hri.core.errors import HriError, did_you_mean
@@ -36,6 +37,7 @@ def is_file(path: Path) -> bool:
         return False
 
 
+@cache
 def house() -> Path:
     """The folder with `faces/`, `grammars/`, ...: the checkout, or `hri/data` of a wheel."""
     package = Path(__file__).resolve().parents[1]

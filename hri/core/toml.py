@@ -11,6 +11,7 @@ import math
 import re
 import tomllib
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -25,6 +26,8 @@ LARGEST = 1e300
 
 LARGEST_TOML = 1_000_000
 """Bytes of a file: some 3 seconds of reading on a slow machine."""
+MOST_KEPT = 32
+"""Texts that are kept as they were read: a robot that starts reads most files several times."""
 DEEPEST = 32
 """Parts of a dotted key, `a.b.c` has three. Each line below a deep header repeats all of it."""
 
@@ -42,7 +45,7 @@ def load_toml(path: Path, what: str = "TOML file") -> Table:
     text = read_text(path, what, LARGEST_TOML)
     _check_depth(path, text)
     try:
-        data = tomllib.loads(text)
+        data, places = _parsed(text)
     except tomllib.TOMLDecodeError as error:
         match = _POSITION.search(str(error))
         line, column = (match.group(1), match.group(2)) if match else (None, None)
@@ -55,7 +58,13 @@ def load_toml(path: Path, what: str = "TOML file") -> Table:
         raise AuthoringError(
             Place(path), "brackets or numbers without end", "shorten it"
         ) from error
-    return Table(data, path, (), locate_keys(text))
+    return Table(data, path, (), places)
+
+
+@lru_cache(maxsize=MOST_KEPT)
+def _parsed(text: str) -> tuple[dict[str, Any], dict[Key, Place]]:
+    """What a text says, and where each key stands; a Table changes neither."""
+    return tomllib.loads(text), locate_keys(text)
 
 
 def _check_depth(path: Path, text: str) -> None:

@@ -6,7 +6,6 @@ import re
 import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 
@@ -15,7 +14,7 @@ from hri.core.signals import Samples, Span, Speech
 from hri.hal.drivers.resampling import resample
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.alignment import Placed, forced, free, phonemes, placed
-from hri.speech.recognizers.ctc.conformer import FRAME, Conformer, load_network
+from hri.speech.recognizers.ctc.conformer import FRAME, load_network
 from hri.speech.recognizers.ctc.features import RATE
 from hri.speech.recognizers.ctc.phone_graph import Floats
 from hri.speech.synthesizers.natural_text import words_read
@@ -69,7 +68,7 @@ def with_times(speech: Speech) -> Speech:
 
 def posteriors(sound: Samples) -> Floats:
     """Log probabilities [frames, classes] of 16 kHz sound of any length, piece by piece."""
-    network = _network()
+    network = load_network()
     piece, margin = round(PIECE / FRAME), round(MARGIN / FRAME)
     step = round(FRAME * RATE)
     parts: list[Floats] = []
@@ -98,8 +97,3 @@ def _spans(text: str, phones: Sequence[Placed], origins: Sequence[int]) -> Itera
         if number in spoken:
             said = spoken[number]
             yield Span(match[0], match.start(), said[0].start, said[-1].end)
-
-
-@cache
-def _network() -> Conformer:
-    return load_network()

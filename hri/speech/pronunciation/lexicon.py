@@ -20,6 +20,7 @@ import os
 import re
 import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
 from pathlib import Path
 from typing import Literal
 
@@ -212,8 +213,12 @@ def load_lexicon(*files: Path) -> Lexicon:
     own: dict[str, tuple[Phones, ...]] = {}
     for path in (*_of_user(), *files):
         own |= read_lexicon(path)
-    names = read_lexicon(MORE_NAMES)
-    return Lexicon(own, cmu_dictionary(), read_lexicon(VARIANTS), names=names)
+    return Lexicon(own, cmu_dictionary(), _built_in(VARIANTS), names=_built_in(MORE_NAMES))
+
+
+@cache
+def _built_in(path: Path) -> Mapping[str, tuple[Phones, ...]]:
+    return read_lexicon(path)
 
 
 def user_lexicon() -> Path:

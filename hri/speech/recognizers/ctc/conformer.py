@@ -15,13 +15,14 @@ and 15 s 73 ms (attention grows with the square); weights and work take 22 to 35
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hri.speech.recognizers.ctc.classes import CLASSES
 from hri.speech.recognizers.ctc.features import BANDS, BINS, WIDTH, Sound, log_mel, padded
-from hri.speech.recognizers.ctc.weights import Tensor, find_weights, read_tensors, take
+from hri.speech.recognizers.ctc.weights import FILE, Tensor, find_weights, read_tensors, take
 
 FRAME = 0.02
 """Seconds from one frame of posteriors to the next; frame i is about the sound at i * FRAME."""
@@ -307,5 +308,14 @@ _ERF = np.array([1.061405429, -1.453152027, 1.421413741, -0.284496736, 0.2548295
 
 
 def load_network(path: str = "") -> Conformer:
-    """The network of a weight file (from `find_weights`). Raises NotAvailable, HriError."""
-    return Conformer(read_tensors(find_weights(path)))
+    """The network of a weight file (from `find_weights`). Raises NotAvailable, HriError.
+
+    The one that comes with `hri` is loaded once, for ears and lips alike.
+    """
+    file = find_weights(path)
+    return _own_network() if file == FILE else Conformer(read_tensors(file))
+
+
+@cache
+def _own_network() -> Conformer:
+    return Conformer(read_tensors(FILE))

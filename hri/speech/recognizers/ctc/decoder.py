@@ -24,6 +24,7 @@ from hri.speech.recognizers.ctc.conformer import FRAME, load_network
 from hri.speech.recognizers.ctc.features import Sound
 from hri.speech.recognizers.ctc.habits import Habits
 from hri.speech.recognizers.ctc.hesitations import hesitations, without
+from hri.speech.recognizers.ctc.kept_graphs import compiled
 from hri.speech.recognizers.ctc.key_phrases import (
     confidence_in_phrase,
     has_free,
@@ -32,7 +33,7 @@ from hri.speech.recognizers.ctc.key_phrases import (
 )
 from hri.speech.recognizers.ctc.lattice import Path
 from hri.speech.recognizers.ctc.loudness import KEPT, leveled, noise_of, sounding
-from hri.speech.recognizers.ctc.phone_graph import Floats, PhoneGraph, compile
+from hri.speech.recognizers.ctc.phone_graph import Floats, PhoneGraph
 from hri.speech.recognizers.ctc.posterior_stream import PosteriorStream
 from hri.speech.recognizers.ctc.ranking import ranked
 from hri.speech.recognizers.ctc.rivals import Rivals
@@ -112,7 +113,7 @@ class CtcRecognizer(EndpointedRecognizer):
         require_english(grammar, self.manager.notice)
         # The same lexicon for both: it may have changed since the engine was opened.
         lexicon = Habits(load_lexicon())
-        search, rivals = Search(compile(grammar.graph(), lexicon)), Rivals(lexicon)
+        search, rivals = Search(compiled(grammar.graph(), lexicon)), Rivals(lexicon)
         with self._work:
             self._search, self._rivals = search, rivals
             self._progress = None
