@@ -4,7 +4,7 @@ from hri import Robot
 from hri.hal.microphone import Microphone
 from hri.hal.resource import Description
 
-SMALL_SCREEN = Description("screen", "Hri.OffscreenScreen", {"width": "160", "height": "120"})
+SMALL_SCREEN = Description("screen", "Hri.OffscreenScreen", {"width": "32", "height": "24"})
 BLIND = Description("camera", "Hri.BlankCamera")
 """Seeing costs most of the time of a life; where it is of no concern a robot sees nothing."""
 TYPED = (

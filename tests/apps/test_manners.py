@@ -139,10 +139,14 @@ def test_at_night_it_asks_nothing(monkeypatch):
 
 
 @cache
+def undisturbed(level=None):
+    """A visit in which it asks its first question, and nobody speaks meanwhile."""
+    return Visit(12.5, {1.0: "hello robot"}, devices=room(level))
+
+
 def first_question(level=None):
-    """When it begins to say its first question, and nobody speaks meanwhile."""
-    visit = Visit(12, {1.0: "hello robot"}, devices=room(level))
-    (asked,) = [event for event in visit.named("speech.said") if event.time > 7]
+    """When it begins to say that question."""
+    (asked,) = [event for event in undisturbed(level).named("speech.said") if event.time > 7]
     return asked.time
 
 
@@ -178,7 +182,7 @@ def test_who_begins_later_does_not_have_the_floor():
 
 @pytest.mark.parametrize("level", [-30, -20, -6])
 def test_it_does_not_give_way_to_its_own_voice(level):
-    visit = Visit(first_question(level) + 3, {1.0: "hello robot"}, devices=room(level))
+    visit = undisturbed(level)
     assert visit.heard() == ["greet"]
     assert [event.properties["cut"] for event in visit.named("speech.finished")] == [False, False]
     assert len(visit.said()) == 2

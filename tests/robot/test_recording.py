@@ -21,7 +21,7 @@ from hri.core.recorded import ABOUT, FILES, STARTED
 from hri.hal.drivers.wav_file import read_wav
 from hri.robot.provenance import utc_now
 from hri.robot.recording import ALOUD, Recording
-from tests.devices import live_microphone
+from tests.devices import SMALL_SCREEN, live_microphone
 from tests.disk import full_disk
 
 APP = """networks = ["face.xml", "feeling.xml"]
@@ -48,10 +48,10 @@ def record(tmp_path):
     (tmp_path / "feeling.xml").write_text(FEELING)
     told = []
 
-    def record(prepare=lambda robot: None, **options):
+    def record(prepare=lambda robot: None, devices=(SMALL_SCREEN,), **options):
         robot = Robot(
             str(tmp_path), "simulated", clock=FakeClock(), notice=told.append,
-            record=tmp_path / "out", **options,
+            record=tmp_path / "out", devices=devices, **options,
         )  # fmt: skip
         robot.told = told
         prepare(robot)
@@ -128,7 +128,7 @@ def test_words_that_were_rejected_are_written_when_it_is_asked_for(record, tmp_p
 
 
 def test_a_recording_is_told_in_one_line_and_marked_on_the_face(record, tmp_path):
-    robot = record()
+    robot = record(devices=())
     (line,) = robot.told
     assert line.startswith(f"recording to {tmp_path / 'out'}/")
     film = cv2.VideoCapture(str(tmp_path / "out" / "face.mp4"))
@@ -164,7 +164,7 @@ def test_on_a_full_disk_the_robot_goes_on_and_each_file_ends_with_one_line(
     record, tmp_path, caplog
 ):
     with full_disk(after=30_000):
-        robot = record()
+        robot = record(devices=())
     assert robot.lived >= 2.0
     out = tmp_path / "out"
     ended = [message.partition(" ends here: ")[0] for message in caplog.messages]
