@@ -45,7 +45,9 @@ from .facts import Commands, aloud, direction_words
 from .replies import FILE, Replies, Reply, Vocabulary, known_personalities, load_replies
 from .reply_texts import fields_of
 
-ALWAYS = ("stop", "wake")
+DANGER = ("in_danger", "being_hurt", "emergency")
+"""Rules of people in danger: they wake it, and it speaks even if it was asked to be quiet."""
+ALWAYS = ("stop", "wake", *DANGER)
 """Rules that count even while it sleeps."""
 FLOOR_SECONDS = 0.4
 """How long it waits with words for someone who may go on speaking; it acts at once."""
@@ -54,7 +56,7 @@ FOR_GOOD = 1e9
 QUIET_SECONDS = 60.0
 ABOUT_THE_LAST = ("why_that", "say_again")
 """Rules that speak of the reply before them."""
-GREETINGS = ("greet", "wake")
+SPEAK_UP = ("greet", "wake", *DANGER)
 """Rules that end its being quiet."""
 FAREWELLS = ("leave", "good_night", "sleep")
 """Rules that end a talk; it asks no question then."""
@@ -154,7 +156,9 @@ class Companion:
         reply = self.replies.replies.get(rule)
         if reply is None or (self.is_asleep and rule not in ALWAYS):
             return
-        if rule in GREETINGS and not self.may_speak:
+        if self.is_asleep and rule in DANGER:
+            self._wake(tags)
+        if rule in SPEAK_UP and not self.may_speak:
             self._be_quiet(0.0)
         may_speak = self.may_speak  # a robot asked to be quiet may still answer that
         if reply.feel:

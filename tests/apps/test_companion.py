@@ -18,6 +18,7 @@ from hri.robot import Robot, verbs
 from hri.robot.app import load_app
 from hri.simulation.simulated_devices import SimulatedBattery
 from hri.simulation.world import SimulatedWorld
+from hri.speech.grammar import load_grammar, parse
 from hri.speech.synthesizers.espeak import EspeakVoice
 from hri.testing import live_for
 from tests.devices import BLIND, SMALL_SCREEN, live_microphone
@@ -234,6 +235,44 @@ def test_quiet_means_that_it_does_but_does_not_speak():
     assert visit.said() == ["Okay, I'll be quiet."]
     assert [event.properties["name"] for event in visit.named("gesture.ended")] == ["nod", "nod"]
     assert visit.pose_at(13.5).x == pytest.approx(1.0, abs=0.03)
+
+
+@pytest.mark.parametrize("before", ["be quiet", "go to sleep"])
+def test_who_is_in_danger_is_answered_whatever_was_asked_before(before):
+    visit = Visit(12, {1.0: before, 5.0: "i want to die"})
+    assert visit.heard()[-1] == "in_danger"
+    assert "988" in visit.said()[-1]
+
+
+def test_people_in_danger_are_told_whom_to_call():
+    """No joke and no feeling of its own: each text names a number to call, or people."""
+    text = (paths.find("apps", "companion") / "replies.toml").read_text(encoding="utf-8")
+    grammar = load_grammar("companion")
+    for rule, numbers in (("in_danger", "988"), ("being_hurt", "911 988"), ("emergency", "911")):
+        assert not grammar.rules[rule].topics
+        entry = tomllib.loads(text)["reply"][rule]
+        assert entry.keys() == {"say", "again", "show"}
+        for words in entry["say"] + entry["again"]:
+            assert any(number in words for number in numbers.split()), words
+
+
+@pytest.mark.parametrize(
+    ("text", "rule"),
+    [
+        ("i just wanna die", "in_danger"),
+        ("i've been thinking about killing myself", "in_danger"),
+        ("nobody would care if i was gone", "in_danger"),
+        ("my uncle keeps touching me", "being_hurt"),
+        ("help me i fell and i can't get up", "emergency"),
+        ("i think i'm having a heart attack", "emergency"),
+        ("i do not want to die", ""),
+        ("i don't want to hurt myself", ""),
+        ("do plants die", ""),
+    ],
+)
+def test_danger_is_told_from_other_talk(text, rule):
+    found = parse(load_grammar("companion"), text)
+    assert (found.rule if found else "") == rule
 
 
 def test_what_the_grammar_does_not_know_does_nothing():

@@ -159,10 +159,3 @@ def test_what_people_say_is_understood(companion, text, rule):
 def test_what_is_denied_or_said_of_others_is_not_taken_for_its_opposite(companion, text):
     found = understood(companion, text)
     assert found is None or found.rule not in {"insult", "scold", "in_danger", "i_am_hungry"}
-
-
-def test_who_speaks_of_dying_is_told_whom_to_call():
-    """No joke and no cheer: each text names a number or someone to turn to."""
-    entry = replies("comfort")["in_danger"]
-    assert all("988" in text for _, text in texts(entry))
-    assert "gesture" not in entry
