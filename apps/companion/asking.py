@@ -36,6 +36,7 @@ def scene(companion: Companion, wondered: float) -> Scene:
         puzzled=companion.puzzlement.last,
         farewell=companion.last_farewell,
         dialogue=companion.last_dialogue,
+        tender=companion.last_tender,
         wondered=wondered,
     )
 

@@ -59,6 +59,8 @@ ABOUT_THE_LAST = ("why_that", "say_again")
 SPEAK_UP = ("greet", "wake", *DANGER)
 """Rules that end its being quiet."""
 FAREWELLS = ("leave", "good_night", "sleep")
+TENDER = ("sad", "vulnerable", "embarrassed")
+"""Faces of moments in which it asks nothing by itself."""
 """Rules that end a talk; it asks no question then."""
 MOST_HEARD = 100
 """Rules that are remembered."""
@@ -113,7 +115,9 @@ class Companion:
         self.curiosity = Curiosity(f"{context.clock.wall():%Y-%m-%d %H:%M}")
         self.heard: deque[str] = deque(maxlen=MOST_HEARD)
         """The rules that people said, the last one last."""
-        self.last_voice = self.last_farewell = self.last_dialogue = NEVER
+        self.last_voice = self.last_farewell = self.last_dialogue = self.last_tender = NEVER
+        self.is_wondering = False
+        """Whether it asked the last question by itself, not for a task."""
         self.is_held = False
         """Whether it waits: the person goes on with the sentence that it acts on."""
         for name in ("question.refused", "question.unanswered"):
@@ -161,6 +165,8 @@ class Companion:
         if rule in SPEAK_UP and not self.may_speak:
             self._be_quiet(0.0)
         may_speak = self.may_speak  # a robot asked to be quiet may still answer that
+        if reply.show in TENDER:
+            self.last_tender = now
         if reply.feel:
             # Whoever talks is taken to be the one it attends to.
             self.emotion.feel(reply.feel, reply.intensity, people_of(self.context).attended)
@@ -205,7 +211,8 @@ class Companion:
 
     def _note_dialogue(self, event: Event) -> None:
         """A task asks, or was answered: it may go on to ask."""
-        if not self._is_own_question(str(event.properties.get("text", ""))):
+        self.is_wondering = self._is_own_question(str(event.properties.get("text", "")))
+        if not self.is_wondering:
             self.last_dialogue = event.time
 
     def _is_own_question(self, text: str) -> bool:

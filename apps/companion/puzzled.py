@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from itertools import islice
 from typing import Any
 
+from hri.conversation.dialog_act import dialog_act
 from hri.conversation.examples import different, nearest_sentence
 from hri.conversation.gist import Gist
 from hri.conversation.puzzlement import Answer, Kind, Puzzle, as_said
@@ -22,6 +23,10 @@ from .replies import Reply
 
 CLEAR = 0.3
 """Confidence from which words that do not count say what a sentence was about."""
+OFFERED_TOPICS = frozenset(("about_me", "fun"))
+"""Small talk that helps who does not know what to say."""
+GESTURES = {Kind.TOLD: "nod", Kind.ASKED: "think", Kind.ASKED_FOR: "shake"}
+"""Instead of a confused face."""
 ENDING = ("stop", "quiet", "release", "sleep")
 """Actions that help no one who does not know what to say."""
 
@@ -51,7 +56,10 @@ def puzzle(companion: Companion, heard: Mapping[str, Any]) -> None:
 
 
 def _tell(companion: Companion, answer: Answer, text: str) -> None:
-    companion.show("confused")
+    if (gesture := GESTURES.get(answer.kind)) is not None:
+        companion.make(gesture)
+    else:
+        companion.show("confused")
     nearest = as_said(_most_like(companion, text))
     # What is said of any sentence may take the place of what was said a short while ago.
     words = companion.fresh(answer.kind, Kind.REPHRASE)
@@ -70,6 +78,8 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
     gist = grammar.made(Gist.of)
     rule = found.rule if found is not None else gist.rule_of(words)
     is_answer = rule in grammar.marked("answer")
+    strange = gist.strange(text) if is_typed else []
+    is_slip = len(strange) == 1 and gist.is_like_known(strange[0])
     topic = "" if is_answer else companion.replies.about.get(rule, "")
     example = "" if is_answer else companion.examples().get(rule, "")
     return Puzzle(
@@ -80,15 +90,20 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
         is_quiet=level is not None and level < VERY_QUIET_DB,
         topic=topic,
         nearest=as_said(example),
-        strange=gist.strange(text) if is_typed else (),
+        act=None if is_slip or not is_typed else dialog_act(text),
+        words=len(normalize(text)),
+        strange=strange,
         answers=_answers(companion, grammar),
         is_answer=is_answer,
     )
 
 
 def _answers(companion: Companion, grammar: Grammar) -> list[str]:
-    """Two things that would answer the question that is open, or the only one."""
-    if not companion.context.board.slot(QUESTION).value:
+    """Two things that would answer the question that is open, or the only one.
+
+    Its own small questions need no answer: who talks of something else is not asked for a yes.
+    """
+    if not companion.context.board.slot(QUESTION).value or companion.is_wondering:
         return []
     if grammar.marked("answer"):
         return ["yes", "no"]
@@ -108,7 +123,8 @@ def _is_for_it(companion: Companion, heard: Mapping[str, Any]) -> bool:
 def _is_worth_offering(companion: Companion, rule: str) -> bool:
     """Whether a command helps someone who does not know any: none that ends something."""
     reply = companion.replies.replies.get(rule, Reply())
-    is_chat = bool(reply.feel) or rule in FAREWELLS
+    topics = companion.listener.loaded_grammar.rules[rule].topics
+    is_chat = bool(reply.feel) or rule in FAREWELLS or not topics <= OFFERED_TOPICS
     tells = any("{commands}" in text or "{why_stopped}" in text for text in reply.say)
     return not (is_chat or tells or reply.action in ENDING)
 

@@ -54,9 +54,9 @@ KINDS = {
         ),
     ),
     "companion_app": Kind(
-        "the companion, with a joke and a timer of your own",
+        "the companion, with a fortune teller and a timer of your own",
         (
-            "hri run .                    # say: tell me a joke, set a timer for ten seconds",
+            "hri run .                    # say: tell my fortune, set a timer for ten seconds",
             "hri run . --config typed     # type it instead; Ctrl-D ends it",
         ),
     ),

@@ -11,7 +11,7 @@ from hri.speech.grammar import expansion
 from hri.speech.grammar.rules import Rules
 from hri.speech.grammar.words import ANY
 
-MOST_COMPARED = 60
+MOST_COMPARED = 400
 """Sentences of a rule that are looked at for different ones."""
 MOST_SHOWN = 3
 """Sentences of a rule that are shown."""
@@ -42,7 +42,7 @@ def example_of(grammar: Rules, rule: str) -> str:
 
 def commands_of(grammar: Rules) -> list[str]:
     """The rules that can be said at any time; the own ones of its file come first."""
-    others = grammar.marked("answer") | grammar.marked("after")
+    others = grammar.marked("answer") | grammar.marked("after") | grammar.marked("typed")
     rules = [rule for rule in grammar.public_rules if rule not in others]
     return sorted(rules, key=lambda rule: grammar.rules[rule].path != grammar.path)
 
@@ -55,7 +55,7 @@ def is_personal(sentence: str) -> bool:
 def sayings(grammar: Rules) -> dict[str, list[str]]:
     """Up to MOST_SHOWN sentences of each command by its rule, the best example first.
 
-    Found once. What people say of themselves is left out.
+    Found once. What people say of themselves is left out, and rules of which that is the example.
     """
     return grammar.made(_sayings)
 
@@ -63,6 +63,8 @@ def sayings(grammar: Rules) -> dict[str, list[str]]:
 def _sayings(grammar: Rules) -> dict[str, list[str]]:
     found = {}
     for rule in commands_of(grammar):
+        if any(map(is_personal, grammar.rules[rule].examples[:1])):
+            continue
         others = islice(different(grammar, rule), 2 * MOST_SHOWN)
         texts = dict.fromkeys((example_of(grammar, rule), *others))
         if shown := [text for text in texts if text and not is_personal(text)][:MOST_SHOWN]:

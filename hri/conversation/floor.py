@@ -13,6 +13,8 @@ NEVER = -math.inf
 
 CALM_SECONDS = 7.0
 """After the last word of anyone."""
+TENDER_SECONDS = 60.0
+"""After it said something tender: who told it of a loss does not want to be asked about dinner."""
 COMPANY_SECONDS = 45.0
 """How long after the last words someone who is seen counts as company."""
 UNSEEN_SECONDS = 20.0
@@ -57,6 +59,8 @@ class Scene:
     """When someone last said goodbye, or sent it to sleep."""
     dialogue: float = NEVER
     """When a task last asked something, or got an answer."""
+    tender: float = NEVER
+    """When it last comforted someone, or said that it is sorry."""
     wondered: float = NEVER
     """When it last asked something by itself."""
 
@@ -83,6 +87,7 @@ def why_silent(scene: Scene) -> str:
         "someone said goodbye": now - scene.farewell < FAREWELL_SECONDS
         or NEVER < scene.understood <= scene.farewell,
         "a dialogue goes on": now - scene.dialogue < DIALOGUE_SECONDS,
+        "someone told it something sad": now - scene.tender < TENDER_SECONDS,
         "someone spoke just now": now - max(scene.understood, scene.voice) < CALM_SECONDS,
         "no one is there": now - scene.understood >= patience,
         "it asked just now": now - scene.wondered < BETWEEN_SECONDS,

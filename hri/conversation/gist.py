@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -28,10 +29,12 @@ LITTLE = frozenset((
 ))
 # fmt: on
 """Words that say nothing about the subject."""
-LEAST_SHARE = 0.4
+LEAST_SHARE = 0.5
 """Share of the telling words of a sentence that a rule must have to be the subject."""
 MOST_RULES = 3
 """A word that more rules have does not tell one from another."""
+LEAST_ALIKE = 0.8
+"""Share of its letters that a word with a slip has in common with the right one."""
 ENDINGS = ("ing", "ed", "s")
 
 
@@ -41,33 +44,40 @@ class Gist:
 
     words: Mapping[str, frozenset[str]]
     """By rule, without their endings."""
+    shared: frozenset[str]
+    """All words of these rules, as they are written."""
     known: frozenset[str]
-    """All words of the commands, as they are written."""
+    """All words of the grammar, as they are written."""
 
     @classmethod
     def of(cls, grammar: Rules) -> Gist:
         """The words of a grammar.
 
         Those of answers, of courtesies, and of what follows a command say nothing of a subject.
+        Small talk, whose rules have a topic, is about everything, and is not what people grope for.
         """
         answers, follow_ups = grammar.marked("answer"), grammar.marked("after")
         rules = [rule for rule in grammar.public_rules if rule not in answers]
-        every = {rule: frozenset(_words_of(grammar, rule)) for rule in rules}
+        known = {rule: frozenset(_words_of(grammar, rule)) for rule in rules}
+        every = {rule: words for rule, words in known.items() if not grammar.rules[rule].topics}
         telling = {rule: words - LITTLE for rule, words in every.items() if rule not in follow_ups}
         stems = {rule: frozenset(map(_stem, words)) for rule, words in telling.items()}
         spread = Counter(stem for words in stems.values() for stem in words)
         rare = {stem for stem, count in spread.items() if count <= MOST_RULES}
-        known = frozenset(word for words in every.values() for word in words)
-        return cls({rule: words & rare for rule, words in stems.items()}, known)
+        return cls(
+            {rule: words & rare for rule, words in stems.items()},
+            frozenset().union(*every.values()),
+            frozenset().union(*known.values()),
+        )
 
     def rule_of(self, text: str) -> str:
         """The rule that a text is most likely about; empty when it may be about anything."""
         spread = Counter(stem for words in self.words.values() for stem in words)
-        # A word that many rules have does not show another subject, a strange one does.
+        # A word that many rules have does not show another subject, one of small talk does.
         stems = [
             _stem(word)
             for word in normalize(text)
-            if word not in LITTLE and (_stem(word) in spread or word not in self.known)
+            if word not in LITTLE and (_stem(word) in spread or word not in self.shared)
         ]
         scores = {
             rule: sum(1 / spread[stem] for stem in stems if stem in words)
@@ -81,6 +91,14 @@ class Gist:
     def strange(self, text: str) -> list[str]:
         """The words of a text that no rule has, in order."""
         return [word for word in dict.fromkeys(normalize(text)) if word not in self.known | LITTLE]
+
+    def is_like_known(self, word: str) -> bool:
+        """Whether a strange word is one of the grammar's with a slip of the fingers: "forwrd"; not
+        another form of one, "plants".
+        """
+        near = (known for known in self.known if abs(len(known) - len(word)) <= 1)
+        alike = [known for known in near if _stem(known) != _stem(word)]
+        return bool(difflib.get_close_matches(word, alike, 1, LEAST_ALIKE))
 
 
 def _words_of(grammar: Rules, rule: str) -> Iterator[str]:

@@ -15,6 +15,8 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+from hri.conversation.dialog_act import DialogAct
+
 UNCLEAR_REASONS = ("low confidence", "unlike the sound")
 OFFER_AT = 3
 """How many sentences in a row were not understood when it offers what can be said."""
@@ -22,6 +24,8 @@ MOST_TO_STRANGERS = 3
 """Answers in a row to a voice that may be meant for others: a radio must not be talked to."""
 ROW_SECONDS = 60.0
 """Sentences that are further apart are not in a row."""
+FEW_WORDS = 4
+"""A sentence of more words does not hang on the one that it does not know."""
 MOST_REMEMBERED = 200
 """Commands that were offered that are remembered."""
 
@@ -35,6 +39,12 @@ class Kind(StrEnum):
     """It got the subject: {topic}."""
     NEAR = "near"
     """It knows a sentence that is like it: {nearest}."""
+    TOLD = "told"
+    """Someone says something, in words that it does not follow."""
+    ASKED = "asked"
+    """Someone asks what it does not know."""
+    ASKED_FOR = "asked_for"
+    """Someone wants what it cannot do."""
     STRANGE_WORD = "strange_word"
     """It does not know {word}."""
     STRANGE = "strange"
@@ -68,6 +78,10 @@ class Puzzle:
     """What it seems to be about, as it is said: "turning"."""
     nearest: str = ""
     """A sentence that is like it."""
+    act: DialogAct | None = None
+    """What it does; known only of a typed sentence."""
+    words: int = 0
+    """How many it has."""
     strange: Sequence[str] = ()
     """Its words that are not in the grammar; known only of a typed sentence."""
     answers: Sequence[str] = ()
@@ -107,6 +121,8 @@ def decide(
         return None
     if puzzle.answers:
         return Answer(Kind.ANSWERS, {"one": puzzle.answers[0], "other": puzzle.answers[-1]})
+    if puzzle.act is DialogAct.STATEMENT:
+        return Answer(Kind.TOLD)
     if row % OFFER_AT == 0 and len(named := _unheard(commands, offered)) > 1:
         return Answer(Kind.OFFER, {"one": named[0], "other": named[-1]}, named)
     if puzzle.is_answer:
@@ -124,7 +140,9 @@ def decide(
 
 
 def _of_typed(puzzle: Puzzle) -> Answer:
-    if len(puzzle.strange) == 1:
+    if puzzle.act is not None:
+        return Answer(Kind.ASKED if puzzle.act is DialogAct.QUESTION else Kind.ASKED_FOR)
+    if len(puzzle.strange) == 1 and puzzle.words <= FEW_WORDS:
         return Answer(Kind.STRANGE_WORD, {"word": puzzle.strange[0]})
     return Answer(Kind.STRANGE if puzzle.strange else Kind.REPHRASE)
 
@@ -162,6 +180,8 @@ class Puzzlement:
         answer = decide(puzzle, row, commands, self._offered)
         if answer is None:
             return None
-        self.row, self.last = row, now
+        if answer.kind is not Kind.TOLD:  # Who has something to say is not at a loss for words.
+            self.row = row
+        self.last = now
         self._offered.extend(answer.offered)
         return answer

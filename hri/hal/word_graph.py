@@ -31,7 +31,8 @@ class WordGraph:
     labels: NDArray[np.int32]
     """The word of each arc, an index into `words`; SILENT for none. [arcs]"""
     weights: NDArray[np.float32]
-    """Natural logarithm of how likely each arc is among those of its source; <= 0. [arcs]"""
+    """Natural logarithm of how likely each arc is among those of its source, and what free words
+    cost beside; <= 0. [arcs]"""
     words: tuple[str, ...]
     """All words, lower case, each once. `<any>` and `<any 1-3>` are as many that nobody listed
     (`hri.speech.grammar.words.free_words`)."""

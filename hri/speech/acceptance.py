@@ -60,10 +60,11 @@ def judge(
     and what means something else, counts against the words; rules marked `@careful` must be heard
     more clearly than the strictness, 0 to 1, alone demands.
     """
-    rules = frozenset(grammar.public_rules) if turn is None else turn.rules(grammar)
+    all_rules = frozenset(grammar.public_rules) if turn is None else None
     turn = turn or Turn()
     if segment.text:
-        turn = replace(turn, is_addressed=True)  # What is typed is meant for it.
+        turn = replace(turn, is_typed=True, is_addressed=True)  # What is typed is meant for it.
+    rules = all_rules or turn.rules(grammar)
     found = _parse_of(grammar, hypothesis.text, rules, turn)
     alternatives = (*hypothesis.alternatives, *_as_specific(grammar, found, rules, turn))
     others = [(other, _meaning(grammar, other.text, turn)) for other in alternatives]
@@ -149,7 +150,7 @@ def _as_specific(
     answers = grammar.marked("answer")
     is_answer = turn.is_question_open and found.rule in answers
     for other in meanings(grammar, found.text, answers if is_answer else rules):
-        if not other.means_the_same(found):
+        if not resolved(grammar, other, turn.last).means_the_same(found):
             yield Alternative(_command(grammar, other), 1.0)
 
 
@@ -222,7 +223,9 @@ def _meaning(
 ) -> Parse | None:
     """What a text means after what was said last."""
     found = parse(grammar, text, *rules)
-    return None if found is None else resolved(grammar, found, turn.last)
+    if found is None or (found.rule in grammar.marked("typed") and not turn.is_typed):
+        return found
+    return resolved(grammar, found, turn.last)
 
 
 def _differ(one: Parse | None, other: Parse | None) -> bool:
@@ -253,7 +256,8 @@ def _reason(
     if found.rule not in rules:
         return "not now", f"<{found.rule}> counts only {_when(found.rule, grammar, turn)}"
     is_for_it = turn.is_addressed or all(_is_named(grammar, one) for one in likely)
-    if is_among_others and not is_for_it:
+    is_chat = bool(grammar.rules[found.rule].topics)
+    if (is_among_others or is_chat) and not is_for_it:
         return "not now", "said to someone else"
     if hypothesis.confidence < needed and is_among_others:
         return "unlike the sound", NEAREST  # It was hardly meant, for most words are others.
@@ -292,5 +296,7 @@ def _when(rule: str, grammar: Grammar, turn: Turn) -> str:
     if rule in out_of_place(grammar, turn.last):
         named = [f"<{name}>" for name in grammar.rules[rule].after if name != ANY_COMMAND]
         return f"soon after {' or '.join(named) or 'another command'}"
+    if rule in grammar.marked("typed"):
+        return "when it is typed"
     is_answer = rule in grammar.marked("answer")
     return "while a question is open" if is_answer else "after the wake word"

@@ -33,6 +33,8 @@ class Turn:
     """Whether no wake word is needed."""
     is_addressed: bool = True
     """Whether what is said is meant for the robot, also without its name."""
+    is_typed: bool = False
+    """Whether it comes from a keyboard."""
     last: Followed | None = None
     """The command that was understood a while ago at most, if others may follow it."""
 
@@ -44,6 +46,8 @@ class Turn:
         rules = frozenset(grammar.public_rules) - out_of_place(grammar, self.last)
         if not self.is_question_open:
             rules -= grammar.marked("answer")
+        if not self.is_typed:
+            rules -= grammar.marked("typed")
         waking = grammar.marked("wake")
         if waking and not self.is_awake and not self.is_question_open:
             rules &= waking | interrupting

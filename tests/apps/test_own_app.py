@@ -16,9 +16,9 @@ from tests.devices import TYPED
 
 JOKE = {
     "app.toml": 'extends = "companion"\n',
-    "grammar.jsgf": "#JSGF V1.0; /** @extends companion */ grammar joke;\n"
-    "public <joke> = tell me a joke;\n",
-    "replies.toml": '[reply.joke]\nsay = "What is brown and sticky? A stick."\n',
+    "grammar.jsgf": "#JSGF V1.0; /** @extends companion */ grammar twister;\n"
+    "public <twister> = tell me a twister;\n",
+    "replies.toml": '[reply.twister]\nsay = "What is brown and sticky? A stick."\n',
 }
 TIMER = {
     **JOKE,
@@ -66,10 +66,10 @@ def said(events):
     return [event.properties["text"] for event in named(events, "speech.said")]
 
 
-def test_a_joke_is_five_lines_in_a_folder_of_ones_own(put):
+def test_a_twister_is_five_lines_in_a_folder_of_ones_own(put):
     assert sum(text.count("\n") for text in JOKE.values()) == 5
     robot = robot_of(put(JOKE))
-    events = live(robot, 8, {1.0: "tell me a joke", 5.0: "what is your name"})
+    events = live(robot, 8, {1.0: "tell me a twister", 5.0: "what is your name"})
     assert said(events) == ["What is brown and sticky? A stick.", "My name is Robin."]
 
 
@@ -95,15 +95,17 @@ def test_a_list_of_words_is_an_argument(put):
 def test_its_grammar_may_have_the_suffix_of_sphinx(put):
     files = {name.replace(".jsgf", ".gram"): text for name, text in JOKE.items()}
     robot = robot_of(put(files))
-    assert said(live(robot, 4, {1.0: "tell me a joke"})) == ["What is brown and sticky? A stick."]
+    assert said(live(robot, 4, {1.0: "tell me a twister"})) == [
+        "What is brown and sticky? A stick."
+    ]
 
 
 def test_an_action_is_a_task_of_an_entry_point(put):
-    replies = '[reply.joke]\naction = "Hri.SpeakNow"\n'
+    replies = '[reply.twister]\naction = "Hri.SpeakNow"\n'
     with pytest.raises(AuthoringError, match=r'replies.toml:2:1: unknown task "Hri.SpeakNow" - '):
         robot_of(put({**JOKE, "replies.toml": replies}))
     robot = robot_of(put({**JOKE, "replies.toml": replies.replace("SpeakNow", "Speak")}))
-    assert said(live(robot, 4, {1.0: "tell me a joke"})) == ["tell me a joke"]
+    assert said(live(robot, 4, {1.0: "tell me a twister"})) == ["tell me a twister"]
 
 
 def test_a_reply_raises_an_event_that_starts_a_task(put):
@@ -282,10 +284,10 @@ def test_an_own_rule_hides_one_of_the_companion_and_may_use_it(put):
 
 
 def test_a_grammar_that_does_not_extend_the_companion_is_all_that_is_heard(put):
-    grammar = "#JSGF V1.0; grammar joke;\npublic <joke> = tell me a joke;\n"
+    grammar = "#JSGF V1.0; grammar twister;\npublic <twister> = tell me a twister;\n"
     robot = robot_of(put({**JOKE, "grammar.jsgf": grammar}))
-    events = live(robot, 9, {1.0: "what is your name", 6.0: "tell me a joke"})
-    hint = 'I don\'t know the word "name" yet.'
+    events = live(robot, 9, {1.0: "what is your name", 6.0: "tell me a twister"})
+    hint = "I don't know, to be honest."
     assert said(events) == [hint, "What is brown and sticky? A stick."]
 
 
@@ -293,7 +295,7 @@ def test_a_command_without_a_reply_is_told_where_the_reply_belongs(put):
     folder = put({name: text for name, text in JOKE.items() if name != "replies.toml"})
     with pytest.raises(AuthoringError) as error:
         robot_of(folder)
-    assert f"{folder}/replies.toml:1:1: no reply to the rule <joke> of the grammar" in str(
+    assert f"{folder}/replies.toml:1:1: no reply to the rule <twister> of the grammar" in str(
         error.value
     )
 
@@ -310,25 +312,27 @@ def test_an_app_that_extends_itself_is_refused(put, monkeypatch, tmp_path):
 def test_saved_files_are_taken_while_it_runs(put):
     folder = put(JOKE)
     robot = robot_of(folder)
-    grammar = JOKE["grammar.jsgf"] + "public <riddle> = ask me a riddle;\n"
-    replies = JOKE["replies.toml"] + '[reply.riddle]\nsay = "Who am I?"\n'
+    grammar = JOKE["grammar.jsgf"] + "public <conundrum> = ask me a conundrum;\n"
+    replies = JOKE["replies.toml"] + '[reply.conundrum]\nsay = "Who am I?"\n'
     then = {
         3.0: lambda: put({"replies.toml": replies}),
         6.0: lambda: put({"grammar.jsgf": grammar}),
-        12.0: lambda: put({"replies.toml": replies.replace("[reply.riddle]", "[reply.ridle]")}),
+        12.0: lambda: put(
+            {"replies.toml": replies.replace("[reply.conundrum]", "[reply.conundrm]")}
+        ),
     }
-    lines = {1.0: "ask me a riddle", 9.0: "ask me a riddle", 15.0: "tell me a joke"}
+    lines = {1.0: "ask me a conundrum", 9.0: "ask me a conundrum", 15.0: "tell me a twister"}
     events = live(robot, 19, lines, then)
     assert said(events)[1:] == ["Who am I?", "What is brown and sticky? A stick."]
     refused = named(events, "replies.refused")
     assert [round(event.time) for event in refused] == [3, 12]
-    assert 'no rule "ridle" - did you mean "riddle"?' in refused[1].properties["error"]
+    assert 'no rule "conundrm" - did you mean "conundrum"?' in refused[1].properties["error"]
     assert len(named(events, "replies.changed")) == 1
 
 
 DANCE = {
     **JOKE,
-    "replies.toml": '[reply.joke]\naction = "dance"\n',
+    "replies.toml": '[reply.twister]\naction = "dance"\n',
     "tasks.py": "from hri.robot import verbs\n\n\n"
     "async def dance(context):\n"
     "    await context.clock.sleep(2.0)\n"
@@ -346,7 +350,7 @@ def test_stop_ends_an_own_task_that_drives_or_was_about_to(put, stop_at):
         places[event.time] = event.properties["x_cm"]
 
     robot.events.subscribe("odometry", look)
-    live(robot, 14, {1.0: "tell me a joke", stop_at: "stop"})
+    live(robot, 14, {1.0: "tell me a twister", stop_at: "stop"})
     at_stop = [x for time, x in places.items() if time > stop_at + 1.5]
     assert at_stop
     assert max(at_stop) - min(at_stop) < 1.0
@@ -367,13 +371,15 @@ def test_stop_leaves_a_task_that_does_not_drive(put):
     ],
 )
 def test_what_a_grammar_cannot_extend_has_a_place(put, extends, message):
-    grammar = f"#JSGF V1.0;\n/** @extends {extends} */\ngrammar joke;\npublic <joke> = a joke;\n"
+    grammar = (
+        f"#JSGF V1.0;\n/** @extends {extends} */\ngrammar twister;\npublic <twister> = a twister;\n"
+    )
     with pytest.raises(AuthoringError, match=message):
         robot_of(put({**JOKE, "grammar.jsgf": grammar}))
 
 
 def test_all_mistakes_of_own_replies_are_told_at_once(put):
-    replies = '[reply.joke]\nshow = "hapy"\n[reply.jest]\n'
+    replies = '[reply.twister]\nshow = "hapy"\n[reply.jest]\n'
     with pytest.raises(AuthoringErrors) as error:
         robot_of(put({**JOKE, "replies.toml": replies}))
     assert [e.place.line for e in error.value.errors] == [2, 3]
@@ -417,15 +423,15 @@ def test_what_is_not_understood_is_shown_and_hinted_at_once(put):
     robot = robot_of(put(JOKE))
     seen, looks = shown(robot, [2.0, 5.5])
     lines = {
-        1.0: "tell us a joke",
-        5.0: "tell us two jokes",
+        1.0: "tell us a twister",
+        5.0: "tell us two twisters",
         9.0: "what is your name",
-        12.0: "fly to the moon",
+        12.0: "glue a zeppelin",
     }
     events = live(robot, 15, lines, looks)
     assert said(events) == [
-        'I almost got that. Try "tell me a joke".',
-        'That was close. I do know "tell me a joke".',
+        'I almost got that. Try "tell me a twister".',
+        'That was close. I do know "tell me a twister".',
         "My name is Robin.",
         "I heard you, but I don't know those words yet.",
     ]
@@ -455,7 +461,7 @@ def test_what_can_be_said_names_own_commands_first_and_then_others(put):
     events = live(robot, 18, {1.0: "what can I say", 10.0: "what can I say"})
     told = [re.findall('"(.+?)"', text) for text in said(events)]
     first, second = filter(None, told)
-    assert first[0] == "tell me a joke"
+    assert first[0] == "tell me a twister"
     assert first[-1] == second[-1] == "stop"
     assert len({*first, *second}) == 9
 
@@ -482,9 +488,9 @@ def test_quiet_is_over_after_a_minute(put):
 
 @pytest.mark.slow
 def test_typed_lines_wait_until_it_has_spoken_and_stop_does_not(put):
-    robot = robot_of(put({**JOKE, "replies.toml": '[reply.joke]\nsay = "Ha."\n'}))
+    robot = robot_of(put({**JOKE, "replies.toml": '[reply.twister]\nsay = "Ha."\n'}))
     keyboard = robot.resources.obtain("recognizer", TypedRecognizer)
-    lines = ["what can I say", *["tell me a joke"] * 24, "what is your name"]
+    lines = ["what can I say", *["tell me a twister"] * 24, "what is your name"]
     for line in lines:
         keyboard.type_line(line, 0.0)
     events = live(robot, 34)
@@ -492,9 +498,9 @@ def test_typed_lines_wait_until_it_has_spoken_and_stop_does_not(put):
     assert not any(event.properties["cut"] for event in named(events, "speech.finished"))
     assert said(events)[len(lines) - 1] == "My name is Robin."
     robot = robot_of(put(JOKE, "other"))
-    events = live(robot, 6, {1.0: "what can I say", 2.0: "tell me a joke", 2.5: "stop"})
+    events = live(robot, 6, {1.0: "what can I say", 2.0: "tell me a twister", 2.5: "stop"})
     rules = [(event.properties["rule"], event.time) for event in named(events, "speech.heard")]
-    assert [rule for rule, _ in rules] == ["help", "stop", "joke"]
+    assert [rule for rule, _ in rules] == ["help", "stop", "twister"]
     assert rules[1][1] == pytest.approx(2.6, abs=0.2)
 
 
@@ -520,7 +526,7 @@ def test_a_network_that_is_missing_is_reported_where_it_is_named(put):
 
 
 def test_an_action_that_no_file_has_names_the_file_for_it(put):
-    replies = '[reply.joke]\naction = "steep"\n'
+    replies = '[reply.twister]\naction = "steep"\n'
     with pytest.raises(AuthoringError, match=r"tasks\.py is missing"):
         robot_of(put({**JOKE, "replies.toml": replies}))
 

@@ -19,7 +19,7 @@ def said(events):
 
 def test_replies_of_a_named_file_count_as_those_of_the_file(put):  # noqa: F811
     robot = robot_of(put(TWO))
-    events = live(robot, 9, {1.0: "tell me a joke", 5.0: "ask me a riddle"})
+    events = live(robot, 9, {1.0: "tell me a twister", 5.0: "ask me a riddle"})
     assert said(events) == [
         "What is brown and sticky? A stick.",
         "What has hands and no arms? A clock.",
@@ -55,8 +55,8 @@ def test_replies_of_a_named_file_count_as_those_of_the_file(put):  # noqa: F811
             r'riddles.toml:1:1: unknown key "name" - known are: reply',
         ),
         (
-            {"riddles.toml": TWO["riddles.toml"] + "[reply.joke]\n"},
-            r"riddles.toml:3:1: <joke> has another reply in .*replies.toml - delete one",
+            {"riddles.toml": TWO["riddles.toml"] + "[reply.twister]\n"},
+            r"riddles.toml:3:1: <twister> has another reply in .*replies.toml - delete one",
         ),
     ],
 )

@@ -7,7 +7,7 @@ from tests.apps.test_own_app import JOKE, live, named, put, robot_of  # noqa: F4
 
 GRAMMAR = """#JSGF V1.0; /** @extends companion */ grammar joke;
 /** @topic fun */
-public <joke> = tell me a joke;
+public <twister> = tell me a twister;
 /** @topic teasing rude */
 public <tease> = you are a toaster;
 """
@@ -16,21 +16,21 @@ TEASED = {
     "grammar.jsgf": GRAMMAR,
     "replies.toml": JOKE["replies.toml"],
 }
-LINES = {1.0: "you are a toaster", 6.0: "tell me a joke"}
+LINES = {1.0: "you are a toaster", 6.0: "tell me a twister"}
 
 
 def test_a_silent_topic_is_not_heard_and_needs_no_reply(put):  # noqa: F811
     events = live(robot_of(put(TEASED)), 9, LINES)
-    assert [event.properties["rule"] for event in named(events, "speech.heard")] == ["joke"]
+    assert [event.properties["rule"] for event in named(events, "speech.heard")] == ["twister"]
 
 
 def test_replies_to_a_silent_topic_may_stay(put):  # noqa: F811
     replies = TEASED["replies.toml"] + '[reply.tease]\nsay = "Beep."\n'
     heard = {**TEASED, "replies.toml": replies, "app.toml": 'extends = "companion"\n'}
-    for files, rules in (({**TEASED, "replies.toml": replies}, ["joke"]), (heard, None)):
+    for files, rules in (({**TEASED, "replies.toml": replies}, ["twister"]), (heard, None)):
         events = live(robot_of(put(files)), 9, LINES)
         found = [event.properties["rule"] for event in named(events, "speech.heard")]
-        assert found == (rules or ["tease", "joke"])
+        assert found == (rules or ["tease", "twister"])
 
 
 def test_an_unknown_topic_is_refused(put):  # noqa: F811
@@ -44,7 +44,7 @@ def test_an_unknown_topic_is_refused(put):  # noqa: F811
 
 def test_a_saved_grammar_stays_without_the_topic(put):  # noqa: F811
     more = GRAMMAR.replace("a toaster", "a (toaster | kettle)")
-    lines = {8.0: "you are a kettle", 10.0: "tell me a joke"}
+    lines = {8.0: "you are a kettle", 10.0: "tell me a twister"}
     robot = robot_of(put(TEASED))
     events = live(robot, 14, lines, {2.0: lambda: put({"grammar.jsgf": more})})
-    assert [event.properties["rule"] for event in named(events, "speech.heard")] == ["joke"]
+    assert [event.properties["rule"] for event in named(events, "speech.heard")] == ["twister"]

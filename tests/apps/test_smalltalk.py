@@ -25,7 +25,7 @@ TOPICS = (
 )
 LONGEST = 160
 """Characters of a reply: some ten seconds of speech."""
-FOLDER = load_app("smalltalk").folder
+FOLDER = load_app("companion").folder / "smalltalk"
 
 
 def replies(topic):
@@ -56,29 +56,29 @@ def understood(grammar, text):
 
 @pytest.fixture(scope="module")
 def smalltalk():
-    return load_grammar(FOLDER / "grammar.jsgf")
+    return load_grammar("smalltalk")
 
 
 @pytest.fixture(scope="module")
 def companion():
-    return load_grammar(FOLDER / "grammar.jsgf").called("robin")
+    return load_grammar("companion").called("robin")
 
 
 def test_every_rule_is_answered_in_the_file_of_its_topic(smalltalk):
     assert smalltalk.topics == frozenset(TOPICS)
     by_topic = {topic: set(replies(topic)) for topic in TOPICS}
+    answered = [key for key in smalltalk.public_rules if not smalltalk.rules[key].stands_for]
     of_rules = {
-        topic: {key for key in smalltalk.public_rules if topic in smalltalk.rules[key].topics}
-        for topic in TOPICS
+        topic: {key for key in answered if topic in smalltalk.rules[key].topics} for topic in TOPICS
     }
     assert by_topic == of_rules
-    assert len(rules_of(smalltalk)) == sum(map(len, by_topic.values())) > 150
+    assert sum(map(len, by_topic.values())) > 150
 
 
 def test_every_file_of_small_talk_is_read_with_the_replies():
-    with (FOLDER / "replies.toml").open("rb") as file:
+    with (FOLDER.parent / "replies.toml").open("rb") as file:
         also = tomllib.load(file)["also"]
-    assert sorted(also) == [f"{topic}.toml" for topic in TOPICS]
+    assert sorted(also) == [f"smalltalk/{topic}.toml" for topic in TOPICS]
 
 
 @pytest.mark.parametrize("topic", TOPICS)
@@ -124,7 +124,6 @@ def test_every_example_means_its_rule_to_the_companion(smalltalk, companion):
         ("hey robin how old are you", "age"),
         ("good evening what's new", "whats_new"),
         ("so what is your favorite color", "favorite_color"),
-        ("hi", "hi"),
         ("hello robin", "greet"),
         ("you are an idiot", "insult"),
         ("i love you so much", "i_love_you"),
@@ -137,6 +136,13 @@ def test_every_example_means_its_rule_to_the_companion(smalltalk, companion):
         ("turn around", "turn"),
         ("what is my name", "know_me"),
         ("what is your name", "name"),
+        ("can it hear me", "can_you_hear"),
+        ("my grandson is coming over on sunday", "my_people"),
+        ("go over to the window", "go_to_place"),
+        ("a little slower please", "speed"),
+        ("don't tell me what time it is i don't want to know", "told_not_to"),
+        ("don't look at me like that", "staring"),
+        ("no not you jeff i meant the robot", "correction"),
     ],
 )
 def test_what_people_say_is_understood(companion, text, rule):

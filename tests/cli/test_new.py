@@ -76,7 +76,7 @@ def test_a_new_network_is_run_by_behave(folder, monkeypatch, capsys):
     ("base", "line", "words"),
     [
         ([], "count to two", "said      2"),
-        (["--from", "companion"], "tell me a joke", "said      What is brown and sticky? A stick."),
+        (["--from", "companion"], "tell my fortune", "said      You will soon speak to a robot."),
     ],
 )
 def test_a_new_app_hears_answers_and_does_something(base, line, words, folder, monkeypatch, capsys):
@@ -93,7 +93,7 @@ def test_an_app_of_the_companion_has_its_visit(folder, capsys):
     assert main(["run", "./parrot", *options]) == 0
 
 
-@pytest.mark.parametrize("name", ["joke", "timer"])
+@pytest.mark.parametrize("name", ["fortune", "timer"])
 def test_an_app_of_the_companion_may_be_called_like_what_it_does(name, folder):
     assert main(["new", "app", name, "--from", "companion"]) == 0
 

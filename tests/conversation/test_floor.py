@@ -12,6 +12,7 @@ from hri.conversation.floor import (
     FAREWELL_SECONDS,
     GIVES_WAY_SECONDS,
     NEVER,
+    TENDER_SECONDS,
     UNSEEN_SECONDS,
     Scene,
     gives_way,
@@ -36,6 +37,7 @@ def test_it_may_begin_when_someone_is_there_and_nothing_goes_on():
     [
         ({"is_asleep": True}, "it sleeps"),
         ({"is_quiet": True}, "it was asked to be quiet"),
+        ({"tender": 1001.0 - TENDER_SECONDS}, "someone told it something sad"),
         ({"is_voice_heard": True}, "someone speaks"),
         ({"is_speaking": True}, "it speaks"),
         ({"is_question_open": True}, "a question is open"),

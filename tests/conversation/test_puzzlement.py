@@ -3,6 +3,7 @@
 import pytest
 from hypothesis import given, strategies as st
 
+from hri.conversation.dialog_act import DialogAct
 from hri.conversation.puzzlement import (
     MOST_TO_STRANGERS,
     OFFER_AT,
@@ -22,6 +23,15 @@ TYPED = {"is_typed": True, "is_turned_to": True}
     [
         (Puzzle("not in grammar", topic="turning", nearest="turn left", **TYPED), 1, Kind.CAUGHT),
         (Puzzle("not in grammar", nearest="turn left", **TYPED), 1, Kind.NEAR),
+        (Puzzle("not in grammar", act=DialogAct.STATEMENT, **TYPED), 3, Kind.TOLD),
+        (Puzzle("not in grammar", act=DialogAct.QUESTION, **TYPED), 1, Kind.ASKED),
+        (Puzzle("not in grammar", act=DialogAct.QUESTION, **TYPED), OFFER_AT, Kind.OFFER),
+        (Puzzle("not in grammar", act=DialogAct.DIRECTIVE, **TYPED), 1, Kind.ASKED_FOR),
+        (
+            Puzzle("not in grammar", act=DialogAct.DIRECTIVE, topic="turning", **TYPED),
+            1,
+            Kind.CAUGHT,
+        ),
         (Puzzle("not in grammar", strange=["moon"], **TYPED), 1, Kind.STRANGE_WORD),
         (Puzzle("not in grammar", strange=["my", "moon"], **TYPED), 2, Kind.STRANGE),
         (Puzzle("not in grammar", **TYPED), 1, Kind.REPHRASE),

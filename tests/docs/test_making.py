@@ -41,10 +41,10 @@ def said_by(folder, lines, seconds):
     return [e.properties["text"] for e in events if e.name == "speech.said"], names
 
 
-def test_the_joke_of_the_page_is_told(copied):
-    assert sum(text.count("\n") for folder, _, text in FILES if folder == "joke") == 5
-    said, _ = said_by(copied / "joke", {1.0: "tell me a joke"}, 4)
-    assert said == ["What is brown and sticky? A stick."]
+def test_the_fortune_of_the_page_is_told(copied):
+    assert sum(text.count("\n") for folder, _, text in FILES if folder == "fortune") == 5
+    said, _ = said_by(copied / "fortune", {1.0: "tell my fortune"}, 4)
+    assert said == ["You will soon speak to a robot."]
 
 
 def test_the_timer_of_the_page_rings(copied):

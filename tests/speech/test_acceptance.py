@@ -312,3 +312,12 @@ def test_its_name_counts_only_where_nothing_else_is_likely(phrases):
     other = Alternative("<any> see you later", 0.2)
     assert reason(phrases, named, 0.9, turn, other) == "not now"
     assert reason(phrases, named, 0.9, turn, Alternative(other.text, 0.01)) == "leave"
+
+
+def test_small_talk_of_others_is_not_answered(write):
+    """A rule with a topic is what people also say to each other."""
+    grammar = load_grammar(write("/** @topic about_me */ public <age> = how old are you;"))
+    words = Hypothesis("how old are you", 0.95)
+    overheard = judge(grammar, PIECE, words, turn=Turn(is_addressed=False))
+    assert (overheard.reason, overheard.detail) == ("not now", "said to someone else")
+    assert judge(grammar, PIECE, words, turn=Turn()).rule == "age"

@@ -343,10 +343,10 @@ def _lost_marks(grammar: Rules) -> Iterator[AuthoringError]:
         for tag in rule.doc_tags:
             if tag.name in named:
                 yield from _lost(grammar, rule, tag, named[tag.name])
-            if tag.name == "as" and "after" not in rule.marks:
+            if tag.name == "as" and not {"after", "typed"} & rule.marks:
                 remedy = "write the commands before it: @after move turn"
                 yield AuthoringError(rule.place(tag.span), "@as stands without @after", remedy)
-            if tag.name == "as" and rule.stands_for == LAST and ANY_COMMAND in rule.after:
+            if tag.name == "as" and rule.stands_for == LAST and not {*rule.after} - {ANY_COMMAND}:
                 what, remedy = "not every command has another form", "name them: @after move turn"
                 yield AuthoringError(rule.place(tag.span), what, remedy)
             if tag.name == "as" and "anywhere" in rule.marks:

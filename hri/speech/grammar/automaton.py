@@ -16,6 +16,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum, auto
+from functools import cached_property
 from typing import NamedTuple
 
 from hri.core.collection import without_collection
@@ -48,11 +49,10 @@ START, FINAL = 0, 1
 _SILENCE = NOTHING
 _HALF = math.log(0.5)
 """JSGF gives no odds for what is optional or repeated: both ways are equally likely."""
-_BEFORE = (1.0, 0.001, 0.0000004)
-_BEHIND = (1.0, 0.000022, 0.00000001)
+_AMONG = (1.0, 1.0, 0.0004)
 """Odds of nothing, of other words, and of other words with its name, before or behind a phrase that
-counts anywhere: if other words were likelier, whole commands would be taken for them and a short
-phrase, "no thanks" for "thanks". Names are said seldom, and much sounds like "robot"."""
+counts anywhere, beside what free words cost. Names are said seldom, and much sounds like "robot".
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,14 +172,15 @@ def build(grammar: Rules) -> Automaton:
 
 
 def build_spoken(grammar: Rules) -> Automaton:
-    """The same with one arc for free words in a row: no engine counts them in a sound. Its word is
-    `Anything.written`.
+    """The same without the rules that are only typed, and with one arc for free words in a row: no
+    engine counts them in a sound. Its word is `Anything.written`.
     """
     written = grammar.made(build)
-    if ANY not in written.words:
+    if ANY not in written.words and not grammar.marked("typed"):
         return written
     with without_collection():
-        return _Builder(grammar, grammar.marked("anywhere"), is_spoken=True).build()
+        anywhere = grammar.marked("anywhere") - grammar.marked("listed")
+        return _Builder(grammar, anywhere, is_spoken=True).build()
 
 
 def build_as_written(grammar: Rules) -> Automaton:
@@ -216,11 +217,14 @@ class _Builder:
         self._commands: Counter[tuple[Frame, ...]] = Counter()
         """Public rules whose sentences begin with these frames."""
         self._contexts = 0
-        self._top = self._context((), {})
+        self._top, self._top_of_listed = self._context((), {}), self._context((), {})
         self._jobs: list[_Job] = []
+        self._lists_only = False
+        """Whether the free words of the rule that is being written are left out."""
 
     def build(self) -> Automaton:
-        rules = self._grammar.public_rules
+        unspoken = self._grammar.marked("typed") if self._is_spoken else frozenset()
+        rules = [key for key in self._grammar.public_rules if key not in unspoken]
         if (key := too_large(self._grammar, MOST_ARCS)) is not None:
             raise self._too_large(key)
         commands = {key: self._parts(key) for key in rules}
@@ -229,13 +233,21 @@ class _Builder:
             for parts in commands.values()
             for count in range(len(parts.before) + 1)
         )
+        listed = self._grammar.marked("listed") if self._is_spoken else frozenset()
         for key, parts in commands.items():
-            self._command(key, parts)
-            while self._jobs:
-                self._work(self._jobs.pop())
-                if len(self._arcs.sources) + self._contexts > MOST_ARCS:
-                    raise self._too_large(key)
+            hub, end = self._hub(parts.before), self._end(parts.after)
+            self._work_off(key)
+            self._lists_only = key in listed
+            self._command(key, parts, hub, end)
+            self._work_off(key)
+            self._lists_only = False
         return _trimmed(self._size, self._arcs, self._entries)
+
+    def _work_off(self, key: str) -> None:
+        while self._jobs:
+            self._work(self._jobs.pop())
+            if len(self._arcs.sources) + self._contexts > MOST_ARCS:
+                raise self._too_large(key)
 
     def _parts(self, key: str) -> Framed:
         """The words of a public rule, and what may be said around them."""
@@ -244,18 +256,17 @@ class _Builder:
         if self._is_silent(parts.body):
             parts = Framed((), expression, ())
         if key in self._anywhere:
-            before, behind = (self._others(odds) for odds in (_BEFORE, _BEHIND))
-            parts = Framed((before, *parts.before), parts.body, (*parts.after, behind))
+            others = self._others
+            parts = Framed((others, *parts.before), parts.body, (*parts.after, others))
         return parts
 
-    def _command(self, key: str, parts: Framed) -> None:
-        """A public rule, from the hub behind what may be said before its own words."""
-        hub, entry = self._hub(parts.before), self._new_node()
-        self._entries[key] = entry
+    def _command(self, key: str, parts: Framed, hub: int, end: int) -> None:
+        """A public rule between what may be said before its own words and behind them."""
+        entry = self._entries[key] = self._new_node()
         enter = Enter(key, is_last=True, is_command=True)
         first = self._job(_SILENCE, hub, entry, -math.log(self._commands[parts.before]))
         self._arcs.add(first, entry, None, (enter,))
-        body = self._job(parts.body, entry, self._end(parts.after))
+        body = self._job(parts.body, entry, end)
         body = body._replace(speaking=_Speaking.SPOKEN, is_last=not parts.after)
         if parts.before or parts.after:
             self._jobs.append(body)
@@ -263,7 +274,8 @@ class _Builder:
             self._write_once(body, key, ())
 
     def _job(self, node: Expression, start: int, end: int, weight: float = 0.0) -> _Job:
-        return _Job(node, start, end, _Speaking.ANY, self._top, weight=weight)
+        top = self._top_of_listed if self._lists_only else self._top
+        return _Job(node, start, end, _Speaking.ANY, top, weight=weight)
 
     def _hub(self, frames: tuple[Frame, ...]) -> int:
         """Where frames lead that are said before sentences."""
@@ -328,7 +340,8 @@ class _Builder:
     def _anything(self, job: _Job, node: Anything) -> None:
         """Word by word; of all ways through them the shortest comes first."""
         if self._is_spoken:
-            self._arcs.add(job, job.end, node.written, job.before + job.after)
+            if not self._lists_only:
+                self._arcs.add(job, job.end, node.written, job.before + job.after)
             return
         for number in range(1, node.most + 1):
             inside = self._new_node()
@@ -385,7 +398,8 @@ class _Builder:
             self._jobs.append(job._replace(start=entry, before=(), weight=0.0))
         self._arcs.add(job, entry, None, actions)
 
-    def _others(self, odds: tuple[float, float, float]) -> Frame:
+    @cached_property
+    def _others(self) -> Frame:
         """Other words before or behind what counts among them; of these, its name is known."""
         words = Anything(NOTHING.span)
         ways: list[Expression] = [_SILENCE, words]
@@ -397,7 +411,7 @@ class _Builder:
             )
             more = Optional(words, span)
             ways += [Sequence((name, words), span), Sequence((words, name, more), span)]
-        return Frame(tuple(ways), (*odds[:2], *(odds[2] for _ in ways[2:])), words.span)
+        return Frame(tuple(ways), (*_AMONG[:2], *(_AMONG[2] for _ in ways[2:])), words.span)
 
     def _sequence(self, job: _Job, items: tuple[Expression, ...]) -> Iterator[_Job]:
         if job.speaking is not _Speaking.SPOKEN:

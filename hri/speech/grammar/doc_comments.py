@@ -26,6 +26,8 @@ MARKS = MappingProxyType(
         "anywhere": "it counts among other words, too, when they are said to the robot",
         "after": "it is heard only for a while after one of the commands that it names",
         "as": "it stands for the command that it names, or for the last one, with tags changed",
+        "typed": "it is heard only from a keyboard: it is too short for the ear",
+        "listed": "free words in it and around it count only when they are typed",
         "wake": "other rules are heard only after it, and for a while after what was heard last",
         "aside": "what is said around a command and does not belong to it",
         "name": "what the robot is called; the app adds its name",

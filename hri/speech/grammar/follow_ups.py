@@ -51,8 +51,9 @@ def out_of_place(grammar: Rules, last: Followed | None) -> frozenset[str]:
 def resolved(grammar: Rules, found: Parse, last: Followed | None) -> Parse:
     """The command that a sentence stands for after the last one; itself where it is one."""
     rule = grammar.rules[found.rule]
-    if not rule.stands_for or last is None or found.rule in out_of_place(grammar, last):
+    if not rule.stands_for or found.rule in out_of_place(grammar, last):
         return found
+    last = last or Followed()
     target = last.rule if rule.stands_for == LAST else rule.stands_for
     before = last.tags if target == last.rule else {}
     known = {*before, *grammar.made(_tags)[target]}

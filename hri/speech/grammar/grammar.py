@@ -162,13 +162,23 @@ def flat_jsgf(grammar: Grammar, rules: Collection[str]) -> str:
     """See `Grammar.flat_jsgf`. PocketSphinx knows one public rule only and no dots in names.
 
     What can never be said is left out: with a `<VOID>` anywhere it hears nothing of the rest. So is
-    what has free words, which no other engine knows, and what is said beside commands, which makes
-    PocketSphinx hear it in everything.
+    what has free words, which no other engine knows, what is said beside commands, which makes
+    PocketSphinx hear it in everything, and what has a topic: among all the small talk it mistakes
+    every second command.
     """
-    aside = [key for key, rule in grammar.rules.items() if "aside" in rule.marks]
-    sayable = _Sayable(grammar.made(analysis.heights), aside)
-    said = {key: sayable(rule.expression) for key, rule in grammar.rules.items()}
-    public = [key for key in grammar.public_rules if key in rules and said[key] is not None]
+    unsaid = {key for key, rule in grammar.rules.items() if "aside" in rule.marks}
+    sayable = _Sayable(grammar.made(analysis.heights), unsaid)
+    said = {}
+    for key in grammar.used_first:
+        said[key] = sayable(grammar.rules[key].expression)
+        if said[key] is None:
+            unsaid.add(key)
+    spoken = frozenset(rules) - grammar.marked("typed")
+    public = [
+        key
+        for key in grammar.public_rules
+        if key in spoken and said[key] is not None and not grammar.rules[key].topics
+    ]
     keys = [key for key in analysis.reachable(grammar.rules, public) if said[key] is not None]
     names = {
         key: f"r{number}_{re.sub(r'[^A-Za-z0-9]', '_', key)}" for number, key in enumerate(keys)
@@ -187,9 +197,9 @@ def flat_jsgf(grammar: Grammar, rules: Collection[str]) -> str:
 class _Sayable(Fold[Expression | None]):
     """A node without its parts that have no sentence; None when it has none itself."""
 
-    def __init__(self, heights: Mapping[str, float], aside: Collection[str]) -> None:
-        """`heights` are those of the rules; `aside` are rules that count as never said."""
-        self._heights, self._aside = heights, aside
+    def __init__(self, heights: Mapping[str, float], unsaid: Collection[str]) -> None:
+        """`heights` are those of the rules; `unsaid` are rules that count as never said."""
+        self._heights, self._unsaid = heights, unsaid
 
     def word(self, node: Token) -> Expression:
         return node
@@ -198,7 +208,7 @@ class _Sayable(Fold[Expression | None]):
         return None
 
     def reference(self, node: RuleReference) -> Expression | None:
-        is_said = node.name not in self._aside and not math.isinf(self._heights[node.name])
+        is_said = node.name not in self._unsaid and not math.isinf(self._heights[node.name])
         return node if is_said else None
 
     def row(self, node: Sequence, parts: Iterator[Expression | None]) -> Expression | None:

@@ -20,6 +20,10 @@ import numpy as np
 from hri.core.collection import without_collection
 from hri.hal.word_graph import SILENT, WordGraph
 from hri.speech.grammar.automaton import FINAL, START, Automaton
+from hri.speech.grammar.words import free_words
+
+FREE_COST = 7.0
+"""Natural log: what free words in a row cost, or whole commands would be taken for them."""
 
 Arc = tuple[str | None, int, float]
 """Word, target and weight."""
@@ -154,7 +158,7 @@ class _Reduction:
         names = {node: number for number, node in enumerate(order)}
         names.setdefault(FINAL, len(names))
         arcs = [
-            (names[node], names[target], word, min(weight, 0.0))
+            (names[node], names[target], word, min(weight, 0.0) - _cost(word))
             for node in order
             for word, target, weight in self._leaving[node]
         ]
@@ -172,6 +176,10 @@ class _Reduction:
             words=words,
             entries={rule: names[node] for rule, node in self._entries.items()},
         )
+
+
+def _cost(word: str | None) -> float:
+    return FREE_COST if word is not None and free_words(word) is not None else 0.0
 
 
 def _scaled(arcs: list[Arc], share: float) -> list[Arc]:

@@ -34,6 +34,7 @@ from hri.speech.grammar.automaton import (
     build,
     build_as_written,
 )
+from hri.speech.grammar.denial import is_denied
 from hri.speech.grammar.numerals import sayings
 from hri.speech.grammar.rules import Rules
 from hri.speech.grammar.spellings import contracted_forms, spellings
@@ -411,7 +412,8 @@ class Matcher:
             if rules is None or rule in rules:
                 for history in self._histories(ways, rule):
                     tree, groups, free = _reading(words, history)
-                    yield Parse(text, rule, evaluate(groups), tree, free, groups)
+                    if not is_denied(words, free):
+                        yield Parse(text, rule, evaluate(groups), tree, free, groups)
 
     def _rules_in(self, ways: list[_Ways]) -> list[str]:
         """The public rules that allow a sentence, in the order they were written."""

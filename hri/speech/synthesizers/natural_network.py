@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -56,6 +57,8 @@ BREATH = 0.05
 """Seconds of silence that are left before a sentence."""
 PAUSE = 0.25
 """Seconds of silence that are left after a sentence."""
+MOST_KEPT = 32
+"""Parts of sentences whose sound is kept, for when they are said again: 10 MB."""
 _BLOCK = 120
 """Samples of which the level is measured."""
 
@@ -80,13 +83,14 @@ class Network:
         self._vocabulary = vocabulary
         self._synthesize = synthesize
         self._session = session_of(model, _DURATIONS)
+        self._part = lru_cache(maxsize=MOST_KEPT)(self._spoken)
 
     def speak(self, symbols: str, prosody: Prosody) -> list[Utterance]:
         """The symbols in sound, in parts that the network can take at once."""
         parts = longest_parts(symbols, MOST_SYMBOLS)
         return [self._part(symbols[begin:end], prosody) for begin, end in parts]
 
-    def _part(self, symbols: str, prosody: Prosody) -> Utterance:
+    def _spoken(self, symbols: str, prosody: Prosody) -> Utterance:
         ids = [self._vocabulary.get(symbol) for symbol in symbols]
         speed = min(max(prosody.rate, SLOWEST), FASTEST)
         given = {
@@ -96,6 +100,7 @@ class Network:
         *framed, durations = self._session.run(None, given)
         *spectra, pitch = (one[0] for one in framed)
         sound = self._sound(spectra, pitch, prosody)
+        sound.flags.writeable = False  # It is kept.
         ends = np.cumsum(durations) * _FRAME / RATE - LEAD
         return trimmed(sound, _sounded(symbols, ids, ends), RATE)
 

@@ -121,3 +121,25 @@ def test_lines_that_follow_the_line_before(moves, tmp_path):
     )
     (failure,) = failures(moves, read_expectations(path))
     assert str(failure).endswith("is understood as turn: angle=90 - expected turn: angle=-90")
+
+
+@pytest.mark.parametrize(
+    ("text", "rule"),
+    [("hi", "greet"), ("hey there", "greet"), ("bye", "leave"), ("hush", "quiet")],
+)
+def test_what_is_too_short_for_the_ear_counts_when_it_is_typed(text, rule):
+    grammar = load_grammar("companion")
+    heard = judge(grammar, Segment(0, 1, text=text), Hypothesis(text, 1.0), turn=Turn())
+    assert heard.rule == rule
+    unheard = judge(grammar, Segment(0, 1), Hypothesis(text, 1.0), turn=Turn())
+    assert unheard.reason == "not now"
+    assert not grammar.graph().entries.keys() & grammar.marked("typed")
+
+
+@pytest.mark.parametrize("text", ["that's enough", "whoa whoa", "right there", "hold it"])
+def test_that_is_enough_stops_only_what_was_told_to_move(text):
+    grammar = load_grammar("companion")
+    line, words = Segment(0, 1, text=text), Hypothesis(text, 1.0)
+    moving = Turn(last=Followed("move", {"distance": 1.0}))
+    assert judge(grammar, line, words, turn=moving).rule == "stop"
+    assert judge(grammar, line, words, turn=Turn()).reason == "not now"

@@ -208,3 +208,44 @@ def test_the_words_around_a_phrase_stay_as_they_were_typed(write):
 
     assert parse(grammar, "i have to run so bye for now").text == "i have to run so bye for now"
     assert parse(grammar, "i have had enough of 2").text == "i've had enough of two"
+
+
+@pytest.mark.parametrize(
+    ("text", "rule"),
+    [
+        ("don't tell me what time it is", "told_not_to"),
+        ("please do not tell me what time it is", "told_not_to"),
+        ("robot never tell me what your name is", ""),
+        ("don't you dare tell me what time it is", "told_not_to"),
+        ("don't spin around", "told_not_to"),
+        ("do not go forward", "told_not_to"),
+        ("i don't know what time it is", "time"),
+        ("don't worry but what time is it", "time"),
+        ("don't you know what time it is", "time"),
+    ],
+)
+def test_who_says_not_to_gives_no_order(text, rule):
+    found = parse(load_grammar("companion"), text)
+    assert (found.rule if found else "") == rule
+
+
+def test_free_words_of_a_listed_rule_are_for_the_keyboard(write):
+    rules = """
+    /** @anywhere
+     *  @listed
+     */
+    public <age> = how old are you | what age is <any 1-2>;
+    public <call> = call <any>;
+    """
+    grammar = load_grammar(write(rules))
+
+    for text in ("how old are you", "so how old are you today", "what age is my neighbor"):
+        assert parse(grammar, text).rule == "age"
+    graph = grammar.graph()
+    assert set(graph.words) == {"how", "old", "are", "you", "call", "<any>"}
+    free = [
+        target
+        for label, target in zip(graph.labels, graph.targets, strict=True)
+        if graph.words[label] == "<any>"
+    ]
+    assert free == [graph.final]

@@ -94,8 +94,12 @@ def test_every_graph_keeps_its_promises(grammar):
 def test_every_listed_sentence_is_in_the_graph(companion):
     graph = companion.graph()
 
-    assert all(accepts(graph, tuple(text.split())) for text in companion.sentences(40))
-    assert set(graph.entries) == set(companion.public_rules)
+    # Two rules have free words in each sentence, which are for the keyboard.
+    typed = companion.marked("typed") | {"my_name_is", "my_people"}
+    spoken = set(companion.public_rules) - typed
+    sentences = [text for text in companion.sentences(40) if parse(companion, text).rule in spoken]
+    assert all(accepts(graph, tuple(text.split())) for text in sentences)
+    assert set(graph.entries) == spoken
     assert companion.graph() is graph
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from itertools import islice
 
 from hri.speech.grammar.automaton import FINAL, START, Apply, Defer
+from hri.speech.grammar.doc_comments import ANY_COMMAND
 from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.matching import Matcher, Parse, as_written, parses
 
@@ -71,17 +72,30 @@ def ambiguity(grammar: Grammar, sentence: str) -> Ambiguity | None:
     """The two meanings of a sentence, if it has two.
 
     Two rules with the mark "part" are not heard side by side, so one sentence may be of both. It
-    may also be of an answer, which it is while a question is open, and of another rule.
+    may also be of an answer, which it is while a question is open, or of what follows a command,
+    and of another rule; of a rule that is only typed and of the command that it stands for; and of
+    two rules that count after different commands.
     """
     readings = parses(grammar, sentence)
-    parts, answers = grammar.marked("part"), grammar.marked("answer")
+    parts, answers, after, typed = map(grammar.marked, ("part", "answer", "after", "typed"))
     for other in readings[1:]:
         first = readings[0]
         rules = {first.rule, other.rule}
-        are_apart = len(rules) == 2 and (rules <= parts or len(rules & answers) == 1)
+        are_apart = len(rules) == 2 and (
+            rules <= parts or any(len(rules & some) == 1 for some in (answers, after))
+        )
+        are_apart |= _follow_others(grammar, rules)
+        are_apart |= any(grammar.rules[key].stands_for in rules for key in rules & typed)
         if not are_apart and not other.means_the_same(first):
             return Ambiguity(sentence, first, other)
     return None
+
+
+def _follow_others(grammar: Grammar, rules: set[str]) -> bool:
+    """Whether rules are marked @after, and no two of them after the same command."""
+    named = [name for key in rules for name in grammar.rules[key].after]
+    are_marked = all(grammar.rules[key].after for key in rules)
+    return are_marked and ANY_COMMAND not in named and len({*named}) == len(named)
 
 
 Ways = Mapping[int, int]

@@ -22,8 +22,9 @@ MOST_UNKNOWN = 20
 """Words that are told one by one."""
 MOST_SHORT = 5
 """Short commands that are told one by one, and longer ones of one word."""
-EXPECTED_SHORT = frozenset(("answer", "after", "wake", "part"))
-"""Marks of rules that may be short: heard in few moments, guards of the rest, or no commands."""
+EXPECTED_SHORT = frozenset(("answer", "after", "typed", "wake", "part"))
+"""Marks of rules that may be short: heard in few moments or never, guards of the rest, or no
+commands."""
 
 
 def heard_badly(grammar: Grammar, said: Mapping[str, Phrases], lexicon: Lexicon) -> list[Finding]:
@@ -66,7 +67,8 @@ def _first(findings: list[Finding]) -> list[Finding]:
 def _places(grammar: Grammar) -> dict[str, Place]:
     """Every word that can be heard and where it is first written."""
     places: dict[str, Place] = {}
-    heard = set(analysis.reachable(grammar.rules, grammar.public_rules))
+    spoken = [key for key in grammar.public_rules if "typed" not in grammar.rules[key].marks]
+    heard = set(analysis.reachable(grammar.rules, spoken))
     for rule in (rule for key, rule in grammar.rules.items() if key in heard):
         for node in rule.nodes:
             if isinstance(node, Token) and node.text not in places:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hri.speech.grammar.words import free_words
 from hri.speech.recognizers.ctc.classes import BLANK
 from hri.speech.recognizers.ctc.lattice import Path, Walk
 from hri.speech.recognizers.ctc.likelihood import likelihoods
@@ -23,6 +24,10 @@ In babble the right one is often not among the first eight of them: of 150 order
 """
 BEAM = 12.0
 """Natural log; sentences whose best way is worse than the best by more are dropped."""
+
+WHOLE = 4.0
+"""Natural log: how much worse a sentence may be than the same one among free words: a breath before
+it or behind it is not a word."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +53,27 @@ def ranked(search: Search, scores: Floats, lexicon: Pronouncing) -> list[Candida
         Candidate(path, path.score - _along(path, scores, phones) + float(total))
         for path, total in zip(paths, sums, strict=True)
     ]
-    return sorted(found, key=lambda candidate: -candidate.score)[:MOST_REPORTED]
+    best = sorted(found, key=lambda candidate: -candidate.score)[:MOST_REPORTED]
+    return _whole_first(best)
+
+
+def _whole_first(found: list[Candidate]) -> list[Candidate]:
+    """Candidates, the best first; where that is near to the same sentence without free words, that
+    one instead of all that have such words around it.
+    """
+    best = found[0]
+    listed = _listed(best)
+    if len(listed) == len(best.path.words):
+        return found
+    near = (one for one in found if one.path.words == listed and one.score > best.score - WHOLE)
+    whole = next(near, None)
+    if whole is None:
+        return found
+    return [whole, *(one for one in found if _listed(one) != listed)]
+
+
+def _listed(candidate: Candidate) -> tuple[str, ...]:
+    return tuple(word for word in candidate.path.words if free_words(word) is None)
 
 
 def _along(path: Path, scores: Floats, phones: NDArray[np.integer]) -> float:

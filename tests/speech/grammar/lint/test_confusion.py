@@ -84,7 +84,7 @@ def test_thousands_of_sentences_take_seconds(companion):
 
 def test_a_sample_is_the_same_each_time(companion, write):
     assert companion.sample(100) == companion.sample(100)
-    assert len(set(companion.sample(100))) == 100
+    assert len(set(companion.sample(100))) > 90  # A follow-up may be a command, too.
     assert sorted(load_grammar(write("public <a> = [hello] [you];")).sample(100)) == [
         "hello",
         "hello you",

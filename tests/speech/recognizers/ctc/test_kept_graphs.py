@@ -32,7 +32,7 @@ def test_other_sentences_weights_rules_and_sounds_are_another_graph() -> None:
     others = [
         compiled(sentence_graph("go", "no goal"), Sounds()),
         compiled(dataclasses.replace(graph, weights=graph.weights - 1), Sounds()),
-        compiled(dataclasses.replace(graph, entries={"all": 0}), Sounds()),
+        compiled(dataclasses.replace(graph, entries={"other": 0}), Sounds()),
         compiled(dataclasses.replace(graph, expected=frozenset(["all"])), Sounds()),
         compiled(graph, OtherSounds()),
     ]

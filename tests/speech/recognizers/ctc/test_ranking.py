@@ -1,14 +1,18 @@
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from hri.speech.recognizers.ctc.classes import CLASSES
+from hri.speech.recognizers.ctc.confidence import scores_of
 from hri.speech.recognizers.ctc.likelihood import likelihoods
 from hri.speech.recognizers.ctc.phone_graph import compile
 from hri.speech.recognizers.ctc.ranking import MOST_REPORTED, ranked
 from hri.speech.recognizers.ctc.search import Search
-from tests.speech.recognizers.word_graphs import WORDS, Sounds, random_scores, word_graph
+from tests.speech.recognizers.word_graphs import WORDS, Sounds, random_scores, spelled, word_graph
 
 TWO_OF_FOUR = {(word, after): word - after for word in range(4) for after in range(4)}
 """Sixteen sentences of two words, with their weights."""
@@ -30,3 +34,19 @@ def test_the_likeliest_of_more_sentences_than_are_reported_comes_first(seed, fra
     best = np.argsort(-totals)[:MOST_REPORTED]
     assert [one.path.words for one in found] == [said[number] for number in best]
     assert [one.score for one in found] == pytest.approx(totals[best], abs=1e-3)
+
+
+@pytest.mark.parametrize(("weight", "said"), [(8.0, ("go",)), (4.0, ("<any>", "go"))])
+def test_a_breath_before_a_sentence_is_not_a_word(weight, said):
+    """The whole sentence counts where it is hardly worse than the one with free words."""
+    graph = dataclasses.replace(
+        word_graph([(0, 1, -1, 0.0), (0, 2, 1, 0.0), (1, 3, 0, weight), (2, 3, 0, 0.0)], 4),
+        words=("go", "<any>", *WORDS[2:]),
+    )
+    search = Search(compile(graph, Sounds()))
+    heard = spelled(*["AH"] * 6, "blank", "G", "OW")
+    heard[:, CLASSES.index("blank")] = np.maximum(heard[:, CLASSES.index("blank")], -0.1)
+    scores = scores_of(heard)
+    search.advance(scores)
+    found = ranked(search, scores, Sounds())
+    assert found[0].path.words == said

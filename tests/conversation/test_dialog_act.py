@@ -1,0 +1,31 @@
+"""What a sentence does that no rule allows."""
+
+import pytest
+
+from hri.conversation.dialog_act import DialogAct, dialog_act
+
+
+@pytest.mark.parametrize(
+    ("text", "act"),
+    [
+        ("My neighbor bought a boat last year.", DialogAct.STATEMENT),
+        ("so when i was little we had a pony", DialogAct.STATEMENT),
+        ("it was a beagle", DialogAct.STATEMENT),
+        ("Who wrote that book?", DialogAct.QUESTION),
+        ("when is the next bus", DialogAct.QUESTION),
+        ("do you know Latin", DialogAct.QUESTION),
+        ("can turtles swim", DialogAct.QUESTION),
+        ("Could you tie my shoes?", DialogAct.DIRECTIVE),
+        ("can i have a cookie", DialogAct.DIRECTIVE),
+        ("let's play chess", DialogAct.DIRECTIVE),
+        ("i want you to do the dishes", DialogAct.DIRECTIVE),
+        ("do it again", None),
+        ("have a seat", None),
+        ("it was", None),
+        ("purple elephants", None),
+        ("so", None),
+        ("", None),
+    ],
+)
+def test_the_first_words_show_it(text, act):
+    assert dialog_act(text) is act
