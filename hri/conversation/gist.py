@@ -54,12 +54,15 @@ class Gist:
         """The words of a grammar.
 
         Those of answers, of courtesies, and of what follows a command say nothing of a subject.
+        What is only typed stands for a command that has other words.
         Small talk, whose rules have a topic, is about everything, and is not what people grope for.
         """
         answers, follow_ups = grammar.marked("answer"), grammar.marked("after")
         rules = [rule for rule in grammar.public_rules if rule not in answers]
         known = {rule: frozenset(_words_of(grammar, rule)) for rule in rules}
-        every = {rule: words for rule, words in known.items() if not grammar.rules[rule].topics}
+        typed = grammar.marked("typed")
+        own = [rule for rule in rules if rule not in typed and not grammar.rules[rule].topics]
+        every = {rule: known[rule] for rule in own}
         telling = {rule: words - LITTLE for rule, words in every.items() if rule not in follow_ups}
         stems = {rule: frozenset(map(_stem, words)) for rule, words in telling.items()}
         spread = Counter(stem for words in stems.values() for stem in words)

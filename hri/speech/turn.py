@@ -40,14 +40,13 @@ class Turn:
 
     def rules(self, grammar: Grammar) -> frozenset[str]:
         """The public rules that may be heard."""
-        interrupting = grammar.marked("interrupts")
+        unheard = frozenset() if self.is_typed else grammar.marked("typed")
+        interrupting = grammar.marked("interrupts") - unheard
         if self.is_speaking:
             return interrupting
-        rules = frozenset(grammar.public_rules) - out_of_place(grammar, self.last)
+        rules = frozenset(grammar.public_rules) - out_of_place(grammar, self.last) - unheard
         if not self.is_question_open:
             rules -= grammar.marked("answer")
-        if not self.is_typed:
-            rules -= grammar.marked("typed")
         waking = grammar.marked("wake")
         if waking and not self.is_awake and not self.is_question_open:
             rules &= waking | interrupting
