@@ -136,6 +136,48 @@ def test_what_is_too_short_for_the_ear_counts_when_it_is_typed(text, rule):
     assert not grammar.graph().entries.keys() & grammar.marked("typed")
 
 
+LEFT, AHEAD = Followed("turn", {"angle": 90.0}), Followed("move", {"distance": 1.0})
+
+
+@pytest.mark.parametrize(
+    ("text", "last", "rule", "tags"),
+    [
+        ("no no no stop", None, "stop", {}),
+        ("watch out for the dog", None, "stop", {}),
+        ("you're going to hit the cat", AHEAD, "stop", {}),
+        ("no no no", LEFT, "stop", {}),
+        ("let me through", None, "move", {"distance": -0.3}),
+        ("take two steps forward", None, "move", {"distance": 0.6096}),
+        ("go left you silly robot", None, "turn", {"angle": 90}),
+        ("a bit to the right", None, "turn", {"angle": -20}),
+        ("come and find me", None, "come", {}),
+        ("don't stop", AHEAD, "move", {"distance": 1.0}),
+        ("undo that", LEFT, "turn", {"angle": -90.0}),
+        ("only half", AHEAD, "move", {"distance": -0.5}),
+        ("too close", AHEAD, "move", {"distance": -0.3}),
+        ("right", LEFT, "turn", {"angle": -90}),
+        ("right", None, "i_see", {}),
+    ],
+)
+def test_orders_are_typed_in_many_words(text, last, rule, tags):
+    grammar = load_grammar("companion")
+    found = judge(grammar, Segment(0, 1, text=text), Hypothesis(text, 1.0), turn=Turn(last=last))
+    assert (found.rule, found.tags) == (rule, pytest.approx(tags, abs=0.01))
+
+
+@pytest.mark.parametrize("text", ["don't stop", "no no no", "undo that", "only half"])
+def test_what_changes_a_motion_means_nothing_without_one(text):
+    grammar = load_grammar("companion")
+    found = judge(grammar, Segment(0, 1, text=text), Hypothesis(text, 1.0), turn=Turn())
+    assert found.reason == "not now"
+
+
+def test_an_urgent_line_is_obeyed_while_the_robot_speaks_and_such_words_are_not_heard():
+    grammar = load_grammar("companion")
+    assert "urgent" in Turn(is_speaking=True, is_typed=True).rules(grammar)
+    assert "urgent" not in Turn(is_speaking=True).rules(grammar)
+
+
 @pytest.mark.parametrize("text", ["that's enough", "whoa whoa", "right there", "hold it"])
 def test_that_is_enough_stops_only_what_was_told_to_move(text):
     grammar = load_grammar("companion")
