@@ -130,7 +130,15 @@ def test_every_example_means_its_rule_to_the_companion(smalltalk, companion):
         ("stop it", "stop"),
         ("are you tired", "are_you_tired"),
         ("will it rain tomorrow", "weather"),
-        ("could you tell us a joke please", "joke"),
+        ("could you tell us a joke please", "joke_among"),
+        ("what else", "tell_more"),
+        ("and you", "and_you"),
+        ("like what", "like_what"),
+        ("since when", "since_when"),
+        ("today the kids at school call me fat again", "bullied"),
+        ("i think my daughter got into medical school", "proud_of_them"),
+        ("honestly i have never told anyone this", "i_confess"),
+        ("he just broke up with me over text an hour ago", "heartbreak"),
         ("i want to die", "in_danger"),
         ("i wish i was dead", "in_danger"),
         ("turn around", "turn"),
@@ -165,3 +173,21 @@ def test_what_people_say_is_understood(companion, text, rule):
 def test_what_is_denied_or_said_of_others_is_not_taken_for_its_opposite(companion, text):
     found = understood(companion, text)
     assert found is None or found.rule not in {"insult", "scold", "in_danger", "i_am_hungry"}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "i know you're just a robot but listen",
+        "i want to call him but i'm too proud",
+        "he always could make me laugh",
+        "it was a long time ago",
+        "how do you move on after that",
+        "i'm afraid i have to disagree",
+        "i don't know what to say to her",
+        "flowers remind me of spring",
+        "look at this mess in the kitchen",
+    ],
+)
+def test_a_few_stray_words_do_not_take_a_sentence_about_something_else(companion, text):
+    assert understood(companion, text) is None

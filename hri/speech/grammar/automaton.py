@@ -184,11 +184,13 @@ def build_spoken(grammar: Rules) -> Automaton:
 
 
 def build_as_written(grammar: Rules) -> Automaton:
-    """The same without the words around the rules that count @anywhere."""
-    if not grammar.marked("anywhere"):
+    """The same without the words around the rules that count @anywhere, and without the free words
+    of those that are typed: any word would begin a sentence.
+    """
+    if not grammar.marked("anywhere") | grammar.marked("typed"):
         return grammar.made(build)
     with without_collection():
-        return _Builder(grammar, frozenset()).build()
+        return _Builder(grammar, frozenset(), is_listed=True).build()
 
 
 class _Builder:
@@ -198,9 +200,15 @@ class _Builder:
     """
 
     def __init__(
-        self, grammar: Rules, anywhere: frozenset[str], *, is_spoken: bool = False
+        self,
+        grammar: Rules,
+        anywhere: frozenset[str],
+        *,
+        is_spoken: bool = False,
+        is_listed: bool = False,
     ) -> None:
         self._grammar, self._anywhere, self._is_spoken = grammar, anywhere, is_spoken
+        self._is_listed = is_listed
         self._recursive = grammar.made(analysis.recursive_of)
         self._is_silent = analysis.Silence(grammar.made(analysis.silent_rules))
         for error in analysis.left_recursion(grammar):
@@ -233,7 +241,9 @@ class _Builder:
             for parts in commands.values()
             for count in range(len(parts.before) + 1)
         )
-        listed = self._grammar.marked("listed") if self._is_spoken else frozenset()
+        listed = self._grammar.marked("listed") | self._grammar.marked("typed")
+        if not (self._is_spoken or self._is_listed):
+            listed = frozenset()
         for key, parts in commands.items():
             hub, end = self._hub(parts.before), self._end(parts.after)
             self._work_off(key)
@@ -339,9 +349,10 @@ class _Builder:
 
     def _anything(self, job: _Job, node: Anything) -> None:
         """Word by word; of all ways through them the shortest comes first."""
+        if self._lists_only:
+            return
         if self._is_spoken:
-            if not self._lists_only:
-                self._arcs.add(job, job.end, node.written, job.before + job.after)
+            self._arcs.add(job, job.end, node.written, job.before + job.after)
             return
         for number in range(1, node.most + 1):
             inside = self._new_node()

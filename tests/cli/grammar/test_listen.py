@@ -57,7 +57,7 @@ def test_a_typed_line_may_have_little_words_too_many_at_a_price(typed, capsys):
         ("turn", 'after "turn": '),
         ("go forwrd", 'did you mean "forward"?'),
         ("zorg", 'no sentence begins with "zorg"'),
-        ("stop " * 400, 'after "stop'),
+        ("turn " * 400, 'after "turn'),
     ],
 )
 def test_a_typed_line_that_is_no_sentence_is_told_why(typed, capsys, line, detail):

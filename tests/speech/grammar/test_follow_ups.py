@@ -156,7 +156,6 @@ LEFT, AHEAD = Followed("turn", {"angle": 90.0}), Followed("move", {"distance": 1
         ("only half", AHEAD, "move", {"distance": -0.5}),
         ("too close", AHEAD, "move", {"distance": -0.3}),
         ("right", LEFT, "turn", {"angle": -90}),
-        ("right", None, "i_see", {}),
     ],
 )
 def test_orders_are_typed_in_many_words(text, last, rule, tags):

@@ -72,10 +72,9 @@ def ambiguity(grammar: Grammar, sentence: str) -> Ambiguity | None:
     """The two meanings of a sentence, if it has two.
 
     Two rules with the mark "part" are not heard side by side, so one sentence may be of both. It
-    may also be of an answer, which it is while a question is open, or of what follows a command,
-    and of another rule; of a rule that is only typed, which then counts for the keyboard, and of
-    one for the ear; of a rule that is only typed and of one that stands for the same command; and
-    of two rules that count after different commands.
+    may also be of an answer, which it is while a question is open, of what follows a command, or
+    of what is only typed, and of another rule; and of two rules that count after different
+    commands.
     """
     readings = parses(grammar, sentence)
     parts, answers, after, typed = map(grammar.marked, ("part", "answer", "after", "typed"))
@@ -83,19 +82,12 @@ def ambiguity(grammar: Grammar, sentence: str) -> Ambiguity | None:
         first = readings[0]
         rules = {first.rule, other.rule}
         are_apart = len(rules) == 2 and (
-            rules <= parts or any(len(rules & some) == 1 for some in (answers, after))
+            rules <= parts or any(len(rules & some) == 1 for some in (answers, after, typed))
         )
         are_apart |= _follow_others(grammar, rules)
-        are_apart |= first.rule in typed and other.rule not in typed
-        are_apart |= len(rules & typed) == 1 and _stand_for_one(grammar, rules)
         if not are_apart and not other.means_the_same(first):
             return Ambiguity(sentence, first, other)
     return None
-
-
-def _stand_for_one(grammar: Grammar, rules: set[str]) -> bool:
-    """Whether rules are, or stand for, the same command."""
-    return len({grammar.rules[key].stands_for or key for key in rules}) == 1
 
 
 def _follow_others(grammar: Grammar, rules: set[str]) -> bool:

@@ -351,18 +351,11 @@ def test_two_ways_to_one_meaning_are_no_ambiguity(write):
     assert not any("and also" in finding.what for finding in check(load_grammar(write(rules))))
 
 
-def test_the_keyboard_may_take_over_a_sentence_but_not_be_left_without_it(write):
+def test_the_keyboard_may_share_a_sentence_with_the_ear(write):
     typed = "/** @typed\n * @as stop */ public <urgent> = watch out | get going;\n"
-    spoken, stop = (
-        "public <warn> = watch out now | watch out;\n",
-        "public <stop> = stop that now;\n",
-    )
-    assert not any(
-        "and also" in one.what for one in check(load_grammar(write(stop + typed + spoken)))
-    )
-
-    found = check(load_grammar(write(stop + spoken + typed)))
-    assert any("means <warn>, and also <urgent>" in one.what for one in found)
+    spoken, stop = "public <warn> = watch out;\n", "public <stop> = stop that now;\n"
+    for rules in (stop + typed + spoken, stop + spoken + typed):
+        assert not any("and also" in one.what for one in check(load_grammar(write(rules))))
 
 
 def test_errors_hide_warnings_and_come_alone(write):
