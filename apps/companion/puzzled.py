@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import islice
 from typing import Any
 
@@ -15,6 +15,7 @@ from hri.conversation.gist import Gist
 from hri.conversation.puzzlement import Answer, Kind, Puzzle, as_said
 from hri.speech.automatic_level import VERY_QUIET_DB
 from hri.speech.grammar import Grammar, parse
+from hri.speech.grammar.matching import departure
 from hri.speech.grammar.words import normalize
 from hri.speech.turn import QUESTION
 
@@ -79,7 +80,7 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
     rule = found.rule if found is not None else gist.rule_of(words)
     is_answer = rule in grammar.marked("answer")
     strange = gist.strange(text) if is_typed else []
-    is_slip = len(strange) == 1 and gist.is_like_known(strange[0])
+    is_slip = is_typed and found is None and _is_slip(grammar, text, strange)
     topic = "" if is_answer else companion.replies.about.get(rule, "")
     example = "" if is_answer else companion.examples().get(rule, "")
     return Puzzle(
@@ -89,13 +90,21 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
         is_turned_to=bool(heard.get("is_looked_at")) or is_named,
         is_quiet=level is not None and level < VERY_QUIET_DB,
         topic=topic,
-        nearest=as_said(example),
+        nearest=as_said(example or (_most_like(companion, text) if is_slip else "")),
         act=None if is_slip or not is_typed else dialog_act(text),
         words=len(normalize(text)),
         strange=strange,
         answers=_answers(companion, grammar),
         is_answer=is_answer,
     )
+
+
+def _is_slip(grammar: Grammar, text: str, strange: Sequence[str]) -> bool:
+    """Whether a sentence fails at a slip of the fingers: "go forwrd"."""
+    if len(strange) != 1:
+        return False
+    fails = departure(grammar, text)
+    return fails is not None and fails.word == strange[0] and fails.remedy.startswith("did you")
 
 
 def _answers(companion: Companion, grammar: Grammar) -> list[str]:

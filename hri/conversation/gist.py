@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -33,8 +32,6 @@ LEAST_SHARE = 0.5
 """Share of the telling words of a sentence that a rule must have to be the subject."""
 MOST_RULES = 3
 """A word that more rules have does not tell one from another."""
-LEAST_ALIKE = 0.8
-"""Share of its letters that a word with a slip has in common with the right one."""
 ENDINGS = ("ing", "ed", "s")
 
 
@@ -94,14 +91,6 @@ class Gist:
     def strange(self, text: str) -> list[str]:
         """The words of a text that no rule has, in order."""
         return [word for word in dict.fromkeys(normalize(text)) if word not in self.known | LITTLE]
-
-    def is_like_known(self, word: str) -> bool:
-        """Whether a strange word is one of the grammar's with a slip of the fingers: "forwrd"; not
-        another form of one, "plants".
-        """
-        near = (known for known in self.known if abs(len(known) - len(word)) <= 1)
-        alike = [known for known in near if _stem(known) != _stem(word)]
-        return bool(difflib.get_close_matches(word, alike, 1, LEAST_ALIKE))
 
 
 def _words_of(grammar: Rules, rule: str) -> Iterator[str]:
