@@ -1,13 +1,13 @@
-"""Whether more words may follow a sentence of a grammar and change what it means."""
+"""Whether more words may follow a spoken sentence of a grammar and change what it means."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from hri.speech.grammar.automaton import START, Actions, Enter, Leave
-from hri.speech.grammar.matching import Matcher, matcher_of
+from hri.speech.grammar.matching import Matcher, as_spoken
 from hri.speech.grammar.rules import Rules
-from hri.speech.grammar.words import ANY, typed
+from hri.speech.grammar.words import free_words, typed
 
 
 def may_go_on(grammar: Rules, rule: str, text: str, command: str) -> bool:
@@ -30,7 +30,7 @@ class _Walk:
     """Goes along the words that mean something."""
 
     def __init__(self, grammar: Rules) -> None:
-        self.matcher: Matcher = grammar.made(matcher_of)
+        self.matcher: Matcher = grammar.made(as_spoken)
         rules = grammar.rules.items()
         self._aside = frozenset(name for name, rule in rules if "aside" in rule.marks)
 
@@ -92,7 +92,7 @@ class _Walk:
         """The arcs with a word that leave the nodes."""
         for node in nodes:
             for word, arcs in self.matcher.leaving(node)[1].items():
-                if word != ANY:
+                if free_words(word) is None:
                     yield from (arc for arc in arcs if not self._is_aside(arc))
 
     def _begins(self, arc: int, rule: str) -> bool:

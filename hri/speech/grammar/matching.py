@@ -33,6 +33,7 @@ from hri.speech.grammar.automaton import (
     Leave,
     build,
     build_as_written,
+    build_spoken,
 )
 from hri.speech.grammar.denial import is_denied
 from hri.speech.grammar.numerals import sayings
@@ -118,6 +119,11 @@ class Refusal:
 def matcher_of(grammar: Rules) -> Matcher:
     """What follows the sentences of a grammar. Raises what `build` raises."""
     return Matcher(grammar.made(build))
+
+
+def as_spoken(grammar: Rules) -> Matcher:
+    """What follows the sentences that a voice may say."""
+    return Matcher(grammar.made(build_spoken))
 
 
 def as_written(grammar: Rules) -> Matcher:

@@ -18,6 +18,7 @@ from hri.core.errors import HriError
 from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, HeardWord, Hypothesis, Segment
 from hri.speech.engine_models import find_pocketsphinx
+from hri.speech.grammar.words import free_words
 from hri.speech.language import require_english
 from hri.speech.path_confidence import FRAME, PathFigures, confidence
 from hri.speech.pronunciation.lexicon import Lexicon, load_lexicon
@@ -45,7 +46,7 @@ class PocketSphinxRecognizer(EndpointedRecognizer):
     def start(self, grammar: Grammar) -> None:
         require_english(grammar, self.manager.notice)
         with self._talk:
-            words = sorted(grammar.words())
+            words = sorted(word for word in grammar.graph().words if free_words(word) is None)
             missing = self._ask({"lookup": words})["missing"]
             self._take(
                 grammar, _pronunciations(load_lexicon(), words, missing), _while_idle(grammar)
