@@ -212,6 +212,9 @@ def _replies_of_companion() -> tuple[Any, Any]:
 def replies(path: Path) -> object:
     """The companion's replies, as those of an app that extends it."""
     module, vocabulary = _replies_of_companion()
+    beside = path.parent / "smalltalk"
+    if not beside.exists():
+        beside.symlink_to(vocabulary.app.folder / "smalltalk")
     app = replace(vocabulary.app, folder=path.parent, base=vocabulary.app)
     found = module.load_replies([path], replace(vocabulary, app=app))
     return [text.format_map(_Anything()) for reply in found.replies.values() for text in reply.say]

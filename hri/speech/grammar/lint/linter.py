@@ -242,7 +242,8 @@ def _careful(grammar: Grammar, lexicon: Lexicon) -> Iterator[Finding]:
     if not careful:
         return
     sentences = grammar.sample(MOST_SENTENCES)
-    readings = [found for text in sentences if (found := parse(grammar, text)) is not None]
+    heard = frozenset(grammar.public_rules) - grammar.marked("typed")
+    readings = [found for text in sentences if (found := parse(grammar, text, heard)) is not None]
     told = 0
     for pair in sound_alikes(readings, lexicon, MOST_LIKE):
         first, second = sorted((pair.first, pair.second), key=lambda said: said.rule not in careful)
