@@ -27,6 +27,7 @@ AUXILIARIES = frozenset((
     "won't", "would",
 ))
 PEOPLE = frozenset(("he", "i", "people", "she", "they", "we", "you"))
+"""Behind "do", "don't" or "have" they make a question of an order."""
 TELLERS = frozenset((
     "because", "everybody", "everyone", "he", "her", "he's", "his", "i", "i'm", "i've", "if", "it",
     "it's", "last", "mine", "my", "nobody", "our", "people", "she", "she's", "some", "somebody",

@@ -184,3 +184,15 @@ def test_that_is_enough_stops_only_what_was_told_to_move(text):
     moving = Turn(last=Followed("move", {"distance": 1.0}))
     assert judge(grammar, line, words, turn=moving).rule == "stop"
     assert judge(grammar, line, words, turn=Turn()).reason == "not now"
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["don't go there stop right now", "never mind that just stop", "stop talking and stop"],
+)
+@pytest.mark.parametrize("turn", [Turn(), Turn(is_speaking=True), Turn(is_question_open=True)])
+def test_a_typed_sentence_that_ends_with_stop_stops(text, turn):
+    heard = judge(
+        load_grammar("companion"), Segment(0, 1, text=text), Hypothesis(text, 1.0), turn=turn
+    )
+    assert heard.rule == "stop"
