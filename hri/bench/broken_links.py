@@ -67,10 +67,11 @@ def chain_of(program: int) -> Sequence[psutil.Process]:
 
 
 def end(processes: Iterable[psutil.Process]) -> None:
-    """Kill all of them: a frozen one would keep the port."""
-    for process in processes:
+    """Kill all of them, so that none keeps the port; all stand still before the first one dies, so
+    that none has a last word about it."""
+    for number, process in itertools.product((signal.SIGSTOP, signal.SIGKILL), list(processes)):
         with suppress(psutil.NoSuchProcess):
-            process.kill()
+            process.send_signal(number)
 
 
 def _told(seconds: Sequence[float]) -> dict[str, float]:
