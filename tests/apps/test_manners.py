@@ -118,6 +118,7 @@ def nods(visit):
     return [event for event in visit.named("gesture.ended") if event.properties["name"] == "nod"]
 
 
+@pytest.mark.slow
 def test_it_nods_to_who_talks_for_long_and_looks_at_it():
     assert len(nods(Visit(11, {2.0: LONG}, devices=[SMALL_SCREEN, SLOW_CAMERA]))) >= 1
     assert nods(Visit(11, {2.0: LONG})) == []

@@ -206,6 +206,7 @@ def test_a_task_that_fails_says_so_and_the_log_names_file_and_line(put, caplog):
     assert caplog.messages == [f"timer failed: {folder / 'tasks.py'}:2: no clock"]
 
 
+@pytest.mark.slow
 def test_a_task_that_fails_again_and_again_is_told_of_once_a_minute(put):
     orders = dict.fromkeys((1.0, 6.0, 11.0, 66.0), "set a timer for four seconds")
     events = live(robot_of(put({**TIMER, "tasks.py": FAILS})), 72, orders)

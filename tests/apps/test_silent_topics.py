@@ -24,6 +24,7 @@ def test_a_silent_topic_is_not_heard_and_needs_no_reply(put):  # noqa: F811
     assert [event.properties["rule"] for event in named(events, "speech.heard")] == ["twister"]
 
 
+@pytest.mark.slow
 def test_replies_to_a_silent_topic_may_stay(put):  # noqa: F811
     replies = TEASED["replies.toml"] + '[reply.tease]\nsay = "Beep."\n'
     heard = {**TEASED, "replies.toml": replies, "app.toml": 'extends = "companion"\n'}

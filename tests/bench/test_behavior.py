@@ -15,6 +15,7 @@ def test_the_chain_really_passes_a_number_on():
     assert runner.statistics.behaviors["99"].count == 1
 
 
+@pytest.mark.slow
 def test_the_cost_is_told_for_a_behavior_and_compared_where_a_peer_is():
     figures = cost(count=20, repeats=50)
     assert figures["hri_us"]["median"] > 0

@@ -107,6 +107,7 @@ def credulous(grammar, said, engine=""):
     return Hearing([[piece("stop")] for _ in said], 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("_silent_flite")
 def test_who_hears_right_passes_every_row(people):
     told = list(accuracy.rows(people, perfect, step=9, progress=str))

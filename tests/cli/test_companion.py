@@ -228,6 +228,7 @@ def test_a_mistake_in_the_visit_leaves_nothing_behind(tmp_path):
     assert not out.exists()
 
 
+@SLOW
 def test_a_small_app_needs_no_visit(tmp_path):
     (tmp_path / "app.toml").write_text('networks = ["face.xml"]\n')
     shutil.copy(paths.find("apps", "companion") / "face.xml", tmp_path)
@@ -236,6 +237,7 @@ def test_a_small_app_needs_no_visit(tmp_path):
     assert "Traceback" not in run.stderr
 
 
+@SLOW
 def test_it_ends_when_nobody_reads():
     command = [sys.executable, "-m", "hri.cli.main", "companion", "--demo", "--fast", "--headless"]
     with subprocess.Popen(
@@ -247,6 +249,7 @@ def test_it_ends_when_nobody_reads():
     assert run.returncode == 0
 
 
+@SLOW
 def test_it_ends_with_a_summary_when_it_is_interrupted(tmp_path):
     out = tmp_path / "out"
     with start("companion", "--demo", "--fast", "--headless", "--record", out) as run:
@@ -267,6 +270,7 @@ def test_unknown_commands_and_help():
     assert hri("--version").stdout.startswith("hri 0.")
 
 
+@SLOW
 def test_a_grammar_with_an_undefined_rule_exits_with_2(tmp_path):
     path = tmp_path / "bad.jsgf"
     path.write_text("#JSGF V1.0;\ngrammar bad;\npublic <go> = go <wheer>;\n<where> = home;\n")
@@ -277,6 +281,7 @@ def test_a_grammar_with_an_undefined_rule_exits_with_2(tmp_path):
     assert hri("grammar", "check", "companion").returncode == 0
 
 
+@SLOW
 def test_doctor_reports_and_goes_on():
     run = hri("doctor", "--seconds", "0.2")
     assert run.returncode in (0, 1)

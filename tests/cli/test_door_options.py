@@ -71,10 +71,12 @@ def driven(folder, token, *options):
         return way
 
 
+@pytest.mark.slow
 def test_no_local_program_drives_the_base_without_the_token(folder):
     assert driven(folder, "") == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("options", [(), ("--trusted", "steering")], ids=["token", "trusted"])
 def test_who_shows_it_or_is_trusted_does(folder, options):
     assert driven(folder, "" if options else new_token(), *options) > 0.01

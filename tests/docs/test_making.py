@@ -47,6 +47,7 @@ def test_the_fortune_of_the_page_is_told(copied):
     assert said == ["You will soon speak to a robot."]
 
 
+@pytest.mark.slow
 def test_the_timer_of_the_page_rings(copied):
     said, names = said_by(copied / "kitchen", {1.0: "set a timer for three seconds"}, 7)
     assert said == ["Okay, I'll let you know.", "3 seconds are over."]
@@ -56,6 +57,7 @@ def test_the_timer_of_the_page_rings(copied):
 TALKS = re.findall(r"^```dialogue\n(.*?)^```", PAGE, re.DOTALL | re.MULTILINE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dialogue", TALKS)
 def test_the_talks_of_the_page_go_as_shown(copied, dialogue):
     """Each line is typed a second after the robot has said what stands before it."""

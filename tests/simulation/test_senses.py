@@ -36,6 +36,7 @@ def manager() -> Iterator[ResourceManager]:
     manager.close()
 
 
+@pytest.mark.slow
 def test_what_the_person_says_is_heard_and_small_talk_is_not(manager: ResourceManager) -> None:
     world = manager.obtain("world", SimulatedWorld)
     microphone = manager.obtain("microphone", Microphone)

@@ -91,6 +91,7 @@ def test_orders_of_coffee_are_no_commands(sphinx, companion):
     assert accepted == []
 
 
+@pytest.mark.slow
 def test_what_is_heard_does_not_depend_on_what_was_heard_before(sphinx, companion):
     names = ["goforward", "something", "numbers", "cards003"]
     pieces = {name: segments_of(sphinx, spoken_by_a_person(name)) for name in names}
@@ -105,6 +106,7 @@ def test_what_is_heard_does_not_depend_on_what_was_heard_before(sphinx, companio
     assert first == again
 
 
+@pytest.mark.slow
 def test_only_the_rules_that_count_now_are_listened_for(sphinx, companion, spoken):
     (piece,) = segments_of(sphinx, spoken("go forward ten meters"))
     commands, answers = Turn().rules(companion), companion.marked("answer")

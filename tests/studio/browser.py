@@ -9,21 +9,42 @@ from hri.core import paths
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or ""
 NEEDS_BROWSER = pytest.mark.skipif(not CHROMIUM, reason="no Chromium - apt install chromium")
-NEEDS = [pytest.mark.slow, NEEDS_BROWSER]
+NEEDS = [pytest.mark.slow, NEEDS_BROWSER, pytest.mark.usefixtures("one_browser")]
 """The marks of a module whose tests all work in a browser, which takes long."""
 AXE = paths.house() / "hri" / "studio" / "page" / "node_modules" / "axe-core" / "axe.min.js"
 DESKTOP, PHONE = {"width": 1360, "height": 900}, {"width": 390, "height": 844}
 
 
-@contextmanager
-def opened(address, size=DESKTOP, **more):
-    """The page of a studio, once it is linked; what goes wrong in it is an error."""
-    from playwright.sync_api import expect, sync_playwright
+_running = []
 
+
+@contextmanager
+def chromium():
+    """The browser that runs, or one that ends behind the `with`."""
+    from playwright.sync_api import sync_playwright
+
+    if _running:
+        yield _running[0]
+        return
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        _running.append(browser)
         try:
-            page = browser.new_context(viewport=size, **more).new_page()
+            yield browser
+        finally:
+            _running.clear()
+            browser.close()
+
+
+@contextmanager
+def opened(address, size=DESKTOP, **more):
+    """The page of a studio in a fresh profile, once it is linked; what goes wrong is an error."""
+    from playwright.sync_api import expect
+
+    with chromium() as browser:
+        profile = browser.new_context(viewport=size, **more)
+        try:
+            page = profile.new_page()
             page.set_default_timeout(20_000)
             wrong, asked = [], []
             page.on("pageerror", lambda error: wrong.append(str(error)))
@@ -35,7 +56,7 @@ def opened(address, size=DESKTOP, **more):
             own = (address.partition("?")[0], "blob:", "ws://127.0.0.1:")
             assert [url for url in asked if not url.startswith(own)] == []
         finally:
-            browser.close()
+            profile.close()
 
 
 def violations(page):

@@ -13,7 +13,7 @@ from hri.studio.session import StudioSession
 HEADLESS = [Description("screen", "Hri.OffscreenScreen"), Description("voice", "Hri.SilentVoice")]
 LONGEST = 3600.0
 """Simulated seconds after which a robot ends that a test has forgotten."""
-PAUSE = 0.01
+PAUSE = 0.03
 """Seconds of the machine, for each 0.05 simulated ones."""
 
 

@@ -113,6 +113,7 @@ def test_no_crowd_of_strangers_keeps_out_a_stop_or_whoever_is_known(kind):
     trio.run(run, clock=trio.testing.MockClock())  # no time passes, however slow the machine is
 
 
+@pytest.mark.slow
 def test_a_stranger_who_says_nothing_whole_is_sent_away_soon_and_a_known_one_is_not():
     async def ended(studio, words):
         stream = await studio.say(words)

@@ -2,14 +2,15 @@
 
 import os
 import signal
+from contextlib import closing
 
 import pytest
 
-from tests.studio.browser import CHROMIUM, DESKTOP, NEEDS, PHONE, opened, violations
+from tests.studio.browser import DESKTOP, NEEDS, PHONE, chromium, opened, violations
 from tests.studio.living import living
 
 pytest.importorskip("playwright", reason="no playwright - pip install hri[dev]")
-from playwright.sync_api import expect, sync_playwright
+from playwright.sync_api import expect
 
 pytestmark = NEEDS
 
@@ -124,9 +125,6 @@ def test_nothing_stands_in_the_way_of_a_screen_reader(scheme, size):
 
 
 def test_a_browser_that_is_not_known_says_what_to_do():
-    with living() as (studio, _), sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        page = browser.new_page()
+    with living() as (studio, _), chromium() as browser, closing(browser.new_page()) as page:
         page.goto(studio.address().partition("?")[0])
         expect(page.locator("#notice")).to_contain_text("open the address that hri studio")
-        browser.close()

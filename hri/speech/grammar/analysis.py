@@ -47,8 +47,8 @@ def reachable(rules: RulesByKey, keys: Iterable[str]) -> list[str]:
 
 def tag_names(grammar: Rules, keys: Iterable[str]) -> frozenset[str]:
     """Names of all tags that an understood sentence of these rules may have."""
-    nodes = (node for key in reachable(grammar.rules, keys) for node in grammar.rules[key].nodes)
-    entries = [entry for node in nodes if isinstance(node, Tagged) for entry in node.entries]
+    rules = [grammar.rules[key] for key in reachable(grammar.rules, keys)]
+    entries = [entry for rule in rules for entry in rule.tag_entries]
     used_up = {name for entry in entries for name in entry.takes if name != entry.name}
     return frozenset({entry.name for entry in entries} - used_up)
 

@@ -17,9 +17,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import lru_cache, partial
+from functools import cached_property, lru_cache
 from glob import escape
 from pathlib import Path
+from typing import NamedTuple
 
 from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
@@ -31,6 +32,7 @@ from hri.speech.grammar.expressions import (
     RuleReference,
     SourceSpan,
     rename,
+    walk,
 )
 from hri.speech.grammar.framing import framed
 from hri.speech.grammar.grammar import Grammar
@@ -71,15 +73,72 @@ def read_grammar(path: Path) -> tuple[Grammar, list[AuthoringError]]:
     return _Loader().load(path)
 
 
+@dataclass(frozen=True, eq=False)
+class _Source:
+    """A file as it was written, and its rules as the last grammar that was read had them."""
+
+    document: Document
+    rules: dict[int, tuple[_Meaning, Rule]] = field(default_factory=dict)
+    """By the number of the definition: most grammars are read again with the same names."""
+
+    @cached_property
+    def references(self) -> tuple[tuple[RuleReference, ...], ...]:
+        """Those of each definition, in the order of writing."""
+        return tuple(
+            tuple(node for node in walk(rule.expression) if isinstance(node, RuleReference))
+            for rule in self.document.rules
+        )
+
+    def rule(self, number: int, meaning: _Meaning) -> Rule:
+        """A definition with what its names mean."""
+        kept, rule = self.rules.get(number, (None, None))
+        if rule is None or kept != meaning:
+            rule = meaning.rule(self.document.rules[number], self.document.path)
+            self.rules[number] = (meaning, rule)
+        return rule
+
+
 @lru_cache(maxsize=MOST_FILES)
-def _document(text: str, path: Path) -> Document:
-    return read_jsgf(text, path)
+def _source(text: str, path: Path) -> _Source:
+    return _Source(read_jsgf(text, path))
+
+
+class _Meaning(NamedTuple):
+    """All that a rule depends on beside its definition."""
+
+    key: str
+    is_public: bool
+    before: RuleReference | None
+    after: RuleReference | None
+    names: tuple[tuple[str, str | None], ...]
+    """The keys of the rules that it refers to; none for free words."""
+
+    def rule(self, definition: RuleDefinition, path: Path) -> Rule:
+        """The rule that this definition is."""
+        keys = dict(self.names)
+
+        def resolved(node: RuleReference) -> Expression:
+            key = keys[node.name]
+            if key is None:
+                return Anything(node.span)
+            return node if key == node.name else replace(node, name=key)
+
+        return Rule(
+            key=self.key,
+            expression=rename(framed(definition.expression, self.before, self.after), resolved),
+            is_public=self.is_public,
+            span=definition.span,
+            path=path,
+            doc=definition.doc.text,
+            doc_tags=definition.doc.tags,
+        )
 
 
 @dataclass(frozen=True, eq=False)
 class _File:
     """One grammar file and what the names in it mean."""
 
+    source: _Source
     document: Document
     prefix: str
     """Stands before the names of its rules in their keys; empty for the main file."""
@@ -159,12 +218,13 @@ class _Loader:
 
     def _read(self, path: Path, prefix: str, is_heard: bool = False) -> _File:
         text, doubt = read_source(path)
+        source = _source(text, path)
         # A separate copy, since its frames may come from what it extends.
-        document = replace(_document(text, path))
+        document = replace(source.document)
         self._sources.append((path, text))
         self._errors += document.errors
         self._warnings += [*filter(None, [doubt]), *document.warnings]
-        file = self._files[path.resolve()] = _File(document, prefix, is_heard)
+        file = self._files[path.resolve()] = _File(source, document, prefix, is_heard)
         self._pending.append(file)
         commands = {rule.name for rule in document.rules if rule.is_public and is_heard}
         names = [rule.name for rule in document.rules] + [use.name for use in document.name_lists]
@@ -258,19 +318,18 @@ class _Loader:
         for use in document.name_lists:
             file.brought.append((use, {file.own[use.name]}))
             self._add(file, use.span, self._list_rule(file, use))
-        resolve = partial(self._resolve, file)
-        for definition in document.rules:
+        for number, definition in enumerate(document.rules):
             key = file.own[definition.name]
-            rule = Rule(
-                key=key,
-                expression=rename(_framed(definition, document), resolve),
-                is_public=definition.is_public and file.is_heard and key == definition.name,
-                span=definition.span,
-                path=document.path,
-                doc=definition.doc.text,
-                doc_tags=definition.doc.tags,
+            before, after = _frames_of(definition, document)
+            nodes = [*file.source.references[number], *filter(None, (before, after))]
+            meaning = _Meaning(
+                key,
+                definition.is_public and file.is_heard and key == definition.name,
+                before,
+                after,
+                tuple({node.name: self._resolve(file, node) for node in nodes}.items()),
             )
-            self._add(file, definition.span, rule)
+            self._add(file, definition.span, file.source.rule(number, meaning))
 
     def _add(self, file: _File, span: SourceSpan, rule: Rule | None) -> None:
         if rule is None:
@@ -302,16 +361,16 @@ class _Loader:
         self._broken.add(key)
         return None
 
-    def _resolve(self, file: _File, node: RuleReference) -> Expression:
-        """The reference with the key of the rule it means; unknown ones get a key nobody has.
+    def _resolve(self, file: _File, node: RuleReference) -> str | None:
+        """The key of the rule that a reference means; unknown ones get a key that nobody has.
 
-        `<any>` is a rule of that name where there is one.
+        `<any>` is a rule of that name where there is one; None without one, for free words.
         """
         if node.name == "any" and node.name not in file.own and node.name not in file.imported:
-            return Anything(node.span)
+            return None
         key = self._key(file, node)
         file.used.add(key)
-        return node if key == node.name else replace(node, name=key)
+        return key
 
     def _key(self, file: _File, node: RuleReference) -> str:
         name = node.name
@@ -346,12 +405,14 @@ class _Loader:
         return [other.prefix + name]
 
 
-def _framed(definition: RuleDefinition, document: Document) -> Expression:
-    """What a rule says; if it is a command, between what may be said before and behind it."""
+def _frames_of(
+    definition: RuleDefinition, document: Document
+) -> tuple[RuleReference | None, RuleReference | None]:
+    """What may be said before a command and behind it; nothing around any other rule."""
     marks = {tag.name for tag in definition.doc.tags}
     if not definition.is_public or marks & {"part", "answer"}:
-        return definition.expression
-    return framed(definition.expression, document.before, document.after)
+        return None, None
+    return document.before, document.after
 
 
 def _not_public(other: _File, grammar: str, name: str) -> tuple[str, str]:

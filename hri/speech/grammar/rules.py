@@ -10,8 +10,9 @@ from typing import Any, TypeVar
 
 from hri.core.errors import AuthoringError, Place
 from hri.speech.grammar.doc_comments import MARKS, TOPIC, DocTag
-from hri.speech.grammar.expressions import Expression, RuleReference, SourceSpan, walk
+from hri.speech.grammar.expressions import Expression, RuleReference, SourceSpan, Tagged, walk
 from hri.speech.grammar.jsgf import Import, NameListImport
+from hri.speech.grammar.tags import TagEntry
 
 T = TypeVar("T")
 
@@ -40,6 +41,12 @@ class Rule:
     def references(self) -> tuple[RuleReference, ...]:
         """All that its expression holds, in the order of writing."""
         return tuple(node for node in self.nodes if isinstance(node, RuleReference))
+
+    @cached_property
+    def tag_entries(self) -> tuple[TagEntry, ...]:
+        """Those of all its tags, in the order of writing."""
+        tagged = (node for node in self.nodes if isinstance(node, Tagged))
+        return tuple(entry for node in tagged for entry in node.entries)
 
     @cached_property
     def marks(self) -> frozenset[str]:

@@ -64,6 +64,7 @@ def test_real_people_whom_nobody_asked(heads: list[recordings.Recording]) -> Non
     assert counts["other", "other"] >= 49 * DRAWS
 
 
+@pytest.mark.slow
 def test_recordings_that_no_limit_was_chosen_on(heads: list[recordings.Recording]) -> None:
     told = cross_validation.tell(heads, PATTERNS)
     counts = cross_validation.confusion(told, np.ones(len(heads), bool))

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 
+@pytest.mark.slow
 def test_the_companion_is_fine(grammar, capsys):
     assert grammar("check", "companion") == 0
     assert "companion.jsgf: fine, 366 commands" in capsys.readouterr().out

@@ -102,6 +102,7 @@ def test_the_environment_is_that_of_the_run(lab, tmp_path, monkeypatch, capsys):
     assert line in capsys.readouterr().out.splitlines()
 
 
+@pytest.mark.slow
 def test_it_begins_with_the_same_feelings_and_leaves_those_of_today_alone(lab):
     recorded("--keep", to="before")
     recorded("--keep", to="p01")

@@ -50,6 +50,7 @@ def ran(program, folder):
     subprocess.run(command, cwd=folder, env=child.environment(), check=True, timeout=120)
 
 
+@pytest.mark.slow
 def test_everyday_commands_do_not_import_what_only_vosk_needs(tmp_path):
     check = f"assert not {{*{BROUGHT}}} & sys.modules.keys(), sys.modules.keys()"
     ran(COMMANDS + check, tmp_path)

@@ -44,6 +44,7 @@ def voice():
     return speaker
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["joy", "sadness", "anger", "fear", "surprise"])
 def test_what_is_said_with_an_emotion_is_recognized(voice, ears, name):
     state = EmotionState(name, 1.0, 0.0, 0.0, 0.0, {name: 1.0})

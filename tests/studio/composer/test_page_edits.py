@@ -98,6 +98,7 @@ def edits(text, seed, count=80):
     return {"text": text, "types": TYPES, "seed": seed, "count": count}
 
 
+@pytest.mark.slow
 def test_a_difference_is_what_hri_network_diff_finds(ask):
     (made,) = ask(edits=[edits(CANONICAL, seed=8, count=300)])["edits"]
     texts = [CANONICAL, *(text for _, text in made)]
@@ -148,6 +149,7 @@ def with_link(text, source, target):
     return text.replace("  <Layout>", f'  <Link from="{source}" to="{target}"/>\n  <Layout>')
 
 
+@pytest.mark.slow
 def test_a_link_is_refused_or_warned_of_in_the_words_of_the_check(ask):
     rng = random.Random(3)
     grown = ask(edits=[edits(CANONICAL, seed, count=150) for seed in range(6)])["edits"]

@@ -111,6 +111,7 @@ def test_a_large_network_is_taken_and_a_larger_one_not(person, start):
     assert person.put(f"{ROOT}/draft", json=body).status_code == 403
 
 
+@pytest.mark.slow
 def test_a_behavior_that_hangs_when_it_is_imported_ends_only_its_check(person, start, monkeypatch):
     folder = start / "config" / "behavior" / "Own"
     folder.mkdir(parents=True)

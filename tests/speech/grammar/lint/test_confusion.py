@@ -75,6 +75,7 @@ def test_what_differs_is_taken_from_both_in_order(one, other):
         assert any(first != second for first, second in changes)
 
 
+@pytest.mark.slow
 def test_thousands_of_sentences_take_seconds(companion):
     found = [parse(companion, text) for text in companion.sample(1500)]
     begun = time.process_time()
