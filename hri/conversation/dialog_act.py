@@ -1,41 +1,80 @@
 """What a sentence does that no rule allows: it states something, asks, or wants something done.
 
 These are the coarse dialog acts of Jurafsky, Shriberg and Biasca, "Switchboard SWBD-DAMSL
-Shallow-Discourse-Function Annotation" (1997): statement, question and action directive. The first
-words show which it is; that is enough for an answer that is honest about not knowing more.
+Shallow-Discourse-Function Annotation" (1997): statement, question and action directive; what a
+statement or a question is about makes the finer ones. The first words show which it is; that is
+enough for an answer that is honest about not knowing more.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from enum import Enum, auto
 
 from hri.speech.grammar.words import normalize
 
 LEAST_WORDS = 3
 """Of fewer, what they tell is rather a name, or half a sentence."""
-OPENERS = frozenset(
-    ("and", "but", "huh", "hey", "like", "oh", "okay", "so", "ugh", "well", "yeah", "yo")
-)
-"""Words before those that count."""
-QUESTION_WORDS = frozenset(
-    ("how", "what", "what's", "where", "which", "who", "who's", "whose", "why")
-)
 # fmt: off
+OPENERS = frozenset((
+    "actually", "alright", "and", "anyway", "aw", "but", "dude", "hey", "hm", "hmm", "honestly",
+    "huh", "just", "like", "look", "man", "no", "nope", "oh", "ok", "okay", "ooh", "please",
+    "right", "so", "sorry", "then", "ugh", "uh", "um", "wait", "well", "whoa", "wow", "yeah",
+    "yep", "yes", "yo",
+))
+"""Words before those that count."""
+QUESTION_WORDS = frozenset((
+    "how", "how's", "what", "what'd", "what's", "where", "where'd", "where's", "which", "who",
+    "who's", "whose", "why", "why'd", "why's",
+))
 AUXILIARIES = frozenset((
-    "am", "are", "aren't", "can", "could", "did", "didn't", "do", "does", "doesn't", "don't",
-    "has", "have", "is", "isn't", "may", "might", "must", "shall", "should", "was", "were", "will",
-    "won't", "would",
+    "am", "are", "aren't", "can", "can't", "could", "couldn't", "did", "didn't", "do", "does",
+    "doesn't", "don't", "had", "has", "have", "haven't", "is", "isn't", "may", "might", "must",
+    "shall", "should", "was", "wasn't", "were", "will", "won't", "would", "wouldn't",
 ))
 PEOPLE = frozenset(("he", "i", "people", "she", "they", "we", "you"))
 """Behind "do", "don't" or "have" they make a question of an order."""
+ROBOT = frozenset(("you", "you'd", "you'll", "you're", "you've", "your", "yours"))
 TELLERS = frozenset((
-    "because", "everybody", "everyone", "he", "her", "he's", "his", "i", "i'm", "i've", "if", "it",
-    "it's", "last", "mine", "my", "nobody", "our", "people", "she", "she's", "some", "somebody",
-    "someone", "that", "that's", "the", "their", "there", "they", "this", "today", "tomorrow", "we",
-    "we're", "when", "yesterday",
+    "a", "all", "because", "cause", "every", "everybody", "everyone", "he", "her", "he's", "his",
+    "i", "i'd", "i'll", "i'm", "i've", "if", "it", "it'll", "it's", "last", "mine", "my", "nobody",
+    "nothing", "one", "our", "people", "she", "she's", "some", "somebody", "someone", "something",
+    "sometimes", "that", "that's", "the", "their", "there", "there's", "these", "they", "they're",
+    "this", "those", "today", "tomorrow", "tonight", "we", "we'll", "we're", "we've", "when",
+    "yesterday",
 ))
-# fmt: on
 """First words of a statement."""
+TOLD_VERBS = frozenset((
+    "asked", "broke", "called", "came", "cried", "died", "did", "didn't", "doesn't", "fell", "found",
+    "gave", "got", "had", "has", "hates", "hit", "is", "isn't", "keeps", "left", "likes", "lost",
+    "loves", "made", "moved", "put", "said", "says", "thinks", "told", "took", "wants", "was",
+    "wasn't", "went", "will", "won", "won't",
+))
+"""Behind a name they make a statement: "tyler said"."""
+ORDERS = frozenset((
+    "act", "add", "answer", "ask", "back", "be", "beep", "bend", "blink", "bring", "buy", "call",
+    "carry", "catch", "change", "chase", "check", "clap", "clean", "climb", "close", "come", "cook",
+    "cover", "crawl", "creep", "dance", "describe", "do", "don't", "draw", "drive", "drop", "entertain",
+    "explain", "face", "fetch", "fight", "find", "fix", "flap", "fly", "follow", "get", "gimme",
+    "give", "go", "grab", "guard", "guess", "hand", "help", "hide", "hold", "hum", "hug", "imagine",
+    "jump", "keep", "kiss", "lay", "lead", "learn", "leave", "lemme", "let", "lie", "lift", "light",
+    "listen", "lock", "make", "mind", "move", "name", "nod", "open", "order", "park", "pass", "pet",
+    "pick", "play", "plug", "pretend", "promise", "pull", "push", "put", "quit", "race", "read",
+    "record", "remember", "remind", "repeat", "ring", "roll", "run", "save", "say", "scoot", "search",
+    "send", "set", "shake", "show", "sing", "sit", "skip", "slow", "smile", "spin", "stand", "start",
+    "stay", "stick", "stomp", "swim", "switch", "take", "talk", "teach", "tell", "think", "throw",
+    "touch", "translate", "try", "turn", "twirl", "wait", "wake", "walk", "wash", "watch", "wave",
+    "wiggle", "wink", "work", "write",
+))
+"""First words of an order."""
+ADVICE = frozenset(("should", "shall", "am", "do", "did", "was"))
+"""Before "i" or "we" they ask what only who asks can know."""
+CALLED = frozenset((
+    "babe", "dad", "daddy", "grandma", "grandpa", "guys", "mama", "miss", "mom", "mommy", "mum",
+    "nana", "papa",
+))
+"""Whom people call by their first word; never the robot."""
+# fmt: on
 DIRECTIVES = frozenset(("can", "could", "will", "would"))
 """Before "you", "I" or "we" they ask for something."""
 
@@ -44,29 +83,69 @@ class DialogAct(Enum):
     """What a sentence does."""
 
     STATEMENT = auto()
+    STATEMENT_OF_ROBOT = auto()
     QUESTION = auto()
+    QUESTION_OF_ROBOT = auto()
+    QUESTION_OF_SPEAKER = auto()
+    """It asks what to do, or what only who asks can know."""
+    QUESTION_WHERE = auto()
+    QUESTION_WHY = auto()
     DIRECTIVE = auto()
+    CALL = auto()
+    """It is said to somebody else, whom it names."""
 
 
-def dialog_act(text: str) -> DialogAct | None:
-    """What a sentence does; None where its first words do not show it."""
-    words = normalize(text)
-    while words and words[0] in OPENERS:
-        words = words[1:]
+def dialog_act(text: str, name: str = "") -> DialogAct | None:
+    """What a sentence does, said to a robot of this name; None where its first words do not show it."""
+    words = opened(normalize(text), name)
     if len(words) < 2:
         return None
     first, second = words[0], words[1]
-    if first in DIRECTIVES and second in ("i", "we", "you"):
-        return DialogAct.DIRECTIVE
-    if first == "let's" or words[:3] in (["i", "want", "you"], ["i", "need", "you"]):
+    if first in CALLED and (second in AUXILIARIES | QUESTION_WORDS | PEOPLE | {"it", "i'm", "look"}):
+        return DialogAct.CALL
+    if (first in DIRECTIVES and second in ("i", "we", "you")) or _is_order(words):
         return DialogAct.DIRECTIVE
     if first in QUESTION_WORDS or (first in AUXILIARIES and _may_ask(first, second)):
-        return DialogAct.QUESTION
+        return _question(words)
     if first == "when" and second in AUXILIARIES:
         return DialogAct.QUESTION
-    return DialogAct.STATEMENT if first in TELLERS and len(words) >= LEAST_WORDS else None
+    if len(words) < LEAST_WORDS:
+        return None
+    if first in ROBOT:
+        return DialogAct.STATEMENT_OF_ROBOT
+    return DialogAct.STATEMENT if first in TELLERS or second in TOLD_VERBS else None
+
+
+def opened(words: Sequence[str], name: str = "") -> list[str]:
+    """The words of a sentence without those before the ones that count, and without the name."""
+    own = name.lower()
+    left = [word for word in words if word != own]
+    while left and left[0] in OPENERS:
+        left = left[1:]
+    return left
+
+
+def _is_order(words: Sequence[str]) -> bool:
+    """Whether something is to be done: "let's", "i want you to", or a verb first."""
+    if words[0] == "let's" or words[:3] in (["i", "want", "you"], ["i", "need", "you"]):
+        return True
+    return words[0] in ORDERS and not _may_ask(words[0], words[1])
 
 
 def _may_ask(first: str, second: str) -> bool:
     """Whether two words begin a question: "do you", not "do it", which is an order."""
-    return first not in ("do", "don't", "have") or second in PEOPLE
+    if first in AUXILIARIES:
+        return first not in ("do", "don't", "have") or second in PEOPLE
+    return False
+
+
+def _question(words: Sequence[str]) -> DialogAct:
+    first, second = words[0], words[1]
+    if first.startswith("where"):
+        return DialogAct.QUESTION_WHERE
+    asks_advice = first in ADVICE and second in ("i", "we")
+    if asks_advice or {"should", "i"} <= set(words[:4]) or {"do", "i"} <= set(words[1:3]):
+        return DialogAct.QUESTION_OF_SPEAKER
+    if not ROBOT.isdisjoint(words[1:3]):
+        return DialogAct.QUESTION_OF_ROBOT
+    return DialogAct.QUESTION_WHY if first.startswith("why") else DialogAct.QUESTION

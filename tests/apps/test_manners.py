@@ -101,6 +101,7 @@ def test_no_question_comes_into_a_dialogue():
     assert questions(visit) == ["Do you want a pizza?", "Is that right?"]
 
 
+@pytest.mark.slow
 def test_no_question_comes_while_a_task_of_an_app_drives():
     async def drive(context):
         await verbs.move(context, 4.0)
@@ -162,6 +163,7 @@ def room(level=None):
     return [SMALL_SCREEN, BLIND, *([] if level is None else [loud])]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("after", "level"), [(-0.3, None), (-0.1, None), (0.1, None), (0.25, None), (0.15, -6)]
 )

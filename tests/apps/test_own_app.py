@@ -310,6 +310,7 @@ def test_an_app_that_extends_itself_is_refused(put, monkeypatch, tmp_path):
         load_app("one")
 
 
+@pytest.mark.slow
 def test_saved_files_are_taken_while_it_runs(put):
     folder = put(JOKE)
     robot = robot_of(folder)

@@ -30,6 +30,8 @@ from hri.speech.grammar import load_grammar
 from hri.speech.grammar.matching import parse
 from tests.bench.heard import noise, piece
 
+pytestmark = pytest.mark.slow
+
 
 def test_no_sentence_from_outside_is_in_the_grammar():
     robot = load_grammar(ROBOT)
@@ -107,7 +109,6 @@ def credulous(grammar, said, engine=""):
     return Hearing([[piece("stop")] for _ in said], 0.0)
 
 
-@pytest.mark.slow
 @pytest.mark.usefixtures("_silent_flite")
 def test_who_hears_right_passes_every_row(people):
     told = list(accuracy.rows(people, perfect, step=9, progress=str))

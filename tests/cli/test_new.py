@@ -87,7 +87,6 @@ def test_a_new_app_hears_answers_and_does_something(base, line, words, folder, m
     assert words in capsys.readouterr().out
 
 
-@pytest.mark.slow
 def test_an_app_of_the_companion_has_its_visit(folder, capsys):
     main(["new", "app", "parrot", "--from", "companion"])
     options = ["--demo", "--fast", "--headless", "--duration", "0.5"]

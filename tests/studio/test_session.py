@@ -25,6 +25,8 @@ from hri.studio.request_queue import MOST_REQUESTS, STOP
 from hri.studio.session import StudioSession
 from tests.studio.living import LONGEST, known, living, told
 
+pytestmark = pytest.mark.slow
+
 REJECTION = {"reason": "not in grammar", "detail": "near: a secret", "text": "a secret"}
 
 
@@ -54,7 +56,6 @@ def client(studio):
         yield made
 
 
-@pytest.mark.slow
 def test_what_an_operator_says_and_types_is_not_the_robots_own(client, robot):
     client.post("/api/v1/hush")
     heard = []
@@ -109,7 +110,6 @@ def test_stop_needs_no_code_and_latches_until_it_is_released(studio, client, rob
     told(client, "base", lambda base: not base["is_stopped"])
 
 
-@pytest.mark.slow
 def test_a_loop_that_was_held_up_stops_before_anything_else_whatever_else_was_asked(
     studio, client, robot
 ):
@@ -147,7 +147,6 @@ def test_the_base_stops_though_whoever_follows_its_events_fails(client, robot):
     assert client.post("/api/v1/release").status_code == 200
 
 
-@pytest.mark.slow
 def test_the_simulated_person_and_things_obey(client):
     assert client.post("/api/v1/visitor_go", json={"x": 1.0, "y": -0.5}).status_code == 200
     there = pytest.approx([1.0, -0.5], abs=0.05)
@@ -218,7 +217,6 @@ def test_where_it_was_and_means_to_go_is_shown_in_the_room(client, robot):
     told(client, "path", lambda path: len(path["been"]) > 1)
 
 
-@pytest.mark.slow
 def test_it_hears_while_the_button_is_held_though_it_is_deaf(client):
     client.post("/api/v1/mute", json={"on": True})
     client.post("/api/v1/talk", json={"on": True})
