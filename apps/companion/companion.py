@@ -168,8 +168,7 @@ class Companion:
         if reply.show in TENDER:
             self.last_tender = now
         if reply.feel:
-            # Whoever talks is taken to be the one it attends to.
-            self.emotion.feel(reply.feel, reply.intensity, people_of(self.context).attended)
+            self.feel(reply.feel, reply.intensity)
         objection = self.act(reply.action, tags) if reply.action else None
         if reply.event:
             self.context.events.raise_event(reply.event, text=text, **tags)
@@ -284,6 +283,7 @@ class Companion:
             "text": lambda: text,
             "name": lambda: self.replies.name,
             "time": self._time_words,
+            "date": self._date_words,
             "battery": self._percent_of_battery,
             "why": lambda: aloud(self.emotion.why_words(str(tags.get("emotion", "")))),
             "feeling": self.emotion.feeling_words,
@@ -314,6 +314,11 @@ class Companion:
     def _time_words(self) -> str:
         wall = self.context.clock.wall()
         return clock_words(wall.hour, wall.minute)
+
+    def _date_words(self) -> str:
+        """Today, in words."""
+        wall = self.context.clock.wall()
+        return f"{wall:%A, %B} {wall.day}"
 
     def _why_stopped(self) -> str:
         """Why it stopped, as a sentence."""
@@ -441,6 +446,10 @@ class Companion:
         """Whether it shows an expression instead of what it feels."""
         shown = self.context.board.slot(verbs.SHOWN).value
         return shown is not None and shown.label == label
+
+    def feel(self, stimulus: str, intensity: float = 1.0) -> None:
+        """Feel a stimulus from who talks, who is taken to be the one it attends to."""
+        self.emotion.feel(stimulus, intensity, people_of(self.context).attended)
 
     def show(self, label: str) -> None:
         """Show an expression for a few seconds, instead of another one."""

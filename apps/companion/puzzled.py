@@ -12,22 +12,48 @@ from typing import Any
 from hri.conversation.dialog_act import dialog_act
 from hri.conversation.examples import different, nearest_sentence
 from hri.conversation.gist import Gist
-from hri.conversation.puzzlement import Answer, Kind, Puzzle, as_said
+from hri.conversation.puzzlement import TELLING, Answer, Kind, Puzzle, as_said
+from hri.conversation.reflection import deed_of, echo_of
+from hri.conversation.sentiment import sentiment
 from hri.speech.automatic_level import VERY_QUIET_DB
 from hri.speech.grammar import Grammar, parse
 from hri.speech.grammar.matching import departure
 from hri.speech.grammar.words import normalize
 from hri.speech.turn import QUESTION
 
-from .companion import FAREWELLS, Companion
+from .companion import FAREWELLS, TENDER, Companion
 from .replies import Reply
 
 CLEAR = 0.3
 """Confidence from which words that do not count say what a sentence was about."""
 OFFERED_TOPICS = frozenset(("about_me", "fun"))
 """Small talk that helps who does not know what to say."""
-GESTURES = {Kind.TOLD: "nod", Kind.ASKED: "think", Kind.ASKED_FOR: "shake"}
-"""Instead of a confused face."""
+GESTURES: Mapping[Kind, str] = {
+    Kind.TOLD: "nod",
+    Kind.TOLD_OF: "nod",
+    Kind.TOLD_OF_ME: "nod",
+    Kind.ASKED: "think",
+    Kind.ASKED_OF_ME: "think",
+    Kind.ASKED_OF_YOU: "think",
+    Kind.ASKED_WHERE: "think",
+    Kind.ASKED_WHY: "think",
+    Kind.ASKED_FOR: "shake",
+    Kind.ASKED_FOR_DEED: "shake",
+}
+SHOWN: Mapping[Kind, str] = {
+    Kind.TOLD_SAD: "vulnerable",
+    Kind.TOLD_GLAD: "happy",
+    Kind.TOLD_ANGRY: "vulnerable",
+    Kind.TOLD_AFRAID: "vulnerable",
+    Kind.TOLD_WEARY: "vulnerable",
+    Kind.PRAISED: "happy",
+    Kind.INSULTED: "sad",
+}
+"""What it makes or shows instead of a confused face."""
+FELT: Mapping[Kind, str] = {Kind.PRAISED: "praise", Kind.INSULTED: "insulted"}
+"""Stimuli."""
+OWN_WORDS = TELLING | GESTURES.keys()
+"""Of these a request for other words would be no answer."""
 ENDING = ("stop", "quiet", "release", "sleep")
 """Actions that help no one who does not know what to say."""
 
@@ -60,11 +86,16 @@ def _tell(companion: Companion, answer: Answer, text: str) -> None:
     if (gesture := GESTURES.get(answer.kind)) is not None:
         companion.make(gesture)
     else:
-        companion.show("confused")
+        companion.show(shown := SHOWN.get(answer.kind, "confused"))
+        if shown in TENDER:
+            companion.last_tender = companion.context.clock.now()
+    if answer.kind in FELT:
+        companion.feel(FELT[answer.kind])
     nearest = as_said(_most_like(companion, text))
     # What is said of any sentence may take the place of what was said a short while ago.
-    words = companion.fresh(answer.kind, Kind.REPHRASE)
-    companion.say(words.format_map({"nearest": nearest, **answer.facts}))
+    more = () if answer.kind in OWN_WORDS else (Kind.REPHRASE,)
+    words = companion.fresh(answer.kind, *more).format_map({"nearest": nearest, **answer.facts})
+    companion.say(words[0].upper() + words[1:])
 
 
 def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -> Puzzle:
@@ -81,6 +112,7 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
     is_answer = rule in grammar.marked("answer")
     strange = gist.strange(text) if is_typed else []
     is_slip = is_typed and found is None and _is_slip(grammar, text, strange)
+    is_said, name = is_typed and not is_slip, companion.replies.name
     topic = "" if is_answer else companion.replies.about.get(rule, "")
     example = "" if is_answer else companion.examples().get(rule, "")
     return Puzzle(
@@ -90,8 +122,11 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
         is_turned_to=bool(heard.get("is_looked_at")) or is_named,
         is_quiet=level is not None and level < VERY_QUIET_DB,
         topic=topic,
-        nearest=as_said(example or (_most_like(companion, text) if is_slip else "")),
-        act=None if is_slip or not is_typed else dialog_act(text),
+        nearest=as_said(example or (nearest_sentence(grammar, text) if is_slip else "")),
+        act=dialog_act(text, name) if is_said else None,
+        sentiment=sentiment(text) if is_said else None,
+        echo=as_said(echo_of(text, name)) if is_said else "",
+        deed=as_said(deed_of(text, name)) if is_said else "",
         words=len(normalize(text)),
         strange=strange,
         answers=_answers(companion, grammar),
@@ -103,7 +138,7 @@ def _is_slip(grammar: Grammar, text: str, strange: Sequence[str]) -> bool:
     """Whether a sentence fails at a slip of the fingers: "go forwrd"."""
     if len(strange) != 1:
         return False
-    fails = departure(grammar, text)
+    fails = departure(grammar, text) if nearest_sentence(grammar, text) else None
     return fails is not None and fails.word == strange[0] and fails.remedy.startswith("did you")
 
 

@@ -19,8 +19,8 @@ LEAST_WORDS = 3
 OPENERS = frozenset((
     "actually", "alright", "and", "anyway", "aw", "but", "dude", "hey", "hm", "hmm", "honestly",
     "huh", "just", "like", "look", "man", "no", "nope", "oh", "ok", "okay", "ooh", "please",
-    "right", "so", "sorry", "then", "ugh", "uh", "um", "wait", "well", "whoa", "wow", "yeah",
-    "yep", "yes", "yo",
+    "right", "robot", "so", "sorry", "then", "ugh", "uh", "um", "wait", "well", "whoa", "wow",
+    "yeah", "yep", "yes", "yo",
 ))
 """Words before those that count."""
 QUESTION_WORDS = frozenset((
@@ -36,34 +36,35 @@ PEOPLE = frozenset(("he", "i", "people", "she", "they", "we", "you"))
 """Behind "do", "don't" or "have" they make a question of an order."""
 ROBOT = frozenset(("you", "you'd", "you'll", "you're", "you've", "your", "yours"))
 TELLERS = frozenset((
-    "a", "all", "because", "cause", "every", "everybody", "everyone", "he", "her", "he's", "his",
-    "i", "i'd", "i'll", "i'm", "i've", "if", "it", "it'll", "it's", "last", "mine", "my", "nobody",
-    "nothing", "one", "our", "people", "she", "she's", "some", "somebody", "someone", "something",
-    "sometimes", "that", "that's", "the", "their", "there", "there's", "these", "they", "they're",
-    "this", "those", "today", "tomorrow", "tonight", "we", "we'll", "we're", "we've", "when",
-    "yesterday",
+    "a", "all", "because", "cause", "every", "everybody", "everyone", "he", "he's", "her",
+    "his", "i", "i'd", "i'll", "i'm", "i've", "if", "it", "it'll", "it's", "last", "mine", "my",
+    "nobody", "nothing", "one", "our", "people", "she", "she's", "some", "somebody", "someone",
+    "something", "sometimes", "that", "that's", "the", "their", "there", "there's", "these",
+    "they", "they're", "this", "those", "today", "tomorrow", "tonight", "we", "we'll", "we're",
+    "we've", "when", "yesterday",
 ))
 """First words of a statement."""
 TOLD_VERBS = frozenset((
-    "asked", "broke", "called", "came", "cried", "died", "did", "didn't", "doesn't", "fell", "found",
-    "gave", "got", "had", "has", "hates", "hit", "is", "isn't", "keeps", "left", "likes", "lost",
-    "loves", "made", "moved", "put", "said", "says", "thinks", "told", "took", "wants", "was",
-    "wasn't", "went", "will", "won", "won't",
+    "asked", "broke", "called", "came", "cried", "did", "didn't", "died", "doesn't", "fell",
+    "found", "gave", "got", "had", "has", "hates", "hit", "is", "isn't", "keeps", "left",
+    "likes", "lost", "loves", "made", "moved", "put", "said", "says", "thinks", "told", "took",
+    "wants", "was", "wasn't", "went", "will", "won", "won't",
 ))
 """Behind a name they make a statement: "tyler said"."""
 ORDERS = frozenset((
-    "act", "add", "answer", "ask", "back", "be", "beep", "bend", "blink", "bring", "buy", "call",
-    "carry", "catch", "change", "chase", "check", "clap", "clean", "climb", "close", "come", "cook",
-    "cover", "crawl", "creep", "dance", "describe", "do", "don't", "draw", "drive", "drop", "entertain",
-    "explain", "face", "fetch", "fight", "find", "fix", "flap", "fly", "follow", "get", "gimme",
-    "give", "go", "grab", "guard", "guess", "hand", "help", "hide", "hold", "hum", "hug", "imagine",
-    "jump", "keep", "kiss", "lay", "lead", "learn", "leave", "lemme", "let", "lie", "lift", "light",
-    "listen", "lock", "make", "mind", "move", "name", "nod", "open", "order", "park", "pass", "pet",
-    "pick", "play", "plug", "pretend", "promise", "pull", "push", "put", "quit", "race", "read",
-    "record", "remember", "remind", "repeat", "ring", "roll", "run", "save", "say", "scoot", "search",
-    "send", "set", "shake", "show", "sing", "sit", "skip", "slow", "smile", "spin", "stand", "start",
-    "stay", "stick", "stomp", "swim", "switch", "take", "talk", "teach", "tell", "think", "throw",
-    "touch", "translate", "try", "turn", "twirl", "wait", "wake", "walk", "wash", "watch", "wave",
+    "act", "add", "answer", "ask", "back", "be", "beep", "bend", "blink", "bring", "buy",
+    "call", "carry", "catch", "change", "chase", "check", "clap", "clean", "climb", "close",
+    "come", "cook", "cover", "crawl", "creep", "dance", "describe", "do", "don't", "draw",
+    "drive", "drop", "entertain", "explain", "face", "fetch", "fight", "find", "fix", "flap",
+    "fly", "follow", "get", "gimme", "give", "go", "grab", "guard", "guess", "hand", "help",
+    "hide", "hold", "hug", "hum", "imagine", "jump", "keep", "kiss", "lay", "lead", "learn",
+    "leave", "lemme", "let", "lie", "lift", "light", "listen", "lock", "make", "mind", "move",
+    "name", "nod", "open", "order", "park", "pass", "pet", "pick", "play", "plug", "pretend",
+    "promise", "pull", "push", "put", "quit", "race", "read", "record", "remember", "remind",
+    "repeat", "ring", "roll", "run", "save", "say", "scoot", "search", "send", "set", "shake",
+    "show", "sing", "sit", "skip", "slow", "smile", "spin", "stand", "start", "stay", "stick",
+    "stomp", "swim", "switch", "take", "talk", "teach", "tell", "think", "throw", "touch",
+    "translate", "try", "turn", "twirl", "wait", "wake", "walk", "wash", "watch", "wave",
     "wiggle", "wink", "work", "write",
 ))
 """First words of an order."""
@@ -75,6 +76,8 @@ CALLED = frozenset((
 ))
 """Whom people call by their first word; never the robot."""
 # fmt: on
+MUSTS = frozenset(("gotta", "have", "need", "should"))
+"""Behind "you" they make an order."""
 DIRECTIVES = frozenset(("can", "could", "will", "would"))
 """Before "you", "I" or "we" they ask for something."""
 
@@ -84,6 +87,8 @@ class DialogAct(Enum):
 
     STATEMENT = auto()
     STATEMENT_OF_ROBOT = auto()
+    REMARK = auto()
+    """It says something of what is at hand: "that was funny"."""
     QUESTION = auto()
     QUESTION_OF_ROBOT = auto()
     QUESTION_OF_SPEAKER = auto()
@@ -92,18 +97,25 @@ class DialogAct(Enum):
     QUESTION_WHY = auto()
     DIRECTIVE = auto()
     CALL = auto()
-    """It is said to somebody else, whom it names."""
+    """It is said to someone else, whom it names."""
 
 
 def dialog_act(text: str, name: str = "") -> DialogAct | None:
-    """What a sentence does, said to a robot of this name; None where its first words do not show it."""
+    """What a sentence does; None where its first words do not show it.
+
+    `name` is that of the robot, which says nothing of it.
+    """
     words = opened(normalize(text), name)
     if len(words) < 2:
         return None
     first, second = words[0], words[1]
-    if first in CALLED and (second in AUXILIARIES | QUESTION_WORDS | PEOPLE | {"it", "i'm", "look"}):
+    if first in CALLED and (
+        second in AUXILIARIES | QUESTION_WORDS | PEOPLE | {"it", "i'm", "look"}
+    ):
         return DialogAct.CALL
-    if (first in DIRECTIVES and second in ("i", "we", "you")) or _is_order(words):
+    is_choice = words[1:3] == ["you", "rather"]
+    asks = first in DIRECTIVES and second in ("i", "we", "you") and not is_choice
+    if asks or _is_order(words):
         return DialogAct.DIRECTIVE
     if first in QUESTION_WORDS or (first in AUXILIARIES and _may_ask(first, second)):
         return _question(words)
@@ -113,6 +125,8 @@ def dialog_act(text: str, name: str = "") -> DialogAct | None:
         return None
     if first in ROBOT:
         return DialogAct.STATEMENT_OF_ROBOT
+    if first in ("that", "that's"):
+        return DialogAct.REMARK
     return DialogAct.STATEMENT if first in TELLERS or second in TOLD_VERBS else None
 
 
@@ -128,6 +142,8 @@ def opened(words: Sequence[str], name: str = "") -> list[str]:
 def _is_order(words: Sequence[str]) -> bool:
     """Whether something is to be done: "let's", "i want you to", or a verb first."""
     if words[0] == "let's" or words[:3] in (["i", "want", "you"], ["i", "need", "you"]):
+        return True
+    if words[0] == "you" and words[1] in MUSTS:
         return True
     return words[0] in ORDERS and not _may_ask(words[0], words[1])
 

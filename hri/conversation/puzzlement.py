@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from hri.conversation.dialog_act import DialogAct
+from hri.conversation.sentiment import Sentiment
 
 UNCLEAR_REASONS = ("low confidence", "unlike the sound")
 OFFER_AT = 3
@@ -24,6 +25,8 @@ MOST_TO_STRANGERS = 3
 """Answers in a row to a voice that may be meant for others: a radio must not be talked to."""
 ROW_SECONDS = 60.0
 """Sentences that are further apart are not in a row."""
+MOST_OF_TOPIC = 6
+"""Words of a typed sentence whose topic one of them may show."""
 FEW_WORDS = 4
 """A sentence of more words does not hang on the one that it does not know."""
 MOST_REMEMBERED = 200
@@ -41,10 +44,30 @@ class Kind(StrEnum):
     """It knows a sentence that is like it: {nearest}."""
     TOLD = "told"
     """Someone says something, in words that it does not follow."""
+    TOLD_OF = "told_of"
+    """The same, of themselves or of others; it says it again: {echo}."""
+    TOLD_OF_ME = "told_of_me"
+    """Someone says something of the robot."""
+    TOLD_SAD = "told_sad"
+    """What they say is sad, or went wrong."""
+    TOLD_GLAD = "told_glad"
+    TOLD_ANGRY = "told_angry"
+    TOLD_AFRAID = "told_afraid"
+    TOLD_WEARY = "told_weary"
+    PRAISED = "praised"
+    INSULTED = "insulted"
     ASKED = "asked"
     """Someone asks what it does not know."""
+    ASKED_OF_ME = "asked_of_me"
+    """They ask about the robot."""
+    ASKED_OF_YOU = "asked_of_you"
+    """They ask what to do, or about themselves."""
+    ASKED_WHERE = "asked_where"
+    ASKED_WHY = "asked_why"
     ASKED_FOR = "asked_for"
     """Someone wants what it cannot do."""
+    ASKED_FOR_DEED = "asked_for_deed"
+    """The same, and it knows what: {deed}."""
     STRANGE_WORD = "strange_word"
     """It does not know {word}."""
     STRANGE = "strange"
@@ -59,6 +82,36 @@ class Kind(StrEnum):
     """An answer, and nothing was asked."""
     OFFER = "offer"
     """It says what can be said: {one} or {other}."""
+
+
+FEELINGS: Mapping[Sentiment, Kind] = {
+    Sentiment.SAD: Kind.TOLD_SAD,
+    Sentiment.GLAD: Kind.TOLD_GLAD,
+    Sentiment.ANGRY: Kind.TOLD_ANGRY,
+    Sentiment.AFRAID: Kind.TOLD_AFRAID,
+    Sentiment.WEARY: Kind.TOLD_WEARY,
+    Sentiment.KIND: Kind.PRAISED,
+    Sentiment.UNKIND: Kind.INSULTED,
+}
+REMARKS: Mapping[Sentiment | None, Kind] = {
+    Sentiment.SAD: Kind.TOLD_OF_ME,
+    Sentiment.ANGRY: Kind.TOLD_OF_ME,
+    Sentiment.AFRAID: Kind.TOLD_OF_ME,
+    Sentiment.GLAD: Kind.PRAISED,
+    Sentiment.KIND: Kind.PRAISED,
+    Sentiment.UNKIND: Kind.TOLD_OF_ME,
+}
+"""What is good or bad about what is at hand is mostly what the robot just did."""
+TELLING = frozenset((Kind.TOLD, Kind.TOLD_OF, Kind.TOLD_OF_ME, *FEELINGS.values()))
+QUESTIONS: Mapping[DialogAct | None, Kind] = {
+    DialogAct.QUESTION: Kind.ASKED,
+    DialogAct.QUESTION_OF_ROBOT: Kind.ASKED_OF_ME,
+    DialogAct.QUESTION_OF_SPEAKER: Kind.ASKED_OF_YOU,
+    DialogAct.QUESTION_WHERE: Kind.ASKED_WHERE,
+    DialogAct.QUESTION_WHY: Kind.ASKED_WHY,
+}
+OF_ROBOT = (DialogAct.QUESTION_OF_ROBOT, DialogAct.QUESTION_WHY)
+"""Questions that may be an insult: "why are you so slow"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +132,13 @@ class Puzzle:
     nearest: str = ""
     """A sentence that is like it."""
     act: DialogAct | None = None
-    """What it does; known only of a typed sentence."""
+    """What it does; known only of a typed sentence, as the next three are."""
+    sentiment: Sentiment | None = None
+    """What it says of a feeling."""
+    echo: str = ""
+    """What it states, from the robot's side."""
+    deed: str = ""
+    """What it asks for, from the robot's side."""
     words: int = 0
     """How many it has."""
     strange: Sequence[str] = ()
@@ -102,6 +161,8 @@ class Answer:
 
 def is_meant(puzzle: Puzzle, row: int) -> bool:
     """Whether a sentence deserves an answer; `row` counts it and those before it, from 1."""
+    if puzzle.act is DialogAct.CALL:
+        return False
     if not puzzle.is_addressed or puzzle.reason in ("no speech", "robot speaking"):
         return False
     if puzzle.reason == "not now" and not puzzle.is_typed:
@@ -121,17 +182,17 @@ def decide(
         return None
     if puzzle.answers:
         return Answer(Kind.ANSWERS, {"one": puzzle.answers[0], "other": puzzle.answers[-1]})
-    if puzzle.act is DialogAct.STATEMENT:
-        return Answer(Kind.TOLD)
+    if puzzle.act is not DialogAct.DIRECTIVE and (of_act := _of_act(puzzle)) is not None:
+        return of_act
     if row % OFFER_AT == 0 and len(named := _unheard(commands, offered)) > 1:
         return Answer(Kind.OFFER, {"one": named[0], "other": named[-1]}, named)
     if puzzle.is_answer:
         return Answer(Kind.NO_QUESTION)
     if puzzle.is_quiet:
         return Answer(Kind.TOO_QUIET)
-    if puzzle.topic:
+    if _is_short(puzzle) and puzzle.topic:
         return Answer(Kind.CAUGHT, {"topic": puzzle.topic})
-    if puzzle.nearest:
+    if _is_short(puzzle) and puzzle.nearest:
         return Answer(Kind.NEAR, {"nearest": puzzle.nearest})
     if puzzle.is_typed:
         return _of_typed(puzzle)
@@ -139,9 +200,32 @@ def decide(
     return Answer(Kind.UNCLEAR if puzzle.reason in UNCLEAR_REASONS and row == 1 else Kind.STRANGE)
 
 
+def _of_act(puzzle: Puzzle) -> Answer | None:
+    """The answer to what a typed sentence does, whatever its words are."""
+    if puzzle.act in QUESTIONS:
+        is_insult = puzzle.sentiment is Sentiment.UNKIND and puzzle.act in OF_ROBOT
+        return Answer(Kind.INSULTED if is_insult else QUESTIONS[puzzle.act])
+    if puzzle.act is DialogAct.REMARK:
+        return Answer(REMARKS.get(puzzle.sentiment, Kind.TOLD))
+    # "Great, now the opposite" is not good news.
+    if puzzle.sentiment is not None and (puzzle.act or puzzle.sentiment is not Sentiment.GLAD):
+        return Answer(FEELINGS[puzzle.sentiment])
+    if puzzle.act is DialogAct.STATEMENT_OF_ROBOT:
+        return Answer(Kind.TOLD_OF_ME)
+    if puzzle.act is DialogAct.STATEMENT:
+        return Answer(Kind.TOLD_OF, {"echo": puzzle.echo}) if puzzle.echo else Answer(Kind.TOLD)
+    return None
+
+
+def _is_short(puzzle: Puzzle) -> bool:
+    """Whether a word or two may show what a sentence is about: in a long one they do not."""
+    return not puzzle.is_typed or puzzle.words <= MOST_OF_TOPIC
+
+
 def _of_typed(puzzle: Puzzle) -> Answer:
-    if puzzle.act is not None:
-        return Answer(Kind.ASKED if puzzle.act is DialogAct.QUESTION else Kind.ASKED_FOR)
+    if puzzle.act is DialogAct.DIRECTIVE:
+        facts = {"deed": puzzle.deed} if puzzle.deed else {}
+        return Answer(Kind.ASKED_FOR_DEED if facts else Kind.ASKED_FOR, facts)
     if len(puzzle.strange) == 1 and puzzle.words <= FEW_WORDS:
         return Answer(Kind.STRANGE_WORD, {"word": puzzle.strange[0]})
     return Answer(Kind.STRANGE if puzzle.strange else Kind.REPHRASE)
@@ -180,7 +264,7 @@ class Puzzlement:
         answer = decide(puzzle, row, commands, self._offered)
         if answer is None:
             return None
-        if answer.kind is not Kind.TOLD:  # Who has something to say is not at a loss for words.
+        if answer.kind not in TELLING:  # Who has something to say is not at a loss for words.
             self.row = row
         self.last = now
         self._offered.extend(answer.offered)

@@ -55,7 +55,12 @@ def test_each_line_that_is_typed_gets_an_answer_and_none_twice():
         ("red me the go", "Sorry, I didn't get that. Could you say it another way?"),
         ("the neighbors bought a boat", "Mm-hm. Go on, I'm listening."),
         ("is tuesday a color", "I don't know, to be honest."),
-        ("could you iron a shirt", "I don't think I can do that, sorry."),
+        ("could you iron a shirt", "I don't know how to iron a shirt."),
+        ("can i have a cookie", "I don't think I can do that, sorry."),
+        ("my brother broke his arm", "Oh no. I'm sorry to hear that."),
+        ("my aunt bought a boat", "Your aunt bought a boat? Tell me more."),
+        ("you are an old bucket of bolts", "Ouch. That wasn't very nice."),
+        ("where does the rain go", "I don't know where. I only see what's in front of me."),
         ("yes please", "I didn't ask anything just now."),
     ],
 )

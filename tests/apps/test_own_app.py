@@ -288,7 +288,7 @@ def test_a_grammar_that_does_not_extend_the_companion_is_all_that_is_heard(put):
     grammar = "#JSGF V1.0; grammar twister;\npublic <twister> = tell me a twister;\n"
     robot = robot_of(put({**JOKE, "grammar.jsgf": grammar}))
     events = live(robot, 9, {1.0: "what is your name", 6.0: "tell me a twister"})
-    hint = "I don't know, to be honest."
+    hint = "I'm not sure. I'm just a small robot."
     assert said(events) == [hint, "What is brown and sticky? A stick."]
 
 

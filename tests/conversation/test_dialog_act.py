@@ -13,13 +13,23 @@ from hri.conversation.dialog_act import DialogAct, dialog_act
         ("it was a beagle", DialogAct.STATEMENT),
         ("Who wrote that book?", DialogAct.QUESTION),
         ("when is the next bus", DialogAct.QUESTION),
-        ("do you know Latin", DialogAct.QUESTION),
+        ("do you know Latin", DialogAct.QUESTION_OF_ROBOT),
         ("can turtles swim", DialogAct.QUESTION),
         ("Could you tie my shoes?", DialogAct.DIRECTIVE),
         ("can i have a cookie", DialogAct.DIRECTIVE),
         ("let's play chess", DialogAct.DIRECTIVE),
         ("i want you to do the dishes", DialogAct.DIRECTIVE),
-        ("do it again", None),
+        ("do it again", DialogAct.DIRECTIVE),
+        ("you have to kiss it", DialogAct.DIRECTIVE),
+        ("would you rather be a cat", DialogAct.QUESTION_OF_ROBOT),
+        ("Robin, should I call her?", DialogAct.QUESTION_OF_SPEAKER),
+        ("where did i put my hat", DialogAct.QUESTION_WHERE),
+        ("why is the sky so gray", DialogAct.QUESTION_WHY),
+        ("you forgot the sound", DialogAct.STATEMENT_OF_ROBOT),
+        ("that was not so great", DialogAct.REMARK),
+        ("paula took my chair", DialogAct.STATEMENT),
+        ("mom can i have some juice", DialogAct.CALL),
+        ("mom took my phone", DialogAct.STATEMENT),
         ("have a seat", None),
         ("it was", None),
         ("purple elephants", None),
@@ -28,4 +38,4 @@ from hri.conversation.dialog_act import DialogAct, dialog_act
     ],
 )
 def test_the_first_words_show_it(text, act):
-    assert dialog_act(text) is act
+    assert dialog_act(text, "Robin") is act

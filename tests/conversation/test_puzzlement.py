@@ -13,6 +13,7 @@ from hri.conversation.puzzlement import (
     as_said,
     decide,
 )
+from hri.conversation.sentiment import Sentiment
 
 COMMANDS = ["go forward", "turn left", "what time is it", "show me a happy face", "come here"]
 TYPED = {"is_typed": True, "is_turned_to": True}
@@ -25,7 +26,45 @@ TYPED = {"is_typed": True, "is_turned_to": True}
         (Puzzle("not in grammar", nearest="turn left", **TYPED), 1, Kind.NEAR),
         (Puzzle("not in grammar", act=DialogAct.STATEMENT, **TYPED), 3, Kind.TOLD),
         (Puzzle("not in grammar", act=DialogAct.QUESTION, **TYPED), 1, Kind.ASKED),
-        (Puzzle("not in grammar", act=DialogAct.QUESTION, **TYPED), OFFER_AT, Kind.OFFER),
+        (Puzzle("not in grammar", act=DialogAct.QUESTION, **TYPED), OFFER_AT, Kind.ASKED),
+        (Puzzle("not in grammar", act=DialogAct.DIRECTIVE, **TYPED), OFFER_AT, Kind.OFFER),
+        (
+            Puzzle("not in grammar", act=DialogAct.DIRECTIVE, deed="fly", **TYPED),
+            1,
+            Kind.ASKED_FOR_DEED,
+        ),
+        (
+            Puzzle("not in grammar", act=DialogAct.STATEMENT, echo="you ran", **TYPED),
+            1,
+            Kind.TOLD_OF,
+        ),
+        (
+            Puzzle(
+                "not in grammar",
+                act=DialogAct.STATEMENT,
+                echo="you lost",
+                sentiment=Sentiment.SAD,
+                **TYPED,
+            ),
+            1,
+            Kind.TOLD_SAD,
+        ),
+        (
+            Puzzle(
+                "not in grammar",
+                act=DialogAct.QUESTION_OF_ROBOT,
+                sentiment=Sentiment.UNKIND,
+                **TYPED,
+            ),
+            1,
+            Kind.INSULTED,
+        ),
+        (
+            Puzzle("not in grammar", act=DialogAct.REMARK, sentiment=Sentiment.GLAD, **TYPED),
+            1,
+            Kind.PRAISED,
+        ),
+        (Puzzle("not in grammar", sentiment=Sentiment.GLAD, **TYPED), 1, Kind.REPHRASE),
         (Puzzle("not in grammar", act=DialogAct.DIRECTIVE, **TYPED), 1, Kind.ASKED_FOR),
         (
             Puzzle("not in grammar", act=DialogAct.DIRECTIVE, topic="turning", **TYPED),

@@ -2,7 +2,7 @@
 
 A line need not be a sentence to the letter: little words too many or too few are forgiven, at the
 price that `hri.speech.grammar.tolerance` puts on them. All that may be forgiven at once halves the
-confidence.
+confidence; a line of which only a part is a sentence loses a quarter of it.
 
 Lines wait for each other and until the robot has spoken; only what a rule marked @interrupts allows
 is heard at once.
@@ -21,9 +21,12 @@ from hri.core.origin import KEYBOARD, origin
 from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, Hypothesis, Recognizer, Segment
 from hri.speech.grammar import Grammar as WrittenGrammar
+from hri.speech.grammar.excerpt import excerpt
 from hri.speech.grammar.matching import parse
 from hri.speech.grammar.tolerance import MOST_COST, nearest
 
+OF_PART = 0.75
+"""Confidence of a line of which only a part is a sentence."""
 REPLY_SECONDS = 1.0
 """How long the line behind another one waits for the robot to begin to speak."""
 
@@ -127,6 +130,7 @@ class LineDecoder:
         """`segment` has the line as its text; `rules` are those that count, all by default."""
         text = segment.text.lower()
         near = nearest(self._grammar, text, rules=rules) if self._grammar is not None else None
-        if near is None:
-            return Hypothesis(text, 1.0)
-        return Hypothesis(near.parse.text, 1.0 - 0.5 * near.cost / MOST_COST)
+        if near is not None:
+            return Hypothesis(near.parse.text, 1.0 - 0.5 * near.cost / MOST_COST)
+        part = excerpt(self._grammar, text, rules) if self._grammar is not None else None
+        return Hypothesis(text, 1.0) if part is None else Hypothesis(part.text, OF_PART)

@@ -1,0 +1,95 @@
+"""A command that stands in a longer sentence: "turn around, i want to see your back".
+
+For what is typed, where each word is known and only the sentence is longer than any of the grammar.
+The rest must begin something new, or address someone; where it could change what the command
+means ("turn around when i say so", "come here, i mean stop"), the sentence counts as a whole or not
+at all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+
+from hri.speech.grammar.grammar import Grammar
+from hri.speech.grammar.matching import MOST_WORDS, Matcher, Parse, as_written, parse
+from hri.speech.grammar.words import typed
+
+FEWEST_WORDS = 2
+"""Words of the command; one alone may mean anything in a sentence."""
+# fmt: off
+FILLERS = frozenset((
+    "actually", "ah", "alright", "aw", "fine", "great", "hey", "hi", "hm", "hmm", "huh", "just",
+    "kinda", "like", "literally", "oh", "ok", "okay", "ooh", "really", "shoot", "so", "sorta",
+    "ugh", "uh", "um", "well", "whoa", "wow", "yeah", "yep", "yes", "yo",
+))
+"""Words that may be left out wherever they stand."""
+CALLS = frozenset((
+    "bro", "bud", "buddy", "dear", "dude", "everybody", "everyone", "friend", "guys", "hon",
+    "honey", "kiddo", "man", "pal", "pet", "robot", "sweetheart", "sweetie",
+))
+"""Whom a sentence is said to; before and behind a command."""
+STARTS = frozenset((
+    "and", "are", "because", "can", "cause", "did", "do", "don't", "he", "he's", "i", "i'll",
+    "i'm", "i've", "is", "it", "it'll", "it's", "let", "let's", "my", "now", "please", "she",
+    "she's", "since", "that's", "then", "there", "there's", "they", "they're", "this", "we",
+    "we'll", "we're", "what", "what's", "where", "who", "why", "will", "would", "you", "you'll",
+    "you're",
+))
+"""First words of another clause."""
+TURNS = frozenset((
+    "cancel", "if", "instead", "joking", "kidding", "later", "mean", "meant", "never",
+    "nevermind", "no", "nope", "not", "rather", "stop", "unless", "until", "wait", "when",
+    "won't",
+))
+"""Words of a rest that take back what was said, or say when."""
+# fmt: on
+
+
+def excerpt(grammar: Grammar, text: str, rules: Collection[str] | None = None) -> Parse | None:
+    """The command that stands in a typed text; None without one. The longest counts.
+
+    One without a topic, which may move the robot, must come first in the sentence, and counts
+    before all small talk. `rules` are the public rules that count; None is all.
+    Raises AuthoringError where `Grammar.automaton` does.
+    """
+    words = [word for word in typed(text) if word not in FILLERS]
+    if len(words) > MOST_WORDS:
+        return None
+    begin = 1 if words[:1] and words[0] in CALLS else 0
+    taken = []
+    for start, end in _pieces(grammar.made(as_written), words, begin):
+        found = parse(grammar, " ".join(words[start:end]), rules)
+        if found is not None and _may_be_taken(grammar, found, start == begin, words[end:]):
+            is_chat = bool(grammar.rules[found.rule].topics)
+            taken.append((not is_chat, end - start, -start, found))
+    return max(taken, key=lambda one: one[:3])[-1] if taken else None
+
+
+def _pieces(matcher: Matcher, words: Sequence[str], begin: int) -> Iterator[tuple[int, int]]:
+    """Where sentences begin and end that stand between the borders of clauses."""
+    for start in range(begin, len(words)):
+        if start != begin and words[start - 1] not in CALLS and words[start] not in STARTS:
+            continue
+        state = matcher.begin()
+        for end in range(start + 1, len(words) + 1):
+            step = state.step(words[end - 1])
+            if step is None:
+                break
+            state = step.state
+            is_whole = state.is_final and end - start >= FEWEST_WORDS
+            if is_whole and _begins_anew(words[end:], words[start:end]):
+                yield start, end
+
+
+def _begins_anew(rest: Sequence[str], piece: Sequence[str]) -> bool:
+    """Whether behind a piece something new begins, or it is said once more."""
+    return not rest or rest[0] in STARTS | CALLS or rest[: len(piece)] == piece
+
+
+def _may_be_taken(grammar: Grammar, found: Parse, is_first: bool, rest: Sequence[str]) -> bool:
+    """Whether the rest of a sentence leaves a command what it is."""
+    if found.free or found.rule in grammar.marked("answer") | grammar.marked("after"):
+        return False
+    if grammar.rules[found.rule].topics:
+        return True
+    return is_first and TURNS.isdisjoint(rest) and rest != ["don't"]
