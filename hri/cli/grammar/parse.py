@@ -13,6 +13,7 @@ from hri.cli.terminal.messages import legible
 from hri.cli.terminal.progress_line import waiting
 from hri.core.quoting import escaped, message_line
 from hri.speech.grammar import load_grammar
+from hri.speech.grammar.excerpt import excerpt
 from hri.speech.grammar.matching import (
     MOST_PARSES,
     Parse,
@@ -59,7 +60,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--tolerant",
         action="store_true",
-        help="forgive small words that are missing, extra or doubled; shows the cost",
+        help="as typed lines are heard: forgive small words that are missing, extra or doubled, "
+        "and show the cost; else take a command that stands in the sentence",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON object per sentence")
 
@@ -72,8 +74,9 @@ def run(options: argparse.Namespace) -> int:
     for text in _sentences(options.texts):
         found = parses(grammar, text)
         near = nearest(grammar, text) if options.tolerant else None
-        if near is not None and not found:
-            found = parses(grammar, near.parse.text)
+        part = excerpt(grammar, text) if options.tolerant and near is None else None
+        if not found and (meant := near.parse if near else part) is not None:
+            found = parses(grammar, meant.text)
         refused = None if found else refusal(grammar, text)
         if options.json:
             print(json.dumps(_object(text, found, near, refused)), flush=True)

@@ -112,6 +112,13 @@ def test_tolerance_shows_its_cost(robot, capsys):
     assert json.loads(capsys.readouterr().out)["cost"] == 0
 
 
+def test_tolerant_takes_a_command_out_of_a_longer_sentence(robot, capsys):
+    line = "hey buddy go to kitchen because i'm hungry"
+    assert parse(robot, line, "--tolerant") == 0
+    assert capsys.readouterr().out.startswith("go to kitchen\n")
+    assert parse(robot, line) == 1
+
+
 def test_a_refusal_points_to_tolerance_where_it_helps(robot, capsys):
     assert parse(robot, "um hide") == 1
     assert "with --tolerant: hide   (+um, cost 0.1)" in capsys.readouterr().out
