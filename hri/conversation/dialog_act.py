@@ -75,9 +75,20 @@ CALLED = frozenset((
     "nana", "papa",
 ))
 """Whom people call by their first word; never the robot."""
+KNOWING = frozenset((
+    "about", "ask", "asked", "guess", "is", "know", "like", "remember", "said", "say", "see",
+    "show", "tell", "that's", "think", "to", "told", "understand", "was", "wonder",
+))
+"""Behind these words a question is a part of what is said."""
+INVERTED = frozenset((
+    "are", "can", "could", "did", "do", "does", "have", "is", "may", "should", "will", "would",
+))
+"""Before a person they begin a question within a sentence."""
 # fmt: on
 MUSTS = frozenset(("gotta", "have", "need", "should"))
 """Behind "you" they make an order."""
+CALLING = AUXILIARIES | QUESTION_WORDS | PEOPLE | {"i'm", "it", "look"}
+"""What follows such a word where it calls: "mom, where's my cup"."""
 DIRECTIVES = frozenset(("can", "could", "will", "would"))
 """Before "you", "I" or "we" they ask for something."""
 
@@ -100,20 +111,30 @@ class DialogAct(Enum):
     """It is said to someone else, whom it names."""
 
 
+TELLING = (None, DialogAct.STATEMENT, DialogAct.STATEMENT_OF_ROBOT, DialogAct.REMARK)
+"""What may end in a question."""
+
+
 def dialog_act(text: str, name: str = "") -> DialogAct | None:
     """What a sentence does; None where its first words do not show it.
 
     `name` is that of the robot, which says nothing of it.
     """
     words = opened(normalize(text), name)
+    if len(words) > 1 and words[0] in CALLED and words[1] in CALLING:
+        return DialogAct.CALL
+    act = _act(words)
+    if act in TELLING and (start := _last_question(words)):
+        return _act(words[start:]) or act
+    return act
+
+
+def _act(words: Sequence[str]) -> DialogAct | None:
+    """What a clause does, by its first words."""
     if len(words) < 2:
         return None
     first, second = words[0], words[1]
-    if first in CALLED and (
-        second in AUXILIARIES | QUESTION_WORDS | PEOPLE | {"it", "i'm", "look"}
-    ):
-        return DialogAct.CALL
-    is_choice = words[1:3] == ["you", "rather"]
+    is_choice = list(words[1:3]) == ["you", "rather"]
     asks = first in DIRECTIVES and second in ("i", "we", "you") and not is_choice
     if asks or _is_order(words):
         return DialogAct.DIRECTIVE
@@ -128,6 +149,20 @@ def dialog_act(text: str, name: str = "") -> DialogAct | None:
     if first in ("that", "that's"):
         return DialogAct.REMARK
     return DialogAct.STATEMENT if first in TELLERS or second in TOLD_VERBS else None
+
+
+def _last_question(words: Sequence[str]) -> int:
+    """Where the last clause begins if it asks: "last question, what do you like"; 0 for none.
+
+    "I know what you did" asks nothing, and no more does the end of "you like it, don't you".
+    """
+    for start in range(len(words) - LEAST_WORDS, 0, -1):
+        before, first, second = words[start - 1 : start + 2]
+        asks = first in QUESTION_WORDS and ("'" in first or second in AUXILIARIES)
+        asks = asks or (first in INVERTED and second in PEOPLE)
+        if asks and before not in KNOWING | QUESTION_WORDS:
+            return start
+    return 0
 
 
 def opened(words: Sequence[str], name: str = "") -> list[str]:
