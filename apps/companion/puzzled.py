@@ -26,7 +26,7 @@ from .replies import Reply
 
 CLEAR = 0.3
 """Confidence from which words that do not count say what a sentence was about."""
-OFFERED_TOPICS = frozenset(("about_me", "fun"))
+OFFERED_TOPICS = frozenset(("fun",))
 """Small talk that helps who does not know what to say."""
 GESTURES: Mapping[Kind, str] = {
     Kind.TOLD: "nod",
@@ -37,6 +37,7 @@ GESTURES: Mapping[Kind, str] = {
     Kind.ASKED_OF_YOU: "think",
     Kind.ASKED_WHERE: "think",
     Kind.ASKED_WHY: "think",
+    Kind.FORBIDDEN: "nod",
     Kind.ASKED_FOR: "shake",
     Kind.ASKED_FOR_DEED: "shake",
 }

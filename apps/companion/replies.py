@@ -166,6 +166,7 @@ USUALLY_UNASKED: Mapping[str, tuple[str, ...]] = {
     "asked_of_you": ("You know that better than I do.",),
     "asked_where": ("I don't know where. I only see what's in front of me.",),
     "asked_why": ("I don't know why. What do you think?",),
+    "forbidden": ("Okay, I won't.",),
     "asked_for": ("I don't think I can do that, sorry.",),
     "asked_for_deed": ("I don't know how to {deed}.",),
     "strange_word": ('I don\'t know the word "{word}" yet.',),

@@ -107,6 +107,7 @@ class DialogAct(Enum):
     QUESTION_WHERE = auto()
     QUESTION_WHY = auto()
     DIRECTIVE = auto()
+    PROHIBITION = auto()
     CALL = auto()
     """It is said to someone else, whom it names."""
 
@@ -136,6 +137,8 @@ def _act(words: Sequence[str]) -> DialogAct | None:
     first, second = words[0], words[1]
     is_choice = list(words[1:3]) == ["you", "rather"]
     asks = first in DIRECTIVES and second in ("i", "we", "you") and not is_choice
+    if first in ("don't", "never", "quit") and not _may_ask(first, second):
+        return DialogAct.PROHIBITION
     if asks or _is_order(words):
         return DialogAct.DIRECTIVE
     if first in QUESTION_WORDS or (first in AUXILIARIES and _may_ask(first, second)):

@@ -27,6 +27,8 @@ ROW_SECONDS = 60.0
 """Sentences that are further apart are not in a row."""
 MOST_OF_TOPIC = 6
 """Words of a typed sentence whose topic one of them may show."""
+MANY_WORDS = 6
+"""A typed sentence of so many that shows no act is rather told than asked for."""
 FEW_WORDS = 4
 """A sentence of more words does not hang on the one that it does not know."""
 MOST_REMEMBERED = 200
@@ -66,6 +68,8 @@ class Kind(StrEnum):
     ASKED_WHY = "asked_why"
     ASKED_FOR = "asked_for"
     """Someone wants what it cannot do."""
+    FORBIDDEN = "forbidden"
+    """Someone says not to do something."""
     ASKED_FOR_DEED = "asked_for_deed"
     """The same, and it knows what: {deed}."""
     STRANGE_WORD = "strange_word"
@@ -208,12 +212,17 @@ def _of_act(puzzle: Puzzle) -> Answer | None:
     if puzzle.act is DialogAct.REMARK:
         return Answer(REMARKS.get(puzzle.sentiment, Kind.TOLD))
     # "Great, now the opposite" is not good news.
-    if puzzle.sentiment is not None and (puzzle.act or puzzle.sentiment is not Sentiment.GLAD):
+    is_meant = puzzle.act is not None or puzzle.sentiment not in (Sentiment.GLAD, Sentiment.KIND)
+    if puzzle.sentiment is not None and is_meant:
         return Answer(FEELINGS[puzzle.sentiment])
     if puzzle.act is DialogAct.STATEMENT_OF_ROBOT:
         return Answer(Kind.TOLD_OF_ME)
+    if puzzle.act is DialogAct.PROHIBITION:
+        return Answer(Kind.FORBIDDEN)
     if puzzle.act is DialogAct.STATEMENT:
         return Answer(Kind.TOLD_OF, {"echo": puzzle.echo}) if puzzle.echo else Answer(Kind.TOLD)
+    if puzzle.is_typed and not puzzle.topic and puzzle.words >= MANY_WORDS:
+        return Answer(Kind.TOLD)
     return None
 
 

@@ -32,6 +32,8 @@ from hri.conversation.dialog_act import DialogAct, dialog_act
         ("it's loud here so could you say it again", DialogAct.DIRECTIVE),
         ("i know what you did", DialogAct.STATEMENT),
         ("you like it don't you", DialogAct.STATEMENT_OF_ROBOT),
+        ("don't get too close", DialogAct.PROHIBITION),
+        ("don't you like it", DialogAct.QUESTION_OF_ROBOT),
         ("mom can i have some juice", DialogAct.CALL),
         ("mom took my phone", DialogAct.STATEMENT),
         ("have a seat", None),

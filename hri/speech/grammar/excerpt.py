@@ -15,7 +15,7 @@ from hri.speech.grammar.matching import MOST_WORDS, Matcher, Parse, as_written, 
 from hri.speech.grammar.words import typed
 
 FEWEST_WORDS = 2
-"""Words of the command; one alone may mean anything in a sentence."""
+"""Words of the command; one alone may mean anything, except behind another command."""
 # fmt: off
 FILLERS = frozenset((
     "actually", "ah", "alright", "aw", "fine", "great", "hey", "hi", "hm", "hmm", "huh", "just",
@@ -76,8 +76,7 @@ def _pieces(matcher: Matcher, words: Sequence[str], begin: int) -> Iterator[tupl
             if step is None:
                 break
             state = step.state
-            is_whole = state.is_final and end - start >= FEWEST_WORDS
-            if is_whole and _begins_anew(words[end:], words[start:end]):
+            if state.is_final and _begins_anew(words[end:], words[start:end]):
                 yield start, end
 
 
@@ -88,7 +87,9 @@ def _begins_anew(rest: Sequence[str], piece: Sequence[str]) -> bool:
 
 def _may_be_taken(grammar: Grammar, found: Parse, is_first: bool, rest: Sequence[str]) -> bool:
     """Whether the rest of a sentence leaves a command what it is."""
-    if found.free or found.rule in grammar.marked("answer") | grammar.marked("after"):
+    is_follow_up = found.rule in grammar.marked("after")
+    is_long = len(found.text.split()) >= FEWEST_WORDS or is_follow_up
+    if found.free or not is_long or found.rule in grammar.marked("answer"):
         return False
     if grammar.rules[found.rule].topics:
         return True
