@@ -23,6 +23,7 @@ from hri.speech.turn import QUESTION
 
 from .companion import FAREWELLS, TENDER, Companion
 from .replies import Reply
+from .reply_texts import fields_of
 
 CLEAR = 0.3
 """Confidence from which words that do not count say what a sentence was about."""
@@ -55,6 +56,10 @@ FELT: Mapping[Kind, str] = {Kind.PRAISED: "praise", Kind.INSULTED: "insulted"}
 """Stimuli."""
 OWN_WORDS = TELLING | GESTURES.keys()
 """Of these a request for other words would be no answer."""
+MOST_OF_SLIP = 5
+"""Words of a sentence that fails at one."""
+TALES = ("because", "commands", "said", "why", "why_stopped")
+"""What a reply fills in that says something only in its place."""
 ENDING = ("stop", "quiet", "release", "sleep")
 """Actions that help no one who does not know what to say."""
 
@@ -137,7 +142,7 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
 
 def _is_slip(grammar: Grammar, text: str, strange: Sequence[str]) -> bool:
     """Whether a sentence fails at a slip of the fingers: "go forwrd"."""
-    if len(strange) != 1:
+    if len(strange) != 1 or len(normalize(text)) > MOST_OF_SLIP:
         return False
     fails = departure(grammar, text) if nearest_sentence(grammar, text) else None
     return fails is not None and fails.word == strange[0] and fails.remedy.startswith("did you")
@@ -170,7 +175,7 @@ def _is_worth_offering(companion: Companion, rule: str) -> bool:
     reply = companion.replies.replies.get(rule, Reply())
     topics = companion.listener.loaded_grammar.rules[rule].topics
     is_chat = bool(reply.feel) or rule in FAREWELLS or not topics <= OFFERED_TOPICS
-    tells = any("{commands}" in text or "{why_stopped}" in text for text in reply.say)
+    tells = any(field in TALES for text in reply.say for field in fields_of(text))
     return not (is_chat or tells or reply.action in ENDING)
 
 

@@ -27,7 +27,7 @@ ROW_SECONDS = 60.0
 """Sentences that are further apart are not in a row."""
 MOST_OF_TOPIC = 6
 """Words of a typed sentence whose topic one of them may show."""
-MANY_WORDS = 6
+MANY_WORDS = 5
 """A typed sentence of so many that shows no act is rather told than asked for."""
 FEW_WORDS = 4
 """A sentence of more words does not hang on the one that it does not know."""
@@ -209,6 +209,8 @@ def _of_act(puzzle: Puzzle) -> Answer | None:
     if puzzle.act in QUESTIONS:
         is_insult = puzzle.sentiment is Sentiment.UNKIND and puzzle.act in OF_ROBOT
         return Answer(Kind.INSULTED if is_insult else QUESTIONS[puzzle.act])
+    if puzzle.act is DialogAct.PROHIBITION:
+        return Answer(Kind.FORBIDDEN)
     if puzzle.act is DialogAct.REMARK:
         return Answer(REMARKS.get(puzzle.sentiment, Kind.TOLD))
     # "Great, now the opposite" is not good news.
@@ -217,8 +219,6 @@ def _of_act(puzzle: Puzzle) -> Answer | None:
         return Answer(FEELINGS[puzzle.sentiment])
     if puzzle.act is DialogAct.STATEMENT_OF_ROBOT:
         return Answer(Kind.TOLD_OF_ME)
-    if puzzle.act is DialogAct.PROHIBITION:
-        return Answer(Kind.FORBIDDEN)
     if puzzle.act is DialogAct.STATEMENT:
         return Answer(Kind.TOLD_OF, {"echo": puzzle.echo}) if puzzle.echo else Answer(Kind.TOLD)
     if puzzle.is_typed and not puzzle.topic and puzzle.words >= MANY_WORDS:

@@ -32,7 +32,8 @@ TOLD_OF = frozenset((
 ))
 """What begins so is about people; the rest is mostly a remark about what is at hand."""
 CLAUSES = frozenset((
-    "and", "because", "i", "i'm", "if", "it's", "so", "that's", "then", "until", "when",
+    "and", "because", "but", "don't", "he", "i", "i'm", "if", "it's", "or", "see", "she", "so",
+    "that's", "then", "they", "until", "when",
 ))
 """What is to be done ends before these."""
 NO_DEEDS = frozenset((

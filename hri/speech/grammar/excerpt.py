@@ -29,11 +29,11 @@ CALLS = frozenset((
 ))
 """Whom a sentence is said to; before and behind a command."""
 STARTS = frozenset((
-    "and", "are", "because", "can", "cause", "did", "do", "don't", "he", "he's", "i", "i'll",
-    "i'm", "i've", "is", "it", "it'll", "it's", "let", "let's", "my", "now", "please", "she",
-    "she's", "since", "that's", "then", "there", "there's", "they", "they're", "this", "we",
-    "we'll", "we're", "what", "what's", "where", "who", "why", "will", "would", "you", "you'll",
-    "you're",
+    "a", "and", "are", "because", "but", "can", "cause", "did", "do", "don't", "he", "he's",
+    "i", "i'll", "i'm", "i've", "is", "it", "it'll", "it's", "let", "let's", "my", "now",
+    "please", "she", "she's", "since", "that's", "then", "there", "there's", "they", "they're",
+    "this", "we", "we'll", "we're", "what", "what's", "where", "who", "why", "will", "would",
+    "you", "you'll", "you're",
 ))
 """First words of another clause."""
 TURNS = frozenset((
@@ -48,9 +48,9 @@ TURNS = frozenset((
 def excerpt(grammar: Grammar, text: str, rules: Collection[str] | None = None) -> Parse | None:
     """The command that stands in a typed text; None without one. The longest counts.
 
-    One without a topic, which may move the robot, must come first in the sentence, and counts
-    before all small talk. `rules` are the public rules that count; None is all.
-    Raises AuthoringError where `Grammar.automaton` does.
+    One without a topic, which may move the robot, must come first in the sentence if it does not
+    count @anywhere, and counts before all small talk. `rules` are the public rules that count;
+    None is all. Raises AuthoringError where `Grammar.automaton` does.
     """
     words = [word for word in typed(text) if word not in FILLERS]
     if len(words) > MOST_WORDS:
@@ -91,6 +91,6 @@ def _may_be_taken(grammar: Grammar, found: Parse, is_first: bool, rest: Sequence
     is_long = len(found.text.split()) >= FEWEST_WORDS or is_follow_up
     if found.free or not is_long or found.rule in grammar.marked("answer"):
         return False
-    if grammar.rules[found.rule].topics:
+    if grammar.rules[found.rule].topics or found.rule in grammar.marked("anywhere"):
         return True
     return is_first and TURNS.isdisjoint(rest) and rest != ["don't"]
