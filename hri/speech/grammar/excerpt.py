@@ -42,6 +42,12 @@ TURNS = frozenset((
     "won't",
 ))
 """Words of a rest that take back what was said, or say when."""
+OPEN = frozenset(("how", "what", "where", "who", "why"))
+"""Behind these words a clause only begins."""
+MORE = frozenset((
+    "again", "closer", "farther", "faster", "further", "less", "louder", "more", "slower",
+))
+"""One of these alone is enough behind another command."""
 # fmt: on
 
 
@@ -87,9 +93,14 @@ def _begins_anew(rest: Sequence[str], piece: Sequence[str]) -> bool:
 
 def _may_be_taken(grammar: Grammar, found: Parse, is_first: bool, rest: Sequence[str]) -> bool:
     """Whether the rest of a sentence leaves a command what it is."""
+    if found.rule in grammar.marked("interrupts"):
+        return is_first  # A stop, which harms nobody.
+    words = found.text.split()
     is_follow_up = found.rule in grammar.marked("after")
-    is_long = len(found.text.split()) >= FEWEST_WORDS or is_follow_up
+    is_long = len(words) >= FEWEST_WORDS or (is_follow_up and words[0] in MORE)
     if found.free or not is_long or found.rule in grammar.marked("answer"):
+        return False
+    if rest and (words[-1] in OPEN or (is_follow_up and words[-1] == "you")):
         return False
     if grammar.rules[found.rule].topics or found.rule in grammar.marked("anywhere"):
         return True
