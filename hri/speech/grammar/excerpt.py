@@ -93,8 +93,9 @@ def _begins_anew(rest: Sequence[str], piece: Sequence[str]) -> bool:
 
 def _may_be_taken(grammar: Grammar, found: Parse, is_first: bool, rest: Sequence[str]) -> bool:
     """Whether the rest of a sentence leaves a command what it is."""
-    if found.rule in grammar.marked("interrupts"):
-        return is_first  # A stop, which harms nobody.
+    command = grammar.rules[found.rule].stands_for or found.rule
+    if command in grammar.marked("interrupts"):
+        return is_first  # A stop harms nobody.
     words = found.text.split()
     is_follow_up = found.rule in grammar.marked("after")
     is_long = len(words) >= FEWEST_WORDS or (is_follow_up and words[0] in MORE)
