@@ -28,14 +28,17 @@ CALLS = frozenset((
     "honey", "kiddo", "man", "pal", "pet", "robot", "sweetheart", "sweetie",
 ))
 """Whom a sentence is said to; before and behind a command."""
-STARTS = frozenset((
-    "a", "and", "are", "because", "but", "can", "cause", "did", "do", "don't", "he", "he's",
-    "i", "i'll", "i'm", "i've", "is", "it", "it'll", "it's", "let", "let's", "my", "now",
-    "please", "she", "she's", "since", "that's", "then", "there", "there's", "they", "they're",
-    "this", "we", "we'll", "we're", "what", "what's", "where", "who", "why", "will", "would",
-    "you", "you'll", "you're",
+BEGINNINGS = frozenset((
+    "and", "are", "but", "can", "did", "do", "don't", "he", "he's", "i", "i'll", "i'm", "i've",
+    "is", "it'll", "it's", "let", "let's", "now", "please", "she", "she's", "that's", "then",
+    "there", "there's", "they", "they're", "we", "we'll", "we're", "what", "what's", "where",
+    "who", "why", "will", "would", "you", "you'll", "you're",
 ))
-"""First words of another clause."""
+"""First words of a clause, which a command may begin with."""
+BREAKS = frozenset((
+    "a", "because", "cause", "it", "my", "since", "this",
+))
+"""Words behind a command that do not belong to it; before one they may hang on what was said."""
 TURNS = frozenset((
     "cancel", "if", "instead", "joking", "kidding", "later", "mean", "meant", "never",
     "nevermind", "no", "nope", "not", "rather", "stop", "unless", "until", "wait", "when",
@@ -74,7 +77,7 @@ def excerpt(grammar: Grammar, text: str, rules: Collection[str] | None = None) -
 def _pieces(matcher: Matcher, words: Sequence[str], begin: int) -> Iterator[tuple[int, int]]:
     """Where sentences begin and end that stand between the borders of clauses."""
     for start in range(begin, len(words)):
-        if start != begin and words[start - 1] not in CALLS and words[start] not in STARTS:
+        if start != begin and words[start - 1] not in CALLS and words[start] not in BEGINNINGS:
             continue
         state = matcher.begin()
         for end in range(start + 1, len(words) + 1):
@@ -88,7 +91,7 @@ def _pieces(matcher: Matcher, words: Sequence[str], begin: int) -> Iterator[tupl
 
 def _begins_anew(rest: Sequence[str], piece: Sequence[str]) -> bool:
     """Whether behind a piece something new begins, or it is said once more."""
-    return not rest or rest[0] in STARTS | CALLS or rest[: len(piece)] == piece
+    return not rest or rest[0] in BEGINNINGS | BREAKS | CALLS or rest[: len(piece)] == piece
 
 
 def _may_be_taken(grammar: Grammar, found: Parse, is_first: bool, rest: Sequence[str]) -> bool:
