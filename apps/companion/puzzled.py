@@ -10,7 +10,8 @@ from itertools import islice
 from typing import Any
 
 from hri.conversation.dialog_act import dialog_act
-from hri.conversation.examples import different, nearest_sentence
+from hri.conversation.examples import are_alike, different, nearest_sentence
+from hri.conversation.first_names import introduced
 from hri.conversation.gist import Gist
 from hri.conversation.puzzlement import TELLING, Answer, Kind, Puzzle, as_said
 from hri.conversation.reflection import deed_of, echo_of
@@ -43,6 +44,7 @@ GESTURES: Mapping[Kind, str] = {
     Kind.ASKED_FOR_DEED: "shake",
 }
 SHOWN: Mapping[Kind, str] = {
+    Kind.INTRODUCED: "happy",
     Kind.TOLD_SAD: "vulnerable",
     Kind.TOLD_GLAD: "happy",
     Kind.TOLD_ANGRY: "vulnerable",
@@ -121,6 +123,8 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
     is_said, name = is_typed and not is_slip, companion.replies.name
     topic = "" if is_answer else companion.replies.about.get(rule, "")
     example = "" if is_answer else companion.examples().get(rule, "")
+    if is_typed and not are_alike(text, example):
+        example = ""
     return Puzzle(
         reason=heard["reason"],
         is_typed=is_typed,
@@ -131,6 +135,7 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
         nearest=as_said(example or (nearest_sentence(grammar, text) if is_slip else "")),
         act=dialog_act(text, name) if is_said else None,
         sentiment=sentiment(text) if is_said else None,
+        person=introduced(text) if is_said else "",
         echo=as_said(echo_of(text, name)) if is_said else "",
         deed=as_said(deed_of(text, name)) if is_said else "",
         words=len(normalize(text)),

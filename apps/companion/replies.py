@@ -152,6 +152,7 @@ USUALLY_UNASKED: Mapping[str, tuple[str, ...]] = {
     "caught": ("Something about {topic}? Say it another way, please.",),
     "near": ('I almost got that. Try "{nearest}".',),
     "told": ("Mm-hm. Go on, I'm listening.",),
+    "introduced": ("Nice to meet you, {person}. I'm still learning names.",),
     "told_of": ("{echo}? Tell me more.",),
     "told_of_me": ("Good to know. I'm still learning.",),
     "told_sad": ("I'm sorry to hear that.",),

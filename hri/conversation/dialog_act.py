@@ -11,16 +11,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from enum import Enum, auto
 
+from hri.conversation.first_names import first_names
 from hri.speech.grammar.words import normalize
 
+MOST_COMING = 3
+"""Of more words, "come on" only opens the rest."""
 LEAST_WORDS = 3
 """Of fewer, what they tell is rather a name, or half a sentence."""
 # fmt: off
 OPENERS = frozenset((
-    "actually", "alright", "and", "anyway", "aw", "but", "dude", "hey", "hm", "hmm", "honestly",
-    "huh", "just", "like", "look", "man", "no", "nope", "oh", "ok", "okay", "ooh", "please",
-    "right", "robot", "so", "sorry", "then", "ugh", "uh", "um", "wait", "well", "whoa", "wow",
-    "yeah", "yep", "yes", "yo",
+    "actually", "alright", "and", "anyway", "aw", "but", "dude", "ha", "haha", "hey", "hm",
+    "hmm", "honestly", "huh", "just", "like", "look", "man", "no", "nope", "oh", "ok", "okay",
+    "ooh", "please", "right", "robot", "so", "sorry", "then", "ugh", "uh", "um", "wait", "well",
+    "whoa", "wow", "yeah", "yep", "yes", "yo",
 ))
 """Words before those that count."""
 QUESTION_WORDS = frozenset((
@@ -70,6 +73,9 @@ ORDERS = frozenset((
 """First words of an order."""
 ADVICE = frozenset(("should", "shall", "am", "do", "did", "was"))
 """Before "i" or "we" they ask what only who asks can know."""
+WISHES = frozenset(("ever", "like", "mind", "rather", "wanna", "want"))
+"""Behind "would you" they ask what it likes."""
+NO_PLURALS = frozenset(("as", "his", "less", "ours", "this", "us", "yes", "yours"))
 CALLED = frozenset((
     "babe", "dad", "daddy", "grandma", "grandpa", "guys", "mama", "miss", "mom", "mommy", "mum",
     "nana", "papa",
@@ -122,7 +128,7 @@ def dialog_act(text: str, name: str = "") -> DialogAct | None:
     `name` is that of the robot, which says nothing of it.
     """
     words = opened(normalize(text), name)
-    if len(words) > 1 and words[0] in CALLED and words[1] in CALLING:
+    if _is_call(words):
         return DialogAct.CALL
     act = _act(words)
     if act in TELLING and (start := _last_question(words)):
@@ -130,14 +136,24 @@ def dialog_act(text: str, name: str = "") -> DialogAct | None:
     return act
 
 
+def _is_call(words: Sequence[str]) -> bool:
+    """Whether someone else is called: "mom, can I have some juice", "leo stop kicking"."""
+    if len(words) < LEAST_WORDS:
+        return False
+    if words[0] in CALLED:
+        return words[1] in CALLING
+    return words[0] in first_names() and words[1] in CALLING | ORDERS | {"stop"} - TOLD_VERBS
+
+
 def _act(words: Sequence[str]) -> DialogAct | None:
     """What a clause does, by its first words."""
     if len(words) < 2:
         return None
     first, second = words[0], words[1]
-    is_choice = list(words[1:3]) == ["you", "rather"]
-    asks = first in DIRECTIVES and second in ("i", "we", "you") and not is_choice
-    if first in ("don't", "never", "quit") and not _may_ask(first, second):
+    is_wish = second == "you" and list(words[2:3]) and words[2] in WISHES
+    asks = first in DIRECTIVES and second in ("i", "we", "you") and not is_wish
+    is_kind = list(words[:2]) in (["don't", "mind"], ["don't", "worry"])
+    if first in ("don't", "never", "quit") and not is_kind and not _may_ask(first, second):
         return DialogAct.PROHIBITION
     if asks or _is_order(words):
         return DialogAct.DIRECTIVE
@@ -172,8 +188,8 @@ def opened(words: Sequence[str], name: str = "") -> list[str]:
     """The words of a sentence without those before the ones that count, and without the name."""
     own = name.lower()
     left = [word for word in words if word != own]
-    while left and left[0] in OPENERS:
-        left = left[1:]
+    while left and (left[0] in OPENERS or (left[:2] == ["come", "on"] and len(left) > MOST_COMING)):
+        left = left[1 if left[0] in OPENERS else 2 :]
     return left
 
 
@@ -189,7 +205,8 @@ def _is_order(words: Sequence[str]) -> bool:
 def _may_ask(first: str, second: str) -> bool:
     """Whether two words begin a question: "do you", not "do it", which is an order."""
     if first in AUXILIARIES:
-        return first not in ("do", "don't", "have") or second in PEOPLE
+        is_plural = second.endswith("s") and second not in NO_PLURALS
+        return first not in ("do", "don't", "have") or second in PEOPLE or is_plural
     return False
 
 

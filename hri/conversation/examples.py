@@ -9,7 +9,7 @@ from itertools import islice
 from hri.conversation.gist import Gist
 from hri.speech.grammar import expansion
 from hri.speech.grammar.rules import Rules
-from hri.speech.grammar.words import ANY
+from hri.speech.grammar.words import ANY, normalize
 
 MOST_COMPARED = 400
 """Sentences of a rule that are looked at for different ones."""
@@ -17,6 +17,8 @@ MOST_SHOWN = 3
 """Sentences of a rule that are shown."""
 PERSONAL = ("i", "i'm", "i've", "i'd", "i'll", "my", "we", "you are", "you're", "your", "he", "she")
 """What people say of themselves and of the robot begins so: no one is told to say such a thing."""
+LEAST_SHARED = 2
+"""Words that a text has in common with a sentence that is like it."""
 ALIKE = 0.6
 """Share of letters in common, of 1, from which a text is like a sentence."""
 
@@ -70,6 +72,13 @@ def _sayings(grammar: Rules) -> dict[str, list[str]]:
         if shown := [text for text in texts if text and not is_personal(text)][:MOST_SHOWN]:
             found[rule] = shown
     return found
+
+
+def are_alike(text: str, sentence: str) -> bool:
+    """Whether a text has at least half of its words, and two, in common with a sentence."""
+    words = set(normalize(text))
+    shared = words & set(normalize(sentence))
+    return len(shared) >= max(LEAST_SHARED, len(words) / 2)
 
 
 def nearest_sentence(grammar: Rules, text: str) -> str:

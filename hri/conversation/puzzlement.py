@@ -58,6 +58,8 @@ class Kind(StrEnum):
     TOLD_WEARY = "told_weary"
     PRAISED = "praised"
     INSULTED = "insulted"
+    INTRODUCED = "introduced"
+    """Someone says who they are, or who another one is: {person}."""
     ASKED = "asked"
     """Someone asks what it does not know."""
     ASKED_OF_ME = "asked_of_me"
@@ -106,7 +108,7 @@ REMARKS: Mapping[Sentiment | None, Kind] = {
     Sentiment.UNKIND: Kind.TOLD_OF_ME,
 }
 """What is good or bad about what is at hand is mostly what the robot just did."""
-TELLING = frozenset((Kind.TOLD, Kind.TOLD_OF, Kind.TOLD_OF_ME, *FEELINGS.values()))
+TELLING = frozenset((Kind.INTRODUCED, Kind.TOLD, Kind.TOLD_OF, Kind.TOLD_OF_ME, *FEELINGS.values()))
 QUESTIONS: Mapping[DialogAct | None, Kind] = {
     DialogAct.QUESTION: Kind.ASKED,
     DialogAct.QUESTION_OF_ROBOT: Kind.ASKED_OF_ME,
@@ -114,8 +116,6 @@ QUESTIONS: Mapping[DialogAct | None, Kind] = {
     DialogAct.QUESTION_WHERE: Kind.ASKED_WHERE,
     DialogAct.QUESTION_WHY: Kind.ASKED_WHY,
 }
-OF_ROBOT = (DialogAct.QUESTION_OF_ROBOT, DialogAct.QUESTION_WHY)
-"""Questions that may be an insult: "why are you so slow"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,9 +136,11 @@ class Puzzle:
     nearest: str = ""
     """A sentence that is like it."""
     act: DialogAct | None = None
-    """What it does; known only of a typed sentence, as the next three are."""
+    """What it does; known only of a typed sentence, as the next four are."""
     sentiment: Sentiment | None = None
     """What it says of a feeling."""
+    person: str = ""
+    """Who is introduced by it."""
     echo: str = ""
     """What it states, from the robot's side."""
     deed: str = ""
@@ -206,9 +208,10 @@ def decide(
 
 def _of_act(puzzle: Puzzle) -> Answer | None:
     """The answer to what a typed sentence does, whatever its words are."""
+    if puzzle.person:
+        return Answer(Kind.INTRODUCED, {"person": puzzle.person})
     if puzzle.act in QUESTIONS:
-        is_insult = puzzle.sentiment is Sentiment.UNKIND and puzzle.act in OF_ROBOT
-        return Answer(Kind.INSULTED if is_insult else QUESTIONS[puzzle.act])
+        return Answer(QUESTIONS[puzzle.act])
     if puzzle.act is DialogAct.PROHIBITION:
         return Answer(Kind.FORBIDDEN)
     if puzzle.act is DialogAct.REMARK:

@@ -11,9 +11,10 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from enum import StrEnum
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 
-from hri.conversation.dialog_act import ROBOT
+from hri.conversation.dialog_act import ROBOT, opened
 from hri.core.toml import load_toml
 from hri.speech.grammar.words import normalize
 
@@ -26,6 +27,8 @@ DENIALS = frozenset((
     "haven't", "isn't", "never", "no", "not", "wasn't", "weren't", "without", "won't", "wouldn't",
 ))
 # fmt: on
+MEANT = frozenset((("this", "thing"), ("this", "thing's"), ("this", "robot"), ("the", "robot")))
+"""Words that speak of the robot without a "you"."""
 
 
 class Sentiment(StrEnum):
@@ -49,8 +52,8 @@ OPPOSITE = {Sentiment.GLAD: Sentiment.SAD, Sentiment.KIND: Sentiment.UNKIND}
 
 def sentiment(text: str) -> Sentiment | None:
     """What most words of a sentence say, the first of those that say as much; None without any."""
-    words = normalize(text)
-    is_of_robot = not ROBOT.isdisjoint(words)
+    words = opened(normalize(text))
+    is_of_robot = not ROBOT.isdisjoint(words) or any(pair in MEANT for pair in pairwise(words))
     found = Counter(_said(words, lexicon()["robot" if is_of_robot else "speaker"]))
     return found.most_common(1)[0][0] if found else None
 

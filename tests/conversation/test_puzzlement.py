@@ -52,7 +52,7 @@ TYPED = {"is_typed": True, "is_turned_to": True}
         (
             Puzzle(
                 "not in grammar",
-                act=DialogAct.QUESTION_OF_ROBOT,
+                act=DialogAct.STATEMENT_OF_ROBOT,
                 sentiment=Sentiment.UNKIND,
                 **TYPED,
             ),

@@ -18,9 +18,10 @@ FEWEST_WORDS = 2
 """Words of the command; one alone may mean anything, except behind another command."""
 # fmt: off
 FILLERS = frozenset((
-    "actually", "ah", "alright", "aw", "fine", "great", "hey", "hi", "hm", "hmm", "huh", "just",
-    "kinda", "like", "literally", "oh", "ok", "okay", "ooh", "really", "shoot", "so", "sorta",
-    "ugh", "uh", "um", "well", "whoa", "wow", "yeah", "yep", "yes", "yo",
+    "actually", "ah", "alright", "anyway", "aw", "even", "exactly", "fine", "great", "hey",
+    "hm", "hmm", "huh", "just", "kinda", "like", "literally", "oh", "ok", "okay", "ooh",
+    "really", "shoot", "so", "sorta", "ugh", "uh", "um", "well", "whoa", "wow", "yeah", "yep",
+    "yes", "yo",
 ))
 """Words that may be left out wherever they stand."""
 CALLS = frozenset((
@@ -51,6 +52,8 @@ MORE = frozenset((
     "again", "closer", "farther", "faster", "further", "less", "louder", "more", "slower",
 ))
 """One of these alone is enough behind another command."""
+GREETINGS = frozenset(("bye", "goodbye", "hello", "hi", "morning", "thanks"))
+"""One of these alone is enough at the beginning."""
 # fmt: on
 
 
@@ -101,7 +104,8 @@ def _may_be_taken(grammar: Grammar, found: Parse, is_first: bool, rest: Sequence
         return is_first  # A stop harms nobody.
     words = found.text.split()
     is_follow_up = found.rule in grammar.marked("after")
-    is_long = len(words) >= FEWEST_WORDS or (is_follow_up and words[0] in MORE)
+    is_greeting = is_first and words[0] in GREETINGS
+    is_long = len(words) >= FEWEST_WORDS or (is_follow_up and words[0] in MORE) or is_greeting
     if found.free or not is_long or found.rule in grammar.marked("answer"):
         return False
     if rest and (words[-1] in OPEN or (is_follow_up and words[-1] == "you")):

@@ -1,0 +1,52 @@
+"""Common first names of the United States, and who is named by a sentence.
+
+A name shows that a line is for someone else ("leo, stop that"), or that someone is introduced.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+
+from hri.speech.grammar.words import normalize
+
+NAMES = Path(__file__).with_name("first_names.txt")
+INTRODUCING = (
+    ("i'm",),
+    ("i", "am"),
+    ("my", "name", "is"),
+    ("my", "name's"),
+    ("call", "me"),
+    ("it's", "me"),
+    ("this", "is"),
+    ("meet",),
+)
+"""What stands before the name of who is introduced."""
+
+
+@cache
+def first_names() -> frozenset[str]:
+    """All of them, in small letters; words that are more often something else are left out."""
+    return frozenset(NAMES.read_text(encoding="utf-8").split())
+
+
+def introduced(text: str) -> str:
+    """The name of who is introduced by a sentence; empty where no one is."""
+    words = normalize(text)
+    return next(
+        (_capital(name) for start in range(len(words)) for name in _behind(words, start)), ""
+    )
+
+
+def _behind(words: Sequence[str], start: int) -> Sequence[str]:
+    """The name behind an introduction that begins with a word, if one does."""
+    for opening in INTRODUCING:
+        end = start + len(opening)
+        if tuple(words[start:end]) == opening and end < len(words):
+            return [word for word in words[end : end + 1] if word in first_names()]
+    return ()
+
+
+def _capital(name: str) -> str:
+    return name[:1].upper() + name[1:]

@@ -1,0 +1,28 @@
+"""Who is named by a sentence."""
+
+import pytest
+
+from hri.conversation.first_names import first_names, introduced
+
+
+@pytest.mark.parametrize(
+    ("text", "person"),
+    [
+        ("I'm Katherine.", "Katherine"),
+        ("well hi i'm deborah i'm the sister", "Deborah"),
+        ("this is tommy he's our grandson", "Tommy"),
+        ("my name is Leo", "Leo"),
+        ("i'm tired", ""),
+        ("this is so stupid", ""),
+        ("tommy is here", ""),
+        ("i'm", ""),
+        ("", ""),
+    ],
+)
+def test_who_is_introduced_has_a_common_name(text, person):
+    assert introduced(text) == person
+
+
+def test_names_are_single_words_in_small_letters():
+    assert len(first_names()) > 400
+    assert all(name.isalpha() and name.islower() for name in first_names())
