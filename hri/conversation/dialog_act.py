@@ -95,6 +95,8 @@ MUSTS = frozenset(("gotta", "have", "need", "should"))
 """Behind "you" they make an order."""
 CALLING = AUXILIARIES | QUESTION_WORDS | PEOPLE | {"i'm", "it", "look"}
 """What follows such a word where it calls: "mom, where's my cup"."""
+NAMED = (ORDERS | QUESTION_WORDS | {"i", "i'm", "stop", "we", "you"}) - TOLD_VERBS - AUXILIARIES
+"""What follows a first name where it calls."""
 DIRECTIVES = frozenset(("can", "could", "will", "would"))
 """Before "you", "I" or "we" they ask for something."""
 
@@ -142,7 +144,8 @@ def _is_call(words: Sequence[str]) -> bool:
         return False
     if words[0] in CALLED:
         return words[1] in CALLING
-    return words[0] in first_names() and words[1] in CALLING | ORDERS | {"stop"} - TOLD_VERBS
+    asks = words[1] in INVERTED and words[2] in PEOPLE
+    return words[0] in first_names() and (asks or words[1] in NAMED)
 
 
 def _act(words: Sequence[str]) -> DialogAct | None:
@@ -177,7 +180,8 @@ def _last_question(words: Sequence[str]) -> int:
     """
     for start in range(len(words) - LEAST_WORDS, 0, -1):
         before, first, second = words[start - 1 : start + 2]
-        asks = first in QUESTION_WORDS and ("'" in first or second in AUXILIARIES)
+        is_short = first != "who's" and "'" in first
+        asks = first in QUESTION_WORDS and (is_short or second in AUXILIARIES)
         asks = asks or (first in INVERTED and second in PEOPLE)
         if asks and before not in KNOWING | QUESTION_WORDS:
             return start

@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Iterator
 from itertools import islice
 
-from hri.conversation.gist import Gist
+from hri.conversation.gist import Gist, stem
 from hri.speech.grammar import expansion
 from hri.speech.grammar.rules import Rules
 from hri.speech.grammar.words import ANY, normalize
@@ -76,8 +76,8 @@ def _sayings(grammar: Rules) -> dict[str, list[str]]:
 
 def are_alike(text: str, sentence: str) -> bool:
     """Whether a text has at least half of its words, and two, in common with a sentence."""
-    words = set(normalize(text))
-    shared = words & set(normalize(sentence))
+    words = set(map(stem, normalize(text)))
+    shared = words & set(map(stem, normalize(sentence)))
     return len(shared) >= max(LEAST_SHARED, len(words) / 2)
 
 

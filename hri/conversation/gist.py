@@ -61,7 +61,7 @@ class Gist:
         own = [rule for rule in rules if rule not in typed and not grammar.rules[rule].topics]
         every = {rule: known[rule] for rule in own}
         telling = {rule: words - LITTLE for rule, words in every.items() if rule not in follow_ups}
-        stems = {rule: frozenset(map(_stem, words)) for rule, words in telling.items()}
+        stems = {rule: frozenset(map(stem, words)) for rule, words in telling.items()}
         spread = Counter(stem for words in stems.values() for stem in words)
         rare = {stem for stem, count in spread.items() if count <= MOST_RULES}
         return cls(
@@ -75,9 +75,9 @@ class Gist:
         spread = Counter(stem for words in self.words.values() for stem in words)
         # A word that many rules have does not show another subject, one of small talk does.
         stems = [
-            _stem(word)
+            stem(word)
             for word in normalize(text)
-            if word not in LITTLE and (_stem(word) in spread or word not in self.shared)
+            if word not in LITTLE and (stem(word) in spread or word not in self.shared)
         ]
         scores = {
             rule: sum(1 / spread[stem] for stem in stems if stem in words)
@@ -109,7 +109,7 @@ def _tokens(nodes: Iterable[object]) -> Iterator[str]:
     return (node.text for node in nodes if isinstance(node, Token))
 
 
-def _stem(word: str) -> str:
+def stem(word: str) -> str:
     """A word without an ending: "turning" is "turn"."""
     for ending in ENDINGS:
         if word.endswith(ending) and len(word) - len(ending) >= 3:

@@ -190,7 +190,7 @@ def decide(
         return Answer(Kind.ANSWERS, {"one": puzzle.answers[0], "other": puzzle.answers[-1]})
     if puzzle.act is not DialogAct.DIRECTIVE and (of_act := _of_act(puzzle)) is not None:
         return of_act
-    if row % OFFER_AT == 0 and len(named := _unheard(commands, offered)) > 1:
+    if row % OFFER_AT == 0 and not puzzle.deed and len(named := _unheard(commands, offered)) > 1:
         return Answer(Kind.OFFER, {"one": named[0], "other": named[-1]}, named)
     if puzzle.is_answer:
         return Answer(Kind.NO_QUESTION)

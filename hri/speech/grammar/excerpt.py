@@ -36,9 +36,7 @@ BEGINNINGS = frozenset((
     "who", "why", "will", "would", "you", "you'll", "you're",
 ))
 """First words of a clause, which a command may begin with."""
-BREAKS = frozenset((
-    "a", "because", "cause", "it", "my", "since", "this",
-))
+BREAKS = frozenset(("a", "because", "cause", "it", "my", "or", "since", "this"))
 """Words behind a command that do not belong to it; before one they may hang on what was said."""
 TURNS = frozenset((
     "cancel", "if", "instead", "joking", "kidding", "later", "mean", "meant", "never",
@@ -52,6 +50,8 @@ MORE = frozenset((
     "again", "closer", "farther", "faster", "further", "less", "louder", "more", "slower",
 ))
 """One of these alone is enough behind another command."""
+POLITE = frozenset((("can", "you"), ("could", "you"), ("will", "you"), ("would", "you")))
+"""What an order may begin with."""
 GREETINGS = frozenset(("bye", "goodbye", "hello", "hi", "morning", "thanks"))
 """One of these alone is enough at the beginning."""
 # fmt: on
@@ -67,7 +67,7 @@ def excerpt(grammar: Grammar, text: str, rules: Collection[str] | None = None) -
     words = [word for word in typed(text) if word not in FILLERS]
     if len(words) > MOST_WORDS:
         return None
-    begin = 1 if words[:1] and words[0] in CALLS else 0
+    begin = _begin(words)
     taken = []
     for start, end in _pieces(grammar.made(as_written), words, begin):
         found = parse(grammar, " ".join(words[start:end]), rules)
@@ -77,10 +77,21 @@ def excerpt(grammar: Grammar, text: str, rules: Collection[str] | None = None) -
     return max(taken, key=lambda one: one[:3])[-1] if taken else None
 
 
+def _begin(words: Sequence[str]) -> int:
+    """The number of the first word behind a call and a polite beginning: "buddy, could you"."""
+    begin = 1 if words[:1] and words[0] in CALLS else 0
+    is_polite = tuple(words[begin : begin + 2]) in POLITE
+    return begin + 2 if is_polite else begin
+
+
 def _pieces(matcher: Matcher, words: Sequence[str], begin: int) -> Iterator[tuple[int, int]]:
     """Where sentences begin and end that stand between the borders of clauses."""
-    for start in range(begin, len(words)):
-        if start != begin and words[start - 1] not in CALLS and words[start] not in BEGINNINGS:
+    for start in range(len(words)):
+        if (
+            start not in (0, begin)
+            and words[start - 1] not in CALLS
+            and words[start] not in BEGINNINGS
+        ):
             continue
         state = matcher.begin()
         for end in range(start + 1, len(words) + 1):

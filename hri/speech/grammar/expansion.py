@@ -75,14 +75,21 @@ def sentences(grammar: Rules, rules: Iterable[str], limit: int) -> Iterator[str]
 
 def sample(grammar: Rules, most: int) -> list[str]:
     """See `Grammar.sample`."""
-    found = dict.fromkeys(sentences(grammar, grammar.public_rules, most))
-    if len(found) == most:
+    written = dict.fromkeys(sentences(grammar, grammar.public_rules, most))
+    found = dict.fromkeys(filter(_is_listed, written))
+    if len(written) == most:
         found = dict.fromkeys(list(found)[: most - most // 2])
-        for sentence in islice(random_sentences(grammar, random.Random(_SEED)), most):
-            if len(found) == most:
-                break
+        drawn = filter(
+            _is_listed, islice(random_sentences(grammar, random.Random(_SEED)), 2 * most)
+        )
+        while len(found) < most and (sentence := next(drawn, None)) is not None:
             found[sentence] = None
-    return [sentence for sentence in found if sentence and ANY not in sentence]
+    return list(found)
+
+
+def _is_listed(sentence: str) -> bool:
+    """Whether a sentence has words, and no free ones."""
+    return bool(sentence) and ANY not in sentence
 
 
 def random_sentence(
