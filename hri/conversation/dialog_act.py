@@ -95,7 +95,14 @@ MUSTS = frozenset(("gotta", "have", "need", "should"))
 """Behind "you" they make an order."""
 CALLING = AUXILIARIES | QUESTION_WORDS | PEOPLE | {"i'm", "it", "look"}
 """What follows such a word where it calls: "mom, where's my cup"."""
-NAMED = (ORDERS | QUESTION_WORDS | {"i", "i'm", "stop", "we", "you"}) - TOLD_VERBS - AUXILIARIES
+WONDERS = frozenset(("ever", "got", "think", "remember", "wanna", "want"))
+"""Behind "you" they ask."""
+TAGS = frozenset(("huh", "right"))
+"""At the end they make a question of a statement."""
+DENYING = frozenset(("can't", "couldn't", "didn't", "haven't", "won't", "wouldn't"))
+"""Without a person behind them someone leaves out the "i": "can't sleep"."""
+STARTING = frozenset(("don't", "i", "i'm", "stop", "we", "you"))
+NAMED = ((ORDERS | QUESTION_WORDS) - TOLD_VERBS - AUXILIARIES) | STARTING
 """What follows a first name where it calls."""
 DIRECTIVES = frozenset(("can", "could", "will", "would"))
 """Before "you", "I" or "we" they ask for something."""
@@ -167,10 +174,12 @@ def _act(words: Sequence[str]) -> DialogAct | None:
     if len(words) < LEAST_WORDS:
         return None
     if first in ROBOT:
-        return DialogAct.STATEMENT_OF_ROBOT
+        asks = _is_elided(words) or words[-1] in TAGS
+        return DialogAct.QUESTION_OF_ROBOT if asks else DialogAct.STATEMENT_OF_ROBOT
     if first in ("that", "that's"):
         return DialogAct.REMARK
-    return DialogAct.STATEMENT if first in TELLERS or second in TOLD_VERBS else None
+    is_told = first in TELLERS or first in DENYING or second in TOLD_VERBS
+    return DialogAct.STATEMENT if is_told else None
 
 
 def _last_question(words: Sequence[str]) -> int:
@@ -206,8 +215,17 @@ def _is_order(words: Sequence[str]) -> bool:
     return words[0] in ORDERS and not _may_ask(words[0], words[1])
 
 
+def _is_elided(words: Sequence[str]) -> bool:
+    """Whether "do" is left out: "you ever get bored", "you know any jokes"."""
+    if words[0] != "you":
+        return False
+    return words[1] in WONDERS or (words[1] == "know" and words[2] in ("any", *QUESTION_WORDS))
+
+
 def _may_ask(first: str, second: str) -> bool:
     """Whether two words begin a question: "do you", not "do it", which is an order."""
+    if first in DENYING:
+        return second in PEOPLE
     if first in AUXILIARIES:
         is_plural = second.endswith("s") and second not in NO_PLURALS
         return first not in ("do", "don't", "have") or second in PEOPLE or is_plural

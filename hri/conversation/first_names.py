@@ -32,8 +32,10 @@ def first_names() -> frozenset[str]:
 
 
 def introduced(text: str) -> str:
-    """The name of who is introduced by a sentence; empty where no one is."""
+    """The name of who is introduced by a sentence, or by their name alone; empty without one."""
     words = normalize(text)
+    if len(words) == 1:
+        return words[0].capitalize() if words[0] in first_names() else ""
     return next(
         (_capital(name) for start in range(len(words)) for name in _behind(words, start)), ""
     )

@@ -65,7 +65,12 @@ def echo_of(text: str, name: str = "") -> str:
     words = opened(normalize(text), name)
     if words[:1] == ["because"]:
         words = words[1:]
-    if not FEWEST_WORDS <= len(words) <= MOST_WORDS or not (ROBOT | DENIALS).isdisjoint(words):
+    is_named = name.lower() in normalize(text)[1:-1]
+    if (
+        is_named
+        or not FEWEST_WORDS <= len(words) <= MOST_WORDS
+        or not (ROBOT | DENIALS).isdisjoint(words)
+    ):
         return ""
     if words[0] == "i'm" == words[2]:
         return ""  # A name: "i'm jess i'm your sitter".

@@ -21,6 +21,8 @@ from hri.speech.grammar.words import normalize
 LEXICON = Path(__file__).with_name("sentiment.toml")
 DENIED_WITHIN = 3
 """Words before one that is denied, at most (Hutto and Gilbert)."""
+CLOSELY = 2
+"""The same of praise: who denies more than that speaks of something else."""
 # fmt: off
 DENIALS = frozenset((
     "ain't", "aren't", "can't", "cannot", "couldn't", "didn't", "doesn't", "don't", "hardly",
@@ -80,7 +82,8 @@ def _said(words: Sequence[str], known: Mapping[Phrase, Sentiment]) -> Iterator[S
         size = next((size for size in sizes if tuple(words[at : at + size]) in known), 0)
         if size:
             one = known[tuple(words[at : at + size])]
-            is_denied = not DENIALS.isdisjoint(words[max(at - DENIED_WITHIN, 0) : at])
+            within = CLOSELY if one is Sentiment.KIND else DENIED_WITHIN
+            is_denied = not DENIALS.isdisjoint(words[max(at - within, 0) : at])
             if not is_denied:
                 yield one
             elif one in OPPOSITE:

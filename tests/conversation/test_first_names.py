@@ -12,6 +12,7 @@ from hri.conversation.first_names import first_names, introduced
         ("well hi i'm deborah i'm the sister", "Deborah"),
         ("this is tommy he's our grandson", "Tommy"),
         ("my name is Leo", "Leo"),
+        ("Robert", "Robert"),
         ("i'm tired", ""),
         ("this is so stupid", ""),
         ("tommy is here", ""),

@@ -13,6 +13,7 @@ from hri.conversation.reflection import deed_of, echo_of
         ("i was late for my bus", "you were late for your bus"),
         ("well, we're going to our lake, Robin", "you're going to your lake"),
         ("tyler said i can come", "tyler said you can come"),
+        ("i had a dog named robin once", ""),
         ("i like you", ""),
         ("i don't want to", ""),
         ("that was nice of them", ""),

@@ -122,7 +122,7 @@ def _clips(options: argparse.Namespace, grammar: Grammar) -> Iterable[RecordedCl
             raise HriError(f"{grammar.path}: the usual voices speak English - {remedy}")
         voices = tuple(options.voices or usual_voices())
         other = [sentence for sentence in OTHER_TALK if parse(grammar, sentence) is None]
-        sentences = [*grammar.sample(options.sentences), *other]
+        sentences = [*grammar.sample(options.sentences, grammar.spoken_rules), *other]
         yield from spoken(grammar, sentences, voices)
 
 

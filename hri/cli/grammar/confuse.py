@@ -68,11 +68,15 @@ def run(options: argparse.Namespace) -> int:
     if language := foreign(grammar):
         print(f"{grammar.path}: {' - '.join(complaint(grammar, language))}", file=sys.stderr)
     most = options.sentences or (MOST_SPOKEN if options.speak else MOST_COMPARED)
-    sentences = grammar.sample(most)
+    sentences = grammar.sample(most, grammar.spoken_rules)
     if options.speak:
         return _by_ear(options, grammar, sentences)
     with waiting("comparing"):
-        readings = [found for text in sentences if (found := parse(grammar, text)) is not None]
+        readings = [
+            found
+            for text in sentences
+            if (found := parse(grammar, text, grammar.spoken_rules)) is not None
+        ]
         pairs = sound_alikes(readings, load_lexicon(), options.farthest)
     if options.json:
         told_pairs = [_pair_as_json(pair) for pair in pairs[: options.n]]

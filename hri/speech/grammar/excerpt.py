@@ -18,8 +18,8 @@ FEWEST_WORDS = 2
 """Words of the command; one alone may mean anything, except behind another command."""
 # fmt: off
 FILLERS = frozenset((
-    "actually", "ah", "alright", "anyway", "aw", "even", "exactly", "fine", "great", "hey",
-    "hm", "hmm", "huh", "just", "kinda", "like", "literally", "oh", "ok", "okay", "ooh",
+    "actually", "ah", "alright", "anyway", "aw", "careful", "even", "exactly", "fine", "great",
+    "hey", "hm", "hmm", "huh", "just", "kinda", "like", "literally", "oh", "ok", "okay", "ooh",
     "really", "shoot", "so", "sorta", "ugh", "uh", "um", "well", "whoa", "wow", "yeah", "yep",
     "yes", "yo",
 ))
@@ -36,7 +36,9 @@ BEGINNINGS = frozenset((
     "who", "why", "will", "would", "you", "you'll", "you're",
 ))
 """First words of a clause, which a command may begin with."""
-BREAKS = frozenset(("a", "because", "cause", "it", "my", "or", "since", "this"))
+BREAKS = frozenset((
+    "a", "because", "by", "cause", "from", "it", "my", "or", "since", "this", "with",
+))
 """Words behind a command that do not belong to it; before one they may hang on what was said."""
 TURNS = frozenset((
     "cancel", "if", "instead", "joking", "kidding", "later", "mean", "meant", "never",

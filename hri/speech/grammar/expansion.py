@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import accumulate, islice
 
 from hri.core.errors import AuthoringError, Place
@@ -73,15 +73,14 @@ def sentences(grammar: Rules, rules: Iterable[str], limit: int) -> Iterator[str]
                 yield " ".join(words)
 
 
-def sample(grammar: Rules, most: int) -> list[str]:
+def sample(grammar: Rules, most: int, rules: Collection[str]) -> list[str]:
     """See `Grammar.sample`."""
-    written = dict.fromkeys(sentences(grammar, grammar.public_rules, most))
+    written = dict.fromkeys(sentences(grammar, rules, most))
     found = dict.fromkeys(filter(_is_listed, written))
     if len(written) == most:
         found = dict.fromkeys(list(found)[: most - most // 2])
-        drawn = filter(
-            _is_listed, islice(random_sentences(grammar, random.Random(_SEED)), 2 * most)
-        )
+        chance = random_sentences(grammar, random.Random(_SEED), rules)
+        drawn = filter(_is_listed, islice(chance, 2 * most))
         while len(found) < most and (sentence := next(drawn, None)) is not None:
             found[sentence] = None
     return list(found)

@@ -105,11 +105,11 @@ class Grammar(Rules):
         """Sentences of the grammar, at most `limit`, the public rules taking turns."""
         return expansion.sentences(self, self.public_rules, limit)
 
-    def sample(self, most: int) -> list[str]:
+    def sample(self, most: int, rules: Collection[str] | None = None) -> list[str]:
         """Different sentences, at most so many: all, or the first of each rule and as many others
-        by chance, always the same. None has free words.
+        by chance, always the same. None has free words. `rules` are public ones; None is all.
         """
-        return expansion.sample(self, most)
+        return expansion.sample(self, most, self.public_rules if rules is None else rules)
 
     def sentences_of(self, rule: str, limit: int) -> Iterable[str]:
         """Sentences of one rule, at most `limit`."""

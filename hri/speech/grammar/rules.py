@@ -119,6 +119,12 @@ class Rules:
         return tuple(key for key, rule in self.rules.items() if rule.is_public)
 
     @cached_property
+    def spoken_rules(self) -> tuple[str, ...]:
+        """The public rules that count by voice, too."""
+        typed = self.marked("typed")
+        return tuple(key for key in self.public_rules if key not in typed)
+
+    @cached_property
     def topics(self) -> frozenset[str]:
         """What the public rules are about."""
         return frozenset().union(*(self.rules[key].topics for key in self.public_rules))

@@ -241,8 +241,8 @@ def _careful(grammar: Grammar, lexicon: Lexicon) -> Iterator[Finding]:
     careful = grammar.marked("careful")
     if not careful:
         return
-    sentences = grammar.sample(MOST_SENTENCES)
-    heard = frozenset(grammar.public_rules) - grammar.marked("typed")
+    heard = grammar.spoken_rules
+    sentences = grammar.sample(MOST_SENTENCES, heard)
     readings = [found for text in sentences if (found := parse(grammar, text, heard)) is not None]
     told = 0
     for pair in sound_alikes(readings, lexicon, MOST_LIKE):
