@@ -125,6 +125,9 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
     example = "" if is_answer else companion.examples().get(rule, "")
     if is_typed and not are_alike(text, example):
         example = ""
+    deed = deed_of(text, name) if is_said else ""
+    if deed and parse(grammar, deed) is not None:
+        topic, example, deed = "", deed, ""  # It can do that, said by itself.
     return Puzzle(
         reason=heard["reason"],
         is_typed=is_typed,
@@ -137,7 +140,7 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
         sentiment=sentiment(text) if is_said else None,
         person=introduced(text) if is_said else "",
         echo=as_said(echo_of(text, name)) if is_said else "",
-        deed=as_said(deed_of(text, name)) if is_said else "",
+        deed=as_said(deed),
         words=len(normalize(text)),
         strange=strange,
         answers=_answers(companion, grammar),

@@ -56,6 +56,7 @@ def test_each_line_that_is_typed_gets_an_answer_and_none_twice():
         ("the neighbors bought a boat", "Mm-hm. Go on, I'm listening."),
         ("is tuesday a color", "I don't know, to be honest."),
         ("could you iron a shirt", "I don't know how to iron a shirt."),
+        ("dance then already", 'I almost got that. Try "dance".'),
         ("can i have a cookie", "I don't think I can do that, sorry."),
         ("my brother broke his arm", "Oh no. I'm sorry to hear that."),
         ("my aunt bought a boat", "Your aunt bought a boat? Tell me more."),

@@ -19,9 +19,9 @@ FEWEST_WORDS = 2
 # fmt: off
 FILLERS = frozenset((
     "actually", "ah", "alright", "anyway", "aw", "careful", "even", "exactly", "fine", "great",
-    "hey", "hm", "hmm", "huh", "just", "kinda", "like", "literally", "oh", "ok", "okay", "ooh",
-    "really", "shoot", "so", "sorta", "ugh", "uh", "um", "well", "whoa", "wow", "yeah", "yep",
-    "yes", "yo",
+    "ha", "haha", "hey", "hm", "hmm", "huh", "just", "kinda", "like", "literally", "oh", "ok",
+    "okay", "ooh", "really", "shoot", "so", "sorta", "ugh", "uh", "um", "well", "whoa", "wow",
+    "yeah", "yep", "yes", "yo",
 ))
 """Words that may be left out wherever they stand."""
 CALLS = frozenset((
