@@ -9,11 +9,14 @@ at all.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from itertools import islice
 
 from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.matching import MOST_WORDS, Matcher, Parse, as_written, parse
 from hri.speech.grammar.words import typed
 
+MOST_PIECES = 24
+"""Parts of a text that are looked at, from the left; a text that has more repeats itself."""
 FEWEST_WORDS = 2
 """Words of the command; one alone may mean anything, except behind another command."""
 # fmt: off
@@ -71,7 +74,8 @@ def excerpt(grammar: Grammar, text: str, rules: Collection[str] | None = None) -
         return None
     begin = _begin(words)
     taken = []
-    for start, end in _pieces(grammar.made(as_written), words, begin):
+    pieces = _pieces(grammar.made(as_written), words, begin)
+    for start, end in islice(pieces, MOST_PIECES):
         found = parse(grammar, " ".join(words[start:end]), rules)
         if found is not None and _may_be_taken(grammar, found, start == begin, words[end:]):
             is_chat = bool(grammar.rules[found.rule].topics)
@@ -88,13 +92,8 @@ def _begin(words: Sequence[str]) -> int:
 
 def _pieces(matcher: Matcher, words: Sequence[str], begin: int) -> Iterator[tuple[int, int]]:
     """Where sentences begin and end that stand between the borders of clauses."""
-    for start in range(len(words)):
-        if (
-            start not in (0, begin)
-            and words[start - 1] not in CALLS
-            and words[start] not in BEGINNINGS
-        ):
-            continue
+    later = (n for n in range(1, len(words)) if words[n - 1] in CALLS or words[n] in BEGINNINGS)
+    for start in dict.fromkeys((begin, 0, *later)):
         state = matcher.begin()
         for end in range(start + 1, len(words) + 1):
             step = state.step(words[end - 1])
