@@ -19,6 +19,8 @@ from hri.studio.port_values import MOST_NUMBERS, shown, thumbnail, written
 from hri.studio.running import RunningNetworks
 from tests.devices import BLIND, SMALL_SCREEN
 
+pytestmark = pytest.mark.slow
+
 COUNTING = """<BehaviorNetwork invocation_interval="0.01">
   <Behavior id="three" type="Hri.Constant"><Parameter name="parsed_value" value="3"/></Behavior>
   <Behavior id="half" type="Hri.Scale"><Parameter name="factor" value="0.5"/></Behavior>
