@@ -43,6 +43,7 @@ GESTURES: Mapping[Kind, str] = {
     Kind.ASKED_FOR: "shake",
     Kind.ASKED_FOR_DEED: "shake",
 }
+"""What it makes instead of a confused face."""
 SHOWN: Mapping[Kind, str] = {
     Kind.INTRODUCED: "happy",
     Kind.TOLD_SAD: "vulnerable",
@@ -53,7 +54,7 @@ SHOWN: Mapping[Kind, str] = {
     Kind.PRAISED: "happy",
     Kind.INSULTED: "sad",
 }
-"""What it makes or shows instead of a confused face."""
+"""What it shows instead."""
 FELT: Mapping[Kind, str] = {Kind.PRAISED: "praise", Kind.INSULTED: "insulted"}
 """Stimuli."""
 OWN_WORDS = TELLING | GESTURES.keys()
@@ -97,13 +98,15 @@ def _tell(companion: Companion, answer: Answer, text: str) -> None:
         companion.show(shown := SHOWN.get(answer.kind, "confused"))
         if shown in TENDER:
             companion.last_tender = companion.context.clock.now()
+    if answer.kind is Kind.FORBIDDEN:
+        companion.act("stop", {})  # Whatever is forbidden, it may be what it is doing.
     if answer.kind in FELT:
         companion.feel(FELT[answer.kind])
     nearest = as_said(_most_like(companion, text))
     # What is said of any sentence may take the place of what was said a short while ago.
     more = () if answer.kind in OWN_WORDS else (Kind.REPHRASE,)
     words = companion.fresh(answer.kind, *more).format_map({"nearest": nearest, **answer.facts})
-    companion.say(words[0].upper() + words[1:])
+    companion.say(words[:1].upper() + words[1:])
 
 
 def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -> Puzzle:
@@ -138,7 +141,7 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
         nearest=as_said(example or (nearest_sentence(grammar, text) if is_slip else "")),
         act=dialog_act(text, name) if is_said else None,
         sentiment=sentiment(text) if is_said else None,
-        person=introduced(text) if is_said else "",
+        person=introduced(text, name) if is_said else "",
         echo=as_said(echo_of(text, name)) if is_said else "",
         deed=as_said(deed),
         words=len(normalize(text)),

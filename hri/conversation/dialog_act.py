@@ -101,8 +101,9 @@ TAGS = frozenset(("huh", "right"))
 """At the end they make a question of a statement."""
 DENYING = frozenset(("can't", "couldn't", "didn't", "haven't", "won't", "wouldn't"))
 """Without a person behind them someone leaves out the "i": "can't sleep"."""
-STARTING = frozenset(("don't", "i", "i'm", "stop", "we", "you"))
-NAMED = ((ORDERS | QUESTION_WORDS) - TOLD_VERBS - AUXILIARIES) | STARTING
+NAMED = ((ORDERS | QUESTION_WORDS) - TOLD_VERBS - AUXILIARIES).union(
+    ("don't", "i", "i'm", "stop", "we", "you")
+)
 """What follows a first name where it calls."""
 DIRECTIVES = frozenset(("can", "could", "will", "would"))
 """Before "you", "I" or "we" they ask for something."""
@@ -127,7 +128,7 @@ class DialogAct(Enum):
     """It is said to someone else, whom it names."""
 
 
-TELLING = (None, DialogAct.STATEMENT, DialogAct.STATEMENT_OF_ROBOT, DialogAct.REMARK)
+UNSETTLED = (None, DialogAct.STATEMENT, DialogAct.STATEMENT_OF_ROBOT, DialogAct.REMARK)
 """What may end in a question."""
 
 
@@ -140,7 +141,7 @@ def dialog_act(text: str, name: str = "") -> DialogAct | None:
     if _is_call(words):
         return DialogAct.CALL
     act = _act(words)
-    if act in TELLING and (start := _last_question(words)):
+    if act in UNSETTLED and (start := _last_question(words)):
         return _act(words[start:]) or act
     return act
 
@@ -163,7 +164,9 @@ def _act(words: Sequence[str]) -> DialogAct | None:
     is_wish = second == "you" and list(words[2:3]) and words[2] in WISHES
     asks = first in DIRECTIVES and second in ("i", "we", "you") and not is_wish
     is_kind = list(words[:2]) in (["don't", "mind"], ["don't", "worry"])
-    if first in ("don't", "never", "quit") and not is_kind and not _may_ask(first, second):
+    is_dare = list(words[:3]) == ["don't", "you", "dare"]
+    may_ask = _may_ask(first, second) and not is_dare
+    if first in ("don't", "never", "quit") and not is_kind and not may_ask:
         return DialogAct.PROHIBITION
     if asks or _is_order(words):
         return DialogAct.DIRECTIVE

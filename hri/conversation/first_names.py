@@ -31,14 +31,16 @@ def first_names() -> frozenset[str]:
     return frozenset(NAMES.read_text(encoding="utf-8").split())
 
 
-def introduced(text: str) -> str:
-    """The name of who is introduced by a sentence, or by their name alone; empty without one."""
-    words = normalize(text)
+def introduced(text: str, own: str = "") -> str:
+    """The name of who is introduced by a sentence, or by their name alone; empty without one.
+
+    `own` is the name of the robot, which introduces no one.
+    """
+    words = [word for word in normalize(text) if word != own.lower()]
     if len(words) == 1:
         return words[0].capitalize() if words[0] in first_names() else ""
-    return next(
-        (_capital(name) for start in range(len(words)) for name in _behind(words, start)), ""
-    )
+    names = (name for start in range(len(words)) for name in _behind(words, start))
+    return next(names, "").capitalize()
 
 
 def _behind(words: Sequence[str], start: int) -> Sequence[str]:
@@ -48,7 +50,3 @@ def _behind(words: Sequence[str], start: int) -> Sequence[str]:
         if tuple(words[start:end]) == opening and end < len(words):
             return [word for word in words[end : end + 1] if word in first_names()]
     return ()
-
-
-def _capital(name: str) -> str:
-    return name[:1].upper() + name[1:]

@@ -200,3 +200,12 @@ def test_it_does_not_give_way_to_its_own_voice(level):
     assert visit.heard() == ["greet"]
     assert [event.properties["cut"] for event in visit.named("speech.finished")] == [False, False]
     assert len(visit.said()) == 2
+
+
+@pytest.mark.parametrize("line", ["don't drive into the table", "don't scratch my new floor"])
+def test_who_forbids_something_ends_the_motion_that_it_may_be_about(line):
+    visit = typed(12, {1.0: "go forward two meters", 4.0: line})
+    answers = [event for event in visit.named("speech.said") if event.time > 4.0]
+    later = [pose for time, pose in visit.poses if time > answers[0].time + 1.0]
+    assert abs(later[0].x) > 0.2, "it drove before"
+    assert max(abs(pose.x - later[0].x) for pose in later) < 0.01

@@ -440,6 +440,13 @@ def test_what_is_not_understood_is_shown_and_hinted_at_once(put):
     assert seen == {2.0: "confused", 5.5: "confused"}
 
 
+def test_an_answer_without_words_says_nothing(put):
+    silent = JOKE["replies.toml"] + '[unasked]\nasked = ""\n'
+    robot = robot_of(put({**JOKE, "replies.toml": silent}))
+    events = live(robot, 9, {1.0: "is tuesday a color", 5.0: "tell me a twister"})
+    assert said(events) == ["What is brown and sticky? A stick."]
+
+
 SCREENS = {
     "app.toml": 'extends = "companion"\n',
     "grammar.jsgf": "#JSGF V1.0;\n/** @extends companion */\ngrammar screens;\n"

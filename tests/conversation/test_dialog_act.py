@@ -33,6 +33,7 @@ from hri.conversation.dialog_act import DialogAct, dialog_act
         ("i know what you did", DialogAct.STATEMENT),
         ("you like it don't you", DialogAct.STATEMENT_OF_ROBOT),
         ("don't get too close", DialogAct.PROHIBITION),
+        ("don't you dare scratch it", DialogAct.PROHIBITION),
         ("don't you like it", DialogAct.QUESTION_OF_ROBOT),
         ("mom can i have some juice", DialogAct.CALL),
         ("leo stop kicking the wall", DialogAct.CALL),

@@ -24,6 +24,10 @@ def test_who_is_introduced_has_a_common_name(text, person):
     assert introduced(text) == person
 
 
+def test_the_name_of_the_robot_introduces_no_one():
+    assert introduced("leo", "Leo") == introduced("i'm leo", "Leo") == ""
+
+
 def test_names_are_single_words_in_small_letters():
     assert len(first_names()) > 400
     assert all(name.isalpha() and name.islower() for name in first_names())
