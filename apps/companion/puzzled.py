@@ -18,6 +18,7 @@ from hri.conversation.reflection import deed_of, echo_of
 from hri.conversation.sentiment import sentiment
 from hri.speech.automatic_level import VERY_QUIET_DB
 from hri.speech.grammar import Grammar, parse
+from hri.speech.grammar.guessing import LEAST_SURE, guess
 from hri.speech.grammar.matching import departure
 from hri.speech.grammar.words import normalize
 from hri.speech.turn import QUESTION
@@ -139,6 +140,7 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
         is_quiet=level is not None and level < VERY_QUIET_DB,
         topic=topic,
         nearest=as_said(example or (nearest_sentence(grammar, text) if is_slip else "")),
+        meant=as_said(_meant(companion, text)) if is_typed else "",
         act=dialog_act(text, name) if is_said else None,
         sentiment=sentiment(text) if is_said else None,
         person=introduced(text, name) if is_said else "",
@@ -149,6 +151,13 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
         answers=_answers(companion, grammar),
         is_answer=is_answer,
     )
+
+
+def _meant(companion: Companion, text: str) -> str:
+    """The example of a command that is to be said in these words, where a text is like it."""
+    found = guess(companion.listener.loaded_grammar, text)
+    is_sure = found is not None and found.is_vague and found.probability >= LEAST_SURE
+    return companion.examples().get(found.rule, "") if found is not None and is_sure else ""
 
 
 def _is_slip(grammar: Grammar, text: str, strange: Sequence[str]) -> bool:

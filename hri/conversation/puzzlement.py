@@ -135,6 +135,8 @@ class Puzzle:
     """What it seems to be about, as it is said: "turning"."""
     nearest: str = ""
     """A sentence that is like it."""
+    meant: str = ""
+    """A sentence that it most likely says in other words; it must be said in these."""
     act: DialogAct | None = None
     """What it does; known only of a typed sentence, as the next four are."""
     sentiment: Sentiment | None = None
@@ -188,6 +190,8 @@ def decide(
         return None
     if puzzle.answers:
         return Answer(Kind.ANSWERS, {"one": puzzle.answers[0], "other": puzzle.answers[-1]})
+    if puzzle.meant:
+        return Answer(Kind.NEAR, {"nearest": puzzle.meant})
     if puzzle.act is not DialogAct.DIRECTIVE and (of_act := _of_act(puzzle)) is not None:
         return of_act
     if row % OFFER_AT == 0 and not puzzle.deed and len(named := _unheard(commands, offered)) > 1:

@@ -88,6 +88,8 @@ class Hypothesis:
     begun: str = ""
     """The words of a sentence that has only begun, where that is likelier than any whole one;
     empty else, and from engines that cannot tell."""
+    paraphrase: str = ""
+    """What was said, where that means `text` in other words; empty else."""
 
 
 class Recognizer(Resource):

@@ -103,7 +103,7 @@ def judge(
             level_db=segment.level_db,
         )
     return Utterance(
-        text=listed(found.text),
+        text=hypothesis.paraphrase or listed(found.text),
         rule=found.rule,
         tags=found.tags,
         confidence=confidence,

@@ -314,7 +314,7 @@ def test_an_app_that_extends_itself_is_refused(put, monkeypatch, tmp_path):
 def test_saved_files_are_taken_while_it_runs(put):
     folder = put(JOKE)
     robot = robot_of(folder)
-    grammar = JOKE["grammar.jsgf"] + "public <conundrum> = ask me a conundrum;\n"
+    grammar = JOKE["grammar.jsgf"] + "public <conundrum> = unwrap a conundrum;\n"
     replies = JOKE["replies.toml"] + '[reply.conundrum]\nsay = "Who am I?"\n'
     then = {
         3.0: lambda: put({"replies.toml": replies}),
@@ -323,7 +323,7 @@ def test_saved_files_are_taken_while_it_runs(put):
             {"replies.toml": replies.replace("[reply.conundrum]", "[reply.conundrm]")}
         ),
     }
-    lines = {1.0: "ask me a conundrum", 9.0: "ask me a conundrum", 15.0: "tell me a twister"}
+    lines = {1.0: "unwrap a conundrum", 9.0: "unwrap a conundrum", 15.0: "tell me a twister"}
     events = live(robot, 19, lines, then)
     assert said(events)[1:] == ["Who am I?", "What is brown and sticky? A stick."]
     refused = named(events, "replies.refused")
@@ -443,7 +443,7 @@ def test_what_is_not_understood_is_shown_and_hinted_at_once(put):
 def test_an_answer_without_words_says_nothing(put):
     silent = JOKE["replies.toml"] + '[unasked]\nasked = ""\n'
     robot = robot_of(put({**JOKE, "replies.toml": silent}))
-    events = live(robot, 9, {1.0: "is tuesday a color", 5.0: "tell me a twister"})
+    events = live(robot, 9, {1.0: "is tuesday a vegetable", 5.0: "tell me a twister"})
     assert said(events) == ["What is brown and sticky? A stick."]
 
 

@@ -12,8 +12,9 @@ from hri.cli.grammar import FILE_HELP
 from hri.cli.terminal.messages import legible
 from hri.cli.terminal.progress_line import waiting
 from hri.core.quoting import escaped, message_line
-from hri.speech.grammar import load_grammar
+from hri.speech.grammar import Grammar, load_grammar
 from hri.speech.grammar.excerpt import excerpt
+from hri.speech.grammar.guessing import paraphrased
 from hri.speech.grammar.matching import (
     MOST_PARSES,
     Parse,
@@ -61,7 +62,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--tolerant",
         action="store_true",
         help="as typed lines are heard: forgive small words that are missing, extra or doubled, "
-        "and show the cost; else take a command that stands in the sentence",
+        "and show the cost; else take a command that stands in the sentence, or that it says in "
+        "other words",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON object per sentence")
 
@@ -74,8 +76,7 @@ def run(options: argparse.Namespace) -> int:
     for text in _sentences(options.texts):
         found = parses(grammar, text)
         near = nearest(grammar, text) if options.tolerant else None
-        part = excerpt(grammar, text) if options.tolerant and near is None else None
-        if not found and (meant := near.parse if near else part) is not None:
+        if not found and options.tolerant and (meant := _meant(grammar, text, near)) is not None:
             found = parses(grammar, meant.text)
         refused = None if found else refusal(grammar, text)
         if options.json:
@@ -86,6 +87,14 @@ def run(options: argparse.Namespace) -> int:
             print(_accepted(found, near))
         status = status or (0 if found else 1)
     return status
+
+
+def _meant(grammar: Grammar, text: str, near: Tolerant | None) -> Parse | None:
+    """What a line means beyond its letters; None if nothing is near it."""
+    if near is not None:
+        return near.parse
+    part = excerpt(grammar, text)
+    return paraphrased(grammar, text, part=part) or part
 
 
 def _sentences(texts: list[str]) -> Iterator[str]:

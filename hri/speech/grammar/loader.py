@@ -24,7 +24,8 @@ from typing import NamedTuple
 
 from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
-from hri.speech.grammar import analysis
+from hri.core.reading import read_text
+from hri.speech.grammar import analysis, paraphrases
 from hri.speech.grammar.encoding import read_source
 from hri.speech.grammar.expressions import (
     Anything,
@@ -38,6 +39,7 @@ from hri.speech.grammar.framing import framed
 from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.jsgf import Document, Import, NameListImport, RuleDefinition, read_jsgf
 from hri.speech.grammar.name_lists import read_names
+from hri.speech.grammar.paraphrases import Paraphrases, read_paraphrases
 from hri.speech.grammar.rules import Rule
 
 SUFFIXES = paths.suffixes("grammars")
@@ -204,8 +206,22 @@ class _Loader:
             idle_imports=main.idle_imports(),
             names=frozenset({*main.own, *main.imported}),
             warnings=tuple(self._warnings),
+            paraphrases=tuple(self._paraphrases()),
         )
         return grammar if self._errors else self._same_as_before(grammar), self._errors
+
+    def _paraphrases(self) -> Iterator[Paraphrases]:
+        """Those of the files whose public rules are commands."""
+        for file in self._files.values():
+            path = file.document.path
+            beside = path.with_name(path.stem + paraphrases.SUFFIX)
+            if not file.is_heard or not paths.is_file(beside):
+                continue
+            text = read_text(beside, "list of paraphrases")
+            self._sources.append((beside, text))
+            found = read_paraphrases(text, beside)
+            self._errors += [*found.errors, *found.unknown(file.public_names())]
+            yield found
 
     def _same_as_before(self, grammar: Grammar) -> Grammar:
         """The grammar that was read from the same files before, if it is kept."""

@@ -12,6 +12,7 @@ from hri.core.errors import AuthoringError, Place
 from hri.speech.grammar.doc_comments import MARKS, TOPIC, DocTag
 from hri.speech.grammar.expressions import Expression, RuleReference, SourceSpan, Tagged, walk
 from hri.speech.grammar.jsgf import Import, NameListImport
+from hri.speech.grammar.paraphrases import Paraphrases
 from hri.speech.grammar.tags import TagEntry
 
 T = TypeVar("T")
@@ -102,6 +103,8 @@ class Rules:
     """What the main file may call rules: its own, and imported ones in short and in full."""
     warnings: tuple[AuthoringError, ...] = ()
     """What is odd about how its files are written, and costs no rule."""
+    paraphrases: tuple[Paraphrases, ...] = ()
+    """Those that lie beside its files."""
     _made: dict[Callable[..., Any], Any] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )

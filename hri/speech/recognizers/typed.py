@@ -2,7 +2,8 @@
 
 A line need not be a sentence to the letter: little words too many or too few are forgiven, at the
 price that `hri.speech.grammar.tolerance` puts on them. All that may be forgiven at once halves the
-confidence; a line of which only a part is a sentence loses a quarter of it.
+confidence; a line of which only a part is a sentence loses a quarter of it, and one that says it in
+other words somewhat more.
 
 Lines wait for each other and until the robot has spoken; only what a rule marked @interrupts allows
 is heard at once.
@@ -22,11 +23,14 @@ from hri.core.signals import Samples
 from hri.hal.recognizer import Grammar, Hypothesis, Recognizer, Segment
 from hri.speech.grammar import Grammar as WrittenGrammar
 from hri.speech.grammar.excerpt import excerpt
+from hri.speech.grammar.guessing import paraphrased
 from hri.speech.grammar.matching import parse
 from hri.speech.grammar.tolerance import MOST_COST, nearest
 
 OF_PART = 0.75
 """Confidence of a line of which only a part is a sentence."""
+OF_PARAPHRASE = 0.6
+"""Confidence of a line that is most like other ways to say a sentence."""
 REPLY_SECONDS = 1.0
 """How long the line behind another one waits for the robot to begin to speak."""
 
@@ -129,8 +133,11 @@ class LineDecoder:
     def decode(self, segment: Segment, rules: Collection[str] | None = None) -> Hypothesis:
         """`segment` has the line as its text; `rules` are those that count, all by default."""
         text = segment.text.lower()
-        near = nearest(self._grammar, text, rules=rules) if self._grammar is not None else None
-        if near is not None:
+        if self._grammar is None:
+            return Hypothesis(text, 1.0)
+        if (near := nearest(self._grammar, text, rules=rules)) is not None:
             return Hypothesis(near.parse.text, 1.0 - 0.5 * near.cost / MOST_COST)
-        part = excerpt(self._grammar, text, rules) if self._grammar is not None else None
+        part = excerpt(self._grammar, text, rules)
+        if (meant := paraphrased(self._grammar, text, rules, part)) is not None:
+            return Hypothesis(meant.text, OF_PARAPHRASE, paraphrase=text)
         return Hypothesis(text, 1.0) if part is None else Hypothesis(part.text, OF_PART)
