@@ -54,6 +54,8 @@ FLOOR_SECONDS = 0.4
 SHOW_SECONDS = 4.0
 FOR_GOOD = 1e9
 QUIET_SECONDS = 60.0
+TOPIC_SECONDS = 60.0
+"""How long what comes after something that was understood may go on with it."""
 ABOUT_THE_LAST = ("why_that", "say_again")
 """Rules that speak of the reply before them."""
 SPEAK_UP = ("greet", "wake", *DANGER)
@@ -247,12 +249,21 @@ class Companion:
         """What [unasked] says, filled in: of several texts the one that was said longest ago."""
         return self.fresh(key).format_map(facts)
 
-    def fresh(self, *keys: str) -> str:
-        """A text of [unasked] that was not said of late: of the first of these keys, if it can."""
+    def fresh(self, *keys: str, before: tuple[str, ...] = ()) -> str:
+        """A text that was not said of late: one of those `before`, else of [unasked] one of the
+        first of these keys, if it can.
+        """
         now = self.context.clock.now()
-        text, _ = self._spoken.choose([Pool(self.replies.unasked[key]) for key in keys], now)
+        pools = [Pool(before), *(Pool(self.replies.unasked[key]) for key in keys)]
+        text, _ = self._spoken.choose(pools, now)
         self._spoken.note(text, now)
         return text
+
+    @property
+    def topic(self) -> str:
+        """The rule that people talk about: the last one that was understood, for a minute."""
+        is_recent = self.context.clock.now() - self.last_contact < TOPIC_SECONDS
+        return self.heard[-1] if is_recent and self.heard else ""
 
     def tell(self, key: str, **facts: str) -> None:
         """Say what [unasked] says."""

@@ -33,6 +33,8 @@ OFFERED_TOPICS = frozenset(("fun",))
 """Small talk that helps who does not know what to say."""
 GESTURES: Mapping[Kind, str] = {
     Kind.TOLD: "nod",
+    Kind.NOTED: "nod",
+    Kind.CORRECTED: "nod",
     Kind.TOLD_OF: "nod",
     Kind.TOLD_OF_ME: "nod",
     Kind.ASKED: "think",
@@ -56,6 +58,8 @@ SHOWN: Mapping[Kind, str] = {
     Kind.INSULTED: "sad",
 }
 """What it shows instead."""
+GOES_ON = (Kind.TOLD, Kind.NOTED, Kind.CORRECTED)
+"""Kinds of lines that may go on with what was understood before them."""
 FELT: Mapping[Kind, str] = {Kind.PRAISED: "praise", Kind.INSULTED: "insulted"}
 """Stimuli."""
 OWN_WORDS = TELLING | GESTURES.keys()
@@ -106,7 +110,9 @@ def _tell(companion: Companion, answer: Answer, text: str) -> None:
     nearest = as_said(_most_like(companion, text))
     # What is said of any sentence may take the place of what was said a short while ago.
     more = () if answer.kind in OWN_WORDS else (Kind.REPHRASE,)
-    words = companion.fresh(answer.kind, *more).format_map({"nearest": nearest, **answer.facts})
+    then = companion.replies.then.get(companion.topic, ()) if answer.kind in GOES_ON else ()
+    template = companion.fresh(answer.kind, *more, before=then)
+    words = template.format_map({"nearest": nearest, **answer.facts})
     companion.say(words[:1].upper() + words[1:])
 
 
@@ -137,6 +143,7 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
         is_typed=is_typed,
         is_addressed=is_named or _is_for_it(companion, heard),
         is_turned_to=bool(heard.get("is_looked_at")) or is_named,
+        goes_on=is_typed and not is_slip and bool(companion.topic),
         is_quiet=level is not None and level < VERY_QUIET_DB,
         topic=topic,
         nearest=as_said(example or (nearest_sentence(grammar, text) if is_slip else "")),

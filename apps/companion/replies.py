@@ -115,6 +115,8 @@ class Replies:
     about: Mapping[str, str] = field(default_factory=dict)
     """By rule: what it is about, as "Something about {topic}?" says it."""
     questions: tuple[Question, ...] = ()
+    then: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    """By rule: what is said to what comes soon after it and is not understood."""
 
 
 def known_personalities() -> set[str]:
@@ -152,6 +154,8 @@ USUALLY_UNASKED: Mapping[str, tuple[str, ...]] = {
     "caught": ("Something about {topic}? Say it another way, please.",),
     "near": ('I almost got that. Try "{nearest}".',),
     "told": ("Mm-hm. Go on, I'm listening.",),
+    "noted": ("I see.",),
+    "corrected": ("Oh, okay. My mistake.",),
     "introduced": ("Nice to meet you, {person}. I'm still learning names.",),
     "told_of": ("{echo}? Tell me more.",),
     "told_of_me": ("Good to know. I'm still learning.",),
@@ -239,9 +243,13 @@ def _read(
     about = mistakes.keep(lambda: _about(table, vocabulary, is_own)) or {}
     asked = mistakes.keep(lambda: table.array("question")) or ()
     questions = [mistakes.keep(partial(_question, entry, vocabulary, is_own)) for entry in asked]
+    then: dict[str, tuple[str, ...]] = {}
+    for entry in mistakes.keep(lambda: table.array("then")) or ():
+        then.update(mistakes.keep(partial(_then, entry, vocabulary, is_own)) or {})
     for part in parts:
         mistakes.keep(part.finish)
-    return Replies(name, voice, replies, unasked, about, tuple(filter(None, questions)))
+    asking = tuple(filter(None, questions))
+    return Replies(name, voice, replies, unasked, about, asking, then)
 
 
 def _is_silent(rule: str, vocabulary: Vocabulary) -> bool:
@@ -258,6 +266,7 @@ def _joined(below: Replies, above: Replies) -> Replies:
         {**below.unasked, **above.unasked},
         {**below.about, **above.about},
         (*below.questions, *above.questions),
+        {**below.then, **above.then},
     )
 
 
@@ -412,6 +421,17 @@ def _question(entry: Table, vocabulary: Vocabulary, is_own: bool) -> Question:
     once = entry.string("once", "", among=(DAY,))
     entry.finish()
     return Question(ask, yes, no, action, show, hour, once, after)
+
+
+def _then(entry: Table, vocabulary: Vocabulary, is_own: bool) -> dict[str, tuple[str, ...]]:
+    """What is said to what comes after some rules and is not understood, by these rules."""
+    after, texts = entry.strings("after"), _texts(entry, "say")
+    if is_own:
+        _refuse_unknown_rules(entry, "after", after, vocabulary)
+    for text in texts:
+        check_braces(entry, text, (), "say")
+    entry.finish()
+    return dict.fromkeys(after, texts)
 
 
 def _listed(entry: Table, key: str) -> tuple[str, ...]:

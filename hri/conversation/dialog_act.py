@@ -105,6 +105,10 @@ NAMED = ((ORDERS | QUESTION_WORDS) - TOLD_VERBS - AUXILIARIES).union(
     ("don't", "i", "i'm", "stop", "we", "you")
 )
 """What follows a first name where it calls."""
+CORRECTING = (("actually",), ("i", "meant"), ("nah",), ("no",), ("nope",), ("not",), ("wait", "no"))
+"""What a correction begins with."""
+NO_CORRECTIONS = frozenset(("doubt", "idea", "one", "problem", "way", "wonder", "worries"))
+"""Behind "no" they make something else of it."""
 DIRECTIVES = frozenset(("can", "could", "will", "would"))
 """Before "you", "I" or "we" they ask for something."""
 
@@ -124,6 +128,8 @@ class DialogAct(Enum):
     QUESTION_WHY = auto()
     DIRECTIVE = auto()
     PROHIBITION = auto()
+    CORRECTION = auto()
+    """It sets right what was said or done before: "no, the blue one"."""
     CALL = auto()
     """It is said to someone else, whom it names."""
 
@@ -137,13 +143,21 @@ def dialog_act(text: str, name: str = "") -> DialogAct | None:
 
     `name` is that of the robot, which says nothing of it.
     """
-    words = opened(normalize(text), name)
+    every = normalize(text)
+    words = opened(every, name)
     if _is_call(words):
         return DialogAct.CALL
     act = _act(words)
     if act in UNSETTLED and (start := _last_question(words)):
         return _act(words[start:]) or act
-    return act
+    return DialogAct.CORRECTION if act in UNSETTLED and _is_correction(every) else act
+
+
+def _is_correction(words: Sequence[str]) -> bool:
+    """Whether the first words take something back: "wait no it's the thin kind"."""
+    if len(words) < LEAST_WORDS or words[1] in NO_CORRECTIONS:
+        return False
+    return any(tuple(words[: len(first)]) == first for first in CORRECTING)
 
 
 def _is_call(words: Sequence[str]) -> bool:

@@ -46,6 +46,10 @@ class Kind(StrEnum):
     """It knows a sentence that is like it: {nearest}."""
     TOLD = "told"
     """Someone says something, in words that it does not follow."""
+    NOTED = "noted"
+    """The same in a few words, that go on with what was said."""
+    CORRECTED = "corrected"
+    """Someone sets right what was said or done before."""
     TOLD_OF = "told_of"
     """The same, of themselves or of others; it says it again: {echo}."""
     TOLD_OF_ME = "told_of_me"
@@ -108,7 +112,16 @@ REMARKS: Mapping[Sentiment | None, Kind] = {
     Sentiment.UNKIND: Kind.TOLD_OF_ME,
 }
 """What is good or bad about what is at hand is mostly what the robot just did."""
-TELLING = frozenset((Kind.INTRODUCED, Kind.TOLD, Kind.TOLD_OF, Kind.TOLD_OF_ME, *FEELINGS.values()))
+TELLING = frozenset(
+    (
+        Kind.CORRECTED,
+        Kind.INTRODUCED,
+        Kind.TOLD,
+        Kind.TOLD_OF,
+        Kind.TOLD_OF_ME,
+        *FEELINGS.values(),
+    )
+)
 QUESTIONS: Mapping[DialogAct | None, Kind] = {
     DialogAct.QUESTION: Kind.ASKED,
     DialogAct.QUESTION_OF_ROBOT: Kind.ASKED_OF_ME,
@@ -127,6 +140,8 @@ class Puzzle:
     is_typed: bool = False
     is_addressed: bool = True
     """Whether it was said to the robot: with its name, with a look, or in an open talk."""
+    goes_on: bool = False
+    """Whether it was typed a short while after something that was understood."""
     is_turned_to: bool = False
     """Whether there is no doubt about that: it was typed, or whoever said it looks at the robot."""
     is_quiet: bool = False
@@ -224,6 +239,8 @@ def _of_act(puzzle: Puzzle) -> Answer | None:
     is_meant = puzzle.act is not None or puzzle.sentiment not in (Sentiment.GLAD, Sentiment.KIND)
     if puzzle.sentiment is not None and is_meant:
         return Answer(FEELINGS[puzzle.sentiment])
+    if puzzle.act is DialogAct.CORRECTION:
+        return Answer(Kind.CORRECTED)
     if puzzle.act is DialogAct.STATEMENT_OF_ROBOT:
         return Answer(Kind.TOLD_OF_ME)
     if puzzle.act is DialogAct.STATEMENT:
@@ -242,6 +259,8 @@ def _of_typed(puzzle: Puzzle) -> Answer:
     if puzzle.act is DialogAct.DIRECTIVE:
         facts = {"deed": puzzle.deed} if puzzle.deed else {}
         return Answer(Kind.ASKED_FOR_DEED if facts else Kind.ASKED_FOR, facts)
+    if puzzle.goes_on and len(puzzle.strange) <= 1:
+        return Answer(Kind.NOTED)
     if len(puzzle.strange) == 1 and puzzle.words <= FEW_WORDS:
         return Answer(Kind.STRANGE_WORD, {"word": puzzle.strange[0]})
     return Answer(Kind.STRANGE if puzzle.strange else Kind.REPHRASE)

@@ -59,6 +59,8 @@ POLITE = frozenset((("can", "you"), ("could", "you"), ("will", "you"), ("would",
 """What an order may begin with."""
 GREETINGS = frozenset(("bye", "goodbye", "hello", "hi", "morning", "thanks"))
 """One of these alone is enough at the beginning."""
+LONGEST_GREETING = 2
+"""Words, perhaps with a name."""
 # fmt: on
 
 
@@ -105,8 +107,11 @@ def _pieces(matcher: Matcher, words: Sequence[str], begin: int) -> Iterator[tupl
 
 
 def _begins_anew(rest: Sequence[str], piece: Sequence[str]) -> bool:
-    """Whether behind a piece something new begins, or it is said once more."""
-    return not rest or rest[0] in BEGINNINGS | BREAKS | CALLS or rest[: len(piece)] == piece
+    """Whether behind a piece something new begins, or it is said once more; a greeting needs no
+    border.
+    """
+    is_border = not rest or rest[0] in BEGINNINGS | BREAKS | CALLS or rest[: len(piece)] == piece
+    return is_border or (len(piece) <= LONGEST_GREETING and piece[0] in GREETINGS)
 
 
 def _may_be_taken(grammar: Grammar, found: Parse, is_first: bool, rest: Sequence[str]) -> bool:
