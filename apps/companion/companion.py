@@ -110,7 +110,7 @@ class Companion:
         self.last_contact = -math.inf
         self._last: Reply | None = None
         """The reply that people mean who ask why."""
-        self._said_last = ""
+        self._said_last = self._topic = ""
         self._commands = Commands()
         self.puzzlement = Puzzlement()
         self._spoken = Spoken()
@@ -157,6 +157,7 @@ class Companion:
         self.is_held = False
         self.puzzlement.understand()
         self.heard.append(rule)
+        self._topic = rule
         if rule in FAREWELLS:
             self.last_farewell = now
         reply = self.replies.replies.get(rule)
@@ -260,10 +261,14 @@ class Companion:
         return text
 
     @property
-    def topic(self) -> str:
-        """The rule that people talk about: the last one that was understood, for a minute."""
-        is_recent = self.context.clock.now() - self.last_contact < TOPIC_SECONDS
-        return self.heard[-1] if is_recent and self.heard else ""
+    def is_in_touch(self) -> bool:
+        """Whether it understood something within the last minute."""
+        return self.context.clock.now() - self.last_contact < TOPIC_SECONDS
+
+    def take_topic(self) -> str:
+        """The rule that was understood just before; the next line goes on with something else."""
+        topic, self._topic = self._topic, ""
+        return topic if self.is_in_touch else ""
 
     def tell(self, key: str, **facts: str) -> None:
         """Say what [unasked] says."""

@@ -110,7 +110,9 @@ def _tell(companion: Companion, answer: Answer, text: str) -> None:
     nearest = as_said(_most_like(companion, text))
     # What is said of any sentence may take the place of what was said a short while ago.
     more = () if answer.kind in OWN_WORDS else (Kind.REPHRASE,)
-    then = companion.replies.then.get(companion.topic, ()) if answer.kind in GOES_ON else ()
+    then = companion.replies.then.get(companion.take_topic(), ())
+    if answer.kind not in GOES_ON:
+        then = ()
     template = companion.fresh(answer.kind, *more, before=then)
     words = template.format_map({"nearest": nearest, **answer.facts})
     companion.say(words[:1].upper() + words[1:])
@@ -143,7 +145,7 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
         is_typed=is_typed,
         is_addressed=is_named or _is_for_it(companion, heard),
         is_turned_to=bool(heard.get("is_looked_at")) or is_named,
-        goes_on=is_typed and not is_slip and bool(companion.topic),
+        goes_on=is_typed and not is_slip and companion.is_in_touch,
         is_quiet=level is not None and level < VERY_QUIET_DB,
         topic=topic,
         nearest=as_said(example or (nearest_sentence(grammar, text) if is_slip else "")),

@@ -102,7 +102,7 @@ TAGS = frozenset(("huh", "right"))
 DENYING = frozenset(("can't", "couldn't", "didn't", "haven't", "won't", "wouldn't"))
 """Without a person behind them someone leaves out the "i": "can't sleep"."""
 NAMED = ((ORDERS | QUESTION_WORDS) - TOLD_VERBS - AUXILIARIES).union(
-    ("don't", "i", "i'm", "stop", "we", "you")
+    ("brush", "don't", "drink", "eat", "finish", "hurry", "i", "i'm", "shut", "stop", "we", "you")
 )
 """What follows a first name where it calls."""
 CORRECTING = (("actually",), ("i", "meant"), ("nah",), ("no",), ("nope",), ("not",), ("wait", "no"))

@@ -7,24 +7,25 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from hri.speech.grammar.expressions import Token
+from hri.speech.grammar.numerals import NUMERALS
 from hri.speech.grammar.rules import Rules
 from hri.speech.grammar.words import normalize
 
 # fmt: off
-LITTLE = frozenset((
-    "a", "about", "all", "also", "am", "an", "and", "any", "are", "as", "at", "be", "because",
-    "been", "bring", "but", "by", "can", "can't", "cannot", "could", "did", "didn't", "do",
-    "does", "doesn't", "don't", "ever", "for", "from", "get", "give", "going", "got", "had",
-    "has", "have", "he", "he's", "her", "here", "hey", "him", "his", "how", "i", "i'd",
-    "i'll", "i'm", "i've", "if", "in", "into", "is", "isn't", "it", "it's", "its", "just",
-    "keep", "kindly", "know", "let", "let's", "like", "make", "may", "me", "more", "much",
-    "my", "nah", "no", "nope", "not", "now", "of", "off", "oh", "ok", "okay", "on", "one", "or",
-    "our", "out", "please", "put", "really", "said", "she", "she's", "should", "so", "some",
-    "still", "take", "than", "that", "that's", "the", "them", "then", "there", "these", "they",
-    "they're", "thing", "things", "think", "this", "to", "too", "up", "us", "very", "wait", "want",
-    "was", "we", "we're", "well", "were", "what", "what's", "when", "where", "which", "who",
-    "who's", "why", "will", "with", "won't", "would", "yes", "you", "you'll", "you're",
-    "your",
+LITTLE = NUMERALS.union((
+    "a", "about", "again", "all", "also", "am", "an", "and", "another", "any", "are", "as", "at",
+    "be", "because", "been", "bring", "but", "by", "can", "can't", "cannot", "could", "did",
+    "didn't", "do", "does", "doesn't", "don't", "ever", "for", "from", "get", "give", "going",
+    "got", "had", "has", "have", "he", "he's", "her", "here", "hey", "him", "his", "how", "i",
+    "i'd", "i'll", "i'm", "i've", "if", "in", "into", "is", "isn't", "it", "it's", "its", "just",
+    "keep", "kindly", "know", "let", "let's", "like", "make", "may", "me", "mean", "meant",
+    "more", "much", "my", "nah", "no", "nope", "not", "now", "of", "off", "oh", "ok", "okay",
+    "on", "once", "one", "or", "other", "our", "out", "please", "put", "really", "said", "she",
+    "she's", "should", "so", "some", "sorry", "still", "take", "than", "that", "that's", "the",
+    "them", "then", "there", "these", "they", "they're", "thing", "things", "think", "this", "to",
+    "too", "up", "us", "very", "wait", "want", "was", "we", "we're", "well", "were", "what",
+    "what's", "when", "where", "which", "who", "who's", "why", "will", "with", "won't", "would",
+    "wrong", "yes", "you", "you'll", "you're", "your",
 ))
 # fmt: on
 """Words that say nothing about the subject."""

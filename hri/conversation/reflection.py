@@ -36,6 +36,11 @@ CLAUSES = frozenset((
     "that's", "then", "they", "until", "when",
 ))
 """What is to be done ends before these."""
+SECOND_CLAUSES = frozenset((
+    "bye", "do", "he", "he's", "i", "i'll", "i'm", "it's", "look", "remember", "she", "she's",
+    "they", "they're", "we", "we're", "what",
+))
+"""Behind the first words these begin something new."""
 NO_DEEDS = frozenset((
     "be", "don't", "go", "hold", "keep", "lemme", "let", "look", "mind", "quit", "wait",
 ))
@@ -72,8 +77,9 @@ def echo_of(text: str, name: str = "") -> str:
         or not (ROBOT | DENIALS).isdisjoint(words)
     ):
         return ""
-    if words[0] == "i'm" == words[2]:
-        return ""  # A name: "i'm jess i'm your sitter".
+    start = 3 if words[1] in ("said", "says") else 2
+    if not SECOND_CLAUSES.isdisjoint(words[start:]):
+        return ""  # "He's laughing, do it again" says two things.
     tells = words[0] in TOLD_OF or (words[0] not in AT_HAND and words[1] in TOLD_VERBS)
     return _turned([word for word in words if word not in SOUNDS]) if tells else ""
 

@@ -440,6 +440,32 @@ def test_what_is_not_understood_is_shown_and_hinted_at_once(put):
     assert seen == {2.0: "confused", 5.5: "confused"}
 
 
+def test_what_goes_on_is_answered_by_what_the_talk_is_about(put):
+    then = '[[then]]\nafter = ["twister"]\nsay = ["Twist on!"]\n'
+    robot = robot_of(put({**JOKE, "replies.toml": JOKE["replies.toml"] + then}))
+    lines = {1.0: "tell me a twister", 6.0: "purple and green", 10.0: "purple and green"}
+    assert said(live(robot, 14, lines)) == [
+        "What is brown and sticky? A stick.",
+        "Twist on!",
+        "Okay.",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("then", "what"),
+    [
+        ('after = ["twistr"]\nsay = ["A."]', 'no rule "twistr" - did you mean "twister"?'),
+        ('after = ["twister"]\nsay = ["{what}."]', "nothing fills in {what}"),
+        ('after = ["twister"]\nsays = ["A."]', '"say" is missing'),
+    ],
+)
+def test_a_mistake_in_what_follows_is_refused_with_its_place(put, then, what):
+    replies = f"{JOKE['replies.toml']}[[then]]\n{then}\n"
+    with pytest.raises(AuthoringError, match=r"replies\.toml:\d+:\d+: ") as refused:
+        live(robot_of(put({**JOKE, "replies.toml": replies})), 1, {})
+    assert what in str(refused.value)
+
+
 def test_an_answer_without_words_says_nothing(put):
     silent = JOKE["replies.toml"] + '[unasked]\nasked = ""\n'
     robot = robot_of(put({**JOKE, "replies.toml": silent}))

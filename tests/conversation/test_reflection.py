@@ -45,3 +45,10 @@ def test_what_is_asked_for_is_named_from_the_other_side(text, deed):
 @given(st.text(max_size=60))
 def test_any_text_is_turned_or_left(text):
     assert isinstance(echo_of(text) + deed_of(text), str)
+
+
+@pytest.mark.parametrize(
+    "text", ["he's laughing do it again", "i hear a car they're here bye", "i think i'll doze"]
+)
+def test_two_things_in_one_line_are_not_said_again(text):
+    assert echo_of(text) == ""

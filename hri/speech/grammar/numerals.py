@@ -39,6 +39,8 @@ _BELOW_TWENTY = (
     "nineteen",
 )
 _TENS = ("twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety")
+NUMERALS = frozenset((*_BELOW_TWENTY, *_TENS, "half", "hundred", "quarter"))
+"""Words that are an amount and nothing else."""
 _UNITS = ((10**9, "billion"), (10**6, "million"), (1000, "thousand"), (100, "hundred"))
 LARGE = frozenset(("hundred", "thousand", "million", "billion", "trillion"))
 """Words behind a number that make it larger."""
