@@ -262,8 +262,9 @@ class Companion:
 
     @property
     def is_in_touch(self) -> bool:
-        """Whether it understood something within the last minute."""
-        return self.context.clock.now() - self.last_contact < TOPIC_SECONDS
+        """Whether it answered something within the last minute."""
+        last = max(self.last_contact, self.puzzlement.last)
+        return self.context.clock.now() - last < TOPIC_SECONDS
 
     def take_topic(self) -> str:
         """The rule that was understood just before; the next line goes on with something else."""

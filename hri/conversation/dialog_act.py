@@ -55,7 +55,7 @@ TOLD_VERBS = frozenset((
 ))
 """Behind a name they make a statement: "tyler said"."""
 ORDERS = frozenset((
-    "act", "add", "answer", "ask", "back", "be", "beep", "bend", "blink", "bring", "buy",
+    "act", "add", "answer", "ask", "back", "be", "beep", "bend", "blink", "breathe", "bring", "buy",
     "call", "carry", "catch", "change", "chase", "check", "clap", "clean", "climb", "close",
     "come", "cook", "cover", "crawl", "creep", "dance", "describe", "do", "don't", "draw",
     "drive", "drop", "entertain", "explain", "face", "fetch", "fight", "find", "fix", "flap",
@@ -64,8 +64,8 @@ ORDERS = frozenset((
     "leave", "lemme", "let", "lie", "lift", "light", "listen", "lock", "make", "mind", "move",
     "name", "nod", "open", "order", "park", "pass", "pet", "pick", "play", "plug", "pretend",
     "promise", "pull", "push", "put", "quit", "race", "read", "record", "remember", "remind",
-    "repeat", "ring", "roll", "run", "save", "say", "scoot", "search", "send", "set", "shake",
-    "show", "sing", "sit", "skip", "slow", "smile", "spin", "stand", "start", "stay", "stick",
+    "repeat", "ring", "roll", "run", "save", "say", "scare", "scoot", "search", "send", "set",
+    "shake", "show", "sing", "sit", "skip", "slow", "smile", "spin", "stand", "start", "stay", "stick",
     "stomp", "swim", "switch", "take", "talk", "teach", "tell", "think", "throw", "touch",
     "translate", "try", "turn", "twirl", "wait", "wake", "walk", "wash", "watch", "wave",
     "wiggle", "wink", "work", "write",
@@ -98,7 +98,11 @@ CALLING = AUXILIARIES | QUESTION_WORDS | PEOPLE | {"i'm", "it", "look"}
 WONDERS = frozenset(("ever", "got", "think", "remember", "wanna", "want"))
 """Behind "you" they ask."""
 TAGS = frozenset(("huh", "right"))
-"""At the end they make a question of a statement."""
+TAG_VERBS = frozenset(("aren't", "didn't", "doesn't", "don't", "isn't", "wasn't", "won't"))
+TAG_PEOPLE = frozenset(("he", "i", "it", "she", "they", "we"))
+"""At the end they make a question of a statement: "it's nothing, right", "it's red, isn't it"."""
+AMOUNTS = frozenset(("far", "long", "many", "many's", "much", "old"))
+"""Behind "how" they ask within a sentence."""
 DENYING = frozenset(("can't", "couldn't", "didn't", "haven't", "won't", "wouldn't"))
 """Without a person behind them someone leaves out the "i": "can't sleep"."""
 NAMED = ((ORDERS | QUESTION_WORDS) - TOLD_VERBS - AUXILIARIES).union(
@@ -150,7 +154,17 @@ def dialog_act(text: str, name: str = "") -> DialogAct | None:
     act = _act(words)
     if act in UNSETTLED and (start := _last_question(words)):
         return _act(words[start:]) or act
-    return DialogAct.CORRECTION if act in UNSETTLED and _is_correction(every) else act
+    if act in UNSETTLED and _is_correction(every):
+        return DialogAct.CORRECTION
+    is_tagged = act is not DialogAct.STATEMENT_OF_ROBOT and _has_tag(words)
+    return DialogAct.QUESTION if act in UNSETTLED and is_tagged else act
+
+
+def _has_tag(words: Sequence[str]) -> bool:
+    """Whether a statement ends in what asks for a yes: "isn't it"."""
+    is_long = len(words) > LEAST_WORDS
+    tag, person = words[-2:] if is_long else ("", "")
+    return is_long and (person in TAGS or (tag in TAG_VERBS and person in TAG_PEOPLE))
 
 
 def _is_correction(words: Sequence[str]) -> bool:
@@ -207,7 +221,8 @@ def _last_question(words: Sequence[str]) -> int:
     for start in range(len(words) - LEAST_WORDS, 0, -1):
         before, first, second = words[start - 1 : start + 2]
         is_short = first != "who's" and "'" in first
-        asks = first in QUESTION_WORDS and (is_short or second in AUXILIARIES)
+        is_amount = first == "how" and second in AMOUNTS
+        asks = first in QUESTION_WORDS and (is_short or is_amount or second in AUXILIARIES)
         asks = asks or (first in INVERTED and second in PEOPLE)
         if asks and before not in KNOWING | QUESTION_WORDS:
             return start

@@ -116,6 +116,7 @@ TELLING = frozenset(
     (
         Kind.CORRECTED,
         Kind.INTRODUCED,
+        Kind.NOTED,
         Kind.TOLD,
         Kind.TOLD_OF,
         Kind.TOLD_OF_ME,
@@ -141,7 +142,7 @@ class Puzzle:
     is_addressed: bool = True
     """Whether it was said to the robot: with its name, with a look, or in an open talk."""
     goes_on: bool = False
-    """Whether it was typed a short while after something that was understood."""
+    """Whether it was typed a short while after something that was answered."""
     is_turned_to: bool = False
     """Whether there is no doubt about that: it was typed, or whoever said it looks at the robot."""
     is_quiet: bool = False

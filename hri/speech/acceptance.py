@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import replace
 from typing import Any
 
 from hri.core.signals import HeardWord, Rejection, Utterance
@@ -61,9 +60,7 @@ def judge(
     more clearly than the strictness, 0 to 1, alone demands.
     """
     all_rules = frozenset(grammar.public_rules) if turn is None else None
-    turn = turn or Turn()
-    if segment.text:
-        turn = replace(turn, is_typed=True, is_addressed=True)  # What is typed is meant for it.
+    turn = (turn or Turn()).of(segment)
     rules = all_rules or turn.rules(grammar)
     found = _parse_of(grammar, hypothesis.text, rules, turn)
     alternatives = (*hypothesis.alternatives, *_as_specific(grammar, found, rules, turn))

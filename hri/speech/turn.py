@@ -10,8 +10,9 @@ words only when they are said to the robot.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from hri.hal.recognizer import Segment
 from hri.speech.grammar import Grammar
 from hri.speech.grammar.follow_ups import Followed, out_of_place
 
@@ -37,6 +38,10 @@ class Turn:
     """Whether it comes from a keyboard."""
     last: Followed | None = None
     """The command that was understood a while ago at most, if others may follow it."""
+
+    def of(self, segment: Segment) -> Turn:
+        """The turn of a piece of speech: what is typed is meant for the robot."""
+        return replace(self, is_typed=True, is_addressed=True) if segment.text else self
 
     def rules(self, grammar: Grammar) -> frozenset[str]:
         """The public rules that may be heard."""

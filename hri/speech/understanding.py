@@ -47,6 +47,7 @@ def understand(
     rejection is then "not now" where one of those fits.
     """
     begun = stopwatch()
+    turn = None if turn is None else turn.of(segment)
     heard = anticipate(engine, grammar, segment, strictness, turn)
     if isinstance(heard, Rejection):
         heard = explained(engine, grammar, segment, strictness, turn, heard)

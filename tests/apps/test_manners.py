@@ -70,8 +70,13 @@ def test_the_answer_says_what_is_known_of_the_line(line, answer):
 
 
 def test_the_third_time_it_offers_what_can_be_said():
-    said = typed(9, {1.0: "glue a zeppelin", 4.0: "oh my glue", 7.0: "red me the go"}).said()
+    said = typed(9, {1.0: "glue a zeppelin", 4.0: "lilac zithers", 7.0: "gnomes yodel"}).said()
     assert said[2].startswith("I still don't get it. You could say \"")
+
+
+def test_what_is_for_the_keyboard_alone_is_understood_in_part_and_in_other_words():
+    lines = {1.0: "morning robin you sleep good", 5.0: "quiz me on the cell would you"}
+    assert typed(9, lines).heard() == ["greet", "quiz_me"]
 
 
 def test_who_talks_to_it_is_answered_and_who_talks_to_others_is_not():
