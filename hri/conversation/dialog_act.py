@@ -55,19 +55,19 @@ TOLD_VERBS = frozenset((
 ))
 """Behind a name they make a statement: "tyler said"."""
 ORDERS = frozenset((
-    "act", "add", "answer", "ask", "back", "be", "beep", "bend", "blink", "breathe", "bring", "buy",
-    "call", "carry", "catch", "change", "chase", "check", "clap", "clean", "climb", "close",
-    "come", "cook", "cover", "crawl", "creep", "dance", "describe", "do", "don't", "draw",
-    "drive", "drop", "entertain", "explain", "face", "fetch", "fight", "find", "fix", "flap",
-    "fly", "follow", "get", "gimme", "give", "go", "grab", "guard", "guess", "hand", "help",
-    "hide", "hold", "hug", "hum", "imagine", "jump", "keep", "kiss", "lay", "lead", "learn",
-    "leave", "lemme", "let", "lie", "lift", "light", "listen", "lock", "make", "mind", "move",
-    "name", "nod", "open", "order", "park", "pass", "pet", "pick", "play", "plug", "pretend",
-    "promise", "pull", "push", "put", "quit", "race", "read", "record", "remember", "remind",
-    "repeat", "ring", "roll", "run", "save", "say", "scare", "scoot", "search", "send", "set",
-    "shake", "show", "sing", "sit", "skip", "slow", "smile", "spin", "stand", "start", "stay", "stick",
-    "stomp", "swim", "switch", "take", "talk", "teach", "tell", "think", "throw", "touch",
-    "translate", "try", "turn", "twirl", "wait", "wake", "walk", "wash", "watch", "wave",
+    "act", "add", "answer", "ask", "back", "be", "beep", "bend", "blink", "breathe", "bring",
+    "buy", "call", "carry", "catch", "change", "chase", "check", "clap", "clean", "climb",
+    "close", "come", "cook", "cover", "crawl", "creep", "dance", "describe", "do", "don't",
+    "draw", "drive", "drop", "entertain", "explain", "face", "fetch", "fight", "find", "fix",
+    "flap", "fly", "follow", "get", "gimme", "give", "go", "grab", "guard", "guess", "hand",
+    "help", "hide", "hold", "hug", "hum", "imagine", "jump", "keep", "kiss", "lay", "lead",
+    "learn", "leave", "lemme", "let", "lie", "lift", "light", "listen", "lock", "make", "mind",
+    "move", "name", "nod", "open", "order", "park", "pass", "pet", "pick", "play", "plug",
+    "pretend", "promise", "pull", "push", "put", "quit", "race", "read", "record", "remember",
+    "remind", "repeat", "ring", "roll", "run", "save", "say", "scare", "scoot", "search", "send",
+    "set", "shake", "show", "sing", "sit", "skip", "slow", "smile", "spin", "stand", "start",
+    "stay", "stick", "stomp", "swim", "switch", "take", "talk", "teach", "tell", "think", "throw",
+    "touch", "translate", "try", "turn", "twirl", "wait", "wake", "walk", "wash", "watch", "wave",
     "wiggle", "wink", "work", "write",
 ))
 """First words of an order."""
