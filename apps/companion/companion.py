@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
-from hri.conversation.choosing import Moment, Pool, Spoken, pools
+from hri.conversation.choosing import Moment, Pool, Spoken, Texts, pools
 from hri.conversation.curiosity import Curiosity
 from hri.conversation.day import clock_words, part_of_day
 from hri.conversation.examples import sayings
@@ -58,6 +58,8 @@ TOPIC_SECONDS = 60.0
 """How long what comes after something that was understood may go on with it."""
 ABOUT_THE_LAST = ("why_that", "say_again")
 """Rules that speak of the reply before them."""
+GOES_ON = ("corrected",)
+"""Rules that are answered by what the talk is about, if [[then]] has something for that."""
 SPEAK_UP = ("greet", "wake", *DANGER)
 """Rules that end its being quiet."""
 FAREWELLS = ("leave", "good_night", "sleep")
@@ -157,7 +159,7 @@ class Companion:
         self.is_held = False
         self.puzzlement.understand()
         self.heard.append(rule)
-        self._topic = rule
+        topic, self._topic = self._topic, rule
         if rule in FAREWELLS:
             self.last_farewell = now
         reply = self.replies.replies.get(rule)
@@ -179,7 +181,8 @@ class Companion:
             self._perform(reply.task, {"text": text, **tags})
         may_speak = may_speak or self.may_speak
         is_wanted = may_speak and not objection
-        template, pool = self._choose(rule, goes_on) if is_wanted else ("", Pool())
+        then = self.replies.then.get(topic, ()) if rule in GOES_ON else ()
+        template, pool = self._choose(rule, goes_on, then) if is_wanted else ("", Pool())
         words = objection or self._filled_in(template, text, tags)
         # What it says of its feeling must not be hidden by another face.
         if reply.show and not pool.is_felt:
@@ -250,7 +253,7 @@ class Companion:
         """What [unasked] says, filled in: of several texts the one that was said longest ago."""
         return self.fresh(key).format_map(facts)
 
-    def fresh(self, *keys: str, before: tuple[str, ...] = ()) -> str:
+    def fresh(self, *keys: str, before: Texts = ()) -> str:
         """A text that was not said of late: one of those `before`, else of [unasked] one of the
         first of these keys, if it can.
         """
@@ -280,8 +283,10 @@ class Companion:
         """Whether it may talk: it was not asked to be quiet."""
         return self.context.clock.now() >= self.silent_until
 
-    def _choose(self, rule: str, goes_on: bool) -> tuple[str, Pool]:
-        """What to say to a rule at this moment, with its braces, and where it is from."""
+    def _choose(self, rule: str, goes_on: bool, before: Texts) -> tuple[str, Pool]:
+        """What to say to a rule at this moment, with its braces, and where it is from: one of the
+        texts `before`, if there are any.
+        """
         now = self.context.clock.now()
         moment = Moment(
             self.emotion.feeling().label,
@@ -289,7 +294,8 @@ class Companion:
             personality_path(self.emotion.personality).stem,
             self._spoken.answer(rule, now) and not goes_on,
         )
-        template, pool = self._spoken.choose(pools(self.replies.replies[rule].wording, moment), now)
+        usual = pools(self.replies.replies[rule].wording, moment)
+        template, pool = self._spoken.choose([Pool(before), *usual], now)
         if template:
             self._spoken.note(template, now)
         return template, pool

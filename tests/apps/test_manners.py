@@ -61,7 +61,7 @@ def test_each_line_that_is_typed_gets_an_answer_and_none_twice():
         ("my brother broke his arm", "Oh no. I'm sorry to hear that."),
         ("my aunt bought a boat", "Your aunt bought a boat? Tell me more."),
         ("your beeping is annoying tonight", "Ouch. That wasn't very nice."),
-        ("where does the rain go", "I don't know where. I only see what's in front of me."),
+        ("where do penguins nest", "I don't know where. I only see what's in front of me."),
         ("yes please", "I didn't ask anything just now."),
     ],
 )
@@ -72,6 +72,11 @@ def test_the_answer_says_what_is_known_of_the_line(line, answer):
 def test_the_third_time_it_offers_what_can_be_said():
     said = typed(9, {1.0: "glue a zeppelin", 4.0: "lilac zithers", 7.0: "gnomes yodel"}).said()
     assert said[2].startswith("I still don't get it. You could say \"")
+
+
+def test_a_correction_is_answered_by_what_the_talk_is_about():
+    said = typed(9, {1.0: "remind me in ten minutes", 5.0: "make it twenty"}).said()
+    assert said[1] == "Got it, but I can't do that one. Sorry."
 
 
 def test_what_is_for_the_keyboard_alone_is_understood_in_part_and_in_other_words():
