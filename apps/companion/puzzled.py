@@ -131,8 +131,8 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
     rule = found.rule if found is not None else gist.rule_of(words)
     is_answer = rule in grammar.marked("answer")
     strange = gist.strange(text) if is_typed else []
-    is_slip = is_typed and found is None and _is_slip(grammar, text, strange)
-    is_said, name = is_typed and not is_slip, companion.replies.name
+    mended = _mended(grammar, text, strange) if is_typed and found is None else ""
+    is_said, name = is_typed and not mended, companion.replies.name
     topic = "" if is_answer else companion.replies.about.get(rule, "")
     example = "" if is_answer else companion.examples().get(rule, "")
     if is_typed and not are_alike(text, example):
@@ -145,11 +145,11 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
         is_typed=is_typed,
         is_addressed=is_named or _is_for_it(companion, heard),
         is_turned_to=bool(heard.get("is_looked_at")) or is_named,
-        goes_on=is_typed and not is_slip and companion.is_in_touch,
+        goes_on=is_said and companion.is_in_touch,
         is_quiet=level is not None and level < VERY_QUIET_DB,
         topic=topic,
-        nearest=as_said(example or (nearest_sentence(grammar, text) if is_slip else "")),
-        meant=as_said(_meant(companion, text)) if is_typed else "",
+        nearest=as_said(example),
+        meant=as_said(mended or _meant(companion, text)) if is_typed else "",
         act=dialog_act(text, name) if is_said else None,
         sentiment=sentiment(text) if is_said else None,
         person=introduced(text, name) if is_said else "",
@@ -169,12 +169,16 @@ def _meant(companion: Companion, text: str) -> str:
     return companion.examples().get(found.rule, "") if found is not None and is_sure else ""
 
 
-def _is_slip(grammar: Grammar, text: str, strange: Sequence[str]) -> bool:
-    """Whether a sentence fails at a slip of the fingers: "go forwrd"."""
+def _mended(grammar: Grammar, text: str, strange: Sequence[str]) -> str:
+    """A sentence that fails at a slip of the fingers, as it was meant; empty for any other."""
     if len(strange) != 1 or len(normalize(text)) > MOST_OF_SLIP:
-        return False
-    fails = departure(grammar, text) if nearest_sentence(grammar, text) else None
-    return fails is not None and fails.word == strange[0] and fails.remedy.startswith("did you")
+        return ""
+    fails = departure(grammar, text)
+    if fails is None or fails.word != strange[0] or not fails.near:
+        return ""
+    words = [fails.near if word == fails.word else word for word in normalize(text)]
+    mended = " ".join(words)
+    return mended if parse(grammar, mended) is not None else nearest_sentence(grammar, text)
 
 
 def _answers(companion: Companion, grammar: Grammar) -> list[str]:

@@ -51,6 +51,7 @@ def test_each_line_that_is_typed_gets_an_answer_and_none_twice():
         ("turn the pancake", "Something about turning? Say it another way, please."),
         ("glue me to you", 'I don\'t know the word "glue" yet.'),
         ("go forwrd", 'I almost got that. Try "go forward".'),
+        ("turn arround", 'I almost got that. Try "turn around".'),
         ("glue a zeppelin", "I heard you, but I don't know those words yet."),
         ("red me the go", "Sorry, I didn't get that. Could you say it another way?"),
         ("the neighbors bought a boat", "Oh, I see."),

@@ -114,6 +114,8 @@ class Refusal:
     """The words that fit there, in order of the alphabet; none where a sentence must end."""
     remedy: str
     """What to do."""
+    near: str = ""
+    """A word that fits there and is like it."""
 
 
 def matcher_of(grammar: Rules) -> Matcher:
@@ -205,19 +207,24 @@ def departure(grammar: Rules, text: str) -> Refusal | None:
         return None
     word = words[position] if position < len(words) else ""
     expected = state.expected()
-    return Refusal(" ".join(words[:position]), word, expected, _remedy(word, expected))
+    near = _near(word, expected)
+    return Refusal(" ".join(words[:position]), word, expected, _remedy(word, near), near)
 
 
-def _remedy(word: str, expected: Collection[str]) -> str:
-    """What to do about a word that does not fit; what may be meant are words that fit there."""
+def _remedy(word: str, near: str) -> str:
+    """What to do about a word that does not fit; `near` is like it and fits there."""
     if any(sign.isdigit() for sign in word):
         return f'write numbers as words, "{next(sayings(word))}"'
+    return f'did you mean "{near}"?' if near else "see `hri grammar expand`"
+
+
+def _near(word: str, expected: Collection[str]) -> str:
+    """The word that was meant, of those that fit; empty where none is like it."""
     if len(expected) > MOST_COMPARED:
         # A slip of the fingers leaves the first letter and most of the others.
         alike = range(len(word) - 1, len(word) + 2)
         expected = [known for known in expected if known[0] == word[:1] and len(known) in alike]
-    near = difflib.get_close_matches(word, expected, n=1, cutoff=LEAST_ALIKE)
-    return f'did you mean "{near[0]}"?' if near else "see `hri grammar expand`"
+    return next(iter(difflib.get_close_matches(word, expected, n=1, cutoff=LEAST_ALIKE)), "")
 
 
 class Step(NamedTuple):
