@@ -11,7 +11,8 @@ import tokenize
 from collections.abc import Iterator
 from pathlib import Path
 
-FOLDERS = ("README.md", "CONTRIBUTING.md", "docs", "hri", "apps", "benchmarks")
+PAGES = ("README.md", "CONTRIBUTING.md", "AGENTS.md", "SECURITY.md", "CHANGELOG.md")
+FOLDERS = (*PAGES, "docs", "hri", "apps", "benchmarks")
 LEFT_OUT = ("docs/checklist.md",)
 
 # Regular expressions, in which a space is any white space, and what to write instead.

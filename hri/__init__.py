@@ -28,6 +28,8 @@ import os
 
 import lazy_loader
 
+__version__ = "0.1.0"
+
 # onnxruntime, which the natural voice brings, reads it when it is imported; it would keep a device
 # id and a queue of events, and send them to its maker. Child processes inherit it.
 os.environ["ORT_DISABLE_TELEMETRY"] = "1"

@@ -1,1 +1,3 @@
 from .robot import Robot as Robot
+
+__version__: str

@@ -3,10 +3,12 @@
 import importlib
 import subprocess
 import sys
+from importlib import metadata
 
 import pytest
 
 import hri
+from hri.core import paths
 
 PACKAGES = ("behavior", "core", "drive", "emotion", "face", "hal", "net", "speech", "vision")
 
@@ -31,3 +33,13 @@ print([name for name in sys.modules if name.startswith("hri.") and name.count(".
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == "[]", run.stderr
     assert hri.__doc__
+
+
+def test_the_version_is_the_same_everywhere():
+    assert metadata.version("hri") == hri.__version__
+    for name, line in (
+        ("CHANGELOG.md", f"## {hri.__version__}"),
+        ("CITATION.cff", f"version: {hri.__version__}"),
+    ):
+        text = (paths.house() / name).read_text()
+        assert f"\n{line}" in text, name

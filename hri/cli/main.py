@@ -7,6 +7,7 @@ import importlib
 import sys
 from collections.abc import Sequence
 
+from hri import __version__
 from hri.cli.terminal.exit_status import status_of
 from hri.cli.terminal.messages import OptionParser
 from hri.core.errors import did_you_mean
@@ -63,9 +64,7 @@ def _answer(words: list[str]) -> int:
         print(_overview())
         return 0
     if words[0] == "--version":
-        from importlib.metadata import version
-
-        report(f"hri {version('hri')}")
+        report(f"hri {__version__}")
         return 0
     if words[0] not in COMMANDS:
         remedy = did_you_mean(words[0], COMMANDS)

@@ -18,6 +18,7 @@ from typing import Any, Self
 
 import trio
 
+from hri import __version__
 from hri.behavior.behavior import Behavior, Context, bridge_ports
 from hri.behavior.doors import Doors
 from hri.behavior.network import Network
@@ -41,7 +42,7 @@ from hri.hal.resource_manager import ResourceManager
 from hri.robot.app import App, load_app
 from hri.robot.blocking_verbs import BlockingVerbs
 from hri.robot.failures import FailureTeller
-from hri.robot.provenance import RunRecord, Setup, version
+from hri.robot.provenance import RunRecord, Setup
 from hri.robot.recording import Recording
 from hri.robot.sources import authored
 from hri.simulation.visitor import Visitor
@@ -196,7 +197,7 @@ class Robot(BlockingVerbs):
             (b for b in self.context.behaviors.values() if isinstance(b, EmotionModel)), None
         )
         setup = Setup(
-            version(),
+            __version__,
             self._seed,
             self.app.name,
             None if emotion is None else str(emotion.personality),

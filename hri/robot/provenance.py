@@ -185,14 +185,6 @@ def _requirements() -> list[str]:
         return []
 
 
-def version() -> str:
-    """Of hri; empty where it is used without being installed."""
-    try:
-        return metadata.version("hri")
-    except metadata.PackageNotFoundError:
-        return ""
-
-
 def _feelings(file: Path | None) -> Any:
     """The feelings with which a run begins; None without, or where they cannot be read."""
     if file is None or not paths.exists(file):

@@ -11,11 +11,12 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from hri import __version__
 from hri.cli.terminal.messages import OptionParser
 from hri.core.errors import HriError
 from hri.core.recorded import ABOUT
 from hri.core.writing import PRIVATE, write_text
-from hri.robot.provenance import environment, read_record, version
+from hri.robot.provenance import environment, read_record
 from hri.robot.sources import changed
 
 OWN = frozenset((
@@ -86,8 +87,8 @@ def _differences(told: dict[str, Any]) -> Iterator[str]:
     """A line for each thing that decides a run and is no longer as it was."""
     if told.get("clock") != "fake":
         yield "it ran in real time"
-    if (then := told.get("version")) != version():
-        yield f"it was recorded with hri {then}, and this is {version()}"
+    if (then := told.get("version")) != __version__:
+        yield f"it was recorded with hri {then}, and this is {__version__}"
     sources = told.get("sources")
     for path in changed(sources) if isinstance(sources, dict) else ():
         yield f"{path} has changed"
