@@ -55,9 +55,9 @@ def judge(
 ) -> Utterance | Rejection:
     """The utterance, or the reason for its rejection.
 
-    `turn` says which rules are active; without one, all do. What the engine holds for likely, too,
-    and what means something else, counts against the words; rules marked `@careful` must be heard
-    more clearly than the strictness, 0 to 1, alone demands.
+    `turn` says which rules are active; without one, all do. The engine's likely alternatives with
+    another meaning count against the words; rules marked `@careful` must be heard more clearly than
+    the strictness, 0 to 1, alone demands.
     """
     all_rules = frozenset(grammar.public_rules) if turn is None else None
     turn = (turn or Turn()).of(segment)
@@ -218,7 +218,7 @@ def _parse_of(grammar: Grammar, text: str, rules: Collection[str], turn: Turn) -
 def _meaning(
     grammar: Grammar, text: str, turn: Turn, *rules: Collection[str] | None
 ) -> Parse | None:
-    """What a text means after what was said last."""
+    """The meaning of a text, given the last command."""
     found = parse(grammar, text, *rules)
     if found is None or (found.rule in grammar.marked("typed") and not turn.is_typed):
         return found
@@ -240,7 +240,7 @@ def _reason(
 ) -> tuple[str, str]:
     """Why the words do not count, whatever else they may have been, and more of it.
 
-    `likely` is what they mean, and what else they may have been; empty for words without a meaning.
+    `likely` has their meaning first, then those of likely alternatives; empty if they have none.
     """
     if not hypothesis.text:
         return "no speech", ""

@@ -126,7 +126,7 @@ class Leftover:
         self._blocks: deque[tuple[float, float, float, int]] = deque()
 
     def add(self, heard: Samples, left: Samples, now: float) -> None:
-        """What was heard up to a time in seconds, and what is left of it."""
+        """Add the sound up to a time in seconds, before and after subtraction."""
         self._blocks.append((now, _energy(heard), _energy(left), len(left)))
         while now - self._blocks[0][0] > REMEMBERED:
             self._blocks.popleft()

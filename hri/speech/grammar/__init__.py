@@ -1,4 +1,4 @@
-"""Grammars: what can be heard, and what it means."""
+"""Grammars: the sentences that can be heard, and their meanings."""
 
 from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.loader import load_grammar, read_grammar

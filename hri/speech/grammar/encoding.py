@@ -80,7 +80,7 @@ def _utf16_of(raw: bytes) -> str | None:
 
 
 def _weighed(raw: bytes, header: Header, path: Path) -> Source:
-    """The text by what its header says and by what its bytes show."""
+    """The text, decoded by weighing its header against its bytes."""
     codec, unicode = _codec(header.encoding), _attempted(raw, "utf-8-sig")
     if unicode is not None and (not codec or codec.startswith("utf-") or _is_sure(unicode, codec)):
         return Source(unicode, _doubt(header, "UTF-8" if codec else "", path))

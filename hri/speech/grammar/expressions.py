@@ -1,4 +1,4 @@
-"""The tree of a grammar: what may follow what, each node with the place it was written at."""
+"""The tree of a grammar: the possible orders of words, each node with its place in the file."""
 
 from __future__ import annotations
 

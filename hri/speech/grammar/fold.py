@@ -1,8 +1,8 @@
 """What a part of a grammar comes to, worked out from the parts below it: the one walk over a tree.
 
-A fold says what a word is worth, what a row and a choice make of their parts, and so on; what it
-leaves out follows from the rest. A new kind of node has its place here, with what it is worth to
-folds that say nothing of it.
+A fold gives the value of a word, combines the values of the parts of a row or a choice, and so on;
+the cases it leaves out follow from the rest. A new kind of node has its place here, with its value
+for folds that leave it out.
 """
 
 from __future__ import annotations

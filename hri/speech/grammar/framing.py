@@ -18,7 +18,7 @@ class Frame(Alternative):
 
 
 def framed(body: Expression, before: Expression | None, after: Expression | None) -> Expression:
-    """What a rule says, between what may be said before and behind it, where there is such."""
+    """A rule's body between the optional words before and behind it, if it has any."""
     first, last = (
         [] if node is None else [Frame((NOTHING, node), AROUND, node.span)]
         for node in (before, after)
