@@ -1,16 +1,29 @@
 """Each package names what it offers in its `__init__.pyi`, and loads it when it is used."""
 
+import ast
 import importlib
 import subprocess
 import sys
 from importlib import metadata
+from types import FunctionType
 
 import pytest
 
 import hri
 from hri.core import paths
 
-PACKAGES = ("behavior", "core", "drive", "emotion", "face", "hal", "net", "speech", "vision")
+PACKAGES = (
+    "behavior",
+    "conversation",
+    "core",
+    "drive",
+    "emotion",
+    "face",
+    "hal",
+    "net",
+    "speech",
+    "vision",
+)
 
 
 @pytest.mark.parametrize("package", ["hri", *(f"hri.{name}" for name in PACKAGES)])
@@ -19,7 +32,9 @@ def test_every_name_of_a_front_door_is_there(package):
     names = dir(door)
     assert names
     for name in names:
-        assert getattr(door, name).__name__ == name
+        value = getattr(door, name)
+        is_named = isinstance(value, (type, FunctionType))
+        assert not is_named or value.__name__ == name
     with pytest.raises(AttributeError, match="nothing"):
         door.nothing  # noqa: B018
 
@@ -33,6 +48,16 @@ print([name for name in sys.modules if name.startswith("hri.") and name.count(".
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == "[]", run.stderr
     assert hri.__doc__
+
+
+def test_an_app_comes_in_by_the_front_doors():
+    for file in sorted((paths.house() / "apps").rglob("*.py")):
+        for node in ast.walk(ast.parse(file.read_text())):
+            names = [node.module or ""] if isinstance(node, ast.ImportFrom) else []
+            if isinstance(node, ast.Import):
+                names = [alias.name for alias in node.names]
+            deep = [name for name in names if name.startswith("hri.") and name.count(".") > 1]
+            assert not deep, f"{file.name}: {deep}"
 
 
 def test_the_version_is_the_same_everywhere():

@@ -1,12 +1,11 @@
-"""The companion's own questions: when it may ask, what it asks, and what it does after a yes."""
+"""The companion's own questions: their time, their choice, and the deed after a yes."""
 
 from __future__ import annotations
 
-from hri.conversation.floor import GIVES_WAY_SECONDS, Scene, gives_way
+from hri.conversation import GIVES_WAY_SECONDS, Scene, gives_way
 from hri.robot import verbs
-from hri.speech.tasks import hears_people
-from hri.speech.turn import QUESTION
-from hri.task.context import TaskContext
+from hri.speech import QUESTION, hears_people
+from hri.task import TaskContext
 
 from .companion import Companion
 from .replies import Question
@@ -52,7 +51,7 @@ def next_question(companion: Companion) -> Question | None:
 def _questions(companion: Companion) -> list[Question]:
     """What it may ask now: first whether it may keep what it feels, only once, and only people.
 
-    Then what fits what it can do: without a base, it offers no ride.
+    Then a question that fits its devices: without a base, it offers no ride.
     """
     may_ask = companion.emotion.may_ask_to_keep and hears_people(companion.context)
     may_ask = may_ask and not companion.has_asked_to_keep

@@ -1,4 +1,4 @@
-"""The companion: what it replies and does, what it is doing, and whether it sleeps."""
+"""The companion: its replies, its deeds, and whether it sleeps."""
 
 from __future__ import annotations
 
@@ -7,42 +7,32 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
-from hri.conversation.choosing import Moment, Pool, Spoken, Texts, pools
-from hri.conversation.curiosity import Curiosity
-from hri.conversation.day import clock_words, part_of_day
-from hri.conversation.examples import sayings
-from hri.conversation.floor import NEVER
-from hri.conversation.puzzlement import Puzzlement
-from hri.core.errors import NotAvailable
-from hri.core.latest import Latest
-from hri.core.signals import Event, Person
-from hri.drive import navigation_tasks
-from hri.drive.behaviors import CommandGate
-from hri.drive.supervisor_relay import SupervisorRelay
-from hri.emotion.behaviors import EmotionModel
-from hri.emotion.personality import personality_path
-from hri.emotion.stimulus import load_stimuli
-from hri.face.behaviors import FaceRenderer
-from hri.face.model import load_face
-from hri.face.motion.gesture_tracks import load_gestures
-from hri.hal.battery import Battery
-from hri.hal.camera import Camera
-from hri.robot import verbs
-from hri.robot.app import App
-from hri.speech.behaviors import Listener, Voice
-from hri.speech.grammar import Grammar
-from hri.speech.grammar.tags import written
-from hri.speech.turn import QUESTION
-from hri.task.context import TaskContext
-from hri.task.lane import Lane
-from hri.task.order import said
-from hri.task.task import TaskType
-from hri.task.task_run import Job
-from hri.vision.tasks import people_of
+from hri.conversation import (
+    NEVER,
+    Curiosity,
+    Moment,
+    Pool,
+    Puzzlement,
+    Spoken,
+    Texts,
+    clock_words,
+    part_of_day,
+    pools,
+    sayings,
+)
+from hri.core import Event, Latest, NotAvailable, Person
+from hri.drive import CommandGate, SupervisorRelay, navigation_tasks
+from hri.emotion import EmotionModel, load_stimuli, personality_names, personality_path
+from hri.face import FaceRenderer, load_face, load_gestures
+from hri.hal import Battery, Camera
+from hri.robot import App, verbs
+from hri.speech import QUESTION, Grammar, Listener, Voice, written
+from hri.task import Job, Lane, TaskContext, TaskType, said
+from hri.vision import people_of
 
 from . import things
 from .facts import Commands, aloud, direction_words
-from .replies import FILE, Replies, Reply, Vocabulary, known_personalities, load_replies
+from .replies import FILE, Replies, Reply, Vocabulary, load_replies
 from .reply_texts import fields_of
 
 DANGER = ("in_danger", "being_hurt", "emergency")
@@ -82,7 +72,7 @@ def vocabulary_of(context: TaskContext, grammar: Grammar) -> Vocabulary:
     app = App.of(context)
     own = personality_path(context.behavior(EmotionModel).personality).stem
     gestures = load_gestures(face)
-    known = {own, *known_personalities()}
+    known = {own, *personality_names()}
     return Vocabulary(grammar, load_stimuli(), face.expressions, gestures, app, known)
 
 

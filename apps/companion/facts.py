@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from hri.conversation.motions import turn_words, way_words
+from hri.conversation import turn_words, way_words
 
 UNTOLD = ("stop", "help", "greet", "leave", "good_night")
 """Rules that it does not name first when asked what can be said; how to stop it is named last."""

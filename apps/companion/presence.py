@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from hri.robot import verbs
-from hri.speech.turn import QUESTION
-from hri.task.context import TaskContext
+from hri.speech import QUESTION
+from hri.task import TaskContext
 
 from .companion import Companion
 

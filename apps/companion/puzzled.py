@@ -1,4 +1,4 @@
-"""What the companion answers to what it does not understand.
+"""The companion's answers to lines that it does not understand.
 
 `hri.conversation.puzzlement` decides on the kind of answer; here is what it has to know for that.
 """
@@ -9,19 +9,32 @@ from collections.abc import Mapping, Sequence
 from itertools import islice
 from typing import Any
 
-from hri.conversation.dialog_act import dialog_act
-from hri.conversation.examples import are_alike, different, nearest_sentence
-from hri.conversation.first_names import introduced
-from hri.conversation.gist import Gist
-from hri.conversation.puzzlement import TELLING, Answer, Kind, Puzzle, as_said
-from hri.conversation.reflection import deed_of, echo_of
-from hri.conversation.sentiment import sentiment
-from hri.speech.automatic_level import VERY_QUIET_DB
-from hri.speech.grammar import Grammar, parse
-from hri.speech.grammar.guessing import LEAST_SURE, guess
-from hri.speech.grammar.matching import departure
-from hri.speech.grammar.words import normalize
-from hri.speech.turn import QUESTION
+from hri.conversation import (
+    TELLING,
+    Answer,
+    Gist,
+    Kind,
+    Puzzle,
+    act_of,
+    are_alike,
+    as_said,
+    deed_of,
+    different,
+    echo_of,
+    introduced,
+    nearest_sentence,
+    sentiment_of,
+)
+from hri.speech import (
+    LEAST_SURE,
+    QUESTION,
+    VERY_QUIET_DB,
+    Grammar,
+    departure,
+    guess_rule,
+    normalize,
+    parse,
+)
 
 from .companion import FAREWELLS, TENDER, Companion
 from .replies import Reply
@@ -104,11 +117,11 @@ def _tell(companion: Companion, answer: Answer, text: str) -> None:
         if shown in TENDER:
             companion.last_tender = companion.context.clock.now()
     if answer.kind is Kind.FORBIDDEN:
-        companion.act("stop", {})  # Whatever is forbidden, it may be what it is doing.
+        companion.act("stop", {})  # It may be doing just that.
     if answer.kind in FELT:
         companion.feel(FELT[answer.kind])
     nearest = as_said(_most_like(companion, text))
-    # What is said of any sentence may take the place of what was said a short while ago.
+    # A text for any sentence may replace one that was said a short while ago.
     more = () if answer.kind in OWN_WORDS else (Kind.REPHRASE,)
     then = companion.replies.then.get(companion.take_topic(), ())
     if answer.kind not in GOES_ON:
@@ -150,8 +163,8 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
         topic=topic,
         nearest=as_said(example),
         meant=as_said(mended or _meant(companion, text)) if is_typed else "",
-        act=dialog_act(text, name) if is_said else None,
-        sentiment=sentiment(text) if is_said else None,
+        act=act_of(text, name) if is_said else None,
+        sentiment=sentiment_of(text) if is_said else None,
         person=introduced(text, name) if is_said else "",
         echo=as_said(echo_of(text, name)) if is_said else "",
         deed=as_said(deed),
@@ -164,7 +177,7 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
 
 def _meant(companion: Companion, text: str) -> str:
     """The example of a command that is to be said in these words, where a text is like it."""
-    found = guess(companion.listener.loaded_grammar, text)
+    found = guess_rule(companion.listener.loaded_grammar, text)
     is_sure = found is not None and found.is_vague and found.probability >= LEAST_SURE
     return companion.examples().get(found.rule, "") if found is not None and is_sure else ""
 

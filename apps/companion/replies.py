@@ -9,18 +9,20 @@ from functools import cached_property, partial
 from inspect import Parameter
 from pathlib import Path
 
-from hri.conversation.choosing import Wording
-from hri.conversation.curiosity import DAY
-from hri.conversation.day import PARTS
-from hri.core import paths
-from hri.core.errors import AuthoringError, HriError, Mistakes, did_you_mean
-from hri.core.event_bus import OWN_SUBJECTS
-from hri.core.toml import Table, load_toml
-from hri.emotion.personality import FOLDER as PERSONALITIES
-from hri.robot.app import GRAMMARS, App
-from hri.speech.grammar import Grammar
-from hri.speech.grammar.giving import sure_tags
-from hri.task.task import TaskType
+from hri.conversation import DAY, PARTS_OF_DAY, Wording
+from hri.core import (
+    OWN_SUBJECTS,
+    AuthoringError,
+    HriError,
+    Mistakes,
+    Table,
+    did_you_mean,
+    load_toml,
+)
+from hri.emotion import personality_names
+from hri.robot import GRAMMARS, App
+from hri.speech import Grammar, sure_tags
+from hri.task import TaskType
 
 from . import things
 from .reply_files import KIND, joined_entries, parts_of
@@ -116,12 +118,7 @@ class Replies:
     """By rule: what it is about, as "Something about {topic}?" says it."""
     questions: tuple[Question, ...] = ()
     then: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    """By rule: what is said to what comes soon after it and is not understood."""
-
-
-def known_personalities() -> set[str]:
-    """Names of the personalities in the search folders."""
-    return {Path(name).stem for name in paths.names(PERSONALITIES)}
+    """By rule: the answers to a line that comes soon after it and is not understood."""
 
 
 @dataclass(frozen=True)
@@ -134,7 +131,7 @@ class Vocabulary:
     gestures: Collection[str]
     app: App
     """Knows the tasks."""
-    personalities: Collection[str] = field(default_factory=known_personalities)
+    personalities: Collection[str] = field(default_factory=personality_names)
 
     @cached_property
     def tags(self) -> frozenset[str]:
@@ -192,7 +189,7 @@ USUALLY_UNASKED: Mapping[str, tuple[str, ...]] = {
 }
 """What need not be written."""
 MORE_FILLED_IN: Mapping[str, tuple[str, ...]] = {"not_understood": ("nearest",)}
-"""What else may stand in braces in what is said by itself."""
+"""Further names in braces, in texts of [unasked]."""
 
 
 def load_replies(files: Sequence[Path], vocabulary: Vocabulary) -> Replies:
@@ -382,7 +379,7 @@ def _action(rule: str, entry: Table, vocabulary: Vocabulary) -> tuple[str, TaskT
 
 
 def _refuse_unfit(rule: str, task: TaskType, entry: Table, grammar: Grammar) -> None:
-    """Refuse a task that does not take what the rule gives, or needs what it may not give."""
+    """Refuse a task that does not take a tag of the rule, or needs one that may be missing."""
     tags, sure = grammar.tag_names(rule), sure_tags(grammar.rules, rule) | {HEARD}
     taken = list(task.parameters)
     for tag in sorted(tags - set(taken)):
@@ -414,8 +411,8 @@ def _question(entry: Table, vocabulary: Vocabulary, is_own: bool) -> Question:
     show = _expression(entry, entry.string("show", ""), vocabulary)
     hour, after = _listed(entry, "hour"), _listed(entry, "after")
     for part in hour:
-        if part not in PARTS:
-            raise entry.error("hour", f'hour is "{part}"', did_you_mean(part, PARTS))
+        if part not in PARTS_OF_DAY:
+            raise entry.error("hour", f'hour is "{part}"', did_you_mean(part, PARTS_OF_DAY))
     if is_own:
         _refuse_unknown_rules(entry, "after", after, vocabulary)
     once = entry.string("once", "", among=(DAY,))
@@ -424,7 +421,7 @@ def _question(entry: Table, vocabulary: Vocabulary, is_own: bool) -> Question:
 
 
 def _then(entry: Table, vocabulary: Vocabulary, is_own: bool) -> dict[str, tuple[str, ...]]:
-    """What is said to what comes after some rules and is not understood, by these rules."""
+    """The answers to a line that comes after some rules and is not understood, by rule."""
     after, texts = entry.strings("after"), _texts(entry, "say")
     if is_own:
         _refuse_unknown_rules(entry, "after", after, vocabulary)

@@ -10,9 +10,7 @@ from contextlib import suppress
 from functools import partial
 from pathlib import Path, PurePath
 
-from hri.core import paths
-from hri.core.errors import HriError, Mistakes, did_you_mean
-from hri.core.toml import Table, load_toml
+from hri.core import HriError, Mistakes, Table, did_you_mean, load_toml, paths
 
 ALSO = "also"
 KIND = "file of replies"

@@ -14,11 +14,8 @@ from __future__ import annotations
 import string
 from collections.abc import Collection
 
-from hri.conversation.choosing import Texts, Wording
-from hri.conversation.day import PARTS
-from hri.conversation.feelings import KNOWN
-from hri.core.errors import did_you_mean
-from hri.core.toml import Table
+from hri.conversation import KNOWN_FEELINGS, PARTS_OF_DAY, Texts, Wording
+from hri.core import Table, did_you_mean
 
 LONGEST = 5000
 """Characters of what is said; voices say no more."""
@@ -32,8 +29,8 @@ def read_wording(entry: Table, braces: Collection[str], personalities: Collectio
     return Wording(
         _texts(entry, "say", braces),
         _texts(entry, "again", braces),
-        _texts_by_name(entry, "feeling", KNOWN, braces),
-        _texts_by_name(entry, "hour", PARTS, braces),
+        _texts_by_name(entry, "feeling", KNOWN_FEELINGS, braces),
+        _texts_by_name(entry, "hour", PARTS_OF_DAY, braces),
         _texts_by_name(entry, "personality", personalities, braces),
     )
 

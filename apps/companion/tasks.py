@@ -18,16 +18,13 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from hri.conversation.floor import NEVER, may_begin
-from hri.core.clock import Worker
-from hri.core.errors import HriError
-from hri.core.origin import KEYBOARD, caused_by
-from hri.core.signals import Event
-from hri.emotion.stimulus import load_stimuli
-from hri.face.behaviors import FaceRenderer
-from hri.hal.screen import Screen
-from hri.robot.app import App
-from hri.task.context import TaskContext
+from hri.conversation import NEVER, may_begin
+from hri.core import KEYBOARD, Event, HriError, Worker, caused_by
+from hri.emotion import load_stimuli
+from hri.face import FaceRenderer
+from hri.hal import Screen
+from hri.robot import App
+from hri.task import TaskContext
 
 from .asking import ask, next_question, scene
 from .companion import Companion, authored_replies, vocabulary_of
@@ -169,7 +166,7 @@ async def notice(context: TaskContext) -> None:
 
 
 def _bumped(companion: Companion) -> None:
-    companion.motion.stop()  # no second try: whoever was bumped decides what comes next
+    companion.motion.stop()  # no second try: the person decides
     companion.make("startle")
     _talk_about(companion, "bump")
 

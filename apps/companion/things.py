@@ -6,18 +6,11 @@ import math
 from collections.abc import Mapping
 from typing import Protocol
 
-from hri.core.errors import HriError
-from hri.core.signals import FoundObject, Person
-from hri.hal.camera import Camera
-from hri.robot.finding import find_object
-from hri.task.context import TaskContext
-from hri.vision.objects.object_tasks import (
-    NoCamera,
-    NothingShown,
-    forget_object,
-    learn_object,
-    objects_of,
-)
+from hri.core import FoundObject, HriError, Person
+from hri.hal import Camera
+from hri.robot import find_object
+from hri.task import TaskContext
+from hri.vision import NoCamera, NothingShown, forget_object, learn_object, objects_of
 
 LOOKING_S = 5.0
 """How long a thing is shown."""

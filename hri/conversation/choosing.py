@@ -30,7 +30,7 @@ class Wording:
     again: Texts = ()
     """Said when the robot has answered the same a short time ago."""
     feeling: Mapping[str, Texts] = field(default_factory=dict)
-    """By a word or label of `hri.conversation.feelings.KNOWN`."""
+    """By a word or label of `hri.conversation.feelings.KNOWN_FEELINGS`."""
     hour: Mapping[str, Texts] = field(default_factory=dict)
     """By the part of the day, see `hri.conversation.day`."""
     personality: Mapping[str, Texts] = field(default_factory=dict)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-PARTS: Mapping[str, tuple[int, int]] = {
+PARTS_OF_DAY: Mapping[str, tuple[int, int]] = {
     "morning": (6, 12),
     "afternoon": (12, 18),
     "evening": (18, 22),
@@ -15,7 +15,7 @@ PARTS: Mapping[str, tuple[int, int]] = {
 
 def part_of_day(hour: int) -> str:
     """The part of the day of an hour, 0 to 23."""
-    within = (part for part, (begin, end) in PARTS.items() if begin <= hour < end)
+    within = (part for part, (begin, end) in PARTS_OF_DAY.items() if begin <= hour < end)
     return next(within, "night")
 
 

@@ -127,7 +127,7 @@ class DialogAct(Enum):
     QUESTION = auto()
     QUESTION_OF_ROBOT = auto()
     QUESTION_OF_SPEAKER = auto()
-    """It asks what to do, or what only who asks can know."""
+    """It asks for advice, or for something only the speaker can know."""
     QUESTION_WHERE = auto()
     QUESTION_WHY = auto()
     DIRECTIVE = auto()
@@ -142,7 +142,7 @@ UNSETTLED = (None, DialogAct.STATEMENT, DialogAct.STATEMENT_OF_ROBOT, DialogAct.
 """What may end in a question."""
 
 
-def dialog_act(text: str, name: str = "") -> DialogAct | None:
+def act_of(text: str, name: str = "") -> DialogAct | None:
     """What a sentence does; None where its first words do not show it.
 
     `name` is that of the robot, which says nothing of it.

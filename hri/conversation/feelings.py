@@ -27,7 +27,7 @@ FEELINGS: Mapping[str, frozenset[str]] = {
 # fmt: on
 """The labels of feelings, emotions and moods, that each word stands for; no label is in two."""
 
-KNOWN = (*FEELINGS, *NAMES, *(mood for mood in MOODS if mood not in FEELINGS))
+KNOWN_FEELINGS = (*FEELINGS, *NAMES, *(mood for mood in MOODS if mood not in FEELINGS))
 """All words and labels."""
 
 

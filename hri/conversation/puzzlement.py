@@ -111,7 +111,7 @@ REMARKS: Mapping[Sentiment | None, Kind] = {
     Sentiment.KIND: Kind.PRAISED,
     Sentiment.UNKIND: Kind.TOLD_OF_ME,
 }
-"""What is good or bad about what is at hand is mostly what the robot just did."""
+"""A positive or negative remark is mostly about the robot's last action."""
 TELLING = frozenset(
     (
         Kind.CORRECTED,
@@ -190,7 +190,7 @@ def is_meant(puzzle: Puzzle, row: int) -> bool:
     if not puzzle.is_addressed or puzzle.reason in ("no speech", "robot speaking"):
         return False
     if puzzle.reason == "not now" and not puzzle.is_typed:
-        return False  # "Yes" and "sure" are also what people say to what they hear.
+        return False  # People also say "yes" and "sure" to others.
     return puzzle.is_turned_to or row <= MOST_TO_STRANGERS
 
 
@@ -227,7 +227,7 @@ def decide(
 
 
 def _of_act(puzzle: Puzzle) -> Answer | None:
-    """The answer to what a typed sentence does, whatever its words are."""
+    """The answer to the act of a typed sentence, regardless of its words."""
     if puzzle.person:
         return Answer(Kind.INTRODUCED, {"person": puzzle.person})
     if puzzle.act in QUESTIONS:
@@ -281,7 +281,7 @@ def as_said(sentence: str) -> str:
 
 
 class Puzzlement:
-    """Remembers what was not understood, and what it offered."""
+    """Counts sentences not understood, and remembers the commands it offered."""
 
     def __init__(self) -> None:
         self.row = 0

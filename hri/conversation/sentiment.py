@@ -52,7 +52,7 @@ OPPOSITE = {Sentiment.GLAD: Sentiment.SAD, Sentiment.KIND: Sentiment.UNKIND}
 """What it becomes when it is denied; who is not sad may feel anything."""
 
 
-def sentiment(text: str) -> Sentiment | None:
+def sentiment_of(text: str) -> Sentiment | None:
     """What most words of a sentence say, the first of those that say as much; None without any."""
     words = opened(normalize(text))
     is_of_robot = not ROBOT.isdisjoint(words) or any(pair in MEANT for pair in pairwise(words))

@@ -1,19 +1,27 @@
-from .clock import Clock as Clock, FakeClock as FakeClock, RealClock as RealClock
+from .clock import Clock as Clock, FakeClock as FakeClock, RealClock as RealClock, Worker as Worker
 from .errors import (
     AuthoringError as AuthoringError,
     AuthoringErrors as AuthoringErrors,
     HriError as HriError,
+    Mistakes as Mistakes,
     NotAvailable as NotAvailable,
     Place as Place,
+    did_you_mean as did_you_mean,
 )
-from .event_bus import EventBus as EventBus, Subscription as Subscription
+from .event_bus import (
+    OWN_SUBJECTS as OWN_SUBJECTS,
+    EventBus as EventBus,
+    Subscription as Subscription,
+)
 from .latest import Board as Board, Latest as Latest
+from .origin import KEYBOARD as KEYBOARD, caused_by as caused_by
 from .signals import (
     EmotionState as EmotionState,
     Event as Event,
     Expression as Expression,
     FaceBox as FaceBox,
     FaceWeights as FaceWeights,
+    FoundObject as FoundObject,
     Frame as Frame,
     Gaze as Gaze,
     HeadGesture as HeadGesture,
@@ -29,3 +37,4 @@ from .signals import (
     Twist as Twist,
     Utterance as Utterance,
 )
+from .toml import Table as Table, load_toml as load_toml

@@ -84,9 +84,14 @@ def personality_path(name: str) -> Path:
 
     Raises HriError when there is none.
     """
-    known = {Path(found).stem for found in paths.names(FOLDER)}
+    known = personality_names()
     spelled = name.replace("-", "_")
     return paths.find(FOLDER, spelled if name not in known and spelled in known else name)
+
+
+def personality_names() -> frozenset[str]:
+    """Names of the personalities in the search folders."""
+    return frozenset(Path(found).stem for found in paths.names(FOLDER))
 
 
 def load_personality(name: str) -> Personality:

@@ -39,9 +39,10 @@ from hri.hal.choices import apply_choices, load_choices
 from hri.hal.configuration import Configuration, load_configuration
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
-from hri.robot.app import App, load_app
+from hri.robot.app import GRAMMARS, App, load_app
 from hri.robot.blocking_verbs import BlockingVerbs
 from hri.robot.failures import FailureTeller
+from hri.robot.finding import find_object
 from hri.robot.provenance import RunRecord, Setup
 from hri.robot.recording import Recording
 from hri.robot.sources import authored
@@ -52,7 +53,7 @@ from hri.task.task_manager import TaskManager
 from hri.task.task_run import Job, name_of, tell_failure
 from hri.task.thread import LoopThread
 
-__all__ = ["App", "Job", "Robot", "load_app"]
+__all__ = ["GRAMMARS", "App", "Job", "Robot", "find_object", "load_app"]
 
 
 class Robot(BlockingVerbs):
@@ -82,8 +83,8 @@ class Robot(BlockingVerbs):
         parameters of behaviors by their id. `notice` gets a line for each stand-in, for each
         trusted name that fits no port, and one when a recording begins. `record` is a folder for a
         recording; where it holds one, another folder beside it is taken. Words that were rejected
-        are written there only with `record_rejected`. `doors` says what may come in over the
-        network, beside what the app and the configuration say.
+        are written there only with `record_rejected`. `doors` admits more from the
+        network than the app and the configuration do.
         Raises HriError or AuthoringError; NotAvailable on Windows.
         """
         require_posix("a robot")

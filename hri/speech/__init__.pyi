@@ -1,3 +1,4 @@
+from .automatic_level import VERY_QUIET_DB as VERY_QUIET_DB
 from .behaviors import SpeakOn as SpeakOn
 from .grammar import (
     Grammar as Grammar,
@@ -7,6 +8,12 @@ from .grammar import (
     parse as parse,
     read_grammar as read_grammar,
 )
+from .grammar.giving import sure_tags as sure_tags
+from .grammar.guessing import LEAST_SURE as LEAST_SURE, guess_rule as guess_rule
+from .grammar.matching import departure as departure
+from .grammar.tags import written as written
+from .grammar.words import normalize as normalize
 from .listener import Listener as Listener
-from .tasks import say as say, wait_for_speech as wait_for_speech
+from .tasks import hears_people as hears_people, say as say, wait_for_speech as wait_for_speech
+from .turn import QUESTION as QUESTION
 from .voice import Priority as Priority, Voice as Voice

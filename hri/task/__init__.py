@@ -18,11 +18,13 @@ face, navigation, net, resource, speech, util, vision    all tasks of the librar
 """
 
 from hri.task.context import TaskContext
+from hri.task.lane import Lane
+from hri.task.order import said
 from hri.task.parallel import Parallel
 from hri.task.script import get_task_manager, use
-from hri.task.task import find_task
+from hri.task.task import TaskType, find_task
 from hri.task.task_manager import TaskManager
-from hri.task.task_run import TaskStatus
+from hri.task.task_run import Job, TaskStatus
 from hri.task.units import (
     UNIT_ANGLE,
     UNIT_DISTANCE,
@@ -35,13 +37,17 @@ __all__ = [
     "UNIT_ANGLE",
     "UNIT_DISTANCE",
     "UNIT_TIME",
+    "Job",
+    "Lane",
     "Parallel",
     "TaskContext",
     "TaskManager",
     "TaskStatus",
+    "TaskType",
     "find_task",
     "get_default_units",
     "get_task_manager",
+    "said",
     "set_default_units",
     "use",
 ]

@@ -6,7 +6,7 @@ import pytest
 
 from hri.robot.app import load_app
 from hri.speech.grammar import load_grammar
-from hri.speech.grammar.guessing import LEAST_SURE, guess, paraphrased
+from hri.speech.grammar.guessing import LEAST_SURE, guess_rule, paraphrased
 from hri.speech.grammar.paraphrases import NO_RULE
 
 FOLDER = load_app("companion").folder
@@ -44,7 +44,7 @@ def test_a_rule_that_is_guessed_has_a_sentence(grammar):
         lines = {line.rule: " ".join(line.words) for line in each.lines}
         for rule in each.heads:
             text = lines[rule[0]]
-            found = guess(grammar, text)
+            found = guess_rule(grammar, text)
             if found is None or found.is_vague or found.probability < LEAST_SURE:
                 continue
             assert paraphrased(grammar, text) is not None, text

@@ -11,7 +11,7 @@ from hri.conversation.choosing import (
     Wording,
     pools,
 )
-from hri.conversation.feelings import FEELINGS, KNOWN, fitting
+from hri.conversation.feelings import FEELINGS, KNOWN_FEELINGS, fitting
 from hri.emotion.emotions import NAMES
 from hri.emotion.label import MOODS
 
@@ -117,10 +117,10 @@ def test_each_feeling_has_one_everyday_word(label):
     assert len(words) == 1
     assert fitting(label, FEELINGS) in (label, *words)
     assert fitting(label, (label, *words)) == label
-    assert label in KNOWN
+    assert label in KNOWN_FEELINGS
 
 
-@given(st.sampled_from(LABELS), st.sets(st.sampled_from(sorted(KNOWN))))
+@given(st.sampled_from(LABELS), st.sets(st.sampled_from(sorted(KNOWN_FEELINGS))))
 def test_words_never_fit_another_feeling(label, given_words):
     found = fitting(label, given_words)
     assert not found or found == label or label in FEELINGS[found]

@@ -2,7 +2,7 @@
 
 import pytest
 
-from hri.conversation.dialog_act import DialogAct, dialog_act
+from hri.conversation.dialog_act import DialogAct, act_of
 
 
 @pytest.mark.parametrize(
@@ -64,4 +64,4 @@ from hri.conversation.dialog_act import DialogAct, dialog_act
     ],
 )
 def test_the_first_words_show_it(text, act):
-    assert dialog_act(text, "Robin") is act
+    assert act_of(text, "Robin") is act

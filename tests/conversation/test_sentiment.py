@@ -2,7 +2,7 @@
 
 import pytest
 
-from hri.conversation.sentiment import Sentiment, lexicon, sentiment
+from hri.conversation.sentiment import Sentiment, lexicon, sentiment_of
 
 
 @pytest.mark.parametrize(
@@ -24,7 +24,7 @@ from hri.conversation.sentiment import Sentiment, lexicon, sentiment
     ],
 )
 def test_words_say_it_and_a_denial_turns_what_is_good(text, feeling):
-    assert sentiment(text) is feeling
+    assert sentiment_of(text) is feeling
 
 
 def test_a_phrase_stands_in_one_list_only_and_lists_have_no_gaps():

@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import given, strategies as st
 
-from hri.conversation.day import PARTS, clock_words, part_of_day
+from hri.conversation.day import PARTS_OF_DAY, clock_words, part_of_day
 from hri.conversation.motions import turn_words, way_words
 
 
@@ -43,7 +43,7 @@ def test_a_turn_in_words(angle, words):
 
 @given(st.integers(0, 23))
 def test_each_hour_is_in_one_part_of_the_day(hour):
-    begin, end = PARTS[part_of_day(hour)]
+    begin, end = PARTS_OF_DAY[part_of_day(hour)]
     assert (hour - begin) % 24 < (end - begin) % 24
 
 

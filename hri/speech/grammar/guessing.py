@@ -43,7 +43,7 @@ class Guess(NamedTuple):
     """Whether the text may only be about it."""
 
 
-def guess(grammar: Grammar, text: str) -> Guess | None:
+def guess_rule(grammar: Grammar, text: str) -> Guess | None:
     """The rule that a typed text is most like; None if it is like none, or means none."""
     words = normalize(text)
     if not grammar.paraphrases or not 0 < len(words) <= MOST_WORDS:
@@ -70,7 +70,7 @@ def paraphrased(
     text: "hi" in "hi I broke my arm". What may move the robot, or stops it, counts before a guess.
     Raises AuthoringError where `Grammar.automaton` does.
     """
-    found = guess(grammar, text)
+    found = guess_rule(grammar, text)
     if found is None or found.is_vague or found.probability < LEAST_SURE:
         return None
     if part is not None and not _may_give_way(grammar, part):

@@ -44,7 +44,7 @@ class NaiveBayes:
             for feature, weight in self._weighed(features).items():
                 counts[feature][label] += weight
                 totals[label] += weight
-        # Kept is what a feature adds to a class that has it, and what any takes from a large one.
+        # Kept are the gain of a feature for a class that has it, and the cost of a large class.
         self._gains = {
             feature: [(label, math.log1p(count / SMOOTHING)) for label, count in by_label.items()]
             for feature, by_label in counts.items()

@@ -6,7 +6,7 @@ from hypothesis import given, strategies as st
 from hri.core.errors import AuthoringError
 from hri.speech.grammar import load_grammar, parse
 from hri.speech.grammar.excerpt import excerpt
-from hri.speech.grammar.guessing import LEAST_SURE, guess, paraphrased
+from hri.speech.grammar.guessing import LEAST_SURE, guess_rule, paraphrased
 
 GRAMMAR = """#JSGF V1.0;
 grammar small;
@@ -90,7 +90,7 @@ def test_a_text_that_is_like_none_means_nothing(grammar, text):
 
 
 def test_what_is_only_about_a_rule_is_never_taken_for_it(grammar):
-    found = guess(grammar, "please face the window")
+    found = guess_rule(grammar, "please face the window")
     assert (found.rule, found.is_vague) == ("turn", True)
     assert found.probability >= LEAST_SURE
     assert paraphrased(grammar, "please face the window") is None
