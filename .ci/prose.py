@@ -33,9 +33,15 @@ TICS = {
     r"(of |in |from |by )the house\b|the house's": "built-in",
 }
 
+# In the code two such clauses in a sentence are a riddle: there nouns must do.
+RIDDLE = r"(what|whatever|whoever) (?:[^.;:!?\"|]|[.:](?! ))*? (what|whatever|whoever)"
+NOUNS = "nouns, such as: the mistake and its remedy"
+OF_CODE = ("hri", "apps")
+
 ROWS = [rf"(?P<row{number}>\b(?:{tic}))" for number, tic in enumerate(TICS)]
 PHRASE = re.compile("|".join(ROWS).replace(" ", r"\s+"), re.IGNORECASE)
 REMEDIES = {f"row{number}": remedy for number, remedy in enumerate(TICS.values())}
+HEADLESS = re.compile(rf"\b(?:{RIDDLE})\b".replace(" ", r"\s+"), re.IGNORECASE)
 PROSE = {"STRING", "FSTRING_MIDDLE", "COMMENT"}
 CODE = re.compile(r"^```.*?^```|^    .*?$|`[^`]+`", re.DOTALL | re.MULTILINE)
 
@@ -55,10 +61,18 @@ def findings(path: Path) -> Iterator[str]:
     """A line for each phrase in a file."""
     for line, column, text in passages(path):
         for match in PHRASE.finditer(text):
-            *above, before = text[: match.start()].split("\n")
-            place = f"{path}:{line + len(above)}:{len(before) + 1 + (0 if above else column)}"
-            remedy = REMEDIES[match.lastgroup or ""]
-            yield f'{place}: "{" ".join(match[0].split())}" - write instead: {remedy}'
+            yield _finding(path, line, column, text, match, REMEDIES[match.lastgroup or ""])
+        if path.suffix == ".py" and path.parts[0] in OF_CODE:
+            for match in HEADLESS.finditer(text):
+                yield _finding(path, line, column, text, match, NOUNS)
+
+
+def _finding(
+    path: Path, line: int, column: int, text: str, match: re.Match[str], remedy: str
+) -> str:
+    *above, before = text[: match.start()].split("\n")
+    place = f"{path}:{line + len(above)}:{len(before) + 1 + (0 if above else column)}"
+    return f'{place}: "{" ".join(match[0].split())}" - write instead: {remedy}'
 
 
 def main() -> int:

@@ -8,8 +8,8 @@
         if robot.ask("Shall I come closer?"):
             robot.move(0.5)
 
-The map, from what you hold in your hand down to what everything stands on. Each package has a front
-door: `from hri.behavior import Behavior, Input, Output`.
+The map, from the class you use down to the foundations. Each package has a front door:
+`from hri.behavior import Behavior, Input, Output`.
 
     Robot           opens resources, runs networks and tasks
     hri.behavior    behaviors, and the networks that they are wired into

@@ -92,7 +92,7 @@ class Behavior:
     """Whether it passes on what someone outside of the network says, with the time of that. A
     drive that follows such values stops when that someone falls silent."""
     keeps_inputs: ClassVar[bool] = True
-    """Whether what it sends may rest on what came in earlier ticks, such as a goal. The word of a
+    """Whether its outputs may depend on inputs of earlier ticks, such as a goal. The word of a
     relay then ages until the input gets another; a class that forgets, or whose output asks for no
     motion, says False."""
     may_do: frozenset[Effect]

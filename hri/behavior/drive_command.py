@@ -1,4 +1,4 @@
-"""The drive as a behavior: it takes what the base should do, from whoever may steer it."""
+"""The drive as a behavior: it takes velocities from any source that may steer the base."""
 
 from __future__ import annotations
 

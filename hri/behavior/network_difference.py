@@ -1,4 +1,4 @@
-"""How two networks differ: in what runs, whatever the order and the layout of their files."""
+"""How two networks differ at run time, ignoring the order and the layout of their files."""
 
 from __future__ import annotations
 

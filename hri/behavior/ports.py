@@ -259,7 +259,7 @@ class Param(Generic[T]):
         return self if instance is None else instance.__dict__.get(self.name, self.default)
 
     def parse(self, text: str) -> T:
-        """The value of a text from a file. Raises ValueError with what is wrong and what to do."""
+        """The value of a text from a file. Raises ValueError with the mistake and its remedy."""
         value: Any = text
         if isinstance(self.default, bool):
             if text.strip().lower() not in ("true", "false"):

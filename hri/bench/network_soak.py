@@ -281,7 +281,7 @@ class Soak:
         self.tell(f"{hours:.2f} h: {told}, {self.verdict.growth / 1000:+.1f} kB")
 
     def _judge(self) -> None:
-        """Compare what was seen with what must have been."""
+        """Compare the observed figures with the expected ones."""
         verdict, faults = self.verdict, self.verdict.faults
         grid = self.network["grid"]
         assert isinstance(grid, Grid), "it was made below"

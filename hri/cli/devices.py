@@ -37,7 +37,7 @@ class Found:
     state: str
     """"present", "missing" or "unknown"."""
     says: str
-    """What it is, or why it is missing and what to do."""
+    """Its description, or why it is missing and the remedy."""
     stand_in: str
     """Id of the device that is used instead, if any."""
 

@@ -1,4 +1,4 @@
-"""Errors that say what is wrong, where, and what to do."""
+"""Errors that name the mistake, its place and its remedy."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ T = TypeVar("T")
 
 
 class HriError(Exception):
-    """Something the user can fix; its text is one line: what is wrong - what to do.
+    """Something the user can fix; its text is one line: problem - remedy.
 
     What is quoted in it may come from anyone: see `hri.core.quoting.message_line`.
     """
@@ -41,7 +41,7 @@ class Place:
 
 
 class AuthoringError(HriError):
-    """An authored file is wrong; reads ``file:line:column: what - what to do``."""
+    """An authored file is wrong; reads ``file:line:column: what - remedy``."""
 
     def __init__(self, place: Place, what: str, remedy: str) -> None:
         super().__init__(f"{place}: {what} - {remedy}")

@@ -1,9 +1,8 @@
 """Who causes what happens: the robot itself, or someone outside of it.
 
-What a person asks for in the studio or types, and what another program sends, must not look like
-the robot's own doing in a recording. While a request from outside is carried out, each event that
-is raised has its origin; what is only begun meanwhile, such as a sentence, keeps the origin until
-it is told.
+In a recording, requests from the studio, the keyboard or another program must not look like the
+robot's own doing. While a request from outside is carried out, each event that is raised has its
+origin; what is only begun meanwhile, such as a sentence, keeps the origin until it is told.
 """
 
 from __future__ import annotations

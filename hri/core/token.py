@@ -123,7 +123,7 @@ def is_proof(shown: str, token: str, role: Role, challenge: Challenge) -> bool:
 
 
 class Grant:
-    """What whoever knows a token may do, as long as that is the token."""
+    """The permission that a token gives while it is the current one."""
 
     def __init__(self, shown: str) -> None:
         """Raises HriError as `load_token` does."""

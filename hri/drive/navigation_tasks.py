@@ -378,7 +378,7 @@ class _Traveler:
         return self._avoidance.is_open(pose, goal)
 
     async def why_not(self, context: TaskContext, goal: Pose2D) -> str:
-        """What kept it from getting to a goal, and what to do."""
+        """Why it did not get to a goal, and the remedy."""
         what = f"did not get to ({goal.x:.2f}, {goal.y:.2f}) m"
         pose, needed = self.pose(context.clock.now()), self._avoidance.needed
         width = await _worked_out(context, partial(self._avoidance.narrow_way, pose, goal))

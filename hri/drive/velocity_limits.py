@@ -47,7 +47,7 @@ class Cap:
 
 @dataclass(frozen=True, slots=True)
 class BaseLimits:
-    """What a base is allowed, whatever asks; its hardware may be slower.
+    """The limits of a base, for any command; its hardware may be slower.
 
     The defaults are meant for a light base at home, and are not from a standard: see
     docs/safety.md.

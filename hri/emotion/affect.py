@@ -113,8 +113,8 @@ def _without(row: LedgerRow, emotions: Collection[str]) -> LedgerRow:
 def driven_out(ledger: Ledger, fresh: Fresh) -> Ledger:
     """What fresh charges leave of a ledger: each drives out its opposites.
 
-    A hope for a goal drives out the fear for that goal, not for another one; what is about no goal
-    meets what is about none.
+    A hope for a goal drives out the fear for that goal, not for another one; charges without a goal
+    are treated as if about one goal.
     """
     everywhere: dict[str, float] = {}
     about: dict[str, dict[str, float]] = {}
@@ -167,7 +167,7 @@ def sums(imprint: Imprint, older: Ledger) -> tuple[dict[str, float], Axes]:
 
 
 def renamed(imprint: Imprint, names: Mapping[str, str | None]) -> Imprint:
-    """The same with people under other names: what they caused, and what is thought of them.
+    """The same with people under other names, both as causes and in relations.
 
     A name that becomes None loses its relation; what that person caused has no author any more.
     """

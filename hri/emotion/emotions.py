@@ -58,12 +58,12 @@ EMOTIONS = (
     Emotion("gloating", 0.30, -0.30, -0.10, 10.0),
     Emotion("resentment", -0.20, -0.30, -0.20, 14.0),
     Emotion("pity", -0.40, -0.20, -0.50, 12.0),
-    # what one does oneself, what others do
+    # own acts, acts of others
     Emotion("pride", 0.40, 0.30, 0.30, 12.0),
     Emotion("shame", -0.30, 0.10, -0.60, 12.0),
     Emotion("admiration", 0.50, 0.30, -0.20, 10.0),
     Emotion("reproach", -0.30, -0.10, 0.40, 12.0),
-    # what one does oneself, what others do, and what comes of it
+    # own acts, acts of others, and their outcome
     Emotion("gratification", 0.60, 0.50, 0.40, 14.0),
     Emotion("remorse", -0.30, 0.10, -0.60, 16.0),
     Emotion("gratitude", 0.40, 0.20, -0.30, 14.0),

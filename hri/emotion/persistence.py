@@ -174,7 +174,7 @@ def traces(path: Path) -> list[Path]:
 def forget(path: Path, person: str | None = None) -> bool:
     """Forget all that was felt, or a person; whether there was anything to forget.
 
-    With a person, what the robot thinks of them goes, and what they caused has no name any more. A
+    With a person, the relation to them is deleted, and feelings that they caused lose the name. A
     robot that runs forgets it too, within a second. Files beside it (`traces`) go as well when all
     is forgotten. Raises HriError for someone it does not know, for a file that cannot be used, and
     for one that cannot be written or deleted.

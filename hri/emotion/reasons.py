@@ -32,7 +32,7 @@ JUST_NOW_S = 10.0
 """What is younger needs no time said."""
 
 ALSO_CALLED = {"afraid": "scared"}
-"""What people say, and what the display file calls it."""
+"""Words that people use, and their synonyms in the display file."""
 
 _PERSON = re.compile(r"\{([^{}]*)\}")
 """In words of a stimulus, what gives way to a name."""
@@ -55,7 +55,7 @@ _AGES = (
 def why_words(
     feeling: str, causes: Sequence[Cause], words: Mapping[str, str], needs: Mapping[str, float]
 ) -> str:
-    """One sentence: what the robot feels, and what made it so.
+    """One sentence: the robot's feeling and its causes.
 
     `feeling` is what follows "I am"; `causes` come largest first; `needs` are 0, stilled, to 1;
     `words` say of each cause by name what happened: "{you} praised me", which is "Anna praised me"

@@ -1,8 +1,8 @@
 """What the robot thinks of people: a number from -1 (hated) to 1 (loved), 0 for a stranger.
 
 It is the tanh of a regard that stimuli add to and that fades over a month, so that it stays within
-its range and things of the same instant commute. It changes what a person can do to the robot: what
-pleases counts for more from someone it likes, what hurts for more from someone it does not.
+its range and things of the same instant commute. It scales a person's effect on the robot: pleasant
+things count for more from someone it likes, hurtful ones from someone it dislikes.
 """
 
 from __future__ import annotations

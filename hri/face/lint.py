@@ -1,7 +1,7 @@
 """What loads, but is likely a slip: the findings of `hri face check`.
 
-All is measured on the baked face, as it is drawn: what moves, what turns inside out, what leaves
-the picture when expressions and visemes meet.
+All is measured on the baked face, as it is drawn: which parts move, turn inside out, or leave the
+picture when expressions and visemes meet.
 """
 
 from __future__ import annotations

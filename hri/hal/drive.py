@@ -40,8 +40,9 @@ class DriveSystem(Resource):
     important. A stop is everyone's, and always wins.
 
     Ways and angles may be negative, velocities of `move_delta` and `turn_delta` and all
-    accelerations must be above 0; what the base cannot reach is cut to what it can. HriError is
-    raised for anything else, and by a drive that is closed; `stop` then does nothing.
+    accelerations must be above 0; velocities and accelerations beyond the base's limits are cut to
+    them. HriError is raised for anything else, and by a drive that is closed; `stop` then does
+    nothing.
     """
 
     max_linear: float = 0.5

@@ -206,7 +206,7 @@ class Resource(ABC):  # noqa: B024 - what must be written is named by each inter
             self.manager.release(self._used.pop())
 
     def describe(self) -> str:
-        """One line for people: what it is, with what settings."""
+        """One line for people: its type and settings."""
         return self.description.type
 
     def not_available(self, why: str, remedy: str) -> NotAvailable:

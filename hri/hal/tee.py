@@ -1,4 +1,4 @@
-"""Two devices as one: what is shown or played goes to both, what is asked comes from the first."""
+"""Two devices as one: both show or play the output, the first answers queries."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ two, so that two networks of the same rate never find a tick empty because one i
 only two, so that a command is never older than a tick.
 
 With each value goes the time at which its sender spoke last, of whatever; a sender who has hung up
-never spoke. What feeds a drive ends with that, what feeds anything else stays as it was said.
+never spoke. Values for a drive expire when their sender falls silent, all others stay as sent.
 """
 
 from __future__ import annotations

@@ -4,11 +4,11 @@
 app, and its own beside them. An own network replaces one of the same file name, an own task one of
 the same name.
 
-    app.toml       what it consists of
+    app.toml       the list of its parts
     tasks.py       its tasks
-    grammar.jsgf   what its listeners hear, instead of what their network says
-    replies.toml   what it replies, where it extends the companion
-    demo.toml      who visits with `--demo`
+    grammar.jsgf   the grammar of its listeners, instead of the one that their network names
+    replies.toml   its replies, where it extends the companion
+    demo.toml      the visitors of `--demo`
     *.jsgf         other grammars, such as those of questions, which its tasks name
 """
 

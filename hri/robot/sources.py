@@ -24,7 +24,7 @@ PASSED_OVER = ("node_modules", "recordings")
 
 
 def of_every_run() -> Iterator[Path]:
-    """The code, what the search folders have, and what the user taught the robot."""
+    """The code, the content of the search folders, and the user's lexicon, colors and models."""
     yield CODE
     yield user_lexicon()
     yield own_colors()

@@ -218,7 +218,7 @@ def _parse_of(grammar: Grammar, text: str, rules: Collection[str], turn: Turn) -
 def _meaning(
     grammar: Grammar, text: str, turn: Turn, *rules: Collection[str] | None
 ) -> Parse | None:
-    """The meaning of a text, given the last command."""
+    """The meaning of a text, given the last utterance."""
     found = parse(grammar, text, *rules)
     if found is None or (found.rule in grammar.marked("typed") and not turn.is_typed):
         return found
@@ -240,7 +240,7 @@ def _reason(
 ) -> tuple[str, str]:
     """Why the words do not count, whatever else they may have been, and more of it.
 
-    `likely` has their meaning first, then those of likely alternatives; empty if they have none.
+    `likely` has the words' meaning, then those of likely alternatives; empty for words without one.
     """
     if not hypothesis.text:
         return "no speech", ""

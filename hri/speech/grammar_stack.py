@@ -21,7 +21,7 @@ LOOK_EVERY = 1.0
 """Seconds between looks whether a file has changed."""
 
 Prepare = Callable[[Grammar], Grammar]
-"""Makes what is heard of what a file says."""
+"""Turns the grammar in a file into the one to hear."""
 
 
 def as_written(grammar: Grammar) -> Grammar:

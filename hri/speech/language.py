@@ -90,7 +90,7 @@ def foreign(grammar: Grammar) -> str:
 
 
 def complaint(grammar: Grammar, language: str) -> tuple[str, str]:
-    """What is wrong with hearing a grammar of a language as English, and what to do."""
+    """The problem with hearing a grammar of a language as English, and its remedy."""
     model = next((one.name for one in DOWNLOADS if one.about == f"Vosk, {language}"), "")
     of_it = "it" if language == OTHER else language
     get = f"`hri models fetch {model}`" if model else f"get a Vosk model of {of_it}"

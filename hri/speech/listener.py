@@ -128,7 +128,7 @@ class Listener(Behavior):
     """The last command that others may follow, until some time."""
     _followed_until = 0.0
     _understood_until = 0.0
-    """When what was understood last, whatever it was, is over."""
+    """Until when others may follow the last utterance, whatever its rule."""
     last_utterance: Utterance | None = None
     """The last utterance."""
 
@@ -194,8 +194,8 @@ class Listener(Behavior):
     def push(self, grammar: str | Path, prepare: Prepare = as_written) -> Layer:
         """Put another grammar above the topmost one, until `pop`. Raises HriError as `use`.
 
-        The rules of the grammars below that are marked @interrupts stay in force. `prepare` makes
-        what is heard of what the file says; it runs in a worker.
+        The rules of the grammars below that are marked @interrupts stay in force. `prepare` turns
+        the grammar in the file into the one to hear; it runs in a worker.
         """
         return self._grammars.push(self._found(grammar), prepare)
 

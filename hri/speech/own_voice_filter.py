@@ -105,10 +105,10 @@ class OwnVoiceFilter:
         return is_loud and self._leftover.share(begun, now) >= LITTLE
 
     def is_own(self, heard: Heard) -> bool:
-        """Whether what was heard while the robot spoke is what it said, and most of the sound.
+        """Whether words heard while the robot spoke are its own, and its voice most of the sound.
 
         As long as its voice cannot be subtracted yet, and where little is left without it,
-        whatever is not clear is taken for that.
+        unclear words are taken for its own.
         """
         left = self._leftover.share(heard.start, heard.end)
         if heard.confidence < CLEAR and (heard.start < self._learned or left < LITTLE):

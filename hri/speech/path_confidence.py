@@ -2,8 +2,8 @@
 
 PocketSphinx scores a path against the best sound model of each frame, so the score of a path is
 its distance from "any sounds at all", and the grammar's own words come close to it. The score of
-a path grows with the square root of its length; what it does not tell is how much of the speech
-the path left unexplained as silence, which is what foreign talk leaves behind a short command.
+a path grows with the square root of its length; it does not show how much of the speech the path
+left unexplained as silence, the trace of foreign talk behind a short command.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The noise of a room: how loud it is, of what kind, and what to do about it."""
+"""The noise of a room: its level, its kind, and its remedy."""
 
 from __future__ import annotations
 

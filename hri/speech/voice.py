@@ -162,7 +162,7 @@ class Voice(Behavior):
         return saying
 
     def hush(self) -> None:
-        """Forget what is queued and cut what is being said."""
+        """Clear the queue and cut the current saying."""
         for saying in self._queue:
             saying.drop()
         self._queue.clear()
@@ -205,7 +205,7 @@ class Voice(Behavior):
         self.is_speaking.send(playing is not None)
 
     def _current(self) -> Saying | None:
-        """What is being said, else what is being made."""
+        """The saying that is playing, else the one being made."""
         return self._making if self._playing is None else self._playing.saying
 
     def _make_next(self) -> None:
@@ -320,7 +320,7 @@ class Voice(Behavior):
         self._tell(saying, "speech.finished", cut=was_cut, heard=saying.heard)
 
     def _tell(self, saying: Saying, event: str, **properties: object) -> None:
-        """Raise an event about a saying, of whoever had it said, whoever cuts it."""
+        """Raise an event about a saying; its originator is the cause, even if another cuts it."""
         with caused_by(saying.origin):
             self._events.raise_event(event, text=saying.text, **properties)
 

@@ -71,7 +71,7 @@ COMMANDS: Mapping[str, Command] = {
         "and it is not known yet, with `reason`",
     ),
     "say": Command("say a text", _TEXT),
-    "hush": Command("end what is being said, and forget what waits"),
+    "hush": Command("stop speaking, and forget the texts that wait"),
     "talk": Command("hear while someone holds a button, until a moment after the last such", _ON),
     "mute": Command("make it deaf, or let it hear again", _ON),
     "watch": Command("switch the camera on or off", _ON),

@@ -1,6 +1,4 @@
-"""The last events, each kind counted separately: what comes often must not push out what someone
-said.
-"""
+"""The last events, each kind counted separately: frequent ones must not push out speech."""
 
 from __future__ import annotations
 

@@ -95,7 +95,7 @@ class Troubles:
             self._problems[id] = words[:LONGEST_LINE]
 
     def of(self, id: str) -> str:
-        """What is wrong with a device, and what to do; empty when nothing is."""
+        """The problem with a device, and its remedy; empty when there is no problem."""
         return self._problems.get(id, "")
 
 

@@ -147,7 +147,7 @@ def _ports_of(runner: Runner) -> tuple[dict[str, list[int]], list[OutputPort[Any
         if isinstance(link.target, BoardSink):
             sent = link.source.output_port(link.output)
             slots.setdefault(f"{BOARD}.{link.input}", []).append(places[id(sent)])
-    return names | slots, ports  # what it writes to a slot goes before what it reads there
+    return names | slots, ports  # the value that it writes to a slot goes first
 
 
 def written(value: Any) -> str:

@@ -1,4 +1,4 @@
-"""The studio's server: hands on what the robot does, and asks the robot what the page wants.
+"""The studio's server: reports the robot's activity to the page, and passes requests back.
 
 It runs in a separate process, which ends with the link to the robot.
 """

@@ -173,7 +173,7 @@ class World(TypedDict):
 
 
 class Device(TypedDict):
-    """A device that is in use; `problem` is what is wrong with it and what to do, or empty."""
+    """A device that is in use; `problem` is its problem and the remedy, or empty."""
 
     id: str
     says: str

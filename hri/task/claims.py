@@ -27,7 +27,7 @@ __all__ = ["CONFLICTS", "Claims", "Conflict", "Interrupted"]
 
 
 class Conflict(Enum):
-    """What happens when a task claims what an equal one has."""
+    """How a claim is settled between two tasks of equal priority."""
 
     WAIT = "wait"
     INTERRUPT = "interrupt"

@@ -1,4 +1,4 @@
-"""A lane runs one job at a time: what comes next takes the place of what runs."""
+"""A lane runs one job at a time: a new job replaces the running one."""
 
 from __future__ import annotations
 

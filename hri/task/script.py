@@ -86,7 +86,7 @@ def use(
 ) -> None:
     """Choose the configuration and the clock of scripts, before their first task.
 
-    `doors` says what may come in over the network, beside what the configuration says.
+    `doors` admits more from the network than the configuration does.
 
     Raises RuntimeError when tasks run already.
     """

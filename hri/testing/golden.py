@@ -1,4 +1,4 @@
-"""Pictures that were approved: a test compares what is drawn now with what a person looked at.
+"""Approved pictures: a test compares the current drawing with the one that a person looked at.
 
 def test_my_robot_smiles(golden):
     golden.check("happy", render_face("mine", expression="happy"))

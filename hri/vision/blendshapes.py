@@ -39,7 +39,7 @@ BROWS_UP, BROWS_DOWN = 0.035, 0.02
 SHUT = 0.25
 """By which part eyes that shut become narrower than they are when open."""
 ADAPTATION = 20.0
-"""Seconds in which what a face does becomes what it does at rest."""
+"""Seconds in which a lasting expression becomes the face's rest."""
 FIRST_LOOK = 1.0
 """Seconds in which the rest is learned at first; all is near 0 until then."""
 

@@ -1,1 +1,1 @@
-"""The general behaviors: what every network may need, whatever the robot."""
+"""The general behaviors, for any network of any robot."""

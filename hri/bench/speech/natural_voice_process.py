@@ -1,4 +1,4 @@
-"""What the natural voice takes, and a digest of what it says: a script for a separate process.
+"""The cost of the natural voice, and a digest of its speech: a script for a separate process.
 
     python natural_voice_process.py TEXT
 

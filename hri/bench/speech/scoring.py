@@ -1,4 +1,4 @@
-"""What was made of a clip, against what was said in it."""
+"""The recognition of a clip, compared with the speech in it."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Outcome:
         return bool(self.accepted) and not self.is_right
 
     def means_the_same(self, grammar: Grammar) -> bool:
-        """One thing was understood that means what was said, in whatever words."""
+        """One thing was understood, with the same meaning as the spoken sentence."""
         if len(self.accepted) != 1:
             return False
         only, said = self.accepted[0], parse(grammar, self.clip.sentence)

@@ -1,4 +1,4 @@
-"""`hri color check`: what is damaged, and what is hard to tell apart."""
+"""`hri color check`: colors that are damaged, or hard to tell apart."""
 
 from __future__ import annotations
 

@@ -294,8 +294,8 @@ class ArduinoBridge(BaseProtocol):
         return None if counts is None else counts * self.battery["volts_per_count"]
 
     def _charge(self, voltage: float) -> float:
-        """A battery rests below what is called full, and works above what is called empty: beyond
-        them it still is the one or the other."""
+        """A battery rests below the full voltage and works above the empty one; voltages beyond
+        them count as full or empty."""
         empty, full = self.battery["empty_volts"], self.battery["full_volts"]
         return min(1.0, max(0.0, (voltage - empty) / (full - empty)))
 

@@ -1,7 +1,7 @@
-"""What a base on a serial line has to speak, and what it reports.
+"""The protocol of a base on a serial line, and its reports.
 
-A protocol is arithmetic on bytes: it owns no port and no clock, and time is an argument. Whoever
-holds the port writes `greeting`, `velocity`, `stop` and `poll`, and passes what arrives to `feed`.
+A protocol is arithmetic on bytes: it owns no port and no clock, and time is an argument. The owner
+of the port writes `greeting`, `velocity`, `stop` and `poll`, and passes incoming bytes to `feed`.
 What arrives may be late, lost, damaged or not from a base at all.
 """
 

@@ -87,7 +87,7 @@ class BaseDrive(OnBase, MovingBase):
 
     @property
     def _slowest(self) -> Cap:
-        """What is allowed whoever comes near; a motion planned faster might lag behind and fail."""
+        """The speed cap that holds even when people are near; faster plans may lag and fail."""
         return within_hardware(self.bus.limits.cap(is_near=True), self.bus.fastest)
 
     @property

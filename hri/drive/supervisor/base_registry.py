@@ -1,4 +1,4 @@
-"""The kinds of bases there are: what each speaks, and what emulates it.
+"""The kinds of bases, each with its protocol and its emulator.
 
 A new one is a protocol, a bus of two lines here, and its entry point.
 """

@@ -1,8 +1,8 @@
 """Whether there is floor below: redundant votes of flags, raw light and neighbors.
 
 An infrared cliff sensor counts the light that its own lamp throws back from the floor. The base
-derives a flag from it with its own threshold; the count itself, against what the floor counted
-lately, is a second vote, and what the next sensors say a third.
+derives a flag from it with its own threshold; the count itself, compared with recent counts of the
+floor, is a second vote, and the neighboring sensors are a third.
 """
 
 from __future__ import annotations

@@ -62,7 +62,7 @@ class _Fit:
 
 
 class Lag:
-    """Follows what one base is told and what it reports."""
+    """Follows the motion one base is told and the motion it reports."""
 
     def __init__(self, half_track: float) -> None:
         """Half the way between the wheels, meters."""

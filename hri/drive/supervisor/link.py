@@ -128,7 +128,7 @@ class State:
     is_open: bool = False
     """Whether the port is."""
     trouble: str = ""
-    """Why the port is not open: what is wrong - what to do."""
+    """Why the port is not open: problem - remedy."""
     allowed: Cap = NOTHING
     """The fastest that is allowed just now, by who is near; an obstacle may allow less."""
     waiting: tuple[Level, ...] = ()

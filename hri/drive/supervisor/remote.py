@@ -217,7 +217,7 @@ class Remote(SupervisorConnection):
             self._backoff.fail(self.clock.now())
 
     def _continued(self, state: State) -> State:
-        """What this supervisor says, behind what those before it have said."""
+        """The state, with news and motion counted on from earlier supervisors."""
         news = tuple(replace(item, number=item.number + self._told) for item in state.news)
         report = state.report
         if report is not None:

@@ -1,7 +1,7 @@
 """Decides what the wheels may do: pure arithmetic on reports, commands and time.
 
-Nobody can talk it out of anything. It begins latched; `release` is for people. It never raises for
-what it is told, and what it does not understand it takes for a reason to stand.
+Nobody can talk it out of anything. It begins latched; `release` is for people. No input makes
+it raise an exception; input that it does not understand is a reason to stand.
 """
 
 from __future__ import annotations
@@ -170,7 +170,7 @@ class Supervisor:
     def step(
         self, now: float, report: BaseReport | None, commands: Sequence[Command] = ()
     ) -> Decision:
-        """What the wheels are told at `now`, by the newest report and what was asked since."""
+        """The decision for the wheels at `now`, by the newest report and the commands since."""
         dt = self._step_to(now)
         refused = self._take(commands)
         self._judge(now, report)

@@ -38,7 +38,7 @@ _COUNTS = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2}
 
 
 class OutlineError(ValueError):
-    """An outline that cannot be used: what is wrong with it, and what to do in the editor."""
+    """An outline that cannot be used, with its fault and the remedy in the editor."""
 
     def __init__(self, what: str, remedy: str = "fix its numbers, or draw it again") -> None:
         super().__init__(what)

@@ -76,7 +76,7 @@ def load_drawing(path: Path) -> Drawing:
 
 @dataclass(frozen=True)
 class _State:
-    """What groups hand down to what is in them."""
+    """Properties that groups hand down to their content."""
 
     matrix: Matrix = field(default_factory=lambda: IDENTITY)
     opacity: float = 1.0

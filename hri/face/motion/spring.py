@@ -1,4 +1,4 @@
-"""Critically damped springs in closed form: what jumps is turned into what glides.
+"""Critically damped springs in closed form: they turn jumps into glides.
 
 x(t) = (x0 + (v0 + w x0) t) exp(-w t) is the fastest motion to rest that does not swing. There are
 two ways to use it. A `Follower` goes after goals that jump, such as expressions. A `Spring` stays
@@ -23,7 +23,7 @@ class Follower:
     """Goes after its goal, and never beyond what goals have been so far.
 
     A critically damped spring is two low-pass filters in a row, y after the goal and x after y.
-    Each step is a weighted mean of what is and what is wanted, at any stiffness, even one that
+    Each step is a weighted mean of the current state and the goal, at any stiffness, even one that
     changes on the way.
     """
 

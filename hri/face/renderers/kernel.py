@@ -162,7 +162,7 @@ def _add(
 ) -> None:
     """Add the edges of contours to the sums of a box.
 
-    What is left of the box covers the whole row in it, what is right of it nothing.
+    Edges left of the box cover its whole rows, edges right of it cover nothing.
     """
     # One function of many loops: passing arrays on takes longer than what is done with them.
     left, top, right, bottom = box
@@ -391,7 +391,7 @@ def _open(
 def _close(
     canvas: Picture, below: NDArray[np.uint32], masks: NDArray[np.uint8], depth: int, box: Box
 ) -> None:
-    """Lay what was painted since an opening over what is below it, through the mask."""
+    """Lay the pixels painted since an opening over those below it, through the mask."""
     left, top, right, bottom = box
     for row in range(uint64(top), uint64(bottom)):
         for x in range(uint64(left), uint64(right)):

@@ -1,7 +1,7 @@
 """Lines of a width as polygons to fill, with round ends and rounded corners.
 
-The pen is a circle: what it covers on its way is what a radius sweeps that stands across the line
-and turns at each corner. The polygons have the same vertices, in number, however the lines bend.
+The pen is a circle: it covers the area swept by a radius that stands across the line and turns at
+each corner. The polygons have the same vertices, in number, however the lines bend.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ Points = NDArray[np.float32]
 """Shape [n, 2], pixels."""
 
 _CORNER = 3
-"""Points of each side at a vertex: across what comes, between, across what follows."""
+"""Points of each side at a vertex: across the segment before, between, across the one after."""
 _CAP = 7
 """Points of a round end between its two sides."""
 _ANGLES = np.arange(1, _CAP + 1) * np.pi / (_CAP + 1)

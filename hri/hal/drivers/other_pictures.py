@@ -1,4 +1,4 @@
-"""What a file is that is not read as a picture, and what to do about it."""
+"""Identifies files that cannot be read as pictures, and names the remedy."""
 
 from __future__ import annotations
 

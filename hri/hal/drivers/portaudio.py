@@ -130,7 +130,7 @@ def _all_refused(said: str) -> Refused:
 
 
 def _text(error: Exception) -> str:
-    """What PortAudio says, with what the system says where it knows more."""
+    """PortAudio's message, with the system's message if there is one."""
     said = str(error.args[0]) if error.args else type(error).__name__
     for _, _, host_says in error.args[2:3]:
         return f"{said}: {host_says}" if host_says else said

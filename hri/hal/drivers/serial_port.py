@@ -49,7 +49,7 @@ class Port(ABC):
     @property
     @abstractmethod
     def reason(self) -> str:
-        """Why it is closed: what is wrong - what to do; empty while nothing is."""
+        """Why it is closed: problem - remedy; empty while nothing is wrong."""
 
     @abstractmethod
     def read(self, now: float) -> bytes:

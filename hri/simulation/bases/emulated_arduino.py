@@ -64,7 +64,7 @@ class EmulatedArduino(Emulator):
         self._battery = {name: value[0] for name, value in BATTERY.items()} | dict(battery or {})
         self._battery_pin, self._auto_stop = battery_pin, auto_stop
         self.overrides: dict[int, int] = {}
-        """What analog pins read, whatever is wired to them."""
+        """Readings of analog pins, regardless of their wiring."""
         self._meters_per_count = (
             math.pi * shape["wheel_diameter_cm"] / 100 / shape["counts_per_turn"]
         )

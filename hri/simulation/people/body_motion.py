@@ -1,7 +1,7 @@
 """How people move: how they hold head and face, and where they are, as functions of time.
 
-Nods and shakes mean something; all else here is what people do besides, and what a recognizer of
-head gestures must not take for one.
+Nods and shakes mean something; all other motions here are incidental, and a recognizer must not
+take them for head gestures.
 """
 
 from __future__ import annotations

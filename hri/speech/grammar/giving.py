@@ -18,7 +18,7 @@ from hri.speech.grammar.tags import TagEntry
 
 Names = frozenset[str]
 Step = Callable[[Names], Names]
-"""From what is set before a part to what is set behind it."""
+"""Maps the tags set before a part to those set behind it."""
 
 
 def sure_tags(rules: RulesByKey, key: str) -> Names:

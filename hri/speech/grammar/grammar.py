@@ -161,10 +161,10 @@ def _graph(rules: Rules) -> WordGraph:
 def flat_jsgf(grammar: Grammar, rules: Collection[str]) -> str:
     """See `Grammar.flat_jsgf`. PocketSphinx knows one public rule only and no dots in names.
 
-    What can never be said is left out: with a `<VOID>` anywhere it hears nothing of the rest. So is
-    what has free words, which no other engine knows, what is said beside commands, which makes
-    PocketSphinx hear it in everything, and what has a topic: among all the small talk it mistakes
-    every second command.
+    What can never be said is left out: with a `<VOID>` anywhere it hears nothing of the rest. So
+    are parts with free words, which no other engine knows; words said beside commands, which
+    PocketSphinx would hear in everything; and rules with a topic: among all the small talk it
+    mistakes every second command.
     """
     unsaid = {key for key, rule in grammar.rules.items() if "aside" in rule.marks}
     sayable = _Sayable(grammar.made(analysis.heights), unsaid)

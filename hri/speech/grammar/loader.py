@@ -432,7 +432,7 @@ def _frames_of(
 
 
 def _not_public(other: _File, grammar: str, name: str) -> tuple[str, str]:
-    """What is wrong with the use of a rule, and what to do."""
+    """The mistake in the use of a rule, and its remedy."""
     if name in other.own:
         remedy = f'write "public" before it in {other.document.path.name}'
         return f'<{name}> of "{grammar}" is not public', remedy

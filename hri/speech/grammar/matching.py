@@ -306,7 +306,7 @@ class _Said(IntEnum):
 
 
 _History = tuple["_History | None", _Said, Actions]
-"""The steps so far, the last one first: what it said, and what it did."""
+"""The steps so far, the last one first: its kind of word, and its actions."""
 
 
 def _listed_words(parse: Parse) -> int:
@@ -576,7 +576,7 @@ def _reading(words: list[str], history: _History | None) -> tuple[Tree, Groups, 
             elif isinstance(action, Defer):
                 open_rules.append(_Open(children, position, None, action.entries, True))
             else:
-                # What begins comes before the word of an arc, what ends behind it.
+                # A rule begins before the word of an arc, and ends behind it.
                 if not is_said:
                     children.append(words[position])
                     position += 1

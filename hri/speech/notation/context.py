@@ -40,7 +40,7 @@ MEASURES = IRREGULAR | frozenset(
     pixels points pounds seats seconds steps tickets tons users volts watts weeks words
     yards years""".split()
 )
-"""What is counted, whatever stands before the number."""
+"""Nouns that are counted, regardless of the word before the number."""
 YEAR_NOUNS = frozenset(
     """accords awards census championships elections finals games hurricanes models olympics
     playoffs prices protests results riots rules sales talks taxes wildfires""".split()

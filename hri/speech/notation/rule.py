@@ -1,4 +1,4 @@
-"""What a rule of reading is: a pattern, and what is said for what it finds."""
+"""A rule of reading: a pattern, and the words for its matches."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ LETTER = rf"[^\W\d_{SUPERSCRIPTS}½¼¾⅐-⅟\u2460-\u24ff]"
 
 @dataclass(slots=True)
 class Scan:
-    """What a rule may know of what stands before."""
+    """Facts about the text before, for rules to use."""
 
     is_after_amount: bool = False
     """Whether the last that was said was an amount, with at most a space since."""

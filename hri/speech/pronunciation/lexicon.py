@@ -5,9 +5,9 @@ there are those of `variants.txt`, from general American and British speech ("al
 broad A of "fast", "schedule" with SH). It lacks some names of today; `more_names.txt` has them.
 
 A lexicon is a text file in the format of the CMU dictionary: a word, spaces, its phones. A word
-that stands in several lines may be said in several ways, the likeliest first; what a lexicon says
-of a word replaces what the dictionary says. Stress (the digits 0, 1 and 2 behind vowels) may be
-written and is used by the voice; a line that begins with `#` or `;` is a comment.
+that stands in several lines may be said in several ways, the likeliest first; a lexicon's entries
+for a word replace the dictionary's. Stress (the digits 0, 1 and 2 behind vowels) may be written and
+is used by the voice; a line that begins with `#` or `;` is a comment.
 
     # our cat
     schrodinger   SH R OW1 D IH0 NG ER0

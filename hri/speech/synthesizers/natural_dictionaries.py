@@ -41,7 +41,7 @@ class Pronouncer(g2p.G2P):  # type: ignore[misc]
     """Makes symbols of words as hibari does."""
 
     def __init__(self) -> None:
-        # In turns, the largest first: what the next one needs fits into what that one left.
+        # In turns, the largest first: the next one fits into the memory that it left.
         tagger = _read("tagger.json.gz")
         self.tagger = g2p.Tagger({**tagger, "weights": Packed(tagger.pop("weights"))})
         gold, silver = (Packed(_read(f"lexicon_us_{kind}.json.gz")) for kind in ("gold", "silver"))

@@ -60,9 +60,9 @@ class Engine:
 class NetworkVoice(Synthesizer):
     """Speaks by a network, sentence by sentence.
 
-    What it has no symbols for, and what is said in a voice of another name, is said by espeak-ng.
-    So is everything, after one notice, where the model is missing or fails, or was found too slow
-    for this machine.
+    Text that it has no symbols for, or in a voice of another name, is left to espeak-ng. So is
+    everything, after one notice, where the model is missing or fails, or was found too slow for
+    this machine.
     """
 
     @abstractmethod

@@ -63,7 +63,7 @@ def _voice_of(wanted: str) -> str:
 
 
 def unknown(wanted: str) -> str:
-    """What is wrong with a name that means no voice, and what to do."""
+    """The mistake in a name that matches no voice, and its remedy."""
     library = load_espeak()
     ids = [voice.id for voice in library.voices()]
     tongues = {tongue(voice.name) for voice in library.voices()}

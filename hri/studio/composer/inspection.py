@@ -1,4 +1,4 @@
-"""What there is to build with, and what is wrong with a network, as plain values for the page.
+"""The behaviors to build with, and the problems of a network, as plain values for the page.
 
 Behaviors of your own are Python that is imported here: it runs in a separate process
 (`workshop`), never in the server.

@@ -1,9 +1,10 @@
 """Color constancy: the color of things, whatever light they are in.
 
-The light of a picture is estimated from the picture: how bright by what is brightest in it, and how
-tinted by a Minkowski mean of what is not colorful ("shades of gray": Finlayson and Trezzi, "Shades
-of gray and colour constancy", 2004). Each channel is scaled by it (von Kries), and then the chroma
-of each pixel by how bright that pixel is, so that neither a lamp nor a shadow changes it.
+The light of a picture is estimated from the picture: its brightness from the brightest pixels, its
+tint from a Minkowski mean of the pixels that are not colorful ("shades of gray": Finlayson and
+Trezzi, "Shades of gray and colour constancy", 2004). Each channel is scaled by it (von Kries), and
+then the chroma of each pixel by how bright that pixel is, so that neither a lamp nor a shadow
+changes it.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ BELIEVED = 0.85
 STRONGEST = 1.5
 """Times, by which a tint changes a channel at most."""
 COLORFUL = 0.65
-"""Saturation, 0 to 1, from which a pixel says what a thing is, and not what the light is ..."""
+"""Saturation, 0 to 1, from which a pixel shows the color of a thing, not that of the light ..."""
 ENOUGH = 0.3
 """... and part of the picture that must be less: with fewer pixels less of the tint is believed."""
 BRIGHTEST = 0.98

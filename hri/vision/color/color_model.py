@@ -72,8 +72,8 @@ class ColorModel:
 def learn_color(name: str, pictures: Iterable[Taught], day: str = "") -> ColorModel:
     """Learn from pictures and the boxes that show the color.
 
-    What is farther from the boxes is background, what is transparent neither. Raises HriError when
-    a box is outside of its picture, or there is too little of either.
+    Pixels well outside of the boxes are background, transparent ones neither color nor background.
+    Raises HriError when a box is outside of its picture, or there is too little of either.
     """
     inside: list[Samples] = []
     outside: list[Samples] = []

@@ -23,13 +23,13 @@ AUTO, HAAR = "auto", "haar"
 
 @dataclass(frozen=True, slots=True)
 class Detectors:
-    """What finds faces, and what fits a mesh to them."""
+    """A face finder, and a model that fits a mesh to the faces."""
 
     finder: FaceFinder
     mesh: FaceMesh | None = None
     """None when its file is not there: faces are then boxes that optical flow follows."""
     problems: tuple[str, ...] = ()
-    """What of the setting cannot be had, and what to do about it."""
+    """The unavailable parts of the setting, with their remedies."""
 
 
 def load_detectors(setting: str = AUTO) -> Detectors:

@@ -50,7 +50,7 @@ class BlockFlow:
     """Shape [rows, columns, 2]: pixels to the right and down, averaged over each cell."""
     confidence: Cells
     """Shape [rows, columns], 0 to 1: low where a cell has no structure in two directions, and where
-    what was there before is not what is there now."""
+    the flow does not map the first picture onto the second."""
 
     @property
     def mean(self) -> tuple[float, float]:

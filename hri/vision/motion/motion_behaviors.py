@@ -83,8 +83,8 @@ class MotionFlow(_MovingPictures):
 
     Cells of a plain wall show noise alone; each cell counts by its confidence.
 
-    What the robot's own turning and driving make of the field is subtracted; how the picture grows
-    keeps what driving makes of it, since that is what a collision announces itself by.
+    The robot's own turning and driving are subtracted from the field. The growth of the picture
+    keeps the part caused by driving, since that part announces a collision.
     """
 
     x = Output[float]("double", "mean of the field, pixels a second to the right")

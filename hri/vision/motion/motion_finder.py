@@ -148,8 +148,8 @@ def _without_late_turning(cells: Cells, shift: float) -> Cells:
 def _moving(
     cells: Cells, camera: Cells, before: NDArray[np.uint8], gray: NDArray[np.uint8]
 ) -> NDArray[np.uint8]:
-    """Which cells move, [rows, columns]: by themselves they are fast, and what the camera's motion
-    makes of the picture before is not what is there now.
+    """Which cells move, [rows, columns]: they are fast by themselves, and the camera's motion alone
+    does not explain their pixels.
     """
     expected, is_known = _moved(before, camera)
     levels = _by_cell(np.asarray(cv2.absdiff(expected, gray), np.uint8))

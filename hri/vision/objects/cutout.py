@@ -44,7 +44,7 @@ def middle(image: Image) -> Outline:
 
 
 def opaque(image: Image, alpha: Mask | None) -> Outline | None:
-    """What is not transparent, else what stands before a background of one color, else all.
+    """The outline of the opaque part, else of a thing before an even background, else of all.
 
     None when hardly anything is opaque.
     """

@@ -1,7 +1,7 @@
 """What is held up before a camera; pictures of someone's face and of the room alone teach nothing.
 
-One picture does not show what belongs to a thing and what stands behind it. So whatever is taken
-for the thing must have an edge around it, and no face may be in it or where it is to be held.
+One picture does not separate a thing from its background. So the area that is taken for the thing
+must have an edge around it, and no face may be in it or where it is to be held.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ MEMORY = 2.0
 
 
 class ObjectPresence:
-    """Reports what comes and goes from what is found in picture after picture."""
+    """Reports objects that come and go, from those found in each picture."""
 
     def __init__(self) -> None:
         self._recent: deque[frozenset[str]] = deque(maxlen=OF_PICTURES)

@@ -72,8 +72,8 @@ def ambiguity(grammar: Grammar, sentence: str) -> Ambiguity | None:
     """The two meanings of a sentence, if it has two.
 
     Two rules with the mark "part" are not heard side by side, so one sentence may be of both. It
-    may also be of an answer, which it is while a question is open, of what follows a command, or
-    of what is only typed, and of another rule; and of two rules that count after different
+    may also be of another rule and of an answer (which counts while a question is open), a
+    follow-up to a command, or a typed-only rule; and of two rules that count after different
     commands.
     """
     readings = parses(grammar, sentence)

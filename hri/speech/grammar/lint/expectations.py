@@ -99,7 +99,7 @@ class Failure:
 
     expectation: Expectation
     came: str
-    """What came instead of what was expected."""
+    """The actual outcome."""
 
     def __str__(self) -> str:
         line = self.expectation
@@ -127,7 +127,7 @@ def failures(grammar: Grammar, expectations: Expectations) -> list[Failure]:
 
 
 def _disappointment(grammar: Grammar, line: Expectation, found: Parse | None) -> str:
-    """What is wrong with what was understood; empty when nothing is."""
+    """How the outcome fails the expectation; empty when it does not."""
     if found is not None and found.free and len(all_of := meanings(grammar, line.sentence)) > 1:
         told = " or ".join(str(meaning_of(one)) for one in all_of)
         return f"means {told}, which are equally specific, so that the robot asks"

@@ -16,7 +16,7 @@ hints cost nothing yet, notes are worth a thought and are shown to those who ask
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """What was found, where, and what to do."""
+    """An issue, its place and its remedy."""
 
     severity: Severity
     place: Place

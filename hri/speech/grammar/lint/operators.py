@@ -29,7 +29,7 @@ def idle_operators(grammar: Grammar, rules: Iterable[Rule]) -> Iterator[Finding]
 
 
 def _wrong(entry: TagEntry, kinds: Kinds, set_to: Kinds) -> tuple[str, str] | None:
-    """What is wrong with an entry, and what to do."""
+    """The mistake in an entry, and its remedy."""
     name, before = entry.name, kinds.get(entry.name, set())
     if entry.operation == "*=" and not before:
         what = f'"{name}*=" does nothing, for nothing gives {name} a value'

@@ -1,12 +1,12 @@
 """How the network hears common words otherwise than the dictionary says.
 
 Its teachers pronounced some words as they are spelled, or as another language does: "me" like
-"may", "have" like "gave", "one" with an "own" in it. So that is what it gives for them, whoever
-speaks, people as well as synthesizers. `habits.txt` has such words, in the format of a lexicon.
-Each of 1,380 common words was spoken eight times by five synthetic voices; it stands there when
-three voices or more had the same other phones, in a third of the cases or more, and the
-dictionary's own were rarer. What only noise or haste explains (a lost consonant at an end) was
-left out by hand, and a few words were added from clean sentences and recordings.
+"may", "have" like "gave", "one" with an "own" in it. So it gives these sounds for them, whether
+people or synthesizers speak. `habits.txt` has such words, in the format of a lexicon. Each of 1,380
+common words was spoken eight times by five synthetic voices; it stands there when three voices or
+more had the same other phones, in a third of the cases or more, and the dictionary's own were
+rarer. What only noise or haste explains (a lost consonant at an end) was left out by hand, and a
+few words were added from clean sentences and recordings.
 """
 
 from __future__ import annotations

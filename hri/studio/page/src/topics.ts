@@ -141,7 +141,7 @@ export interface World {
   obstacles: PlacedObstacle[];
 }
 
-/** A device that is in use; `problem` is what is wrong with it and what to do, or empty. */
+/** A device that is in use; `problem` is its problem and the remedy, or empty. */
 export interface Device {
   id: string;
   says: string;
