@@ -152,6 +152,12 @@ class Speech:
     """In order; empty when the voice gives no times."""
     marks: tuple[tuple[str, float], ...] = ()
     """Names of places in the text, and the seconds at which they are reached; in order."""
+    saying: object = field(default=None, compare=False, repr=False)
+    """The same for all lengths of a speech that grows while it is said; None for a whole one."""
+
+    def continues(self, earlier: Speech | None) -> bool:
+        """Whether this is a longer part of the speech that another one is a part of."""
+        return self.saying is not None and earlier is not None and self.saying is earlier.saying
 
     def then(self, part: Speech, position: int) -> Speech:
         """This speech and another at the same rate, whose text stands at a place of this text."""
@@ -170,6 +176,7 @@ class Speech:
             (*self.words, *map(moved, part.words)),
             (*self.sentences, *map(moved, part.sentences)),
             (*self.marks, *((name, time + begun) for name, time in part.marks)),
+            self.saying or object(),
         )
 
     @property

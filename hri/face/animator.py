@@ -105,8 +105,11 @@ class Animator:
 
     def speak(self, speech: Speech | None) -> None:
         """Move the lips to this speech from now on; None when nothing is said."""
-        if speech is not self._speaking.speech:
-            self._speaking.say(speech)
+        before = self._speaking.speech
+        if speech is before:
+            return
+        self._speaking.say(speech)
+        if speech is None or not speech.continues(before):
             self._cause("speech ended" if speech is None else "speech began")
 
     def gesture(self, name: str, strength: float = 1.0, seconds: float = 0.0) -> Playing:

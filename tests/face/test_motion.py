@@ -393,3 +393,17 @@ def test_what_cannot_be_shown_leaves_the_face_as_it_was(ask, error) -> None:  # 
         ask(animator)
     for one, other in zip(animate(animator, 0.5), animate(plain, 0.5), strict=True):
         assert np.array_equal(one, other)
+
+
+def test_a_speech_that_grows_moves_the_lips_as_the_whole_does() -> None:
+    first = Speech("a b", np.zeros(0, np.int16), RATE).then(spoken(*["a", "m"] * 4), 0)
+    whole = first.then(spoken(*["u:", "m"] * 4), 2)
+    assert whole.continues(first)
+    assert not whole.continues(Speech("a b", whole.samples, RATE, whole.phonemes))
+    at_once, growing = Animator(MODEL, seed=3), Animator(MODEL, seed=3)
+    for tick in range(36):
+        now = tick * TICK
+        at_once.speak(whole)
+        growing.speak(first if now < 0.4 else whole)
+        frames = [animator.vector(now, TICK, now) for animator in (at_once, growing)]
+        assert np.allclose(*frames, atol=1e-3), now

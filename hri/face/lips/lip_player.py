@@ -46,9 +46,13 @@ class LipPlayer:
         self._talking = Follower(0.0)
 
     def say(self, speech: Speech | None) -> None:
-        """Follow this speech; None when nothing is said."""
+        """Follow this speech; None when nothing is said. The mouth glides only to another one."""
+        is_followed = self._followed is self._track and self._track is not None
+        goes_on = speech is not None and speech.continues(self.speech)
         self.speech = speech
         self._track = None if speech is None else lip_track(speech)
+        if is_followed and goes_on:
+            self._followed = self._track
 
     def follow(self, position: float | None, dt: float) -> tuple[Values, float]:
         """Weights of all channels, and how much speech owns the mouth, 0 to 1.
