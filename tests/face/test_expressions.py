@@ -376,3 +376,18 @@ def test_what_cannot_be_drawn_is_refused(arguments: dict[str, object], message: 
 def test_weights_far_out_of_range_still_give_a_picture() -> None:
     wild = {"jawOpen": 1e30, "headX": -1e30, "eyeBlink": -50.0}
     assert render_face(MODEL, weights=wild, size=SIZE).shape == (480, 480, 3)
+
+
+@pytest.mark.parametrize(
+    ("viseme", "jaw", "round_lips"),
+    [
+        ("PP", (0.0, 0.05), (0.0, 0.2)),
+        ("aa", (0.5, 1.0), (0.0, 0.2)),
+        ("oh", (0.4, 0.7), (0.6, 1.0)),
+        ("ou", (0.05, 0.3), (0.4, 1.0)),
+    ],
+)
+def test_a_viseme_opens_and_rounds_the_mouth(viseme, jaw, round_lips):
+    weights = MODEL.viseme(viseme)
+    assert jaw[0] <= weights.get("jawOpen", 0.0) <= jaw[1]
+    assert round_lips[0] <= weights.get("mouthFunnel", 0.0) <= round_lips[1]

@@ -257,3 +257,25 @@ def test_a_closed_mouth_is_closed_on_the_face() -> None:
     frames = {n: player.follow(n / 100, 0.01)[0] for n in range(-20, 20)}
     assert MODEL.weights(frames[18]).get("jawOpen", 0.0) < 0.02
     assert MODEL.weights(frames[6])["jawOpen"] > 0.4
+
+
+@pytest.mark.parametrize(
+    ("espeak", "arpabet", "visemes"),
+    [
+        ("m", "M", ("PP",)),
+        ("f", "F", ("FF",)),
+        ("s", "S", ("SS",)),
+        ("n", "N", ("nn",)),
+        ("k", "K", ("kk",)),
+        ("A:", "AA", ("aa",)),
+        ("E", "EH", ("E",)),
+        ("i:", "IY", ("ih",)),
+        ("O:", "AO", ("oh",)),
+        ("u:", "UW", ("ou",)),
+        ("aI", "AY", ("aa", "ih")),
+        ("oU", "OW", ("oh", "ou")),
+    ],
+)
+def test_a_sound_has_its_shape_in_both_alphabets(espeak, arpabet, visemes):
+    assert sound_of(espeak).visemes == visemes
+    assert sound_of(arpabet, arpabet=True).visemes == visemes
