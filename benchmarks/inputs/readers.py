@@ -61,7 +61,7 @@ READERS: dict[str, Reader] = {
     "formula": Reader(calls.formula, good.formulas, "formula.txt"),
     "grammar": _named(
         "hri.speech.grammar:load_grammar",
-        _shipped("grammars/*.jsgf", "benchmarks/phone_network/calibration/*.jsgf"),
+        _shipped("grammars/*.jsgf", "benchmarks/research/phone_network/calibration/*.jsgf"),
         "grammars/a.jsgf",
     ),
     "grammar, checked": Reader(

@@ -3,7 +3,8 @@
 Log-mel frames, a convolution that halves their rate, blocks of (half a feed-forward layer,
 attention over all frames, a convolution over 31 frames, half a feed-forward layer), and a
 projection onto the classes (A. Gulati et al., "Conformer", Interspeech 2020). The network that
-comes with `hri` has 4 blocks; how it was made: benchmarks/phone_network/README.md. Trained by
+comes with `hri` has 4 blocks; how it was made:
+benchmarks/research/phone_network/README.md. Trained by
 connectionist temporal classification: most frames are blank, a phone shows as a peak of one or
 two frames.
 

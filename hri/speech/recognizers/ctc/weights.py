@@ -41,7 +41,7 @@ def find_weights(path: str = "") -> Path:
 
 
 def read_tensors(file: Path) -> Mapping[str, Tensor]:
-    """All tensors of a weight file by name; `benchmarks/phone_network` writes such files.
+    """All tensors of a weight file by name; `benchmarks/research/phone_network` writes such files.
 
     Raises NotAvailable when it cannot be read, or is not such a file.
     """

@@ -66,7 +66,7 @@ MIXED = 0.4
 """How many of its sentences Kokoro says as a mixture of three voices."""
 OUTSIDE = Path(benchmarks.speech.__file__).with_name("outside.txt")
 PROMPTS = Path("/usr/share/asterisk/sounds/en_US_f_Allison")
-DIGITS = HERE.parents[2] / "shared" / "speech" / "real" / "digits"
+DIGITS = HERE.parents[3] / "shared" / "speech" / "real" / "digits"
 ESPEAK = [
     "en-us",
     "en-gb",
