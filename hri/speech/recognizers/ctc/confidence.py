@@ -156,11 +156,11 @@ IN_NOISE = (0.40, 0.40, 0.40, 1.00, -0.30)
 
 In quiet what was said fits so well that a little less is suspicious; in noise it is not. Logistic
 regression by `benchmarks/research/phone_network/fit.py`: pieces of speech, clean and in noise at
-15 to 6 dB, of grammars and sentences that the figures of `hri bench speech` are not taken from; some
-voices are in both. Around its result the weights were settled with sight of the figures in quiet, and in noise
-by the same sentences in other draws of the noise: where the limits of `hri bench speech` are missed
-least. Two such choices were then measured, and the one with fewer mistakes was kept. So the figures
-are not an independent test.
+15 to 6 dB, of grammars and sentences that the figures of `hri bench speech` are not taken from;
+some voices are in both. Around its result the weights were settled with sight of the figures in
+quiet, and in noise by the same sentences in other draws of the noise: where the limits of `hri
+bench speech` are missed least. Two such choices were then measured, and the one with fewer
+mistakes was kept. So the figures are not an independent test.
 """
 
 
