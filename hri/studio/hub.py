@@ -20,14 +20,14 @@ from hri.core.errors import HriError
 from hri.studio.commands import PRESS
 from hri.studio.connections import Seat
 from hri.studio.event_memory import EventMemory
-from hri.studio.link import PICTURES, TEXT, Unpacker, packed_json
+from hri.studio.link import PICTURES, TEXT, VALUE, Unpacker, packed_json
 from hri.studio.request_queue import MOST_REQUESTS, MOST_STOPS, STOP
 
 PATIENCE = 2.0
 """Seconds that the robot has to answer."""
 MOST_PRESSES = 100
 """Stops that are known again when they come by another way."""
-VALUES = frozenset({"ports", "thumbnails"})
+NETWORK_TOPICS = frozenset({"ports", "thumbnails"})
 """Topics that only pages get that want values."""
 
 
@@ -86,7 +86,8 @@ class Hub:
         self._presses: dict[str, Question] = {}
         """The last stops that have a name."""
         self._wanted: list[str] = []
-        self.values: dict[str, Any] = {}
+        self.values: dict[str, str] = {}
+        """The newest value of each topic, as JSON."""
         self._events: EventMemory[str] = EventMemory(most_flood=0)
         self.pages: set[Page] = set()
 
@@ -97,8 +98,18 @@ class Hub:
             for kind, content in unpacker.feed(bytes(data)):
                 if kind == TEXT:
                     self._take(json.loads(content), content.decode())
+                elif kind == VALUE:
+                    self._pass_on(*content.decode().split("\n", 1))
                 else:
                     self._show(kind, content)
+
+    def _pass_on(self, topic: str, value: str) -> None:
+        """Give pages the value of a topic, which is JSON."""
+        self.values[topic] = value
+        for page in self.pages:
+            if topic not in NETWORK_TOPICS or page.wants_values:
+                page.values[topic] = _as_message(topic, value)
+                page.news.set()
 
     def _take(self, message: dict[str, Any], text: str) -> None:
         if "answer" in message:
@@ -107,17 +118,9 @@ class Hub:
                 question.answer = message
                 question.is_answered.set()
             return
-        if "topic" in message:
-            self.values[message["topic"]] = message["value"]
-        else:
-            self._events.add(message["event"], text)
+        self._events.add(message["event"], text)
         for page in self.pages:
-            if message.get("topic") in VALUES and not page.wants_values:
-                continue
-            if "topic" in message:
-                page.values[message["topic"]] = text
-            else:
-                page.events.add(message["event"], text)
+            page.events.add(message["event"], text)
             page.news.set()
 
     def _show(self, kind: int, content: bytes) -> None:
@@ -129,10 +132,7 @@ class Hub:
 
     async def add(self, page: Page) -> None:
         """Let a page look: it begins with the newest of everything."""
-        page.values = {
-            topic: json.dumps({"topic": topic, "value": value})
-            for topic, value in self.values.items()
-        }
+        page.values = {topic: _as_message(topic, value) for topic, value in self.values.items()}
         page.events.extend(self._events)
         page.news.set()
         self.pages.add(page)
@@ -198,6 +198,11 @@ class Hub:
             raise HriError("the robot has ended") from None
         finally:
             self._is_sending = False
+
+
+def _as_message(topic: str, value: str) -> str:
+    """What a page gets of a topic; `value` is JSON."""
+    return f'{{"topic":"{topic}","value":{value}}}'
 
 
 class Waiting(HriError):

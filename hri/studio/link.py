@@ -25,8 +25,9 @@ from hri.core.signals import Image
 from hri.studio.event_memory import EventMemory
 from hri.studio.request_queue import MOST_REQUESTS, MOST_STOPS, Request, RequestQueue
 
-TEXT, FACE, CAMERA = 1, 2, 3
-"""Kinds of messages: JSON, and pictures as JPEG behind their time."""
+TEXT, FACE, CAMERA, VALUE = 1, 2, 3, 4
+"""Kinds of messages: JSON, pictures as JPEG behind their time, and the value of a topic: its name,
+a line break, and JSON that the server passes on as it is."""
 PICTURES = {"face": FACE, "camera": CAMERA}
 NETWORK, THUMBNAIL = "network:", "thumbnail:"
 """What begins the name of a network whose values are wanted, and of an output whose picture is."""
@@ -51,11 +52,20 @@ def packed(kind: int, content: bytes) -> bytes:
 
 def packed_json(value: Any) -> bytes:
     """A message of JSON; numbers that JSON does not have are null."""
+    return packed(TEXT, _json(value).encode())
+
+
+def packed_value(topic: str, value: Any) -> bytes:
+    """A message with the value of a topic."""
+    return packed(VALUE, f"{topic}\n{_json(value)}".encode())
+
+
+def _json(value: Any) -> str:
+    """JSON; numbers that JSON does not have are null."""
     try:
-        text = json.dumps(value, separators=(",", ":"), allow_nan=False)
+        return json.dumps(value, separators=(",", ":"), allow_nan=False)
     except (ValueError, TypeError):
-        text = json.dumps(finite(value), separators=(",", ":"))
-    return packed(TEXT, text.encode())
+        return json.dumps(finite(value), separators=(",", ":"))
 
 
 def finite(value: Any) -> Any:
@@ -232,8 +242,8 @@ class RobotEnd:
 
 def _packed_value(topic: str, value: Any) -> bytes | Callable[[], bytes]:
     if not callable(value):
-        return packed_json({"topic": topic, "value": value})
-    return lambda: packed(TEXT, f'{{"topic":"{topic}","value":{value()}}}'.encode())
+        return packed_value(topic, value)
+    return lambda: packed(VALUE, f"{topic}\n{value()}".encode())
 
 
 def _compressed(topic: str, image: Image, time: float) -> bytes:

@@ -75,7 +75,7 @@ class Settings:
     networks: list[str] = field(default_factory=list)
     """Files of the app that runs."""
     devices: list[dict[str, str]] = field(default_factory=list)
-    """Of the robot, as choices for parameters: see `hri.studio.body`."""
+    """Of the robot, as choices for parameters: see `hri.studio.devices`."""
 
     @property
     def cookie(self) -> str:
@@ -176,7 +176,8 @@ class Studio:
     async def _state(self, request: Request) -> Response:
         if not self._is_known(request):
             return _stranger()
-        return JSONResponse(self._hub.values)
+        values = ",".join(f'"{topic}":{value}' for topic, value in self._hub.values.items())
+        return Response(f"{{{values}}}", media_type="application/json")
 
     async def _code(self, request: Request) -> Response:
         if not self._is_known(request):

@@ -16,6 +16,7 @@ from hri.studio.link import (
     FACE,
     LARGEST,
     TEXT,
+    VALUE,
     LinkError,
     RobotEnd,
     Unpacker,
@@ -43,13 +44,17 @@ def server(link):
 
 
 def received(server, count):
-    """The next messages, JSON or kind and content."""
+    """The next messages: JSON, a topic and its value, or kind and content."""
     unpacker, found = Unpacker(), []
     while len(found) < count:
         data = server.recv(65_536)
         assert data
         for kind, content in unpacker.feed(data):
-            found.append(json.loads(content) if kind == TEXT else (kind, content))
+            if kind == VALUE:
+                topic, value = content.decode().split("\n", 1)
+                found.append({"topic": topic, "value": json.loads(value)})
+            else:
+                found.append(json.loads(content) if kind == TEXT else (kind, content))
     return found
 
 

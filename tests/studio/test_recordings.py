@@ -13,10 +13,10 @@ from hypothesis import given, strategies as st
 from starlette.testclient import TestClient
 
 from hri.core.errors import HriError
-from hri.core.growing import GrowingFile
+from hri.core.growing_files import GrowingFile
 from hri.core.recorded import EVENTS, FACE, SOUND, STARTED
+from hri.core.stored_data_index import note
 from hri.core.token import own_token
-from hri.core.whereabouts import note
 from hri.hal.drivers.growing_movie import GrowingMovie
 from hri.hal.drivers.wav_file import GrowingWav, write_wav
 from hri.studio import films, recordings

@@ -4,9 +4,9 @@ import json
 
 import pytest
 
-from hri.core.growing import GrowingFile
+from hri.core.growing_files import GrowingFile
 from hri.core.recorded import EVENTS
-from hri.core.whereabouts import note
+from hri.core.stored_data_index import note
 from tests.studio.browser import DESKTOP, NEEDS, PHONE, opened, until, violations
 from tests.studio.living import living
 from tests.studio.recorded import visit

@@ -19,7 +19,7 @@ from hri.studio.commands import COMMANDS, LONGEST_TEXT
 from hri.studio.event_memory import MOST_FLOOD, MOST_LINES, MOST_OTHERS
 from hri.studio.guard import LONGEST_BODY
 from hri.studio.hub import Hub, Page
-from hri.studio.link import CAMERA, FACE, Unpacker, packed, packed_json
+from hri.studio.link import CAMERA, FACE, Unpacker, packed, packed_value
 from hri.studio.page_socket import MOST_PAGES, MOST_PAGES_EACH
 from hri.studio.request_queue import MOST_REQUESTS, MOST_STOPS
 from hri.studio.server import Settings, Studio, _now
@@ -48,7 +48,10 @@ class Robot:
             self.tell(answer)
 
     def tell(self, message):
-        self.hub._take(message, json.dumps(message))
+        if "topic" in message:
+            self.hub._pass_on(message["topic"], json.dumps(message["value"]))
+        else:
+            self.hub._take(message, json.dumps(message))
 
     @property
     def obeyed(self):
@@ -440,7 +443,7 @@ def test_a_robot_that_does_not_answer_is_an_error_and_not_a_wait(app, robot, aut
 def test_the_stream_of_the_robot_is_followed_to_its_end(robot):
     class Stream:
         def __init__(self):
-            self.parts = [packed_json({"topic": "about", "value": 1}), packed(FACE, 9 * b"x")]
+            self.parts = [packed_value("about", 1), packed(FACE, 9 * b"x")]
 
         def __aiter__(self):
             return self
@@ -452,4 +455,4 @@ def test_the_stream_of_the_robot_is_followed_to_its_end(robot):
 
     hub = Hub(Stream())
     trio.run(hub.follow)
-    assert hub.values == {"about": 1}
+    assert hub.values == {"about": "1"}

@@ -8,8 +8,8 @@ from hri.core import paths
 from hri.core.clock import FakeClock
 from hri.hal.configuration import load_configuration
 from hri.hal.resource_manager import ResourceManager
-from hri.studio.body import KINDS, devices_of
 from hri.studio.composer import inspection
+from hri.studio.devices import KINDS, devices_of
 
 HEAD = '<?xml version="1.0" encoding="UTF-8"?>\n<BehaviorNetwork>\n'
 SCHEMA = """<BehaviorSchema type="Own.Wave" driver="Own.Wave" display_name="Wave" library="wave.py"

@@ -10,7 +10,7 @@ import pytest
 
 from hri.behavior.network_difference import compare
 from hri.behavior.network_file import read_network
-from hri.behavior.writer import write_network
+from hri.behavior.network_writer import write_network
 from hri.core import paths
 from hri.core.errors import AuthoringError
 from hri.core.xml import parse_xml

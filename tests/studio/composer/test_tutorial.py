@@ -5,7 +5,7 @@ import re
 import pytest
 
 from hri.behavior.network_file import load_network
-from hri.behavior.writer import write_network
+from hri.behavior.network_writer import write_network
 from hri.cli.behave import main as behave
 from tests.studio.browser import NEEDS_BROWSER
 
