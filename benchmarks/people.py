@@ -18,7 +18,7 @@ import numpy as np
 from benchmarks.drive.rooms import QUICK_ROOMS, ROOMS, Case, driven
 from hri.bench.table import Row, amount, at_least, at_most, report
 from hri.simulation.collisions import Collision
-from hri.simulation.trips import Trip
+from hri.simulation.navigation_trips import Trip
 
 LONGER = 1.5
 """Times as long as before that trips may take at most."""

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from hri.behavior.network_file import load_network
-from hri.behavior.writer import save_network
+from hri.behavior.network_writer import save_network
 from hri.core.fetch.archive import unpack
 from hri.core.signals import EmotionState, Image
 from hri.emotion.model_spec import load_emotions

@@ -12,8 +12,8 @@ import numpy as np
 from benchmarks.progress import progress
 from hri.bench.table import Row, amount, at_least, at_most, share
 from hri.bench.workers import worker_pool
+from hri.simulation.navigation_trips import Journey, Trip
 from hri.simulation.seeded_rooms import furnished
-from hri.simulation.trips import Journey, Trip
 
 ROOMS, QUICK_ROOMS = 50, 5
 CLEAN = 0.95

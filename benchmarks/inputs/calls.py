@@ -387,7 +387,7 @@ def draft(path: Path) -> object:
 def laid_out(path: Path) -> object:
     """A network, which is the same when its canonical text is read again."""
     from hri.behavior.network_file import load_network
-    from hri.behavior.writer import write_network
+    from hri.behavior.network_writer import write_network
 
     text = write_network(load_network(path))
     path.write_text(text)

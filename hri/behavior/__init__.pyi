@@ -3,6 +3,7 @@ from .board import declare_slot as declare_slot
 from .device import DeviceBehavior as DeviceBehavior
 from .network import Link as Link, Network as Network
 from .network_file import load_network as load_network
+from .network_writer import save_network as save_network, write_network as write_network
 from .ports import (
     Input as Input,
     Output as Output,
@@ -11,4 +12,3 @@ from .ports import (
 )
 from .runner import Runner as Runner
 from .running import Networks as Networks
-from .writer import save_network as save_network, write_network as write_network

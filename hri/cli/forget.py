@@ -8,8 +8,8 @@ import sys
 from hri.cli.terminal.progress_line import waiting
 from hri.core.errors import HriError, did_you_mean
 from hri.core.quoting import report
-from hri.robot import kept
-from hri.robot.kept import Trace
+from hri.robot import personal_data
+from hri.robot.personal_data import Trace
 
 EPILOG = """\
 A running robot forgets it too, within about a second. Files made on purpose are deleted only after
@@ -28,8 +28,8 @@ def run(options: argparse.Namespace) -> int:
     """Erase place by place; a failure at one place does not stop the others."""
     person = options.person
     with waiting("looking for saved data"):
-        found = kept.traces(person)
-        known = set() if found else kept.people()
+        found = personal_data.traces(person)
+        known = set() if found else personal_data.people()
     if not found:
         if person and known:
             raise HriError(f'unknown person "{person}" - {did_you_mean(person, known)}')

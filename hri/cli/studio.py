@@ -7,7 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from hri.behavior.network import Network
-from hri.behavior.writer import save_network
+from hri.behavior.network_writer import save_network
 from hri.cli import run as run_app
 from hri.core import paths
 from hri.core.errors import HriError

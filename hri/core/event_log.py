@@ -14,7 +14,7 @@ import numpy as np
 
 from hri.core.errors import AuthoringError, Place
 from hri.core.event_bus import EventBus
-from hri.core.growing import GrowingFile
+from hri.core.growing_files import GrowingFile
 from hri.core.reading import parse_json, read_lines
 from hri.core.signals import Event
 

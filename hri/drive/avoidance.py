@@ -19,7 +19,7 @@ import numpy as np
 from hri.core.geometry import wrapped
 from hri.core.signals import People, Pose2D, RangeReading, Twist
 from hri.drive.approach_detector import ApproachDetector
-from hri.drive.leaning import Leaning, back_off
+from hri.drive.contact_release import Leaning, back_off
 from hri.drive.mechanics import Mechanics
 from hri.drive.path_planner import Route, find_route, narrow_way
 from hri.drive.polar_histogram import (

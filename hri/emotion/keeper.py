@@ -11,7 +11,7 @@ from pathlib import Path
 from hri.behavior.behavior import Context
 from hri.core.clock import Clock, Worker
 from hri.core.errors import HriError
-from hri.core.whereabouts import note
+from hri.core.stored_data_index import note
 from hri.core.writing import Mark, mark_of
 from hri.emotion.affect import Affect, Imprint
 from hri.emotion.dynamics import Dynamics

@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from hri.core.errors import AuthoringError, Place
-from hri.core.growing import GrowingFile
+from hri.core.growing_files import GrowingFile
 from hri.core.reading import read_lines
 from hri.face.drawing.baking import Vector
 from hri.face.model import FaceModel

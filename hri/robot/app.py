@@ -29,7 +29,7 @@ from hri.core import paths
 from hri.core.errors import AuthoringError, HriError, Place, did_you_mean
 from hri.core.python_file import load_module
 from hri.core.toml import Table, load_toml
-from hri.robot.starting import start_on
+from hri.robot.event_tasks import start_on
 from hri.speech.behaviors import Listener
 from hri.speech.grammar import load_grammar
 from hri.speech.listener import FOLDERS

@@ -10,7 +10,7 @@ from typing import Any
 from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import Event, Utterance
 from hri.emotion.appraisal import OccEvent
-from hri.robot import calls, verbs
+from hri.robot import callbacks, verbs
 from hri.speech.listener import Listener
 from hri.speech.ssml import Ssml
 from hri.task.context import TaskContext
@@ -108,7 +108,7 @@ class BlockingVerbs(ABC):
         is reported, and it is called again at the next event. `cancel()` of the task that this
         returns ends it.
         """
-        task: Task = self.tasks.install(calls.at_event, event, handler)
+        task: Task = self.tasks.install(callbacks.at_event, event, handler)
         return task
 
     def when_heard(self, rule: str, handler: Callable[..., object]) -> Task:
@@ -119,7 +119,7 @@ class BlockingVerbs(ABC):
         rules = self.tasks.context.behavior(Listener).loaded_grammar.public_rules
         if rule not in rules:
             raise HriError(f'no rule "{rule}" in the grammar - {did_you_mean(rule, rules)}')
-        task: Task = self.tasks.install(calls.when_heard, rule, handler)
+        task: Task = self.tasks.install(callbacks.when_heard, rule, handler)
         return task
 
     def wait(self, seconds: float) -> None:

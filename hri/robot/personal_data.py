@@ -18,11 +18,11 @@ from typing import Any
 
 from hri.core import paths
 from hri.core.errors import HriError
-from hri.core.growing import is_growing
+from hri.core.growing_files import is_growing
 from hri.core.privacy import is_named, is_same_name
 from hri.core.reading import opened, parse_json, read_bytes
 from hri.core.recorded import BY_DATE, RECORDINGS, parts
-from hri.core.whereabouts import Kind, noted, tidy
+from hri.core.stored_data_index import Kind, noted, tidy
 from hri.core.writing import PRIVATE, delete, leftovers, write_text
 from hri.emotion import persistence
 from hri.hal import choices

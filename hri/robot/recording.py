@@ -24,7 +24,7 @@ from hri.core.privacy import close_to_others, private_file
 from hri.core.quoting import report
 from hri.core.recorded import EVENTS, FACE, SOUND, STARTED, STREAMS, claim, parts
 from hri.core.signals import Event
-from hri.core.whereabouts import note
+from hri.core.stored_data_index import note
 from hri.emotion.behaviors import EmotionModel
 from hri.hal.drivers.wav_file import WavSpeaker
 from hri.hal.resource import Description

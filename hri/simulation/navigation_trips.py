@@ -24,9 +24,9 @@ from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.hal.shape import Shape
 from hri.simulation.collisions import CONTACT, MOVING, Collision, Witness, hit_by
-from hri.simulation.lookout import Lookout
 from hri.simulation.people.person import RADIUS as PERSON
 from hri.simulation.seeded_rooms import ROBOT, Crowd, Furnished, Point
+from hri.simulation.simulated_tracker import Lookout
 from hri.simulation.world import SimulatedWorld
 
 POLICIES = {

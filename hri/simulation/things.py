@@ -12,8 +12,8 @@ import numpy as np
 
 from hri.core.signals import Image
 from hri.hal.drivers.still_image import read_still
+from hri.simulation.object_visibility import Sighting
 from hri.simulation.people.actors import HEAD_HEIGHT, NEAREST, Optics
-from hri.simulation.sight import Sighting
 from hri.simulation.world_file import COLORS, Item
 from hri.vision.objects.printed_label import printed_label
 

@@ -24,9 +24,9 @@ from hri.simulation.acoustics import Sound
 from hri.simulation.axle import Axle
 from hri.simulation.base import Base, HardwareLimits
 from hri.simulation.beams import Beams
+from hri.simulation.object_visibility import Sighting, seen
 from hri.simulation.people.person import RADIUS, SimulatedPerson, Spoken
 from hri.simulation.room import Circle, Room
-from hri.simulation.sight import Sighting, seen
 from hri.simulation.world_file import Item, PersonStart, WorldLayout, find_layout, load_layout
 
 PRESS_TIME = 0.3

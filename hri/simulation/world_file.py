@@ -13,7 +13,7 @@ from hri.core.signals import Pose2D
 from hri.core.toml import Table, load_toml
 from hri.hal.drivers.image_size import picture_size
 from hri.simulation.people.actors import ACTORS
-from hri.simulation.people.looks import DEFAULT_ACTOR
+from hri.simulation.people.appearance import DEFAULT_ACTOR
 from hri.simulation.people.person import RADIUS
 from hri.simulation.room import Box, Circle, Obstacle, Room, Wall
 from hri.vision.objects.printed_label import WIDTH

@@ -8,9 +8,9 @@ from .grammar import (
     parse as parse,
     read_grammar as read_grammar,
 )
-from .grammar.giving import sure_tags as sure_tags
 from .grammar.guessing import LEAST_SURE as LEAST_SURE, guess_rule as guess_rule
 from .grammar.matching import departure as departure
+from .grammar.sure_tags import sure_tags as sure_tags
 from .grammar.tags import written as written
 from .grammar.words import normalize as normalize
 from .listener import Listener as Listener

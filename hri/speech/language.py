@@ -18,7 +18,7 @@ from hri.core.errors import HriError
 from hri.hal.recognizer import Grammar
 from hri.speech.engine_models import DOWNLOADS
 from hri.speech.pronunciation.spelling import vocabulary
-from hri.speech.recognizers.ctc.rivals import common_words
+from hri.speech.recognizers.ctc.rival_words import common_words
 
 ENGLISH = '"#JSGF V1.0 UTF-8 en;"'
 MOST_SENTENCES = 200

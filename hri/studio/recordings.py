@@ -17,12 +17,12 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from hri.core.errors import HriError
-from hri.core.growing import is_growing
+from hri.core.growing_files import is_growing
 from hri.core.open_files import AT_ONCE, BINARY, NO_LINK
 from hri.core.paths import expanded
 from hri.core.reading import parse_json
 from hri.core.recorded import EVENTS, FILES, RECORDINGS, SOUND, STARTED
-from hri.core.whereabouts import noted
+from hri.core.stored_data_index import noted
 from hri.emotion.display import load_display
 
 MOST_LISTED = 500

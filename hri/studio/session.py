@@ -18,8 +18,8 @@ from hri.core.errors import HriError
 from hri.robot import Job, Robot
 from hri.studio.access import Codes
 from hri.studio.actions import Asked, obey
-from hri.studio.body import devices_of
 from hri.studio.commands import HEAR
+from hri.studio.devices import devices_of
 from hri.studio.link import RobotEnd
 from hri.studio.live import Live
 from hri.studio.network_watch import NetworkWatch

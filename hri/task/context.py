@@ -15,7 +15,7 @@ from hri.core.event_bus import EventBus
 from hri.core.latest import Board
 from hri.core.signals import Event
 from hri.hal.resource_manager import ResourceManager
-from hri.task.aside import Aside, Loop
+from hri.task.blocking_calls import Aside, Loop
 from hri.task.claims import Claims
 from hri.task.queue import EventQueue
 from hri.task.task_run import Job, Task

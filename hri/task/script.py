@@ -26,7 +26,7 @@ from hri.core.quoting import report
 from hri.core.signals import Event
 from hri.hal.resource_manager import ResourceManager
 from hri.hal.speaker import Speaker
-from hri.task.aside import here
+from hri.task.blocking_calls import here
 from hri.task.context import TaskContext
 from hri.task.task import run_scripts_on
 from hri.task.task_manager import TaskManager

@@ -11,10 +11,10 @@ import trio
 from hri.behavior.behavior import Behavior, Context
 from hri.behavior.running import Networks
 from hri.core.signals import Event
-from hri.task.aside import here
+from hri.task.blocked_loop import HoldUpWatch
+from hri.task.blocking_calls import here
 from hri.task.claims import Claims, forget_claims
 from hri.task.context import TaskContext
-from hri.task.hold_up import HoldUpWatch
 from hri.task.order import obey
 from hri.task.task import TaskType
 from hri.task.task_run import Job, Task

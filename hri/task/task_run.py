@@ -15,10 +15,10 @@ from hri.core.errors import HriError, first_of
 from hri.core.event_bus import EventBus, Subscription, matches
 from hri.core.signals import Event
 from hri.hal.pending import Interrupted
-from hri.task.aside import Loop
+from hri.task.blocked_loop import CURRENT
+from hri.task.blocking_calls import Loop
 from hri.task.claims import Leave
 from hri.task.failure import with_place
-from hri.task.hold_up import CURRENT
 from hri.task.order import said
 from hri.task.queue import EventQueue
 

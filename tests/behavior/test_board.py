@@ -9,9 +9,9 @@ from hri.behavior.library.constant import Constant
 from hri.behavior.network import Network
 from hri.behavior.network_check import check_together, slot_table
 from hri.behavior.network_file import load_network
+from hri.behavior.network_writer import write_network
 from hri.behavior.ports import ANGULAR_VELOCITY, LINEAR_VELOCITY, Input, Output
 from hri.behavior.runner import Runner
-from hri.behavior.writer import write_network
 from hri.core.errors import AuthoringError, HriError
 from hri.testing import context
 

@@ -7,7 +7,7 @@ from hri.behavior.behavior import Behavior
 from hri.behavior.catalog import find_behavior
 from hri.behavior.network import Network
 from hri.behavior.network_file import load_network
-from hri.behavior.writer import save_network, write_network
+from hri.behavior.network_writer import save_network, write_network
 from hri.core import paths
 from hri.core.errors import HriError
 

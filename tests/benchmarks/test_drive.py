@@ -1,6 +1,6 @@
 from benchmarks.drive import rooms, wheels
 from hri.simulation.collisions import Collision
-from hri.simulation.trips import Trip
+from hri.simulation.navigation_trips import Trip
 
 
 def trips(clean: int, of: int) -> list[Trip]:

@@ -2,7 +2,7 @@ import math
 
 from benchmarks import people
 from hri.simulation.collisions import Collision
-from hri.simulation.trips import Trip
+from hri.simulation.navigation_trips import Trip
 
 
 def collision(speed: float, sensors: tuple[str, ...]) -> Collision:

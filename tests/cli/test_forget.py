@@ -18,7 +18,7 @@ from hri.core.clock import FakeClock
 from hri.core.event_bus import EventBus
 from hri.core.event_log import EventLog
 from hri.core.recorded import ABOUT
-from hri.core.whereabouts import note, noted, whereabouts_file
+from hri.core.stored_data_index import note, noted, whereabouts_file
 from hri.emotion.model_spec import load_emotions
 from hri.emotion.persistence import Memory, keep, memory_file, recall
 from hri.hal.audio_file import AudioFileRecorder
@@ -26,7 +26,7 @@ from hri.hal.choices import choices_file, save_choices
 from hri.hal.drivers.image_size import write_picture
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
-from hri.robot import kept
+from hri.robot import personal_data
 from hri.studio.composer.files import Library
 from hri.vision.color.color_model import find_color, load_color, own_colors, save_color
 from hri.vision.objects.local_features import SIFT
@@ -155,7 +155,7 @@ def test_nothing_of_who_was_forgotten_is_in_any_file_that_the_program_wrote(
 
     assert main(["emotion", "forget", "--yes"]) == 0
     assert holding(home, BEN) == set()
-    assert kept.traces() == []
+    assert personal_data.traces() == []
     capsys.readouterr()
     assert forget() == 0
     assert "nothing to forget" in capsys.readouterr().out

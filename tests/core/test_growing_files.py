@@ -7,7 +7,7 @@ from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError
 from hri.core.event_bus import EventBus
 from hri.core.event_log import EventLog, read_events
-from hri.core.growing import GrowingFile
+from hri.core.growing_files import GrowingFile
 from tests.disk import full_disk
 
 

@@ -9,9 +9,9 @@ from hri.behavior.behavior import Context
 from hri.behavior.catalog import find_behavior, type_of
 from hri.behavior.network import Network
 from hri.behavior.network_file import load_network
+from hri.behavior.network_writer import save_network
 from hri.behavior.runner import Runner
 from hri.behavior.schema import schema_of
-from hri.behavior.writer import save_network
 from hri.cli import behave
 from hri.cli.main import main
 from hri.core import paths

@@ -6,8 +6,8 @@ import threading
 import pytest
 
 from hri.behavior.network_file import load_network
+from hri.behavior.network_writer import save_network
 from hri.behavior.runner import Runner
-from hri.behavior.writer import save_network
 from hri.cli import behave
 from hri.core import paths
 from hri.core.clock import FakeClock

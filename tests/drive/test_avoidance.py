@@ -10,7 +10,7 @@ from hri.core.geometry import along_arc, seen_from
 from hri.core.signals import HeadPose, People, Person, Pose2D, RangeReading, Twist
 from hri.drive.approach_detector import ApproachDetector
 from hri.drive.avoidance import Avoidance, Manner, straight_to, turn_to
-from hri.drive.leaning import WAITS_S
+from hri.drive.contact_release import WAITS_S
 from hri.drive.mechanics import Mechanics, mechanics_of, swept_radius
 from hri.drive.progress import Progress
 from hri.hal.configuration import load_configuration

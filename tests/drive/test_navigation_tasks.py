@@ -23,9 +23,9 @@ from hri.drive import navigation_tasks
 from hri.drive.behaviors import CommandGate
 from hri.drive.following import Ending, Reason
 from hri.drive.goal_behaviors import DeadReckoning, FollowTarget, ObstacleAvoidance
+from hri.simulation.navigation_trips import BODY, SENSORS, Journey, devices
 from hri.simulation.people.person import RADIUS
 from hri.simulation.seeded_rooms import furnished
-from hri.simulation.trips import BODY, SENSORS, Journey, devices
 from hri.simulation.world import SimulatedWorld
 from hri.task.context import TaskContext, TaskFailed
 from tests.task.stage import Stage

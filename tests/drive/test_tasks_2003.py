@@ -10,7 +10,7 @@ from hri.drive import tasks as verbs
 from hri.drive.tasks_2003 import drive_move_delta, drive_turn_delta, stop
 from hri.hal.drive import DriveSystem, Odometry
 from hri.hal.resource import Description
-from hri.simulation.trips import SENSORS, devices
+from hri.simulation.navigation_trips import SENSORS, devices
 from hri.simulation.world import SimulatedWorld
 from hri.task.context import TaskContext, TaskFailed
 from tests.task.stage import Stage

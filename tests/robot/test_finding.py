@@ -16,7 +16,7 @@ from hri.drive.behaviors import CommandGate
 from hri.drive.following import Reason
 from hri.hal.resource import Description
 from hri.robot import finding
-from hri.simulation.trips import BODY, SENSORS, devices
+from hri.simulation.navigation_trips import BODY, SENSORS, devices
 from hri.simulation.world import SimulatedWorld
 from hri.task.context import TaskFailed
 from hri.vision.objects import object_tasks

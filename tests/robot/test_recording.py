@@ -16,7 +16,7 @@ from hri.cli.run.narrator import Narrator
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.core.event_log import read_events
-from hri.core.growing import GrowingFile
+from hri.core.growing_files import GrowingFile
 from hri.core.recorded import ABOUT, FILES, STARTED
 from hri.hal.drivers.wav_file import read_wav
 from hri.robot.provenance import utc_now

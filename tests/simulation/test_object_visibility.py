@@ -5,8 +5,8 @@ from hypothesis import given, strategies as st
 
 from hri.core.errors import AuthoringError
 from hri.core.signals import Pose2D
+from hri.simulation.object_visibility import seen
 from hri.simulation.room import Room, Wall
-from hri.simulation.sight import seen
 from hri.simulation.world_file import Item, load_layout
 
 EMPTY = Room()

@@ -5,10 +5,10 @@ import pytest
 
 from hri.core.clock import FakeClock
 from hri.hal.resource_manager import ResourceManager
+from hri.simulation.navigation_trips import SENSORS, devices
 from hri.simulation.people.person import RADIUS
 from hri.simulation.room import Wall
 from hri.simulation.seeded_rooms import ROBOT, Crowd, furnished
-from hri.simulation.trips import SENSORS, devices
 from hri.simulation.world import SimulatedWorld
 from hri.simulation.world_file import load_layout
 

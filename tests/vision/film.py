@@ -5,9 +5,9 @@ from functools import lru_cache
 
 from hri.core.signals import Frame, Image
 from hri.simulation.people.actors import Appearance, render_people
+from hri.simulation.people.appearance import DEFAULT_ACTOR
 from hri.simulation.people.body_motion import Angles, idle_angles
 from hri.simulation.people.lens import Lens
-from hri.simulation.people.looks import DEFAULT_ACTOR
 
 Motion = Callable[[float], Angles]
 """The angles of the head at a time, on top of its idle sway."""

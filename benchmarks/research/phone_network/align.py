@@ -21,10 +21,10 @@ from hri.hal.word_graph import WordGraph
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.confidence import scores_of
 from hri.speech.recognizers.ctc.conformer import load_network
-from hri.speech.recognizers.ctc.habits import Habits
 from hri.speech.recognizers.ctc.lattice import Walk
 from hri.speech.recognizers.ctc.phone_graph import compile
 from hri.speech.recognizers.ctc.search import Search
+from hri.speech.recognizers.ctc.word_habits import Habits
 
 Phones = list[tuple[int, int]]
 """Classes, and the frames in which they begin."""

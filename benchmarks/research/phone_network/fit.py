@@ -41,12 +41,12 @@ from hri.speech.grammar.matching import parse
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.confidence import Fit, fit_of, scores_of, shares
 from hri.speech.recognizers.ctc.conformer import load_network
-from hri.speech.recognizers.ctc.habits import Habits
 from hri.speech.recognizers.ctc.loudness import noise_of, sounding
 from hri.speech.recognizers.ctc.phone_graph import compile
 from hri.speech.recognizers.ctc.ranking import ranked
-from hri.speech.recognizers.ctc.rivals import Rivals
+from hri.speech.recognizers.ctc.rival_words import Rivals
 from hri.speech.recognizers.ctc.search import Search
+from hri.speech.recognizers.ctc.word_habits import Habits
 from hri.speech.recognizers.voice_activity import voice_detector
 from hri.speech.synthesizers.espeak_library import Mark, Setting, load_espeak
 

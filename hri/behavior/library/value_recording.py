@@ -17,7 +17,7 @@ from hri.behavior.effects import NOTHING
 from hri.behavior.library.timing import TOLERANCE
 from hri.behavior.ports import DBL_MAX, Input, Output, Param
 from hri.core.errors import AuthoringError, HriError, Place
-from hri.core.growing import GrowingFile
+from hri.core.growing_files import GrowingFile
 from hri.core.reading import parse_json, read_text
 
 log = logging.getLogger("hri.behavior")

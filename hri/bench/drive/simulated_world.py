@@ -16,7 +16,7 @@ from hri.core.signals import Twist
 from hri.hal.drive import DriveSystem
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource_manager import ResourceManager
-from hri.simulation.trips import SENSORS, devices
+from hri.simulation.navigation_trips import SENSORS, devices
 
 LEAST = 100.0
 """Times real time."""

@@ -11,7 +11,7 @@ from hri.cli import diagnostics
 from hri.cli.terminal.messages import Within
 from hri.core.errors import HriError, NotAvailable
 from hri.core.quoting import report
-from hri.core.whereabouts import note
+from hri.core.stored_data_index import note
 from hri.core.writing import PRIVATE
 from hri.hal.camera import Camera
 from hri.hal.drivers.image_size import write_picture

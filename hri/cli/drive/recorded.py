@@ -20,8 +20,8 @@ from hri.core.event_log import LARGEST_LOG, LONGEST_LINE
 from hri.core.reading import parse_json, read_lines
 from hri.core.recorded import EVENTS
 from hri.core.signals import Pose2D
+from hri.simulation.navigation_trips import Journey
 from hri.simulation.seeded_rooms import furnished
-from hri.simulation.trips import Journey
 from hri.simulation.world_file import load_layout
 
 MOST_ROOMS = 100_000

@@ -13,7 +13,7 @@ from hri.cli.terminal.progress_line import progress, waiting
 from hri.core.errors import HriError
 from hri.core.quoting import report
 from hri.hal.drivers.image_size import write_picture
-from hri.simulation.trips import DEFAULT_POLICY, POLICIES
+from hri.simulation.navigation_trips import DEFAULT_POLICY, POLICIES
 
 NAME = "replay"
 """The word given instead of a port."""

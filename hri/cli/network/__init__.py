@@ -22,7 +22,7 @@ from hri.behavior.network_difference import (
 from hri.behavior.network_file import load_network
 from hri.behavior.network_layout import Layout, lay_out, stacked, titled
 from hri.behavior.network_svg import to_svg
-from hri.behavior.writer import save_network, write_network
+from hri.behavior.network_writer import save_network, write_network
 from hri.cli.terminal.progress_line import waiting
 from hri.core import paths
 from hri.core.errors import HriError

@@ -13,7 +13,7 @@ from hri.cli.object.options import add_set, loaded, object_of
 from hri.core.picture_writer import write_picture
 from hri.core.quoting import escaped, report
 from hri.core.signals import Image
-from hri.core.whereabouts import note
+from hri.core.stored_data_index import note
 from hri.core.writing import PRIVATE
 from hri.vision.objects.object_model import View
 

@@ -24,7 +24,7 @@ from hri.core.clock import FakeClock, RealClock
 from hri.core.errors import HriError
 from hri.core.quoting import message_line, report
 from hri.core.signals import Frame, HeadGesture, Image
-from hri.core.whereabouts import note
+from hri.core.stored_data_index import note
 from hri.core.writing import PRIVATE
 from hri.hal.camera import Camera
 from hri.vision.gestures.gesture_patterns import ANSWERS, FILE, Pattern, chosen, load_patterns

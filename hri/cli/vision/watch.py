@@ -35,7 +35,7 @@ from hri.core.signals import (
     Motion,
     People,
 )
-from hri.core.whereabouts import note
+from hri.core.stored_data_index import note
 from hri.core.writing import PRIVATE
 from hri.hal.camera import Camera
 from hri.hal.resource import Description

@@ -42,11 +42,11 @@ from hri.drive.supervisor.hazards import (
 from hri.drive.supervisor.lag import Lag
 from hri.drive.supervisor.latch import Latch
 from hri.drive.supervisor.limiter import Limiter
-from hri.drive.supervisor.nearness import Nearness
 from hri.drive.supervisor.oncoming import Oncoming
+from hri.drive.supervisor.person_distance import Nearness
 from hri.drive.supervisor.plausibility import Plausibility
 from hri.drive.supervisor.reflex import Reflex
-from hri.drive.supervisor.silences import Silences
+from hri.drive.supervisor.repeated_silence import Silences
 from hri.drive.supervisor.velocity_arbiter import Command, Level, VelocityArbiter
 from hri.drive.velocity_limits import Cap, safe_speed, within_hardware
 from hri.hal.motion import REST

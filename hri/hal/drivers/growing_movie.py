@@ -15,7 +15,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from hri.core.growing import GrowingFile, log
+from hri.core.growing_files import GrowingFile, log
 from hri.core.native_path import native_path
 from hri.core.signals import Image
 from hri.core.writing import PRIVATE, NotWritten, delete_leftovers, name_beside

@@ -8,7 +8,7 @@ from pathlib import Path
 from hri.core.clock import Timer, Worker
 from hri.core.errors import HriError
 from hri.core.signals import Samples
-from hri.core.whereabouts import note
+from hri.core.stored_data_index import note
 from hri.hal.audio_file import LONGEST_RECORDING, AudioFilePlayer, AudioFileRecorder
 from hri.hal.drivers.partner import use_partner
 from hri.hal.drivers.wav_file import GrowingWav, load_sound

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from hri.core.errors import HriError
-from hri.core.growing import GrowingFile
+from hri.core.growing_files import GrowingFile
 from hri.core.reading import require_file
 from hri.core.signals import Samples
 from hri.core.writing import write_bytes

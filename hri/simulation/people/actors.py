@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from hri.core.signals import Image
+from hri.simulation.people.appearance import DEFAULT_ACTOR, Looks
 from hri.simulation.people.backdrop import back_hair, body, room
 from hri.simulation.people.body_motion import Posture
 from hri.simulation.people.head import paint_head
-from hri.simulation.people.looks import DEFAULT_ACTOR, Looks
 from hri.simulation.people.portrait import Mien
 
 ACTORS: Mapping[str, Looks] = {

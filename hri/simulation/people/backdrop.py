@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 
 from hri.core.signals import Image
-from hri.simulation.people.looks import Looks
+from hri.simulation.people.appearance import Looks
 from hri.simulation.people.soft_edges import Color, Field, Point, filled
 
 Outline = tuple[Point, ...]

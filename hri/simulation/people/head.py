@@ -15,7 +15,7 @@ import cv2
 import numpy as np
 
 from hri.core.signals import Image
-from hri.simulation.people.looks import Looks
+from hri.simulation.people.appearance import Looks
 from hri.simulation.people.portrait import (
     CHIN_DROP,
     FACE,

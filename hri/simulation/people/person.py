@@ -16,8 +16,8 @@ import numpy as np
 from hri.core.signals import HeadPose, Speech
 from hri.hal.synthesizer import Synthesizer
 from hri.simulation.people import body_motion
+from hri.simulation.people.appearance import DEFAULT_ACTOR
 from hri.simulation.people.body_motion import MOTIONS, BodyMotion, Posture
-from hri.simulation.people.looks import DEFAULT_ACTOR
 
 RADIUS = 0.22
 """Meters, of the place a standing person takes."""

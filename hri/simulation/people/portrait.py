@@ -17,7 +17,7 @@ from functools import lru_cache
 import cv2
 import numpy as np
 
-from hri.simulation.people.looks import Looks
+from hri.simulation.people.appearance import Looks
 from hri.simulation.people.soft_edges import Color, Field, Point, filled, paint
 
 FACE = np.array([0.69, 1.04, 0.88], np.float32)

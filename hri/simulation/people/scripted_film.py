@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 from hri.core.signals import Frame
 from hri.simulation.people.actors import Optics, render_people
+from hri.simulation.people.appearance import DEFAULT_ACTOR
 from hri.simulation.people.body_motion import Posture, idle_angles, still
 from hri.simulation.people.lens import Lens
-from hri.simulation.people.looks import DEFAULT_ACTOR
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,8 +9,8 @@ from itertools import islice
 from typing import TypeVar
 
 from hri.core.errors import AuthoringError, Place, did_you_mean
-from hri.speech.grammar import offers
 from hri.speech.grammar.doc_comments import ANY_COMMAND, LAST, DocTag
+from hri.speech.grammar.exported_rules import exported_rules
 from hri.speech.grammar.expressions import (
     Alternative,
     Anything,
@@ -278,7 +278,7 @@ def _undefined(grammar: Rules) -> Iterator[AuthoringError]:
             known = node.name in grammar.rules or node.name in grammar.broken
             if not known and node.name not in told:
                 told.add(node.name)
-                offered = offers.offers() if offered is None else offered
+                offered = exported_rules() if offered is None else offered
                 what = f"no rule <{node.name}>"
                 remedy = f"write import <{offered.get(node.name)}>; for the one of that grammar"
                 if node.name not in offered:

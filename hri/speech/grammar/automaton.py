@@ -33,8 +33,8 @@ from hri.speech.grammar.expressions import (
     Tagged,
     Token,
 )
-from hri.speech.grammar.extent import too_large
 from hri.speech.grammar.framing import NOTHING, Frame, Framed, unframed
+from hri.speech.grammar.grammar_size import too_large
 from hri.speech.grammar.rules import Rules
 from hri.speech.grammar.tags import TagEntry
 from hri.speech.grammar.words import ANY

@@ -13,7 +13,7 @@ MOST_FILES = 100
 """Grammars that are looked into."""
 
 
-def offers() -> dict[str, str]:
+def exported_rules() -> dict[str, str]:
     """The public rules with the mark "part", by name: "small" is "numbers.small".
 
     Those of the folders of HRI_PATH come before the built-in ones. Grammars that cannot be read

@@ -20,7 +20,7 @@ from hri.core import paths
 from hri.core.errors import HriError
 from hri.core.privacy import private_folder
 from hri.core.reading import parse_json, read_bytes
-from hri.core.whereabouts import note
+from hri.core.stored_data_index import note
 from hri.core.writing import PRIVATE, NotWritten, delete, make_folder, write_bytes
 
 SUFFIX = ".draft"

@@ -22,7 +22,7 @@ from hri.core.errors import HriError, did_you_mean
 from hri.core.privacy import folder_for
 from hri.core.reading import parse_json, read_text
 from hri.core.signals import Image
-from hri.core.whereabouts import note
+from hri.core.stored_data_index import note
 from hri.core.writing import PRIVATE, write_text
 from hri.vision.color.color_constancy import SOFTENED, chromaticity
 from hri.vision.color.color_mixture import ColorMixture, Samples, fit

@@ -33,7 +33,7 @@ from hri.core.errors import HriError
 from hri.core.privacy import folder_for
 from hri.core.reading import opened, parse_json, read_text
 from hri.core.signals import Image
-from hri.core.whereabouts import note
+from hri.core.stored_data_index import note
 from hri.core.writing import PRIVATE, write_bytes
 from hri.core.zip_archive import opened_archive, unpacked_size
 from hri.hal.drivers.image_size import count_scans, read_header

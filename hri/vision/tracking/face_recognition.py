@@ -22,7 +22,7 @@ from hri.core.paths import exists
 from hri.core.privacy import folder_for
 from hri.core.reading import parse_json, read_bytes
 from hri.core.signals import Image, Landmarks
-from hri.core.whereabouts import note
+from hri.core.stored_data_index import note
 from hri.core.writing import PRIVATE, write_text
 from hri.vision.blendshapes import MOUTH, PUPILS
 

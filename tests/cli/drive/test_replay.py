@@ -11,9 +11,9 @@ from hri.cli.drive.recorded import read_run
 from hri.cli.main import main
 from hri.core.errors import HriError
 from hri.core.signals import Pose2D
+from hri.simulation.navigation_trips import Journey
 from hri.simulation.room import Circle
 from hri.simulation.seeded_rooms import furnished
-from hri.simulation.trips import Journey
 
 
 def run_file(folder: Path, count: int = 30) -> Path:

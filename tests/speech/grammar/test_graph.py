@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hri.core.errors import AuthoringError
 from hri.hal.word_graph import SILENT, WordGraph
 from hri.speech.grammar import Grammar, automaton, load_grammar, read_grammar
-from hri.speech.grammar.extent import too_large
+from hri.speech.grammar.grammar_size import too_large
 from hri.speech.grammar.matching import parse
 from tests.speech.grammar.oracle import WORDS, assume_written_out, grammars
 

@@ -22,7 +22,6 @@ from hri.speech.recognizers.ctc.confidence import (
 )
 from hri.speech.recognizers.ctc.conformer import FRAME, load_network
 from hri.speech.recognizers.ctc.features import Sound
-from hri.speech.recognizers.ctc.habits import Habits
 from hri.speech.recognizers.ctc.hesitations import hesitations, without
 from hri.speech.recognizers.ctc.kept_graphs import compiled
 from hri.speech.recognizers.ctc.key_phrases import (
@@ -36,8 +35,9 @@ from hri.speech.recognizers.ctc.loudness import KEPT, leveled, noise_of, soundin
 from hri.speech.recognizers.ctc.phone_graph import Floats, PhoneGraph
 from hri.speech.recognizers.ctc.posterior_stream import PosteriorStream
 from hri.speech.recognizers.ctc.ranking import ranked
-from hri.speech.recognizers.ctc.rivals import Rivals
+from hri.speech.recognizers.ctc.rival_words import Rivals
 from hri.speech.recognizers.ctc.search import Search
+from hri.speech.recognizers.ctc.word_habits import Habits
 from hri.speech.recognizers.endpointed import EndpointedRecognizer
 from hri.speech.understanding import SILENT_AFTER
 

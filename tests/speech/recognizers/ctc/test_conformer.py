@@ -16,9 +16,9 @@ from hri.speech.recognizers.ctc.classes import CLASSES
 from hri.speech.recognizers.ctc.confidence import scores_of
 from hri.speech.recognizers.ctc.conformer import Conformer, _gelu, block_count, load_network
 from hri.speech.recognizers.ctc.features import WIDTH, log_mel, padded
-from hri.speech.recognizers.ctc.habits import Habits
 from hri.speech.recognizers.ctc.likelihood import likelihoods
 from hri.speech.recognizers.ctc.weights import find_weights, read_tensors
+from hri.speech.recognizers.ctc.word_habits import Habits
 from tests.recorded import spoken_by_a_person
 from tests.speech.recognizers.speaking import spoken
 

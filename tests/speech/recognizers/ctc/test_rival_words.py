@@ -8,10 +8,10 @@ import pytest
 from hri.hal.word_graph import WordGraph
 from hri.speech.pronunciation.lexicon import load_lexicon
 from hri.speech.recognizers.ctc.classes import CLASSES
-from hri.speech.recognizers.ctc.habits import Habits, heard_otherwise
 from hri.speech.recognizers.ctc.phone_graph import compile
-from hri.speech.recognizers.ctc.rivals import WORD_COST, Rivals, common_words
+from hri.speech.recognizers.ctc.rival_words import WORD_COST, Rivals, common_words
 from hri.speech.recognizers.ctc.search import Search
+from hri.speech.recognizers.ctc.word_habits import Habits, heard_otherwise
 
 
 @pytest.fixture(scope="module")
