@@ -123,9 +123,8 @@ def _tell(companion: Companion, answer: Answer, text: str) -> None:
     nearest = as_said(_most_like(companion, text))
     # A text for any sentence may replace one that was said a short while ago.
     more = () if answer.kind in OWN_WORDS else (Kind.REPHRASE,)
-    then = companion.replies.then.get(companion.take_topic(), ())
-    if answer.kind not in GOES_ON:
-        then = ()
+    topic = companion.take_topic()
+    then = companion.replies.then.get(topic, ()) if answer.kind in GOES_ON else ()
     template = companion.fresh(answer.kind, *more, before=then)
     words = template.format_map({"nearest": nearest, **answer.facts})
     companion.say(words[:1].upper() + words[1:])
@@ -144,8 +143,8 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
     rule = found.rule if found is not None else gist.rule_of(words)
     is_answer = rule in grammar.marked("answer")
     strange = gist.strange(text) if is_typed else []
-    mended = _mended(grammar, text, strange) if is_typed and found is None else ""
-    is_said, name = is_typed and not mended, companion.replies.name
+    meant_so = _without_slip(grammar, text, strange) if is_typed and found is None else ""
+    is_said, name = is_typed and not meant_so, companion.replies.name
     topic = "" if is_answer else companion.replies.about.get(rule, "")
     example = "" if is_answer else companion.examples().get(rule, "")
     if is_typed and not are_alike(text, example):
@@ -162,7 +161,7 @@ def _puzzle_of(companion: Companion, heard: Mapping[str, Any], is_typed: bool) -
         is_quiet=level is not None and level < VERY_QUIET_DB,
         topic=topic,
         nearest=as_said(example),
-        meant=as_said(mended or _meant(companion, text)) if is_typed else "",
+        meant=as_said(meant_so or _meant(companion, text)) if is_typed else "",
         act=act_of(text, name) if is_said else None,
         sentiment=sentiment_of(text) if is_said else None,
         person=introduced(text, name) if is_said else "",
@@ -182,7 +181,7 @@ def _meant(companion: Companion, text: str) -> str:
     return companion.examples().get(found.rule, "") if found is not None and is_sure else ""
 
 
-def _mended(grammar: Grammar, text: str, strange: Sequence[str]) -> str:
+def _without_slip(grammar: Grammar, text: str, strange: Sequence[str]) -> str:
     """A sentence that fails at a slip of the fingers, as it was meant; empty for any other."""
     if len(strange) != 1 or len(normalize(text)) > MOST_OF_SLIP:
         return ""
@@ -190,8 +189,8 @@ def _mended(grammar: Grammar, text: str, strange: Sequence[str]) -> str:
     if fails is None or fails.word != strange[0] or not fails.near:
         return ""
     words = [fails.near if word == fails.word else word for word in normalize(text)]
-    mended = " ".join(words)
-    return mended if parse(grammar, mended) is not None else nearest_sentence(grammar, text)
+    meant_so = " ".join(words)
+    return meant_so if parse(grammar, meant_so) is not None else nearest_sentence(grammar, text)
 
 
 def _answers(companion: Companion, grammar: Grammar) -> list[str]:

@@ -98,9 +98,10 @@ CALLING = AUXILIARIES | QUESTION_WORDS | PEOPLE | {"i'm", "it", "look"}
 WONDERS = frozenset(("ever", "got", "think", "remember", "wanna", "want"))
 """Behind "you" they ask."""
 TAGS = frozenset(("huh", "right"))
+"""At the end they make a question of a statement: "it's nothing, right"."""
 TAG_VERBS = frozenset(("aren't", "didn't", "doesn't", "don't", "isn't", "wasn't", "won't"))
 TAG_PEOPLE = frozenset(("he", "i", "it", "she", "they", "we"))
-"""At the end they make a question of a statement: "it's nothing, right", "it's red, isn't it"."""
+"""Behind one of TAG_VERBS they do the same: "it's red, isn't it"."""
 AMOUNTS = frozenset(("far", "long", "many", "many's", "much", "old"))
 """Behind "how" they ask within a sentence."""
 DENYING = frozenset(("can't", "couldn't", "didn't", "haven't", "won't", "wouldn't"))
@@ -162,9 +163,10 @@ def act_of(text: str, name: str = "") -> DialogAct | None:
 
 def _has_tag(words: Sequence[str]) -> bool:
     """Whether a statement ends in what asks for a yes: "isn't it"."""
-    is_long = len(words) > LEAST_WORDS
-    tag, person = words[-2:] if is_long else ("", "")
-    return is_long and (person in TAGS or (tag in TAG_VERBS and person in TAG_PEOPLE))
+    if len(words) <= LEAST_WORDS:
+        return False
+    verb, last = words[-2:]
+    return last in TAGS or (verb in TAG_VERBS and last in TAG_PEOPLE)
 
 
 def _is_correction(words: Sequence[str]) -> bool:

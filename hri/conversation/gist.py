@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-from hri.speech.grammar.expressions import Token
+from hri.speech.grammar import analysis
 from hri.speech.grammar.numerals import NUMERALS
 from hri.speech.grammar.rules import Rules
 from hri.speech.grammar.words import normalize
@@ -57,7 +57,7 @@ class Gist:
         """
         answers, follow_ups = grammar.marked("answer"), grammar.marked("after")
         rules = [rule for rule in grammar.public_rules if rule not in answers]
-        known = {rule: frozenset(_words_of(grammar, rule)) for rule in rules}
+        known = {rule: analysis.words_of(grammar.rules, [rule]) for rule in rules}
         typed = grammar.marked("typed")
         own = [rule for rule in rules if rule not in typed and not grammar.rules[rule].topics]
         every = {rule: known[rule] for rule in own}
@@ -92,22 +92,6 @@ class Gist:
     def strange(self, text: str) -> list[str]:
         """The words of a text that no rule has, in order."""
         return [word for word in dict.fromkeys(normalize(text)) if word not in self.known | LITTLE]
-
-
-def _words_of(grammar: Rules, rule: str) -> Iterator[str]:
-    """The words of a rule and of all that it refers to."""
-    done, pending = set(), [rule]
-    while pending:
-        key = pending.pop()
-        if key in done or key not in grammar.rules:
-            continue
-        done.add(key)
-        yield from _tokens(grammar.rules[key].nodes)
-        pending.extend(reference.name for reference in grammar.rules[key].references)
-
-
-def _tokens(nodes: Iterable[object]) -> Iterator[str]:
-    return (node.text for node in nodes if isinstance(node, Token))
 
 
 def stem(word: str) -> str:

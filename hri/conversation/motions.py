@@ -4,7 +4,7 @@ from __future__ import annotations
 
 LITTLE_M, USUAL_M = 0.3, 0.5
 """Meters that are called a little, and that need not be said."""
-LITTLE_DEG, QUARTER_DEG, HALF_DEG = 20.0, 90.0, 180.0
+LITTLE_DEG, QUARTER_DEG, HALF_DEG, WHOLE_DEG = 20.0, 90.0, 180.0, 360.0
 
 
 def way_words(distance: float) -> str:
@@ -28,6 +28,9 @@ def turn_words(angle: float) -> str:
         return side
     if _is_near(degrees, LITTLE_DEG):
         return f"a little to the {side}"
+    times = round(degrees / WHOLE_DEG)
+    if times > 1 and _is_near(degrees, times * WHOLE_DEG):
+        return f"{times} times to the {side}"
     return "around" if _is_near(degrees, HALF_DEG) else f"{side} {_count(degrees, 'degree')}"
 
 

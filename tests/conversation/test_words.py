@@ -35,6 +35,8 @@ def test_a_way_in_words(distance, words):
         (-180, "around"),
         (-45, "right 45 degrees"),
         (1, "left 1 degree"),
+        (360, "left 360 degrees"),
+        (-1080, "3 times to the right"),
     ],
 )
 def test_a_turn_in_words(angle, words):

@@ -45,6 +45,12 @@ def reachable(rules: RulesByKey, keys: Iterable[str]) -> list[str]:
     return list(found)
 
 
+def words_of(rules: RulesByKey, keys: Iterable[str]) -> frozenset[str]:
+    """The words of some rules, and of all that they lead to."""
+    nodes = (node for key in reachable(rules, keys) for node in rules[key].nodes)
+    return frozenset(node.text for node in nodes if isinstance(node, Token))
+
+
 def tag_names(grammar: Rules, keys: Iterable[str]) -> frozenset[str]:
     """Names of all tags that an understood sentence of these rules may have."""
     rules = [grammar.rules[key] for key in reachable(grammar.rules, keys)]
@@ -266,8 +272,23 @@ def errors(grammar: Rules) -> list[AuthoringError]:
     if not found and not grammar.broken:
         found = [*_without_public(grammar), *_never_said(grammar), *_never_set(grammar)]
         found = found or [*_lost_marks(grammar)] or [*_too_free(grammar)]
-        found = found or [*_without_words(grammar)]
+        found = found or [*_without_words(grammar)] or [*_guessed(grammar)]
     return sorted(found, key=lambda error: (error.place.line, error.place.column))
+
+
+def _guessed(grammar: Rules) -> Iterator[AuthoringError]:
+    """Rules that must not be guessed from paraphrases: they move the robot, or give values."""
+    for file in grammar.paraphrases:
+        for key, line in file.heads:
+            rule = grammar.rules.get(key)
+            if rule is None or key in file.vague:
+                continue
+            if "careful" in rule.marks or tag_names(grammar, [key]):
+                why = "moves the robot" if "careful" in rule.marks else "gives values"
+                place = Place(file.path, line)
+                yield AuthoringError(
+                    place, f"<{key}> {why}, so no guess may mean it", f"write [{key} ?]"
+                )
 
 
 def _undefined(grammar: Rules) -> Iterator[AuthoringError]:

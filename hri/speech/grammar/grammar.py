@@ -81,7 +81,7 @@ class Grammar(Rules):
 
     def words(self) -> frozenset[str]:
         """All words that can be said, lower case."""
-        return frozenset(node.text for node in self._nodes() if isinstance(node, Token))
+        return analysis.words_of(self.rules, self.public_rules)
 
     def has_words(self) -> bool:
         """Whether any word can be said."""

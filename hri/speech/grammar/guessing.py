@@ -11,9 +11,8 @@ from functools import lru_cache
 from itertools import chain
 from typing import NamedTuple
 
-from hri.speech.grammar import analysis, expansion
+from hri.speech.grammar import analysis
 from hri.speech.grammar.doc_comments import LAST
-from hri.speech.grammar.expressions import Token
 from hri.speech.grammar.grammar import Grammar
 from hri.speech.grammar.matching import Parse, parse
 from hri.speech.grammar.naive_bayes import NaiveBayes
@@ -52,7 +51,7 @@ def guess_rule(grammar: Grammar, text: str) -> Guess | None:
     strange = [word for word in words if not classifier.knows(word)]
     if len(strange) > MOST_STRANGE * len(words) or not _other_words(grammar).isdisjoint(strange):
         return None
-    found = classifier.guess(words)
+    found = classifier.predict(words)
     if found is None or found.label not in grammar.public_rules:
         return None
     return Guess(found.label, found.probability, found.label in _vague(grammar))
@@ -92,7 +91,7 @@ def _vague(grammar: Grammar) -> frozenset[str]:
 
 def _sentence_of(grammar: Grammar, rule: str) -> Parse | None:
     """A sentence that means a rule; None if each means something else before it."""
-    texts = chain(grammar.rules[rule].examples, expansion.sentences(grammar, (rule,), MOST_TRIED))
+    texts = chain(grammar.rules[rule].examples, grammar.sentences_of(rule, MOST_TRIED))
     parses = (parse(grammar, text) for text in texts)
     return next((one for one in parses if one is not None and one.rule == rule), None)
 
@@ -109,9 +108,7 @@ def _words_without_paraphrases(grammar: Rules) -> frozenset[str]:
         for key in grammar.public_rules
         if known.isdisjoint((key, grammar.rules[key].stands_for or key))
     ]
-    reached = analysis.reachable(grammar.rules, others)
-    nodes = (node for key in reached if key in grammar.rules for node in grammar.rules[key].nodes)
-    return frozenset(node.text for node in nodes if isinstance(node, Token))
+    return analysis.words_of(grammar.rules, others)
 
 
 @lru_cache(maxsize=1)

@@ -19,7 +19,7 @@ SMOOTHING = 0.02
 _START, _END = "<s>", "</s>"
 
 
-class Guess(NamedTuple):
+class Prediction(NamedTuple):
     """The most likely class of a text."""
 
     label: str
@@ -57,7 +57,7 @@ class NaiveBayes:
         """Whether an example has this word."""
         return word in self._weights
 
-    def guess(self, words: Sequence[str]) -> Guess | None:
+    def predict(self, words: Sequence[str]) -> Prediction | None:
         """The most likely class by the words that it knows; None without one."""
         # Every text begins and ends: an end alone says nothing.
         if not any(map(self.knows, words)):
@@ -70,7 +70,7 @@ class NaiveBayes:
                 scores[label] += weight * gain
         best = max(scores, key=scores.__getitem__)
         odds = sum(math.exp(score - scores[best]) for score in scores.values())
-        return Guess(best, 1.0 / odds)
+        return Prediction(best, 1.0 / odds)
 
     def _weighed(self, features: frozenset[str]) -> Mapping[str, float]:
         """The weights of the known features of a text, of length 1."""

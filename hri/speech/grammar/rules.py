@@ -103,7 +103,7 @@ class Rules:
     """What the main file may call rules: its own, and imported ones in short and in full."""
     warnings: tuple[AuthoringError, ...] = ()
     """What is odd about how its files are written, and costs no rule."""
-    paraphrases: tuple[Paraphrases, ...] = ()
+    paraphrases: tuple[Paraphrases, ...] = field(default=(), repr=False)
     """Those that lie beside its files."""
     _made: dict[Callable[..., Any], Any] = field(
         default_factory=dict, init=False, repr=False, compare=False

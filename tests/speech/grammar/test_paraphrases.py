@@ -26,6 +26,9 @@ public <ill> = i'm sick;
 
 public <sneeze> = sneeze;
 
+/** @careful */
+public <go> = go home now;
+
 /** @interrupts */
 public <stop> = stop that;
 """
@@ -123,6 +126,8 @@ def test_a_greeting_gives_way_to_what_follows_it_and_an_order_does_not(grammar):
     [
         ("[jok]\nhaha\n", "1:1", 'no public rule <jok> in small - did you mean "joke"?'),
         ("haha\n", "1:1", "no rule above this line"),
+        ("[turn]\nspin\n", "1:1", "<turn> gives values, so no guess may mean it - write [turn ?]"),
+        ("[go]\nmove\n", "1:1", "<go> moves the robot, so no guess may mean it - write [go ?]"),
         ("[joke\nhaha\n", "1:1", "[joke is not a name - write [rule]"),
         ("[joke]\nhaha\n[ill]\n\nHaha!\n", "5:1", '"Haha!" stands in line 2, too'),
         ("[joke]\nhaha\n[ill]\nouch\n[joke]\nhoho\n", "5:1", "[joke] stands in line 1, too"),
@@ -155,19 +160,17 @@ def test_a_topic_that_is_left_out_is_not_meant(grammar):
 WORDS = st.sampled_from(("my", "stomach", "hurts", "turn", "around", "the", "laundry", "gags", "x"))
 
 
+@pytest.fixture(scope="module")
+def kept(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("grammar")
+    (folder / "small.jsgf").write_text(GRAMMAR)
+    (folder / "small.paraphrases.txt").write_text(PARAPHRASES)
+    return load_grammar(folder / "small.jsgf")
+
+
 @given(words=st.lists(WORDS, max_size=40))
-def test_whatever_is_typed_a_guess_is_a_sentence_of_its_rule(tmp_path_factory, words):
-    grammar = _once(tmp_path_factory)
-    found = paraphrased(grammar, " ".join(words))
+def test_whatever_is_typed_a_guess_is_a_sentence_of_its_rule(kept, words):
+    found = paraphrased(kept, " ".join(words))
     if found is not None:
         assert found.rule in ("joke", "ill")
-        assert parse(grammar, found.text).rule == found.rule
-
-
-def _once(tmp_path_factory, made=[]):  # noqa: B006 - one grammar for all examples
-    if not made:
-        folder = tmp_path_factory.mktemp("grammar")
-        (folder / "small.jsgf").write_text(GRAMMAR)
-        (folder / "small.paraphrases.txt").write_text(PARAPHRASES)
-        made.append(load_grammar(folder / "small.jsgf"))
-    return made[0]
+        assert parse(kept, found.text).rule == found.rule
