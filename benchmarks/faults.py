@@ -29,8 +29,8 @@ from hri.drive.supervisor.free_space import Body
 from hri.drive.supervisor.link import Ask, Order, Release
 from hri.drive.supervisor.process import rules
 from hri.drive.supervisor.supervisor import Supervisor
-from hri.drive.supervisor.velocity_arbiter import Level
 from hri.drive.velocity_limits import BaseLimits
+from hri.hal.rank import Rank
 from hri.simulation.bases.emulated_arduino import EmulatedArduino
 from hri.simulation.bases.emulated_base import AUTO_STOP
 from hri.simulation.bases.emulated_create2 import EmulatedCreate2
@@ -78,7 +78,7 @@ class Chain:
             self.turn(*self.asked(twist))
 
     def asked(self, twist: Twist | None) -> tuple[Order, ...]:
-        return () if twist is None else (Ask(Level.TASKS, twist, self.now),)
+        return () if twist is None else (Ask(Rank.TASKS, twist, self.now),)
 
     def release(self) -> None:
         self.turn(Release(self.now, self.controller.state(self.now).reason))

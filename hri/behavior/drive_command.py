@@ -11,15 +11,16 @@ from hri.behavior.behavior import Context
 from hri.behavior.device import DeviceBehavior
 from hri.behavior.effects import Effect
 from hri.behavior.ports import ANGULAR_VELOCITY, LINEAR_VELOCITY, Input, InputPort, Param
+from hri.core.clock import Timer
 from hri.core.errors import HriError
 from hri.core.quoting import quoted
 from hri.core.signals import Event, Twist
 from hri.hal.drive import PATIENCE, DriveSystem
-from hri.hal.helm import Outranked, Rank, Writer
+from hri.hal.rank import WRITERS, Outranked, Rank, Writer
 
 log = logging.getLogger("hri.behavior")
 
-STEERING_RANKS = tuple(rank.value for rank in Rank if rank is not Rank.NOBODY)
+STEERING_RANKS = tuple(rank.value for rank in WRITERS)
 
 
 class DriveCommand(DeviceBehavior):
@@ -55,6 +56,7 @@ class DriveCommand(DeviceBehavior):
             raise
         self._clock, self._events, self._paused = context.clock, context.events, context.paused
         self._is_driving = self._is_waiting = self._must_let_go = False
+        self._repetition: Timer | None = None
         self._subscription = context.events.subscribe("drive.halt", self._halt)
 
     @property
@@ -62,12 +64,14 @@ class DriveCommand(DeviceBehavior):
         return self.drive_id, self.rank
 
     def compute(self, now: float, dt: float) -> None:
+        self._end_repetition()
         velocity, until = (None, math.inf) if self._paused else self._asked()
         if self._must_let_go:
             self._must_let_go = velocity not in (None, Twist()) and now <= until
             velocity = None
         if velocity is not None and now <= until:
             self._steer(velocity, now, until)
+            self._repeat(velocity, now, until, now + dt)
         elif self._is_driving:
             if velocity is not None:
                 log.warning("%s stops: whoever steers it from outside fell silent", self.drive_id)
@@ -75,11 +79,13 @@ class DriveCommand(DeviceBehavior):
             self._is_driving = False
 
     def stop(self) -> None:
+        self._end_repetition()
         self._subscription.cancel()
         self._drive.leave(self._writer, self._clock.now())
         super().stop()
 
     def _halt(self, event: Event) -> None:
+        self._end_repetition()
         self._drive.stop(self._clock.now())
         self._must_let_go = True
         if self._is_driving:
@@ -90,15 +96,32 @@ class DriveCommand(DeviceBehavior):
     def _steer(self, velocity: Twist, now: float, until: float) -> None:
         rank = Rank(self.velocity.rank or self.rank)
         try:
-            self._drive.set_velocity(velocity, now, until, replace(self._writer, rank=rank))
+            writer = replace(self._writer, rank=rank)
+            self._drive.set_velocity(velocity, now, until, writer, self.velocity.manner)
         except Outranked as error:
-            if not self._is_waiting and rank is not Rank.NOBODY:
+            if not self._is_waiting:
                 log.warning("%s", error)
                 self._events.raise_event("drive.refused", words=str(error))
                 self._is_waiting = True
             self._is_driving = False
         else:
-            self._is_driving, self._is_waiting = True, False
+            self._is_driving, self._is_waiting = rank is not Rank.NOBODY, False
+
+    def _repeat(self, velocity: Twist, now: float, until: float, end: float) -> None:
+        """Say it again until the next tick of a slow network: a word counts for PATIENCE alone."""
+        due = now + PATIENCE / 2
+
+        def again() -> None:
+            self._steer(velocity, due, until)
+            self._repeat(velocity, due, until, end)
+
+        if self._is_driving and due < min(end, until):
+            self._repetition = self._clock.call_at(due, again)
+
+    def _end_repetition(self) -> None:
+        if self._repetition is not None:
+            self._repetition.cancel()
+            self._repetition = None
 
     def _asked(self) -> tuple[Twist | None, float]:
         """The velocity and until when it counts."""

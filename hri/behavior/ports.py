@@ -12,6 +12,7 @@ from hri.core import registry, signals
 from hri.core.errors import did_you_mean
 from hri.core.expression import evaluate
 from hri.core.origin import OUTSIDE
+from hri.hal.manner import FREELY, Manner
 
 T = TypeVar("T")
 
@@ -131,11 +132,16 @@ class InputPort(Generic[T]):
         """The rank of whoever asks for `value`; see `OutputPort.rank`."""
         return "" if (source := self.source) is None else source.rank
 
+    @property
+    def manner(self) -> Manner:
+        """How `value` is to be carried out; see `OutputPort.manner`."""
+        return FREELY if (source := self.source) is None else source.manner
+
 
 class OutputPort(Generic[T]):
     """What a behavior sends in this tick; empty again at the next."""
 
-    __slots__ = ("_datatype", "_kind", "rank", "spoken", "value")
+    __slots__ = ("_datatype", "_kind", "manner", "rank", "spoken", "value")
 
     def __init__(self, value: T | None = None, datatype: str = ANY) -> None:
         self.value = value
@@ -143,8 +149,10 @@ class OutputPort(Generic[T]):
         """When the source outside of the network that the value comes from spoke last: a peer over
         the network, a joystick. The oldest time of several, in seconds; None without a source."""
         self.rank = ""
-        """Of a command: the rank of whoever asks for it, as in `hri.hal.helm`; without one, it is
+        """Of a command: the rank of whoever asks for it, as in `hri.hal.rank`; without one, it is
         that of the behavior which passes it on to the drive."""
+        self.manner = FREELY
+        """Of a command: how it is to be carried out."""
         self.restrict(datatype)
 
     def restrict(self, datatype: str) -> None:

@@ -25,7 +25,7 @@ from hri.drive.supervisor.link import Ask, Release
 from hri.drive.supervisor.process import Settings
 from hri.drive.supervisor.remote import Remote
 from hri.drive.supervisor.supervisor_connection import BEAT
-from hri.drive.supervisor.velocity_arbiter import Level
+from hri.hal.rank import Rank
 from hri.simulation.bases.emulated_create2 import EmulatedCreate2
 from hri.simulation.bases.emulated_line import Line
 from hri.simulation.bases.pseudo_terminal import PseudoTerminal
@@ -120,7 +120,7 @@ def ask(connection: Remote, speed: float) -> None:
     state = connection.state
     if state.is_latched:
         connection.say(Release(state.time, state.reason))
-    connection.say(Ask(Level.TASKS, Twist(speed), state.time))
+    connection.say(Ask(Rank.TASKS, Twist(speed), state.time))
 
 
 def program_to_zero(tries: int) -> list[float]:

@@ -9,14 +9,12 @@ from hri.behavior.behavior import Behavior, Context
 from hri.behavior.drive_command import counts_until
 from hri.behavior.effects import NOTHING
 from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
-from hri.core.event_bus import EventBus
-from hri.core.origin import caused_by
 from hri.core.signals import RangeReading, Twist
-from hri.drive.gate import ANGULAR_FACTOR, VelocityGate
-from hri.drive.oncoming_watch import OncomingWatch, stopping_time
-from hri.drive.velocity_limits import GateLimits, safe_speed
-from hri.hal.helm import Rank
+from hri.drive.supervisor.announcement import Announcer, announced
+from hri.drive.supervisor.base_bus import BaseBus
+from hri.hal.manner import Manner
 from hri.hal.motion import REST
+from hri.hal.rank import Rank
 
 T = TypeVar("T")
 
@@ -24,38 +22,36 @@ COMMAND = "drive.command"
 """The board slot in which tasks leave the Twist they want, with its time."""
 MOTION = "drive.motion"
 """The board slot that holds the motion that may write commands; empty when there is none."""
-
 LIFT = "drive.lift"
 """The board slot with what lifts a spoken stop for an order that was said at a time, in seconds."""
-
-_USUAL = GateLimits()
-_SLACK = 0.03
-"""Meters a second by which it may be too fast for who comes and still slows down gently."""
+ANGULAR_FACTOR = 4.0
+"""Turning may change this many times as fast, in radians, as driving does in meters: on a base with
+wheels half a meter apart both ask the same of the wheels."""
 
 
 class CommandGate(Behavior):
-    """Limits what the base is asked for, stops it at obstacles and when nobody asks any more.
+    """Chooses what the base is asked for, and says how that is to be carried out.
+
+    It shapes nothing itself: its bounds travel with the command, and the supervisor of the base
+    keeps to them. It knows which command goes first, how old that is, and when a touch ends a
+    motion for good.
 
     What rests on the word of someone outside, such as a peer over the network, counts for
     `PATIENCE` seconds after that word. A linked sensor that says nothing for `timeout_s` counts as
     an obstacle that touches, a linked switch as pressed. While any network is paused, the base
     rests: one that is silent might have said "slower".
-
-    All range sensors of the configuration, linked or not, are watched for someone who comes. Then
-    it goes only so fast that it stands before they are here, and where that is too late for
-    slowing down gently it sends nothing, which brakes the base at once.
     """
 
     keeps_inputs = False
     category = "drive"
 
     may_do = NOTHING
-    max_linear = Param(_USUAL.max_linear, "meters a second", minimum=0.01, maximum=2)
-    max_angular = Param(_USUAL.max_angular, "radians a second", minimum=0.01, maximum=6)
-    acceleration = Param(_USUAL.acceleration, "meters a second squared", minimum=0.05, maximum=5)
-    deceleration = Param(_USUAL.deceleration, "meters a second squared", minimum=0.05, maximum=10)
+    max_linear = Param(0.4, "meters a second", minimum=0.01, maximum=2)
+    max_angular = Param(1.2, "radians a second", minimum=0.01, maximum=6)
+    acceleration = Param(0.4, "meters a second squared", minimum=0.05, maximum=5)
+    deceleration = Param(0.5, "meters a second squared", minimum=0.05, maximum=10)
     timeout_s = Param(
-        _USUAL.timeout_s,
+        0.5,
         "seconds without a command or a sensor's word until it stops",
         minimum=0.05,
         maximum=0.5,
@@ -69,48 +65,55 @@ class CommandGate(Behavior):
     bump = Input[bool]("boolean", "switches that stop driving forward; any number")
     velocity = Output[Twist](
         "twist",
-        "for the base, at every tick but those in which it brakes, with the rank of whoever asks:"
-        " a task or a behavior",
+        "for the base, at every tick, with the rank of whoever asks, a task or a behavior, and the"
+        " bounds of this gate",
     )
 
     def start(self, context: Context) -> None:
         self._slot, self._paused = context.board.slot(self.slot), context.paused
         self._motion = context.board.slot(MOTION)
-        self._gate = VelocityGate(self._limits())
-        self._reporter = MotionReporter(context.events)
         self._ranges = _LastWords(self.range, self.timeout_s)
         self._bumps = _LastWords(self.bump, self.timeout_s)
+        self._command, self._asked_at = REST, -math.inf
         self._taken: tuple[Twist, float] | None = None
         self._asker = ""
         """The rank of whoever asked last; an empty one is that of the network."""
         self._origin = ""
         """Of the last command."""
+        self._is_asked = False
+        """Whether someone asks for motion, or the base has not come to rest since."""
         self._was_bumped = False
         self._must_let_go = False
         self._subscription = context.events.subscribe("drive.halt", lambda event: self.halt())
-        self._watch = OncomingWatch(context.resources)
-        self._brakes_until = -math.inf
+        self._because = ""
+        """Why it asks for rest; empty where that is what it was asked."""
+        self._context = context
+        self._base: BaseBus | None = None
+        self._announcer: Announcer | None = None
 
     def compute(self, now: float, dt: float) -> None:
-        """Take the command, look ahead, limit, send, report: in this order."""
+        """Take the command, feel, send it with its bounds: in this order."""
+        if self._base is None:
+            self._find_base()
         if self._paused:
-            self._gate.halt("paused")
+            self._rest("paused")
         elif now > min(counts_until(self.twist), counts_until(self.speed)):
-            self._gate.halt("timeout")
+            self._rest("timeout")
         else:
             self._take_command(now)
-        if self._must_brake(now, dt):
-            self._gate.brake(now)
-        else:
-            self.velocity.send(self._passed(now))
-            self.velocity.rank = self._rank(now)
-        with caused_by(self._origin):
-            self._reporter.report(self._gate, now)
+        is_bumped = self._feel(now)
+        self.velocity.send(self._wish(now))
+        self.velocity.rank = self._rank(now)
+        self.velocity.manner = self._manner(now, is_bumped)
+        if self._announcer is not None:
+            self._announcer.origin, self._announcer.because = self._origin, self._because
 
     def stop(self) -> None:
         self._subscription.cancel()
         self.halt()
-        self._watch.release()
+        if self._announcer is not None:
+            self._announcer.stop()
+        self._base = self._announcer = None
 
     def halt(self) -> None:
         """Stop at once, end the motion of any task and forget all commands.
@@ -121,23 +124,24 @@ class CommandGate(Behavior):
 
     @property
     def is_moving(self) -> bool:
-        return self._gate.is_moving
+        """Whether the base is told to move."""
+        return self._base is not None and self._base.state.velocity != REST
 
     @property
     def braking(self) -> Twist:
         """How fast it slows down, m/s² and rad/s²."""
         return Twist(self.deceleration, self.deceleration * ANGULAR_FACTOR)
 
-    def _limits(self) -> GateLimits:
-        return GateLimits(
-            self.max_linear, self.max_angular, self.acceleration, self.deceleration, self.timeout_s
-        )
-
     def _drop(self, reason: str) -> None:
         self._slot.clear()
         self._motion.clear()
-        self._gate.halt(reason)
+        self._rest(reason)
         self._must_let_go = True
+
+    def _rest(self, reason: str) -> None:
+        """Ask for nothing until another command comes."""
+        self._command, self._asked_at = REST, -math.inf
+        self._because = reason
 
     def _take_command(self, now: float) -> None:
         twist = self.twist.value
@@ -145,63 +149,56 @@ class CommandGate(Behavior):
             self._must_let_go = False
         if twist is not None:
             if not self._must_let_go:
-                self._gate.command(twist, now)
+                self._ask(twist, now)
                 self._asker = ""
                 self._origin = self.twist.origin
             return
         command, time = self._slot.get()
         if command is not None and (command, time) != self._taken:
             self._taken = (command, time)
-            self._gate.command(command, time)
+            self._ask(command, time)
             self._asker = Rank.TASKS
             self._origin = ""
+
+    def _ask(self, twist: Twist, time: float) -> None:
+        self._command, self._asked_at, self._because = twist, time, ""
+
+    def _wish(self, now: float) -> Twist:
+        """The command and the factor on it; rest when the command is too old."""
+        if now - self._asked_at > self.timeout_s:
+            if self._command != REST:
+                self._rest("timeout")
+            return REST
+        factor = 1.0 if self.speed.value is None else self.speed.value
+        return Twist(self._command.linear * factor, self._command.angular * factor)
 
     def _rank(self, now: float) -> str:
         """Of who asks; a network that asks for rest asks, too, and a task that does has ended."""
         if self.twist.value is not None:
             return ""
-        return self._asker if self._gate.is_asked(now) else Rank.NOBODY
+        self._is_asked = self._command != REST or (self._is_asked and self.is_moving)
+        return self._asker if self._is_asked else Rank.NOBODY
 
-    def _must_brake(self, now: float, dt: float) -> bool:
-        """Whether somebody comes before whom it could not slow down gently."""
-        going = self._gate.current
-        self._watch.look(now, going, dt)
-        if abs(going.linear) > self._watch.speed(now) + _SLACK:
-            self._brakes_until = now + stopping_time(going) + dt
-        return now < self._brakes_until
+    def _feel(self, now: float) -> bool:
+        """Whether something touches it; a touch ends a motion for good.
 
-    def _passed(self, now: float) -> Twist:
-        """What is left of the command within all limits."""
-        speed = self.speed.value
-        return self._gate.velocity(
-            now,
-            speed=1.0 if speed is None else speed,
-            max_forward=self._max_forward(now),
-            fastest=min(self._watch.speed(now), self._watch.pace(now)),
-        )
-
-    def _max_forward(self, now: float) -> float:
-        """How fast it may go forward, in m/s; a touch ends a motion for good."""
+        A switch does not tell which side it was touched on, so any motion ends.
+        """
         is_bumped = any(pressed is not False for pressed in self._bumps.at(now))
-        # The ring does not tell which side it was touched on, so any motion ends.
-        if is_bumped and not self._was_bumped and self._gate.is_moving:
+        if is_bumped and not self._was_bumped and (self.is_moving or self._command != REST):
             self._drop("bump")
         self._was_bumped = is_bumped
-        if is_bumped:
-            return 0.0
-        is_moving = self._gate.current.linear > 0
-        return min(
-            (
-                safe_speed(
-                    self._distance(reading, now),
-                    self.clearance,
-                    self.deceleration,
-                    is_moving,
-                    reaction=0.0,
-                )
-                for reading in self._ranges.at(now)
-            ),
-            default=math.inf,
+        return is_bumped
+
+    def _manner(self, now: float, is_bumped: bool) -> Manner:
+        """The bounds of this gate, and what is free ahead of the sensors that are linked to it."""
+        distances = [self._distance(reading, now) for reading in self._ranges.at(now)]
+        return Manner(
+            Twist(self.max_linear, self.max_angular),
+            Twist(self.acceleration, self.acceleration * ANGULAR_FACTOR),
+            self.braking,
+            0.0 if is_bumped else min(distances, default=math.inf),
+            self.clearance,
         )
 
     def _distance(self, reading: RangeReading | None, now: float) -> float:
@@ -209,6 +206,12 @@ class CommandGate(Behavior):
         if reading is not None and now - reading.time <= self.timeout_s:
             return reading.distance
         return 0.0
+
+    def _find_base(self) -> None:
+        """Know how the base moves, as soon as some drive of it is open."""
+        base = next(iter(self._context.resources.opened(BaseBus)), None)
+        if base is not None:
+            self._base, self._announcer = base, announced(base, self._context)
 
 
 class _LastWords(Generic[T]):
@@ -231,43 +234,3 @@ class _LastWords(Generic[T]):
         if source.value is not None:
             return source.value, now
         return self._heard.get(source, (None, now))
-
-
-class MotionReporter:
-    """Raises `drive.commanded` and `drive.stopped`, the former at most twice a second."""
-
-    _INTERVAL_S = 0.5
-    _NOTABLE_LINEAR = 0.1
-    _NOTABLE_ANGULAR = 0.3
-
-    def __init__(self, events: EventBus) -> None:
-        self._events = events
-        self._reported = REST
-        self._time = -math.inf
-
-    def report(self, gate: VelocityGate, now: float) -> None:
-        if gate.target != REST:
-            if self._is_news(gate.target, now):
-                self._reported, self._time = gate.target, now
-                self._events.raise_event(
-                    "drive.commanded",
-                    linear=_rounded(gate.target.linear),
-                    angular=_rounded(gate.target.angular),
-                )
-        elif not gate.is_moving and self._reported != REST:
-            self._reported = REST
-            with caused_by(""):  # also an obstacle, or the end of its patience, may be why
-                self._events.raise_event("drive.stopped", reason=gate.reason)
-
-    def _is_news(self, target: Twist, now: float) -> bool:
-        if self._reported == REST:
-            return True
-        linear = abs(target.linear - self._reported.linear)
-        angular = abs(target.angular - self._reported.angular)
-        has_changed = linear >= self._NOTABLE_LINEAR or angular >= self._NOTABLE_ANGULAR
-        return has_changed and now - self._time >= self._INTERVAL_S
-
-
-def _rounded(value: float) -> float:
-    """To four places, never minus zero."""
-    return round(value, 4) + 0.0

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from hri.core.signals import Pose2D
 from hri.hal.range_sensor import RangeSensor
-from hri.hal.resource_manager import ResourceManager
+from hri.hal.resource import Resources
 from hri.hal.shape import Shape
 
 UNKNOWN_RADIUS = 0.25
@@ -30,7 +30,7 @@ class Mechanics:
     """Where each beam starts and looks, by the id of its sensor, in the robot's frame."""
 
 
-def mechanics_of(resources: ResourceManager, sensors: Iterable[str]) -> Mechanics:
+def mechanics_of(resources: Resources, sensors: Iterable[str]) -> Mechanics:
     """The mechanics that a configuration describes. Raises AuthoringError for a wrong pose."""
     poses = {id: resources.pose_of(id) for id in sensors}
     mounts = {
@@ -50,7 +50,7 @@ def swept_radius(box: Shape) -> float:
     return max(math.hypot(box.x + cos * u - sin * v, box.y + sin * u + cos * v) for u, v in corners)
 
 
-def range_sensors(resources: ResourceManager) -> list[str]:
+def range_sensors(resources: Resources) -> list[str]:
     """Ids of the range sensors; a stand-in is reached through what it stands for."""
     stand_ins = {description.text("stand_in") for description in resources.descriptions.values()}
     return [id for id in resources.ids(RangeSensor) if id not in stand_ins]

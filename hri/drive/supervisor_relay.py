@@ -12,8 +12,9 @@ from hri.core.errors import HriError, did_you_mean
 from hri.core.event_bus import Subscription
 from hri.core.signals import Event, People
 from hri.drive.behaviors import COMMAND, LIFT, MOTION
-from hri.drive.supervisor.announcement import announce
+from hri.drive.supervisor.announcement import announced
 from hri.drive.supervisor.base_bus import BaseBus
+from hri.drive.supervisor.base_drive import BaseDrive
 from hri.hal.emergency_stop import EmergencyStop
 
 TELL_EVERY = 0.5
@@ -36,9 +37,8 @@ class SupervisorRelay(Behavior):
     did, never for a program to go on by itself. A stop that was heard is lifted also by the next
     order to move that is heard, unless the base meets something meanwhile: see `lift`.
 
-    A base with a supervisor also hears who is near, and what it reports becomes the events
-    `drive.stopped`, `drive.refused`, and `drive.faulty`. A base without one, such as the simulated
-    one, latches in its drive and starts released. Without any base the guard does nothing.
+    It also says who is near, and what the supervisor reports becomes the events `drive.stopped`,
+    `drive.refused`, and `drive.faulty`. Without any base the guard does nothing.
     """
 
     category = "drive"
@@ -54,14 +54,14 @@ class SupervisorRelay(Behavior):
     def start(self, context: Context) -> None:
         self._resources, self._board = context.resources, context.board
         self._base = self._found(context)
-        self._bus = self._base if isinstance(self._base, BaseBus) else None
+        self._bus = _bus_of(self._base)
         self._events = context.events
         self._board.slot(LIFT).set(self.lift, context.clock.now())
         self._told = self._seen = -math.inf
         self._nearest = math.nan
         self._subscriptions: list[Subscription] = []
         if self._bus is not None:
-            self._watcher = announce(self._bus, context.events)
+            self._announcer = announced(self._bus, context)
         if self._base is not None:
             subscribe = context.events.subscribe
             self._subscriptions = [
@@ -92,7 +92,7 @@ class SupervisorRelay(Behavior):
         self._subscriptions.clear()
         self._board.slot(LIFT).set(None, 0.0)
         if self._bus is not None:
-            self._bus.unwatch(self._watcher)
+            self._announcer.stop()
         if self._base is not None:
             self._resources.release(self._base)
         self._base = self._bus = None
@@ -118,9 +118,6 @@ class SupervisorRelay(Behavior):
             self._base.stop_latched(because)
         else:
             self._base.stop_spoken(because, said)
-        if self._bus is None:  # a supervisor reports it by itself
-            words = self._base.explain()
-            self._events.raise_event("drive.stopped", reason="e-stop", words=words)
 
     def release(self) -> None:
         """Let the base move again, because a person wants it."""
@@ -167,6 +164,13 @@ class SupervisorRelay(Behavior):
 
     def _halt(self, event: Event) -> None:
         self.halt(str(event.properties.get("because", "I was told to")))
+
+
+def _bus_of(base: EmergencyStop | None) -> BaseBus | None:
+    """The base itself; a drive has its own."""
+    if base is None or isinstance(base, BaseBus):
+        return base
+    return base.bus if isinstance(base, BaseDrive) else None
 
 
 def nearest(people: People) -> float:

@@ -19,22 +19,6 @@ PRUDENCE = 0.7
 
 
 @dataclass(frozen=True, slots=True)
-class GateLimits:
-    """What may pass a command gate."""
-
-    max_linear: float = 0.4
-    """Meters a second, forward and backward."""
-    max_angular: float = 1.2
-    """Radians a second."""
-    acceleration: float = 0.4
-    """Meters a second squared."""
-    deceleration: float = 0.5
-    """Meters a second squared."""
-    timeout_s: float = 0.5
-    """A command that is older counts no more."""
-
-
-@dataclass(frozen=True, slots=True)
 class Cap:
     """The fastest that is allowed just now, all at or above 0."""
 

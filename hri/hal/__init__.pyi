@@ -12,7 +12,6 @@ from .gripper import Gripper as Gripper
 from .joystick import Joystick as Joystick
 from .microphone import Microphone as Microphone
 from .motor import Motor as Motor
-from .moving_base import MovingBase as MovingBase
 from .range_sensor import RangeSensor as RangeSensor
 from .recognizer import Hypothesis as Hypothesis, Recognizer as Recognizer, Segment as Segment
 from .resource import Description as Description, Resource as Resource

@@ -6,8 +6,9 @@ from enum import Enum
 
 from hri.core.errors import HriError
 from hri.core.signals import Pose2D, Twist
-from hri.hal.helm import PROGRAM, Writer
+from hri.hal.manner import FREELY, Manner
 from hri.hal.pending import Pending
+from hri.hal.rank import PROGRAM, Writer
 from hri.hal.resource import Description, Resource
 
 LONGEST_MOVE = (20.0, 0.01, 10_000.0)
@@ -29,14 +30,14 @@ class Stop(Enum):
 
 
 class DriveSystem(Resource):
-    """A base that follows velocities; it must stop by itself when no command comes for 0.5 s.
+    """A base that follows velocities, and rests when no command comes for PATIENCE.
 
     A network sends velocities, tick by tick. A program asks for whole motions: these repeat their
     commands by themselves, need the clock to run, and replace each other. A motion that another
     command ends fails with Interrupted, once that command was given; a callback may then ask for
     the next motion, but not in answer to `stop` or `halt`. A motion whose hardware fails ends with
     HriError, and the base brakes. Commands of several writers are arbitrated by their ranks, see
-    `hri.hal.helm`: a command is refused with Outranked while someone steers who is not less
+    `hri.hal.rank`: a command is refused with Outranked while someone steers who is not less
     important. A stop is everyone's, and always wins.
 
     Ways and angles may be negative, velocities of `move_delta` and `turn_delta` and all
@@ -73,9 +74,14 @@ class DriveSystem(Resource):
 
     @abstractmethod
     def set_velocity(
-        self, twist: Twist, now: float, until: float = math.inf, by: Writer = PROGRAM
+        self,
+        twist: Twist,
+        now: float,
+        until: float = math.inf,
+        by: Writer = PROGRAM,
+        manner: Manner = FREELY,
     ) -> None:
-        """Go on with this velocity until the next command, or until that time has come.
+        """Go on with this velocity until the next command, for PATIENCE or until a time before.
 
         Raises Outranked while someone else steers who is not less important than `by`.
         """

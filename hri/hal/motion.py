@@ -32,17 +32,16 @@ class Way:
 
 @dataclass(frozen=True, slots=True)
 class Response:
-    """How a base follows what it is told; the defaults are those of one that follows at once."""
+    """How a base follows what it is told."""
 
-    gain: float = 8.0
+    gain: float
     """Meters a second for each meter that a motion lags behind."""
-    lead: float = 0.0075
-    """Seconds a base takes to follow a command; the profile is read earlier by this."""
-    near: Way = Way(0.0005, math.radians(0.05))
+    move_lead: float
+    """Seconds it takes to follow when it drives; the profile is read earlier by this."""
+    turn_lead: float
+    """The same when it turns."""
+    near: Way
     """A motion that ends within this has arrived; not finer than the wheels measure."""
-
-
-PROMPT = Response()
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +51,7 @@ class Reading:
     travelled: Way
     """Since the motion began."""
     velocity: Twist
-    response: Response = PROMPT
+    response: Response
 
     @property
     def stands(self) -> bool:
@@ -102,9 +101,10 @@ class MoveDelta(Motion):
         self.profile = profile
 
     def step(self, elapsed: float, reading: Reading) -> Twist | None:
-        done, near = reading.travelled, reading.response.near
-        linear = _followed(self.profile, _LINEAR, elapsed, done.linear, near.linear, reading)
-        return None if linear is None else Twist(linear, -reading.response.gain * done.angular)
+        done, response = reading.travelled, reading.response
+        near, lead = response.near.linear, response.move_lead
+        linear = _followed(self.profile, _LINEAR, elapsed, done.linear, near, lead, reading)
+        return None if linear is None else Twist(linear, -response.gain * done.angular)
 
 
 class TurnDelta(Motion):
@@ -114,13 +114,20 @@ class TurnDelta(Motion):
         self.profile = profile
 
     def step(self, elapsed: float, reading: Reading) -> Twist | None:
-        done, near = reading.travelled, reading.response.near
-        angular = _followed(self.profile, _ANGULAR, elapsed, done.angular, near.angular, reading)
-        return None if angular is None else Twist(-reading.response.gain * done.linear, angular)
+        done, response = reading.travelled, reading.response
+        near, lead = response.near.angular, response.turn_lead
+        angular = _followed(self.profile, _ANGULAR, elapsed, done.angular, near, lead, reading)
+        return None if angular is None else Twist(-response.gain * done.linear, angular)
 
 
 def _followed(
-    profile: Trapezoid, axis: _Axis, elapsed: float, done: float, near: float, reading: Reading
+    profile: Trapezoid,
+    axis: _Axis,
+    elapsed: float,
+    done: float,
+    near: float,
+    lead: float,
+    reading: Reading,
 ) -> float | None:
     """The velocity that follows the profile; None when the base has arrived and stands.
 
@@ -134,7 +141,7 @@ def _followed(
         )
     if elapsed >= profile.duration and abs(lag) <= near:
         return None if reading.stands else 0.0
-    start = elapsed + reading.response.lead
+    start = elapsed + lead
     ahead = profile.position(start + PERIOD) - profile.position(start)
     velocity = ahead / PERIOD + reading.response.gain * lag
     return max(-profile.velocity, min(profile.velocity, velocity))

@@ -176,7 +176,7 @@ class ResourceManager:
     def _offers(self, description: Description, interface: type[Resource]) -> bool:
         try:
             return issubclass(self.driver_of(description), interface)
-        except NotAvailable:
+        except HriError:  # `check` says so
             return False
 
     def declare(self, description: Description) -> None:

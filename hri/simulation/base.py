@@ -35,7 +35,7 @@ class HardwareLimits:
     acceleration: float = 0.5
     angular_acceleration: float = 2.0
     braking: float = 1.5
-    """How fast it stands still in an emergency; turning ends four times as fast in radians."""
+    """How fast it slows down at most; turning ends four times as fast in radians."""
     wheel: float = 0.6
     """Fastest a wheel's rim goes; a curve that needs more is driven more slowly."""
     track: float = 0.3
@@ -138,8 +138,10 @@ class Base:
 
     def _next_velocity(self) -> Twist:
         limits, now, goal = self.limits, self.velocity, self._goal
-        change = limits.braking if self._is_braking else limits.acceleration
-        turn = 4 * limits.braking if self._is_braking else limits.angular_acceleration
+        is_slowing = self._is_braking or abs(goal.linear) < abs(now.linear)
+        change = limits.braking if is_slowing else limits.acceleration
+        is_slowing = self._is_braking or abs(goal.angular) < abs(now.angular)
+        turn = 4 * limits.braking if is_slowing else limits.angular_acceleration
         return Twist(
             toward(now.linear, goal.linear, change * STEP),
             toward(now.angular, goal.angular, turn * STEP),

@@ -19,13 +19,11 @@ from hri.hal.cliff_sensor import CliffSensor
 from hri.hal.drive import Odometry
 from hri.hal.drivers.memory import SilentSpeaker
 from hri.hal.microphone import Microphone
-from hri.hal.motion import Way
-from hri.hal.moving_base import MovingBase
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Description
 from hri.simulation import things
 from hri.simulation.acoustics import RATE, Source
-from hri.simulation.in_world import InWorld, world_id
+from hri.simulation.in_world import InWorld
 from hri.simulation.people.actors import Appearance, Drawable, Optics, render_before
 from hri.simulation.people.backdrop import room_toward
 from hri.simulation.people.lens import Lens
@@ -128,38 +126,6 @@ class SimulatedSpeaker(InWorld, SilentSpeaker):
 
     def _sound(self, samples: Samples, at: float) -> Source:
         return self.world.sound.add(samples, self._rate, at + self._delay, self._gain)
-
-
-class SimulatedDrive(InWorld, MovingBase):
-    """The base's motors, driven together."""
-
-    def _open(self) -> None:
-        super()._open()
-        limits = self.world.base.limits
-        self.max_linear, self.max_angular = limits.linear, limits.angular
-        self.max_acceleration = limits.acceleration
-        self.max_angular_acceleration = limits.angular_acceleration
-
-    @property
-    def _hardware(self) -> tuple[str, ...]:
-        return (world_id(self.manager, self.description.bus),)
-
-    def _send(self, twist: Twist, now: float) -> None:
-        self.world.command(twist, now)
-
-    def _brake(self, now: float) -> None:
-        self.world.brake(now)
-
-    def _set_power(self, percent: float, now: float) -> None:
-        self.world.hold(self.id, percent > 0)
-
-    def _rolled(self, now: float) -> Way:
-        self.world.advance(now)
-        return Way(self.world.base.travelled, self.world.base.odometry.heading)
-
-    def _velocity(self, now: float) -> Twist:
-        self.world.advance(now)
-        return self.world.base.velocity
 
 
 class SimulatedOdometry(InWorld, Odometry):

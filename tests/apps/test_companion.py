@@ -168,7 +168,7 @@ def test_stop_is_obeyed_while_it_drives():
     visit = Visit(11, {1.0: "go forward ten meters", 6.5: "stop"}, devices=SEEING)
     assert visit.heard() == ["move", "stop"]
     stops = {event.properties["reason"] for event in visit.named("drive.stopped")}
-    assert stops == {"e-stop", "halt"}
+    assert stops == {"e-stop"}
     stop = visit.named("speech.heard")[1].time
     assert 0.3 < visit.pose_at(stop).x < 3
     assert visit.pose_at(stop + 1.5).x == pytest.approx(visit.pose_at(10.5).x, abs=0.005)

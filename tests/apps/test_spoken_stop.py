@@ -40,7 +40,7 @@ def touch(robot):
 
 
 def test_the_next_order_moves_it_with_the_usual_reply():
-    said, x = live(companion(), 9, {1: "stop", 3: "go back one meter"})
+    said, x = live(companion(), 10.5, {1: "stop", 3: "go back one meter"})
     assert said == ["I stopped.", "Going back 1 meter."]
     assert x == pytest.approx(-1.0, abs=0.03)
 
@@ -99,7 +99,7 @@ def test_a_line_for_the_listener_counts_as_said():
     def type_line(text):
         return lambda robot: robot.context.behavior(Listener).type_line(text)
 
-    said, x = live(robot, 9, {}, {1: type_line("stop"), 3: type_line("go back one meter")})
+    said, x = live(robot, 10.5, {}, {1: type_line("stop"), 3: type_line("go back one meter")})
     assert said == ["I stopped.", "Going back 1 meter."]
     assert x == pytest.approx(-1.0, abs=0.03)
 
@@ -180,9 +180,9 @@ def put(tmp_path):
 )
 def test_a_task_that_is_ordered_moves_after_a_spoken_stop_and_after_no_other(put, files):
     app = put(files)
-    _, x = live(companion(app), 8, {1: "stop", 3: "dance for me"})
+    _, x = live(companion(app), 9, {1: "stop", 3: "dance for me"})
     assert x == pytest.approx(-0.5, abs=0.03)
-    _, x = live(companion(app), 8, {1: "stop", 3: "dance for me"}, {2: press_stop})
+    _, x = live(companion(app), 9, {1: "stop", 3: "dance for me"}, {2: press_stop})
     assert x == pytest.approx(0.0, abs=0.001)
 
 
@@ -190,7 +190,7 @@ def test_a_task_that_is_ordered_moves_after_a_spoken_stop_and_after_no_other(put
 def test_a_task_that_moves_for_another_reason_does_not_lift_a_spoken_stop(put, tasks):
     app = put({**ALONE, "tasks.py": tasks})
     come = {3: lambda robot: robot.events.raise_event("nobody.came")}
-    assert live(companion(app), 6, {}, come)[1] == pytest.approx(-0.5, abs=0.03)
+    assert live(companion(app), 8, {}, come)[1] == pytest.approx(-0.5, abs=0.03)
     assert live(companion(app), 6, {1: "stop", 2: "hello robot"}, come)[1] == 0.0
 
 

@@ -12,7 +12,7 @@ ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs/safety.md").read_text(encoding="utf-8")
 ROAD = PAGE.split("## The road to the wheels")[1].split("\n## ")[0]
 HOPS = re.findall(r"`(hri\.[\w.]+\.[A-Z]\w+)`", ROAD)
-SHAPERS = {"velocity_for", "stopping_speed", "safe_speed", "Trapezoid", "Limiter", "VelocityGate"}
+SHAPERS = {"velocity_for", "stopping_speed", "safe_speed", "Trapezoid", "Limiter"}
 """What makes another velocity of one."""
 ARITHMETIC = {"hri.hal.motion_profile", "hri.drive.velocity_limits"}
 

@@ -199,7 +199,7 @@ def test_the_base_does_each_command(drive_about, resources, capsys, monkeypatch)
     # Three seconds later it still turns, though nothing was asked since.
     assert before["Stop smooth."][1].angular == pytest.approx(-math.pi / 6, abs=0.01)
     assert before["Free moving backward."][1].angular == pytest.approx(0.0, abs=0.01)
-    assert before["Stop abrupt."][1].linear == pytest.approx(-0.2, abs=0.005)
+    assert before["Stop abrupt."][1].linear == pytest.approx(-0.15, abs=0.005)
     smoothly = times["Free moving backward."] - times["Stop smooth."]
     abruptly = times["Moving and turning to the right at the same time."] - times["Stop abrupt."]
     assert smoothly > 1.5 * abruptly

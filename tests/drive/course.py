@@ -9,36 +9,26 @@ from typing import Any
 import trio
 
 from hri.behavior.behavior import Context
+from hri.behavior.drive_command import DriveCommand
 from hri.behavior.ports import OutputPort
 from hri.core.clock import FakeClock
 from hri.core.event_bus import EventBus
-from hri.core.signals import Event, Pose2D, RangeReading, Twist
+from hri.core.signals import Event, RangeReading, Twist
 from hri.drive.behaviors import CommandGate
-from hri.hal.drive import Odometry
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
-from hri.simulation.base import Base
+from hri.simulation.world import SimulatedWorld
 from hri.task.context import TaskContext
 from hri.task.task_manager import TaskManager
 
 TICK = 0.02
 RADIUS = 0.2
-
-
-class BaseOdometry(Odometry):
-    """Reads the wheels of a simulated base."""
-
-    def __init__(self, base: Base, manager: ResourceManager) -> None:
-        super().__init__(Description("odometry", "Test.Odometry"), manager)
-        self.base = base
-
-    def pose(self, now: float) -> Pose2D:
-        self.base.advance(now)
-        return self.base.odometry
-
-    def velocity(self, now: float) -> Twist:
-        self.base.advance(now)
-        return self.base.velocity
+DEVICES = (
+    Description("mute", "Hri.SilentVoice"),
+    Description("world", "Hri.SimulatedWorld", {"voice": "mute"}),
+    Description("drive", "Hri.SimulatedDrive", bus="world"),
+    Description("odometry", "Hri.SimulatedOdometry", bus="world"),
+)
 
 
 class Course:
@@ -47,9 +37,10 @@ class Course:
     def __init__(self, wall: float = math.inf, slip: float = 0.0, **parameters: Any) -> None:
         self.clock = FakeClock()
         self.wall = wall
-        self.base = Base(lambda x, y, time: self.wall - x, slip=slip)
-        self.resources = ResourceManager([], self.clock)
-        self.resources.substitute("odometry", BaseOdometry(self.base, self.resources))
+        self.resources = ResourceManager(DEVICES, self.clock)
+        self.base = self.resources.obtain("world", SimulatedWorld).base
+        self.base._clearance = lambda x, y, time: self.wall - x
+        self.base._slip = slip
         self.context = Context(self.clock, EventBus(self.clock), self.resources)
         self.events: list[Event] = []
         self.context.events.subscribe("drive.*", self.events.append)
@@ -60,7 +51,10 @@ class Course:
         self.gate.bump.sources.append(self.feels)
         self.gate.twist.sources.append(self.asks)
         self.gate.speed.sources.append(self.hurries)
+        self.drive = DriveCommand("drive")
+        self.drive.velocity.sources.append(self.gate.velocity)
         self.gate.start(self.context)
+        self.drive.start(self.context)
         self.sensor_speaks = self.switch_speaks = True
         self.task = TaskManager(self.context, {"moving.gate": self.gate}).context
         self.fastest = 0.0
@@ -73,9 +67,7 @@ class Course:
         self.sees.value = reading if self.sensor_speaks else None
         self.feels.value = self.base.is_touching if self.switch_speaks else None
         self.gate.compute(now, TICK)
-        velocity = self.gate.velocity.value
-        assert velocity is not None
-        self.base.command(velocity, now)
+        self.drive.compute(now, TICK)
         self.fastest = max(self.fastest, abs(self.base.velocity.linear))
 
     def tick_for(self, seconds: float) -> None:

@@ -2,6 +2,7 @@
 
 import pytest
 
+from hri.behavior.drive_command import DriveCommand
 from hri.behavior.ports import OutputPort
 from hri.core.origin import OUTSIDE
 from hri.core.signals import Twist
@@ -9,6 +10,7 @@ from hri.drive.behaviors import CommandGate
 from hri.hal.motion import REST
 from hri.speech.behaviors import SpeakOn
 from hri.testing import context, run_for
+from tests.drive.course import DEVICES
 from tests.speech.fakes import Stage
 
 
@@ -25,7 +27,9 @@ def said(port, spoken):
 
 @pytest.mark.parametrize(("spoken", "origin"), [(True, OUTSIDE), (False, "")])
 def test_a_motion_has_the_origin_of_its_command_and_a_stop_is_the_gates_own(spoken, origin):
-    gate, lent = CommandGate("gate"), context()
+    gate, lent = CommandGate("gate"), context(*DEVICES)
+    drive = DriveCommand("drive")
+    drive.velocity.sources.append(gate.velocity)
     say = said(gate.twist, spoken)
 
     compute = gate.compute
@@ -35,7 +39,7 @@ def test_a_motion_has_the_origin_of_its_command_and_a_stop_is_the_gates_own(spok
         compute(now, dt)
 
     gate.compute = steered
-    events = run_for(3.0, [gate], lent, 0.05)
+    events = run_for(3.0, [gate, drive], lent, 0.05)
     assert [(event.name, event.origin) for event in events] == [
         ("drive.commanded", origin),
         ("drive.stopped", ""),

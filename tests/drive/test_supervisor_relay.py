@@ -84,8 +84,12 @@ def resources() -> Iterator[ResourceManager]:
         yield resources
 
 
-def test_nothing_moves_until_a_person_releases_the_base(resources: ResourceManager) -> None:
+def test_nothing_moves_after_a_stop_until_a_person_releases_the_base(
+    resources: ResourceManager,
+) -> None:
     guarded = Guarded(resources).started()
+    guarded.guard.halt()
+    guarded.wait(TICK)
     assert guarded.guard.must_wait
     assert guarded.guard.is_latched.value is True
     guarded.wait(1.0, Twist(0.2))

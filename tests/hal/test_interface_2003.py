@@ -61,7 +61,7 @@ def test_the_drive_of_2003_drives_freely_in_centimeters_and_stops(
     drive.move_and_turn(-20, 40, 0, 1)
     resources.clock.advance(1.0)
     drive.stop(Stop.ABRUPT).wait()
-    assert odometry.velocity(resources.clock.now()).linear == 0.0
+    assert odometry.velocity(resources.clock.now()).linear == pytest.approx(0.0, abs=1e-9)
 
 
 def test_what_was_obtained_by_name_is_given_back_as_any_other(resources: ResourceManager) -> None:

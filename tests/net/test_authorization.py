@@ -19,6 +19,7 @@ from hri.behavior.runner import Runner
 from hri.core.errors import HriError
 from hri.core.token import VARIABLE, new_token, own_token, token_file
 from hri.drive.behaviors import CommandGate
+from hri.drive.supervisor.base_bus import BaseBus
 from hri.hal.drive import DriveSystem
 from hri.hal.resource import Description
 from hri.net.connection import Connection
@@ -118,8 +119,9 @@ class Robot:
 
     @property
     def goal(self):
-        """What the wheels were told, m/s."""
-        return self.world.base._goal.linear
+        """The velocity that the wheels are led to, m/s."""
+        (base,) = self.lent.resources.opened(BaseBus)
+        return base.state.target.linear
 
     def close(self):
         for peer in self.peers:

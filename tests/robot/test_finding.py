@@ -215,7 +215,7 @@ def test_the_network_follows_what_it_sees_and_stops_before_it(tmp_path):
         await context.clock.sleep(10.0)
         first = room.from_robot("dollar_front.jpg")
         room.put("dollar_front.jpg", 4.0, 1.6)
-        await context.clock.sleep(7.0)
+        await context.clock.sleep(14.0)
         return first, room.from_robot("dollar_front.jpg")
 
     for bearing, distance in room.run(watch):

@@ -23,8 +23,8 @@ def test_speeding_up_covers_the_way_of_a_trapezoid() -> None:
     base = base_in(Room())
     drive(base, Twist(0.3), 0.0, 4.0)
     drive(base, Twist(), 4.0, 6.0)
-    # 0.6 s up to 0.3 m/s at 0.5 m/s^2, then steady until 4 s, then 0.6 s down.
-    assert base.odometry.x == pytest.approx(0.3 * 4.0, abs=1e-9)
+    # 0.6 s up to 0.3 m/s at 0.5 m/s^2, then steady until 4 s, then down at 1.5 m/s^2.
+    assert base.odometry.x == pytest.approx(0.09 + 0.3 * 3.4 + 0.03, abs=1e-9)
     assert base.pose == base.odometry
     assert base.velocity == Twist()
 
@@ -33,7 +33,8 @@ def test_turning_in_place_stays_in_place() -> None:
     base = base_in(Room())
     drive(base, Twist(0.0, 1.0), 0.0, 2.0)
     drive(base, Twist(), 2.0, 4.0)
-    assert base.pose.heading == pytest.approx(2.0, abs=1e-9)
+    # 0.5 s up to 1 rad/s at 2 rad/s^2, then steady until 2 s, then down at 6 rad/s^2.
+    assert base.pose.heading == pytest.approx(0.25 + 1.5 + 1 / 12, abs=1e-3)
     assert (base.pose.x, base.pose.y) == (0.0, 0.0)
 
 

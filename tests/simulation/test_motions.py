@@ -13,14 +13,16 @@ from hypothesis import given, settings, strategies as st
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError
 from hri.core.signals import Pose2D, Twist
+from hri.drive.velocity_limits import BaseLimits
 from hri.hal.drive import DriveSystem, Odometry, Stop
+from hri.hal.emergency_stop import EmergencyStop
 from hri.hal.motion_profile import Trapezoid
 from hri.hal.pending import Interrupted, Pending
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.simulation.base import WATCHDOG
+from hri.simulation.bases.simulated_base import SimulatedWheels
 from hri.simulation.motors import SimulatedMotor
-from hri.simulation.simulated_devices import SimulatedDrive
 from hri.simulation.world import SimulatedWorld
 
 from .conftest import ToneVoice
@@ -35,6 +37,7 @@ TWO_MOTORS = (
     Description("drive", "Evolution.Diff2Drive", members=("left", "right")),
     Description("odometry", "Evolution.Diff2Odometry", members=("left", "right")),
 )
+BACKWARD = BaseLimits().near_backward
 BASES = {"a whole base": WHOLE, "two motors": TWO_MOTORS}
 
 
@@ -120,11 +123,12 @@ def test_a_move_keeps_to_its_profile(
 ) -> None:
     robot = made(devices)
     fastest = robot.fastest_until_done(robot.drive.move_delta(distance, velocity, acceleration))
-    cruise = min(velocity, robot.drive.max_linear)
+    cruise = min(velocity, robot.drive.max_linear if distance > 0 else BACKWARD)
     assert fastest.linear <= cruise + 1e-9
     reachable = min(acceleration, 0.8 * robot.drive.max_acceleration)
     planned = Trapezoid(distance, cruise, reachable).duration
-    assert robot.clock.now() == pytest.approx(planned, abs=0.08)
+    # The supervisor limits the jerk: a short way is over before it has sped up that much.
+    assert planned - 0.02 <= robot.clock.now() <= planned + (0.3 if planned > 2.0 else 1.0)
     robot.clock.advance(1.0)
     assert robot.pose().x == pytest.approx(distance, abs=0.001)
     assert robot.velocity() == Twist()
@@ -143,7 +147,7 @@ def test_a_turn_keeps_to_its_profile(
     cruise = min(velocity, robot.drive.max_angular)
     assert fastest.angular <= cruise + 1e-9
     reachable = min(acceleration, 0.8 * robot.drive.max_angular_acceleration)
-    assert robot.clock.now() == pytest.approx(Trapezoid(angle, cruise, reachable).duration, abs=0.1)
+    assert robot.clock.now() == pytest.approx(Trapezoid(angle, cruise, reachable).duration, abs=0.5)
     robot.clock.advance(1.0)
     assert robot.pose().heading == pytest.approx(angle, abs=math.radians(0.1))
     assert robot.velocity() == Twist()
@@ -154,6 +158,7 @@ def test_a_turn_keeps_to_its_profile(
 def test_free_motion_is_an_arc_that_goes_on_until_countermanded(robot: Robot) -> None:
     robot.drive.move_and_turn(0.2, 0.4, -0.5, 1.0)
     robot.clock.advance(0.5)
+    robot.clock.advance(0.2)  # the supervisor limits the jerk
     assert robot.velocity().linear == pytest.approx(0.2, abs=0.01)
     start = robot.pose()
     robot.clock.advance(10 * WATCHDOG)
@@ -165,7 +170,7 @@ def test_free_motion_is_an_arc_that_goes_on_until_countermanded(robot: Robot) ->
     assert math.dist(middle, (end.x, end.y)) == pytest.approx(0.4, abs=0.002)
     assert end.heading - start.heading == pytest.approx(-0.5 * 10 * WATCHDOG, abs=0.001)
     robot.drive.move_and_turn(0.0, 0.4, 0.0, 1.0)
-    robot.clock.advance(0.6)
+    robot.clock.advance(0.8)
     assert robot.velocity() == Twist()
 
 
@@ -180,8 +185,8 @@ def test_both_ways_to_stop_have_their_own_profile(robot: Robot) -> None:
         ways[how], times[how] = robot.pose().x - start.x, robot.clock.now() - began
         assert robot.velocity() == Twist()
     # v^2 / 2a and v / a with the decelerations of 0.4 and 1.5 m/s^2.
-    assert ways[Stop.SMOOTH] == pytest.approx(0.3**2 / 2 / 0.4, abs=0.01)
-    assert times[Stop.SMOOTH] == pytest.approx(0.3 / 0.4, abs=0.06)
+    assert ways[Stop.SMOOTH] == pytest.approx(0.3**2 / 2 / 0.4, abs=0.015)
+    assert times[Stop.SMOOTH] == pytest.approx(0.3 / 0.4, abs=0.12)
     assert ways[Stop.ABRUPT] == pytest.approx(0.3**2 / 2 / 1.5, abs=0.005)
     assert times[Stop.ABRUPT] == pytest.approx(0.3 / 1.5, abs=0.06)
 
@@ -191,14 +196,15 @@ def test_idle_power_holds_the_base_until_the_drive_is_given_back(robot: Robot) -
     def pushed() -> float:
         before = robot.world.base.pose.x
         robot.world.push(0.1, robot.clock.now())
+        robot.clock.advance(0.1)
         return robot.world.base.pose.x - before
 
     assert pushed() == pytest.approx(0.1)
     robot.drive.set_idle_power(60).wait()
     assert robot.world.is_held
-    assert pushed() == 0.0
+    assert pushed() == pytest.approx(0.0, abs=1e-5)
     robot.drive.move_delta(0.1, 0.2, 0.4).wait()
-    assert pushed() == 0.0
+    assert pushed() == pytest.approx(0.0, abs=1e-5)
     robot.manager.release(robot.drive)
     assert not robot.world.is_held
     assert pushed() == pytest.approx(0.1)
@@ -232,7 +238,7 @@ def test_less_power_for_motions_speeds_up_more_slowly(robot: Robot) -> None:
     robot.drive.set_move_power(50).wait()
     robot.drive.move_delta(0.5, 0.3, 9.0).wait()
     acceleration = 0.8 * 0.5 * robot.drive.max_acceleration
-    assert robot.clock.now() == pytest.approx(Trapezoid(0.5, 0.3, acceleration).duration, abs=0.06)
+    assert robot.clock.now() == pytest.approx(Trapezoid(0.5, 0.3, acceleration).duration, abs=0.12)
 
 
 OTHERS: dict[str, Callable[[Robot], object]] = {
@@ -337,85 +343,78 @@ def test_who_is_told_of_an_end_finds_the_drive_free(robot: Robot) -> None:
     assert outcomes == ["let in", "let in"]
 
 
-class LooseCable(SimulatedDrive):
-    """A drive whose hardware sometimes cannot be reached."""
+class LooseCable(SimulatedWheels):
+    """Wheels that sometimes cannot be reached."""
 
     is_loose = brakes_too = False
 
-    def _send(self, twist: Twist, now: float) -> None:
+    def roll(self, twist: Twist, now: float) -> None:
         if self.is_loose:
             raise OSError("serial port gone")
-        super()._send(twist, now)
+        super().roll(twist, now)
 
-    def _brake(self, now: float) -> None:
+    def brake(self, now: float) -> None:
         if self.is_loose and not self.brakes_too:
             raise OSError("serial port gone")
-        super()._brake(now)
+        super().brake(now)
 
 
 @pytest.fixture
 def cable() -> Iterator[tuple[Robot, LooseCable]]:
     robot = made(WHOLE)
     robot.manager.release(robot.drive)
-    drive = LooseCable(WHOLE[0], robot.manager)
-    robot.manager.substitute("drive", drive)
+    wheels = LooseCable(robot.manager.descriptions["world_base_line"], robot.manager)
+    robot.manager.substitute("world_base_line", wheels)
     robot.drive = robot.manager.obtain("drive", DriveSystem)
-    yield robot, drive
+    yield robot, wheels
     robot.manager.close()
 
 
+LOST = "I lost the line to my wheels - unlatch the base first"
+
+
 @pytest.mark.parametrize("brakes_too", [False, True])
-def test_a_motion_whose_hardware_fails_ends_alone(
-    cable: tuple[Robot, LooseCable], brakes_too: bool
+def test_a_motion_whose_hardware_fails_ends_and_a_person_releases_the_base(
+    cable: tuple[Robot, LooseCable], brakes_too: bool, caplog: pytest.LogCaptureFixture
 ) -> None:
-    robot, drive = cable
-    drive.brakes_too = brakes_too
+    robot, wheels = cable
+    wheels.brakes_too = brakes_too
 
     async def main() -> None:
         async with trio.open_nursery() as nursery:
             nursery.start_soon(robot.clock.drive)
-            motion = drive.move_delta(1.0, 0.3, 0.5)
+            motion = robot.drive.move_delta(1.0, 0.3, 0.5)
             await robot.clock.sleep(1.0)
-            drive.is_loose = True
-            with pytest.raises(HriError, match="drive: serial port gone - see that"):
+            wheels.is_loose = True
+            with pytest.raises(HriError, match=LOST):
                 await motion
             at_the_failure = robot.pose().x
             await robot.clock.sleep(2.0)
             assert robot.velocity() == Twist()
             if brakes_too:
                 assert robot.pose().x - at_the_failure < 0.3**2 / 2 / 1.5 + 0.01
-            drive.is_loose = False
-            await drive.move_delta(0.1, 0.2, 0.4)
+            wheels.is_loose = False
+            with pytest.raises(HriError, match=LOST):
+                await robot.drive.move_delta(0.1, 0.2, 0.4)
+            assert isinstance(robot.drive, EmergencyStop)
+            robot.drive.unlatch()
+            await robot.clock.sleep(0.1)
+            await robot.drive.move_delta(0.1, 0.2, 0.4)
             nursery.cancel_scope.cancel()
 
     trio.run(main)
+    assert "serial port gone" in caplog.text
 
 
 def test_hardware_that_fails_at_once_is_told_to_the_caller(
     cable: tuple[Robot, LooseCable],
 ) -> None:
-    _, drive = cable
-    drive.is_loose = True
-    with pytest.raises(HriError, match="serial port gone"):
-        drive.move_delta(1.0, 0.3, 0.5).result()
-    with pytest.raises(HriError, match="serial port gone"):
-        drive.move_and_turn(0.3, 0.5, 0.0, 1.0)
-
-
-def test_a_velocity_that_cannot_be_sent_leaves_nobody_waiting(
-    cable: tuple[Robot, LooseCable],
-) -> None:
-    robot, drive = cable
-    motion = drive.move_delta(1.0, 0.3, 0.5)
-    robot.clock.advance(0.5)
-    drive.is_loose = True
-    with pytest.raises(OSError, match="serial port gone"):
-        drive.set_velocity(Twist(0.2), robot.clock.now())
-    with pytest.raises(Interrupted):
-        motion.result()
-    drive.move_delta(1.0, 0.3, 0.5)
-    robot.manager.release(drive)
-    assert not drive.is_active
+    robot, wheels = cable
+    wheels.is_loose = True
+    with pytest.raises(HriError, match=LOST):
+        robot.drive.move_delta(1.0, 0.3, 0.5).wait()
+    with pytest.raises(HriError, match=LOST):
+        robot.drive.move_and_turn(0.3, 0.5, 0.0, 1.0)
 
 
 @pytest.mark.proves("H27")
@@ -498,8 +497,8 @@ def test_motors_count_in_their_own_direction() -> None:
     left, right = (robot.manager.obtain(id, SimulatedMotor) for id in ("left", "right"))
     robot.drive.move_delta(0.5, 0.2, 0.4).wait()
     now = robot.clock.now()
-    assert left.counts(now) == pytest.approx(-1711 * 50, rel=0.001)
-    assert right.counts(now) == pytest.approx(1711 * 50, rel=0.001)
+    assert left.counts(now) == pytest.approx(-1711 * 50, rel=0.002)
+    assert right.counts(now) == pytest.approx(1711 * 50, rel=0.002)
     robot.drive.turn_delta(math.pi, 1.0, 1.0).wait()
     now = robot.clock.now()
     assert left.position(now) == pytest.approx(0.5 - 0.19 * math.pi, abs=0.001)
@@ -556,9 +555,10 @@ def test_odometry_makes_up_for_polls_that_failed(caplog: pytest.LogCaptureFixtur
     encoder = Encoder(TWO_MOTORS[0], manager)
     manager.substitute("left", encoder)
     odometry, drive = manager.obtain("odometry", Odometry), manager.obtain("drive", DriveSystem)
-    drive.set_velocity(Twist(0.2), clock.now())
-    encoder.is_unplugged = True
-    clock.advance(0.4)
+    for step in range(10):
+        drive.set_velocity(Twist(0.2), clock.now())
+        encoder.is_unplugged = step in (5, 6)
+        clock.advance(0.04)
     encoder.is_unplugged = False
     drive.stop(clock.now())
     clock.advance(1.0)

@@ -33,9 +33,10 @@ from .conftest import Build
 def test_go_forward_ten_meters(build: Build) -> None:
     manager = build()
     drive, odometry = manager.obtain("drive", DriveSystem), manager.obtain("odometry", Odometry)
-    for tick in range(60 * 50):
-        ahead = 10.0 - odometry.pose(tick / 50).x
-        drive.set_velocity(Twist(min(0.5, math.sqrt(max(0.0, ahead) * 0.8))), tick / 50)
+    while (now := manager.clock.now()) < 60.0:
+        ahead = 10.0 - odometry.pose(now).x
+        drive.set_velocity(Twist(min(0.5, math.sqrt(max(0.0, ahead) * 0.8))), now)
+        manager.clock.advance(0.02)
     world = manager.obtain("world", SimulatedWorld)
     assert odometry.pose(60.0).x == pytest.approx(10.0, rel=0.002)
     assert world.base.pose.x == pytest.approx(10.0, rel=0.02)
@@ -45,10 +46,12 @@ def test_go_forward_ten_meters(build: Build) -> None:
 def test_the_drive_stops_and_tells_what_it_can(build: Build) -> None:
     manager = build()
     drive, odometry = manager.obtain("drive", DriveSystem), manager.obtain("odometry", Odometry)
-    for tick in range(50):
-        drive.set_velocity(Twist(drive.max_linear), tick / 50)
-    assert odometry.velocity(1.0).linear == pytest.approx(drive.max_acceleration, abs=0.02)
+    for _ in range(50):
+        drive.set_velocity(Twist(drive.max_linear), manager.clock.now())
+        manager.clock.advance(0.02)
+    assert odometry.velocity(1.0).linear == pytest.approx(drive.max_linear, abs=0.02)
     drive.stop(1.0)
+    manager.clock.advance(0.4)
     assert odometry.velocity(1.4) == Twist()
 
 

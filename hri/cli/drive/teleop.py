@@ -11,9 +11,9 @@ from hri.core.clock import Clock
 from hri.core.errors import NotAvailable
 from hri.core.signals import Twist
 from hri.drive.supervisor.base_bus import BaseBus
-from hri.drive.supervisor.velocity_arbiter import Level
 from hri.hal.drive import Odometry
 from hri.hal.motion import REST
+from hri.hal.rank import Rank
 
 PERIOD = 0.05
 """Seconds between two velocities, and between two pictures."""
@@ -78,5 +78,5 @@ class Teleop:
             if twist != REST:
                 self._bus.teleop(twist)
             elif self._is_asking:
-                self._bus.ask(Level.TELEOP, None)
+                self._bus.ask(Rank.TELEOP, None)
         self._is_asking = twist != REST

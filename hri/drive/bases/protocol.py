@@ -167,18 +167,22 @@ class BaseProtocol(ABC):
         """Stand still, even after a command whose writer was killed halfway."""
 
     def _rims(self, twist: Twist) -> tuple[float, float]:
-        """Velocities of the left and the right wheel, m/s, for a velocity cut to `limits`.
+        """Velocities of the left and the right wheel, m/s, for a velocity cut to `limits`."""
+        half, slowed = self.track / 2, self._slowed(twist)
+        return WheelPair(half, -half).rolling(slowed.linear, slowed.angular)
 
-        The faster one rolls with |v| + |w| track / 2; where that is too fast, both are slowed down
-        alike, which keeps the curve.
+    def _slowed(self, twist: Twist) -> Twist:
+        """A velocity cut to `limits`. Raises HriError for what is not finite.
+
+        The faster wheel rolls with |v| + |w| track / 2; where that is too fast, both are slowed
+        down alike, which keeps the curve.
         """
         if not (math.isfinite(twist.linear) and math.isfinite(twist.angular)):
             what = f"a velocity of {twist.linear} m/s and {twist.angular} rad/s"
             raise HriError(f"{self.title}: {what} - send finite numbers")
-        half = self.track / 2
-        faster = abs(twist.linear) + abs(twist.angular) * half
+        faster = abs(twist.linear) + abs(twist.angular) * self.track / 2
         share = min(1.0, self.limits.linear / faster) if faster else 1.0
-        return WheelPair(half, -half).rolling(twist.linear * share, twist.angular * share)
+        return Twist(twist.linear * share, twist.angular * share)
 
     def poll(self, now: float) -> bytes:
         """What to ask now; nothing when the base speaks by itself, or still owes an answer."""

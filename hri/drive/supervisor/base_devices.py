@@ -7,7 +7,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import ClassVar
 
 from hri.core.errors import did_you_mean
@@ -17,15 +16,11 @@ from hri.drive.bases.protocol import BaseReport, within
 from hri.drive.supervisor.base_bus import STALE, BaseBus
 from hri.drive.supervisor.link import State
 from hri.drive.supervisor.plausibility import MOST_VOLTAGE
-from hri.drive.supervisor.velocity_arbiter import Level
-from hri.drive.velocity_limits import Cap, within_hardware
 from hri.hal.battery import Battery
 from hri.hal.bumper import Bumper
 from hri.hal.cliff_sensor import CliffSensor
 from hri.hal.drive import Odometry
-from hri.hal.motion import REST, Response, Way
-from hri.hal.moving_base import MovingBase
-from hri.hal.pending import Pending
+from hri.hal.motion import REST, Way
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Resource
 
@@ -37,7 +32,15 @@ class OnBase(Resource):
 
     def _open(self) -> None:
         super()._open()
-        self.bus = self.use(self.description.bus, BaseBus)
+        self._declare_base()
+        self.bus = self.use(self._base_id(), BaseBus)
+
+    def _declare_base(self) -> None:
+        """Declare the base where the configuration does not name it."""
+
+    def _base_id(self) -> str:
+        """Id of the base."""
+        return self.description.bus
 
 
 class OfSensor(OnBase):
@@ -58,85 +61,6 @@ class OfSensor(OnBase):
     def _is_any(self) -> bool:
         """Whether it may stand for all of them."""
         return False
-
-
-class BaseDrive(OnBase, MovingBase):
-    """Asks the supervisor, which has the last word.
-
-    A command arrives there with the rank of whoever gave it; when another rank takes its place, the
-    last word of the one before is taken back.
-    """
-
-    # The supervisor limits the jerk, and the line takes its time: what is told shows 75 ms later.
-    # The wheels of a Create 2 count 0.44 mm, and turn at whole mm/s.
-    response = Response(gain=3.0, lead=0.075, near=Way(0.002, math.radians(0.4)))
-
-    def _open(self) -> None:
-        super()._open()
-        self._source = Level.NOBODY
-        limits = self.bus.limits
-        self.max_acceleration = min(limits.acceleration, limits.deceleration)
-        self.max_angular_acceleration = min(
-            limits.angular_acceleration, limits.angular_deceleration
-        )
-        self.max_linear, self.max_angular = self._slowest.forward, self._slowest.angular
-
-    @property
-    def _hardware(self) -> tuple[str, ...]:
-        return (self.description.bus,)
-
-    @property
-    def _slowest(self) -> Cap:
-        """The speed cap that holds even when people are near; faster plans may lag and fail."""
-        return within_hardware(self.bus.limits.cap(is_near=True), self.bus.fastest)
-
-    @property
-    def is_latched(self) -> bool:
-        return self.bus.is_latched
-
-    def stop_latched(self, because: str) -> None:
-        self.bus.stop_latched(because)
-
-    def stop_spoken(self, because: str, said: float) -> None:
-        self.bus.stop_spoken(because, said)
-
-    @property
-    def is_spoken(self) -> bool:
-        return self.bus.is_spoken
-
-    def unlatch(self) -> None:
-        self.bus.unlatch()
-
-    def unlatch_spoken(self, said: float) -> bool:
-        return self.bus.unlatch_spoken(said)
-
-    def explain(self) -> str:
-        return self.bus.explain()
-
-    def move_delta(self, distance: float, velocity: float, acceleration: float) -> Pending[None]:
-        if distance < 0:
-            velocity = min(velocity, self._slowest.backward)
-        return super().move_delta(distance, velocity, acceleration)
-
-    def _send(self, twist: Twist, now: float) -> None:
-        source = Level(self._chassis.helm.rank(now))
-        if source is not self._source and self._source is not Level.NOBODY:
-            self.bus.ask(self._source, None)
-        self._source = source
-        if source is not Level.NOBODY:
-            self.bus.ask(source, twist)
-
-    def _brake(self, now: float) -> None:
-        self.bus.brake()
-
-    def _set_power(self, percent: float, now: float) -> None:
-        """Nothing: these bases hold their place as their firmware likes."""
-
-    def _rolled(self, now: float) -> Way:
-        return self.bus.report().rolled
-
-    def _velocity(self, now: float) -> Twist:
-        return self.bus.report().velocity or REST
 
 
 class BaseOdometry(OnBase, Odometry):

@@ -31,9 +31,10 @@ from hri.drive.supervisor.link import (
 )
 from hri.drive.supervisor.noise import Noise
 from hri.drive.supervisor.supervisor import Supervisor
-from hri.drive.supervisor.velocity_arbiter import Command, Level
+from hri.drive.supervisor.velocity_arbiter import Command
 from hri.hal.drivers.serial_port import Port
 from hri.hal.motion import REST, Way
+from hri.hal.rank import Rank
 
 TURN = 0.01
 """Seconds between two turns at most."""
@@ -69,7 +70,7 @@ class Controller:
         """Whether the base is being greeted as a stranger: what it says is from before."""
         self._greet_at = 0.0
         self._greeted_at = -math.inf
-        self._decision = Decision(REST, Level.LATCH, DONE)
+        self._decision = Decision(REST, Rank.LATCH, DONE)
         self._told, self._told_at = REST, -math.inf
         self._must_cut = False
         """Whether the emergency stop goes before all else that waits on the line."""
@@ -95,6 +96,7 @@ class Controller:
             time=now,
             report=self._report,
             velocity=decision.twist,
+            target=decision.target,
             level=decision.level,
             reason=latch.cause or decision.reason,
             is_latched=latch.is_closed,
@@ -117,8 +119,8 @@ class Controller:
 
     def _taken(self, order: Order, now: float) -> Command | None:
         match order:
-            case Ask(source, twist, echo) if echo <= now:
-                return Command(source, twist, echo)
+            case Ask(source, twist, echo, manner) if echo <= now:
+                return Command(source, twist, echo, manner)
             case Brake():
                 self.supervisor.brake()
             case Trip(cause):

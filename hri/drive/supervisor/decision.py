@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from hri.core.signals import Twist
 from hri.drive.supervisor.cause import Cause
-from hri.drive.supervisor.velocity_arbiter import Level
+from hri.hal.motion import REST
+from hri.hal.rank import Rank
 
 
 @dataclass(frozen=True, slots=True)
@@ -14,9 +15,11 @@ class Decision:
     """What the wheels are told."""
 
     twist: Twist
-    level: Level
+    level: Rank
     reason: Cause
     """Why it rests, or why it is slower than was asked."""
+    target: Twist = REST
+    """The velocity that `twist` leads to."""
     stop: Cause | None = None
     """Set in the one step in which it comes to rest, or the latch closes for a new reason."""
     must_wake: bool = False

@@ -6,6 +6,7 @@ import math
 
 from hri.core.signals import Twist
 from hri.drive.velocity_limits import BaseLimits, Cap, within
+from hri.hal.manner import FREELY, Manner
 from hri.hal.motion import REST
 
 QUANTUM = 0.005
@@ -34,13 +35,18 @@ class Limiter:
         self._left_over = 0.0
         return REST
 
-    def step(self, target: Twist, cap: Cap, dt: float) -> Twist:
-        """The velocity `dt` seconds later on the way to a target, cut to the cap."""
+    def step(self, target: Twist, cap: Cap, dt: float, manner: Manner = FREELY) -> Twist:
+        """The velocity `dt` seconds later on the way to a target, cut to the cap.
+
+        The accelerations of the manner bound this way, but not the braking down to a cap that has
+        fallen.
+        """
         target = within(target, cap)
+        up, down = manner.acceleration, manner.deceleration
         quanta, self._left_over = divmod(self._left_over + dt, QUANTUM)
         for _ in range(int(quanta)):
-            self._linear.step(target.linear, -cap.backward, cap.forward)
-            self._angular.step(target.angular, -cap.angular, cap.angular)
+            self._linear.step(target.linear, -cap.backward, cap.forward, up.linear, down.linear)
+            self._angular.step(target.angular, -cap.angular, cap.angular, up.angular, down.angular)
         return self.velocity
 
 
@@ -56,8 +62,15 @@ class _Axis:
     def halt(self) -> None:
         self.velocity = self.acceleration = 0.0
 
-    def step(self, target: float, least: float, most: float) -> None:
-        """One QUANTUM toward a target within least and most."""
+    def step(
+        self,
+        target: float,
+        least: float,
+        most: float,
+        up: float = math.inf,
+        down: float = math.inf,
+    ) -> None:
+        """One QUANTUM toward a target within least and most, with at most these accelerations."""
         if not least <= self.velocity <= most:
             self._brake(most if self.velocity > most else least)
             return
@@ -66,7 +79,7 @@ class _Axis:
         error = target - self.velocity
         side = math.copysign(1.0, error) if error else math.copysign(1.0, self.acceleration)
         grows = abs(target) > abs(self.velocity)
-        limit = self._acceleration if grows else self._deceleration
+        limit = min(up, self._acceleration) if grows else min(down, self._deceleration)
         toward = self._toward(abs(error), self.acceleration * side, limit)
         self.acceleration = toward * side
         self.velocity += self.acceleration * QUANTUM

@@ -18,9 +18,10 @@ from typing import Any, Final, TypeVar
 from hri.core.signals import Twist
 from hri.drive.bases.protocol import BaseReport, Note
 from hri.drive.supervisor.cause import POWER_UP, Cause
-from hri.drive.supervisor.velocity_arbiter import Level
 from hri.drive.velocity_limits import Cap
+from hri.hal.manner import FREELY, Manner
 from hri.hal.motion import REST, Way
+from hri.hal.rank import Rank
 
 NOTHING: Final = Cap(0.0, 0.0, 0.0)
 LARGEST: Final = 65536
@@ -42,9 +43,10 @@ class Heartbeat:
 class Ask:
     """A velocity; None takes back what this source asked for before."""
 
-    source: Level
+    source: Rank
     twist: Twist | None
     echo: float
+    manner: Manner = FREELY
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +124,7 @@ class State:
     """The newest; `time` of it is the supervisor's too, `rolled` goes on after a lost port."""
     velocity: Twist = REST
     """What the wheels were told last."""
-    level: Level = Level.LATCH
+    level: Rank = Rank.LATCH
     reason: Cause = POWER_UP
     is_latched: bool = True
     is_open: bool = False
@@ -131,12 +133,14 @@ class State:
     """Why the port is not open: problem - remedy."""
     allowed: Cap = NOTHING
     """The fastest that is allowed just now, by who is near; an obstacle may allow less."""
-    waiting: tuple[Level, ...] = ()
+    waiting: tuple[Rank, ...] = ()
     """Sources that ask for something, the one that is heard first."""
     faults: tuple[str, ...] = ()
     """Sensors that cannot be believed: "my left bumper says nothing"."""
     news: tuple[Numbered, ...] = field(default=())
     """The last stops and refusals."""
+    target: Twist = REST
+    """The velocity that `velocity` leads to."""
 
 
 class Packets:
@@ -220,6 +224,16 @@ def _twist(fields: Fields | None) -> Twist | None:
     return None if fields is None else Twist(float(fields["linear"]), float(fields["angular"]))
 
 
+def _manner(fields: Fields) -> Manner:
+    return Manner(
+        Twist(**fields["fastest"]),
+        Twist(**fields["acceleration"]),
+        Twist(**fields["deceleration"]),
+        float(fields["free"]),
+        float(fields["clearance"]),
+    )
+
+
 def _cause(fields: Fields) -> Cause:
     name, because = str(fields["name"]), str(fields["because"])
     said = None if fields["said"] is None else float(fields["said"])
@@ -228,7 +242,9 @@ def _cause(fields: Fields) -> Cause:
 
 _ORDERS: Mapping[str, Callable[[Fields], Order]] = {
     "Heartbeat": lambda f: Heartbeat(float(f["echo"])),
-    "Ask": lambda f: Ask(Level(f["source"]), _twist(f["twist"]), float(f["echo"])),
+    "Ask": lambda f: Ask(
+        Rank(f["source"]), _twist(f["twist"]), float(f["echo"]), _manner(f["manner"])
+    ),
     "Brake": lambda f: Brake(float(f["echo"])),
     "Trip": lambda f: Trip(_cause(f["cause"])),
     "Release": lambda f: Release(float(f["echo"]), _cause(f["cause"])),
@@ -245,13 +261,14 @@ def _state(fields: Fields) -> State:
         time=float(fields["time"]),
         report=_report(fields["report"]),
         velocity=REST if velocity is None else velocity,
-        level=Level(fields["level"]),
+        target=Twist(**fields["target"]),
+        level=Rank(fields["level"]),
         reason=_cause(fields["reason"]),
         is_latched=bool(fields["is_latched"]),
         is_open=bool(fields["is_open"]),
         trouble=str(fields["trouble"]),
         allowed=Cap(**fields["allowed"]),
-        waiting=tuple(map(Level, fields["waiting"])),
+        waiting=tuple(map(Rank, fields["waiting"])),
         faults=_texts(fields["faults"]),
         news=tuple(Numbered(int(n["number"]), _cause(n["cause"])) for n in fields["news"]),
     )

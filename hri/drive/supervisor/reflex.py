@@ -6,6 +6,7 @@ again. Each part is bounded in time, should the wheels not turn.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
@@ -27,6 +28,11 @@ TURN_RATE = 0.8
 """Radians a second."""
 LONGEST = 2.5
 """Seconds for each part."""
+STALLED = 0.6
+"""Seconds without progress after which a part is over: something else is in the way. That is sooner
+than wheels that stand although they are told to turn count as a fault."""
+PROGRESS = 0.005
+"""Meters or radians that count as some."""
 
 
 class _Part(Enum):
@@ -41,6 +47,9 @@ class _Course:
     began: float
     origin: Way
     backs_off: bool
+    gone: float = 0.0
+    """Meters or radians, as of the last progress."""
+    gone_at: float = -math.inf
 
 
 class Reflex:
@@ -99,7 +108,9 @@ class Reflex:
             gone, goal = course.origin.linear - rolled.linear, BACK_OFF
         else:
             gone, goal = abs(rolled.angular - course.origin.angular), TURN_AWAY
-        return gone >= goal or elapsed >= LONGEST
+        if gone >= course.gone + PROGRESS or course.gone_at == -math.inf:
+            course.gone, course.gone_at = gone, now
+        return gone >= goal or elapsed >= LONGEST or now - course.gone_at > STALLED
 
     def _go_on(self, course: _Course, now: float, rolled: Way) -> None:
         if course.part is _Part.TURN or not course.backs_off:

@@ -29,11 +29,11 @@ from hri.drive.supervisor.link import (
 from hri.drive.supervisor.process import Settings
 from hri.drive.supervisor.standby import Standby
 from hri.drive.supervisor.supervisor_connection import BEAT, SupervisorConnection
-from hri.drive.supervisor.velocity_arbiter import Level
 from hri.drive.supervisor.watchdog import LastWords
 from hri.hal.drivers.serial_id import id_of
 from hri.hal.drivers.serial_port import Backoff
 from hri.hal.motion import REST, Way
+from hri.hal.rank import Rank
 
 COMMAND = child.command("-m", "hri.drive.supervisor")
 """Starts it; its settings come behind."""
@@ -260,7 +260,7 @@ def _gone(state: State, number: int) -> State:
     return replace(
         state,
         velocity=REST,
-        level=Level.LATCH,
+        level=Rank.LATCH,
         reason=NO_SUPERVISOR,
         is_latched=True,
         is_open=False,

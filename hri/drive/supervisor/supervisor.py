@@ -14,6 +14,7 @@ from hri.core.signals import Twist
 from hri.drive.bases.protocol import BaseReport
 from hri.drive.supervisor.base_rules import Rules
 from hri.drive.supervisor.cause import (
+    COMING,
     DISOBEYS,
     DONE,
     FROZEN,
@@ -47,9 +48,11 @@ from hri.drive.supervisor.person_distance import Nearness
 from hri.drive.supervisor.plausibility import Plausibility
 from hri.drive.supervisor.reflex import Reflex
 from hri.drive.supervisor.repeated_silence import Silences
-from hri.drive.supervisor.velocity_arbiter import Command, Level, VelocityArbiter
-from hri.drive.velocity_limits import Cap, safe_speed, within_hardware
+from hri.drive.supervisor.velocity_arbiter import Command, VelocityArbiter
+from hri.drive.velocity_limits import Cap, safe_speed, within, within_hardware
+from hri.hal.manner import FREELY, Manner
 from hri.hal.motion import REST
+from hri.hal.rank import Rank
 
 STALE = 0.1
 """Seconds after which a report is stale; three periods for a slower base."""
@@ -118,7 +121,7 @@ class Supervisor:
         """How fast it may go by who is near and by its hardware."""
         return within_hardware(self.rules.limits.cap(self.is_near), self.rules.fastest)
 
-    def waiting(self, now: float) -> list[Level]:
+    def waiting(self, now: float) -> list[Rank]:
         """The sources that ask for something, the most important first."""
         return self._arbiter.waiting(now)
 
@@ -269,9 +272,9 @@ class Supervisor:
         self, now: float, dt: float, report: BaseReport | None, refused: str | None
     ) -> Decision:
         if self.latch.cause is not None:
-            return self._rest(Level.LATCH, self.latch.cause)
+            return self._rest(Rank.LATCH, self.latch.cause)
         if not self.is_watched:
-            return self._rest(Level.REFLEX, NO_WATCHDOG)
+            return self._rest(Rank.REFLEX, NO_WATCHDOG)
         if report is None or not 0 <= now - report.time <= max(STALE, 3 * self.rules.period):
             self._reflex.cancel()
             return self._silent(now)
@@ -283,33 +286,33 @@ class Supervisor:
             return self._reflected(wanted, dt)
         return self._obeyed(now, dt, refused)
 
-    def _rest(self, level: Level, cause: Cause) -> Decision:
+    def _rest(self, level: Rank, cause: Cause) -> Decision:
         return Decision(self._limiter.halt(), level, cause)
 
     def _silent(self, now: float) -> Decision:
         if self._sent != REST and self._silences.add(now):
             self.trip(UNSTEADY)
-            return self._rest(Level.LATCH, UNSTEADY)
-        return self._rest(Level.REFLEX, SILENT_BASE)
+            return self._rest(Rank.LATCH, UNSTEADY)
+        return self._rest(Rank.REFLEX, SILENT_BASE)
 
     def _waking(self, now: float) -> Decision:
         """The base does not obey: its own guard saw what we saw, or someone has switched it."""
         is_expected = self._reflex.cause is not None or self._was_released
         if self._waking_since is None and is_expected:
             self._waking_since = now
-            return replace(self._rest(Level.REFLEX, self._reflex.cause or DISOBEYS), must_wake=True)
+            return replace(self._rest(Rank.REFLEX, self._reflex.cause or DISOBEYS), must_wake=True)
         if self._waking_since is not None and now - self._waking_since <= WAKING:
-            return self._rest(Level.REFLEX, self._reflex.cause or DISOBEYS)
+            return self._rest(Rank.REFLEX, self._reflex.cause or DISOBEYS)
         self._waking_since, self._was_released = None, False
         self.trip(DISOBEYS)
-        return self._rest(Level.LATCH, DISOBEYS)
+        return self._rest(Rank.LATCH, DISOBEYS)
 
     def _reflected(self, wanted: Twist, dt: float) -> Decision:
         cause = self._reflex.cause or DONE
         if wanted == REST:
-            return self._rest(Level.REFLEX, cause)
+            return self._rest(Rank.REFLEX, cause)
         cap = replace(self._cap(), forward=0.0)
-        return Decision(self._limiter.step(wanted, cap, dt), Level.REFLEX, cause)
+        return Decision(self._limiter.step(wanted, cap, dt), Rank.REFLEX, cause)
 
     @property
     def _is_heading_for_a_hazard(self) -> bool:
@@ -320,37 +323,46 @@ class Supervisor:
         command = self._arbiter.chosen(now)
         if command is None or command.twist is None:
             return self._unasked(now, dt, refused)
-        cap, cause = self._cap(), DONE
+        cap, cause = self._cap(command.manner), DONE
         if self._hazards:
             cause = self._hazards[0].cause
             if self._is_heading_for_a_hazard:
-                return self._rest(Level.REFLEX, cause)
+                return self._rest(Rank.REFLEX, cause)
         elif _is_blocked(command.twist, cap):
-            cause = OBSTACLE
-        velocity = self._limiter.step(command.twist, cap, dt)
-        return Decision(velocity, command.source, cause)
+            cause = COMING if self._coming <= 0 else OBSTACLE
+        # What is too fast keeps its curve; what is in the way takes nothing from turning away.
+        curve = within(command.twist, within_hardware(self.allowed, command.manner.fastest))
+        target = Twist(max(-cap.backward, min(cap.forward, curve.linear)), curve.angular)
+        velocity = self._limiter.step(target, cap, dt, command.manner)
+        return Decision(velocity, command.source, cause, target)
 
     def _unasked(self, now: float, dt: float, refused: str | None) -> Decision:
         """Nobody asks for anything: at once when someone fell silent, else gently."""
         silent = self._arbiter.silent(now)
         if silent is not None:
-            return self._rest(Level.NOBODY, Cause("timeout", f"my {silent} fell silent"))
+            return self._rest(Rank.NOBODY, Cause("timeout", f"my {silent} fell silent"))
         if refused is not None:
-            return self._rest(
-                Level.NOBODY, Cause("refused", f"I was asked for nonsense: {refused}")
-            )
-        return Decision(self._limiter.step(REST, self._cap(), dt), Level.NOBODY, DONE)
+            return self._rest(Rank.NOBODY, Cause("refused", f"I was asked for nonsense: {refused}"))
+        return Decision(self._limiter.step(REST, self._cap(), dt), Rank.NOBODY, DONE)
 
-    def _cap(self) -> Cap:
+    @property
+    def _coming(self) -> float:
+        """How fast it may go for those who come near, m/s."""
+        now, watch = self._judged, self._oncoming
+        return min(watch.speed(now, self.rules.limits.deceleration), watch.pace(now))
+
+    def _cap(self, manner: Manner = FREELY) -> Cap:
         """How fast it may go now, with what is in the way."""
-        cap, limits, clearance = self.allowed, self.rules.limits, self.rules.body.clearance
-        moving, deceleration = self._sent.linear, limits.deceleration
-        ahead = safe_speed(self.room.ahead, clearance, deceleration, moving > 0)
+        cap, clearance = within_hardware(self.allowed, manner.fastest), self.rules.body.clearance
+        moving, deceleration = self._sent.linear, self.rules.limits.deceleration
+        ahead = min(
+            safe_speed(self.room.ahead, clearance, deceleration, moving > 0),
+            safe_speed(manner.free, manner.clearance, deceleration, moving > 0),
+        )
         behind = safe_speed(self.room.behind, clearance, deceleration, moving < 0)
         for hazard in self._hazards:
             ahead, behind = (ahead, 0.0) if hazard.is_behind else (0.0, behind)
-        now, watch = self._judged, self._oncoming
-        coming = min(watch.speed(now, deceleration), watch.pace(now))
+        coming = self._coming
         forward, backward = (min(cap.forward, ahead, coming), min(cap.backward, behind, coming))
         return replace(cap, forward=forward, backward=backward)
 

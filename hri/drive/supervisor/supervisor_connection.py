@@ -9,6 +9,7 @@ from hri.core.clock import Clock, Timer
 from hri.drive.supervisor.cause import NO_PROGRAM
 from hri.drive.supervisor.controller import TURN, Controller
 from hri.drive.supervisor.link import Order, State, Trip
+from hri.hal.motion import REST
 
 BEAT = 0.02
 """Seconds between two heartbeats of the program."""
@@ -81,7 +82,13 @@ class Inline(SupervisorConnection):
 
     def _tick(self) -> None:
         self._turn()
-        self._timer = self.clock.call_at(self._turned + TURN, self._tick)
+        self._timer = self.clock.call_at(self._turned + self._interval, self._tick)
+
+    @property
+    def _interval(self) -> float:
+        """Seconds to the next turn; a base that rests is looked at when it reports."""
+        rests = self.state.velocity == REST and not self.state.waiting
+        return max(TURN, self._controller.protocol.period) if rests else TURN
 
     def _turn(self, orders: Sequence[Order] = ()) -> None:
         """Turn, after the turns that a program which stood still has missed."""

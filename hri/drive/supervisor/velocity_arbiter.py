@@ -4,30 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from enum import StrEnum
 
 from hri.core.signals import Twist
 from hri.hal.drive import PATIENCE
-from hri.hal.helm import Rank
+from hri.hal.manner import FREELY, Manner
 from hri.hal.motion import REST
+from hri.hal.rank import WRITERS, Rank
 
-
-class Level(StrEnum):
-    """The levels of control over the wheels, the most important first.
-
-    The supervisor itself, then the ranks of commands (`hri.hal.helm`) under their names.
-    """
-
-    LATCH = "e-stop"
-    REFLEX = "reflex"
-    TELEOP = Rank.TELEOP.value
-    BEHAVIORS = Rank.BEHAVIORS.value
-    TASKS = Rank.TASKS.value
-    NOBODY = Rank.NOBODY.value
-
-
-SOURCES = tuple(Level(rank.value) for rank in Rank if rank is not Rank.NOBODY)
-"""Those who command from outside, the most important first."""
 TOLERANCE = 1.001
 """A command may exceed what the base can do by so much, which is how numbers are rounded."""
 
@@ -36,10 +19,11 @@ TOLERANCE = 1.001
 class Command:
     """What a source wants; a twist of None takes back what it said before."""
 
-    source: Level
+    source: Rank
     twist: Twist | None
     time: float
     """Seconds, the latest at which the source can have said it."""
+    manner: Manner = FREELY
 
 
 class VelocityArbiter:
@@ -48,13 +32,13 @@ class VelocityArbiter:
     def __init__(self, fastest: Twist) -> None:
         """`fastest`: what the base can do at all, m/s and rad/s; what asks for more is refused."""
         self._fastest = fastest
-        self._heard: dict[Level, Command] = {}
+        self._heard: dict[Rank, Command] = {}
 
     def offer(self, command: Command) -> str | None:
         """Take a command; why it was refused, in which case its source counts as silent."""
         self._heard.pop(command.source, None)
-        if command.source not in SOURCES:
-            return f'"{command.source}" may not command - use one of {", ".join(SOURCES)}'
+        if command.source not in WRITERS:
+            return f'"{command.source}" may not command - use one of {", ".join(WRITERS)}'
         if command.twist is None:
             return None
         refusal = self._refusal(command.twist)
@@ -65,15 +49,15 @@ class VelocityArbiter:
 
     def chosen(self, now: float) -> Command | None:
         """The command that counts; None when nobody has one."""
-        return next((c for c in map(self._heard.get, SOURCES) if c and _counts(c, now)), None)
+        return next((c for c in map(self._heard.get, WRITERS) if c and _counts(c, now)), None)
 
-    def waiting(self, now: float) -> list[Level]:
+    def waiting(self, now: float) -> list[Rank]:
         """All sources whose commands are fresh, the most important first."""
-        return [c.source for c in map(self._heard.get, SOURCES) if c and _counts(c, now)]
+        return [c.source for c in map(self._heard.get, WRITERS) if c and _counts(c, now)]
 
-    def silent(self, now: float) -> Level | None:
+    def silent(self, now: float) -> Rank | None:
         """The first source that asked for motion and has said nothing more since its timeout."""
-        for source in SOURCES:
+        for source in WRITERS:
             command = self._heard.get(source)
             if command and command.twist != REST and not _counts(command, now):
                 return source

@@ -1,10 +1,10 @@
-"""A base of two motors: the drive and the odometry of a configuration's groups.
+"""Two motors on one axle: the odometry of a group of a configuration.
 
-    <Group id="drive" type="Hri.Diff2Drive">
+    <Group id="odometry" type="Hri.Diff2Odometry">
       <Member member_id="Drive_left"/> <Member member_id="Drive_right"/>
     </Group>
 
-The track comes from the y of the motors.
+The track comes from the y of the motors. `hri.drive.supervisor.diff2` drives them.
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ from hri.core.signals import Pose2D, Twist
 from hri.hal.drive import Odometry
 from hri.hal.motion import Way
 from hri.hal.motor import Motor
-from hri.hal.moving_base import MovingBase
 from hri.hal.resource import Description, Resource
 from hri.hal.wheels import WheelPair
 
@@ -44,49 +43,20 @@ class TwoMotors(Resource):
             raise description.error("type", what, "name two motors, one on each side")
 
     def _open(self) -> None:
-        super()._open()
         first, second = self.description.members
         self.wheels = WheelPair(self.manager.pose_of(first).y, self.manager.pose_of(second).y)
         if self.wheels.track < NARROWEST:
             what = f"{first} and {second} have the same y"
             raise self.description.error("type", what, "give each motor the y of its wheel, in cm")
         self.motors = self.use(first, Motor), self.use(second, Motor)
+        super()._open()
 
-    def _rolled(self, now: float) -> Way:
+    def rolled(self, now: float) -> Way:
         base = self.wheels.base(*(motor.position(now) for motor in self.motors))
         return Way(base.linear, base.angular)
 
-    def _velocity(self, now: float) -> Twist:
+    def wheel_velocity(self, now: float) -> Twist:
         return self.wheels.base(*(motor.velocity(now) for motor in self.motors))
-
-
-class Diff2Drive(TwoMotors, MovingBase):
-    """Drives over two motors."""
-
-    def _open(self) -> None:
-        super()._open()
-        fastest = min(motor.max_velocity for motor in self.motors)
-        strongest = min(motor.max_acceleration for motor in self.motors)
-        self.max_linear, self.max_angular = fastest, fastest / (self.wheels.track / 2)
-        self.max_acceleration = strongest
-        self.max_angular_acceleration = strongest / (self.wheels.track / 2)
-
-    @property
-    def _hardware(self) -> tuple[str, ...]:
-        return tuple(sorted(self.description.members))
-
-    def _send(self, twist: Twist, now: float) -> None:
-        velocities = self.wheels.rolling(twist.linear, twist.angular)
-        for motor, velocity in zip(self.motors, velocities, strict=True):
-            motor.set_velocity(velocity, now)
-
-    def _brake(self, now: float) -> None:
-        for motor in self.motors:
-            motor.stop(now)
-
-    def _set_power(self, percent: float, now: float) -> None:
-        for motor in self.motors:
-            motor.set_power(percent, now)
 
 
 class Diff2Odometry(TwoMotors, Odometry):
@@ -107,7 +77,7 @@ class Diff2Odometry(TwoMotors, Odometry):
         interval_ms = self.description.number_within("polling_interval", *POLLING_MS)
         self._interval = interval_ms / 1000
         now = self.manager.clock.now()
-        self._pose, self._way = Pose2D(), self._rolled(now)
+        self._pose, self._way = Pose2D(), self.rolled(now)
         self._has_failed = False
         self._timer = self._next_poll(now)
 
@@ -116,10 +86,10 @@ class Diff2Odometry(TwoMotors, Odometry):
 
     def pose(self, now: float) -> Pose2D:
         with self._lock:
-            return self._pose_at(self._rolled(now))
+            return self._pose_at(self.rolled(now))
 
     def velocity(self, now: float) -> Twist:
-        return self._velocity(now)
+        return self.wheel_velocity(now)
 
     def _next_poll(self, now: float) -> Timer:
         return self.manager.clock.call_at(now + self._interval, self._poll)
@@ -130,7 +100,7 @@ class Diff2Odometry(TwoMotors, Odometry):
                 return  # it was closed while this call waited
             now = self.manager.clock.now()
             try:
-                way = self._rolled(now)
+                way = self.rolled(now)
                 self._pose, self._way = self._pose_at(way), way
                 self._has_failed = False
             except Exception as error:

@@ -1,35 +1,12 @@
 """Bases by the names that configurations use, and the resources of one in the simulated world."""
 
 from collections.abc import Iterator
-from importlib.metadata import EntryPoint
 
 import pytest
 
-from hri.core import registry
 from hri.core.clock import FakeClock
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
-
-DEVICES, KINDS = "hri.drive.supervisor.base_devices", "hri.drive.supervisor.base_registry"
-NAMES = {
-    "Hri.Create2": f"{KINDS}:Create2Bus",
-    "Hri.ArduinoBridge": f"{KINDS}:ArduinoBus",
-    "Hri.BaseDrive": f"{DEVICES}:BaseDrive",
-    "Hri.BaseOdometry": f"{DEVICES}:BaseOdometry",
-    "Hri.BaseBumper": f"{DEVICES}:BaseBumper",
-    "Hri.BaseCliffSensor": f"{DEVICES}:BaseCliffSensor",
-    "Hri.BaseRangeSensor": f"{DEVICES}:BaseRangeSensor",
-    "Hri.BaseBattery": f"{DEVICES}:BaseBattery",
-    "Hri.EmulatedArduino": "hri.simulation.bases.emulated_base:ArduinoLine",
-    "Hri.EmulatedCreate2": "hri.simulation.bases.emulated_base:Create2Line",
-}
-
-
-@pytest.fixture(autouse=True)
-def names(monkeypatch: pytest.MonkeyPatch) -> None:
-    entries = registry._entries("hri.resources")
-    for name, value in NAMES.items():
-        monkeypatch.setitem(entries, name, EntryPoint(name, value, "hri.resources"))
 
 
 @pytest.fixture

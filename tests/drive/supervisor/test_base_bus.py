@@ -7,22 +7,25 @@ from typing import Any
 
 import pytest
 
+from hri.behavior.behavior import Context
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError, NotAvailable
 from hri.core.event_bus import EventBus
 from hri.core.signals import Event, Twist
 from hri.drive.bases.protocol import Note
-from hri.drive.supervisor.announcement import announce
+from hri.drive.supervisor.announcement import announced
 from hri.drive.supervisor.base_bus import BaseBus
 from hri.drive.supervisor.base_devices import (
     BaseBattery,
     BaseBumper,
     BaseCliffSensor,
-    BaseDrive,
     BaseOdometry,
     BaseRangeSensor,
 )
+from hri.drive.supervisor.base_drive import BaseDrive
+from hri.hal.drive import PATIENCE
 from hri.hal.pending import Interrupted
+from hri.hal.rank import Outranked
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.simulation.bases.body import RoomBody
@@ -46,7 +49,7 @@ class Robot:
         self.events: list[Event] = []
         events = EventBus(self.clock)
         events.subscribe("*", self.events.append)
-        announce(self.bus, events)
+        announced(self.bus, Context(self.clock, events, manager))
 
     @property
     def body(self) -> RoomBody:
@@ -73,10 +76,36 @@ def robot(manager) -> Robot:
     return Robot(manager)
 
 
-def test_it_stands_until_somebody_unlatches_it(robot) -> None:
+def test_who_opens_its_drive_may_drive_a_base_that_is_well(manager) -> None:
+    bus = manager.obtain("base", BaseBus)
+    assert bus.is_latched
+    assert "switched on" in bus.explain()
+    robot = Robot(manager)
+    robot.go(1.2)
+    assert robot.world.base.velocity.linear == pytest.approx(0.3, abs=0.002)
+
+
+def test_a_base_whose_wheel_hangs_in_the_air_is_not_released_by_opening_its_drive(manager) -> None:
+    manager.obtain("base", BaseBus)
+    line = manager.obtain("base_line", Create2Line)
+    line.port.line.emulator.body.hanging.add("left")
+    manager.clock.advance(0.5)
+    robot = Robot(manager)
+    robot.body.hanging.clear()
     robot.go(1.0)
     assert robot.world.base.velocity == Twist()
-    assert "switched on" in robot.bus.explain()
+    assert "left wheel hangs in the air" in robot.bus.explain()
+
+
+def test_a_stop_outlasts_the_closing_of_the_base(manager) -> None:
+    drive = manager.obtain("drive", BaseDrive)
+    drive.stop_latched("you said stop")
+    manager.release(drive)
+    assert not manager.opened(BaseBus)
+    robot = Robot(manager)
+    robot.go(1.0)
+    assert robot.world.base.velocity == Twist()
+    assert robot.bus.explain() == "I stopped because you said stop"
     robot.unlatched().go(1.2)
     assert robot.world.base.velocity.linear == pytest.approx(0.3, abs=0.002)
 
@@ -187,8 +216,11 @@ def test_teleoperation_goes_before_the_network_and_lets_go_by_itself(robot) -> N
     robot.unlatched()
     for _ in range(50):
         robot.bus.teleop(Twist(-0.1))
-        robot.go(0.02)
+        with pytest.raises(Outranked, match=r"someone steers it \(rank teleop\)"):
+            robot.go(0.02)
+        robot.clock.advance(0.02)
     assert robot.world.base.velocity.linear < 0
+    robot.clock.advance(PATIENCE)
     robot.go(2.0)
     assert robot.world.base.velocity.linear == pytest.approx(0.3, abs=0.002)
 
@@ -296,7 +328,7 @@ def test_a_button_of_the_base_is_an_emergency_stop(robot) -> None:
     robot.body.held.add("spot")
     robot.go(0.5)
     assert robot.world.base.velocity == Twist()
-    assert robot.told() == [("drive.stopped", "button")]
+    assert robot.told() == [("drive.commanded", None), ("drive.stopped", "button")]
     robot.bus.unlatch()
     robot.go(0.5)
     assert robot.bus.state.is_latched
@@ -310,7 +342,8 @@ def test_every_stop_is_an_event_with_a_sentence(robot) -> None:
     robot.unlatched().go(1.0)
     robot.body.over_edge.add("left")
     robot.go(0.5)
-    (event,) = robot.events
+    commanded, event = robot.events
+    assert commanded.name == "drive.commanded"
     assert event.name == "drive.stopped"
     assert event.properties == {
         "reason": "cliff",
@@ -390,7 +423,7 @@ def test_a_simulated_base_reports_as_soon_as_it_is_open(robot, manager) -> None:
     assert not manager.obtain("bumper", BaseBumper).is_pressed(0.0)
     assert manager.obtain("battery", BaseBattery).level(0.0) > 0.9
     assert manager.obtain("range_front", BaseRangeSensor).read(0.0).distance == math.inf
-    assert robot.bus.state.reason.name == "power-up"
+    assert not robot.bus.is_latched
 
 
 def test_a_program_that_stood_still_does_not_take_its_supervisor_for_mute(robot) -> None:

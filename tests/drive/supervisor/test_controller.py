@@ -13,8 +13,8 @@ from hri.drive.bases.create2 import CLIFFS
 from hri.drive.bases.protocol import Note
 from hri.drive.supervisor.cause import POWER_UP, Cause
 from hri.drive.supervisor.link import Ask, Dock, Heartbeat, Nearest, Release, Song, Trip
-from hri.drive.supervisor.velocity_arbiter import Level
 from hri.hal.motion import REST
+from hri.hal.rank import Rank
 from hri.simulation.bases.emulated_create2 import PASSIVE
 from hri.simulation.bases.emulated_line import Faults
 
@@ -46,7 +46,7 @@ def test_an_order_that_lay_in_a_queue_is_not_heard() -> None:
     chain.run(1.0)
     chain.release()
     for _ in range(50):
-        chain.turn(Ask(Level.TASKS, GO, 0.5))
+        chain.turn(Ask(Rank.TASKS, GO, 0.5))
     assert chain.speed == 0.0
 
 
@@ -54,7 +54,7 @@ def test_an_order_from_the_future_is_not_heard_then_either() -> None:
     chain = Chain()
     chain.run(1.0)
     chain.release()
-    chain.turn(Ask(Level.TASKS, GO, chain.now + 0.5))
+    chain.turn(Ask(Rank.TASKS, GO, chain.now + 0.5))
     for _ in range(100):
         chain.turn()
         assert not chain.base.is_rolling
@@ -137,7 +137,7 @@ def test_a_hazard_is_answered_in_the_turn_in_which_it_is_heard() -> None:
     chain.base.body.pressed.add("left")
     while not any((chain.controller.state(chain.now).report.bumps or {}).values()):
         assert chain.base.is_rolling
-        chain.turn(Ask(Level.TASKS, GO, chain.now))
+        chain.turn(Ask(Rank.TASKS, GO, chain.now))
     assert not chain.base.is_rolling
 
 
@@ -156,7 +156,7 @@ def test_at_an_edge_the_base_is_woken_from_its_own_guard_and_backs_off() -> None
 def test_a_lost_port_latches_and_the_base_that_is_back_stands_until_it_is_released() -> None:
     chain = Chain().start()
     chain.port.is_plugged = False
-    chain.turn(Ask(Level.TASKS, GO, chain.now))
+    chain.turn(Ask(Rank.TASKS, GO, chain.now))
     assert chain.causes == ["lost port"]
     chain.run(1.0, GO)
     chain.port.is_plugged = True
@@ -266,7 +266,7 @@ def test_on_a_worse_line_it_latches_says_why_and_does_not_drive_in_between(fault
 def test_with_nobody_near_it_may_go_faster() -> None:
     chain = Chain().start()
     for _ in range(150):
-        chain.turn(Nearest(5.0, chain.now), Ask(Level.TASKS, Twist(0.5), chain.now))
+        chain.turn(Nearest(5.0, chain.now), Ask(Rank.TASKS, Twist(0.5), chain.now))
     assert chain.speed == pytest.approx(0.5, abs=0.001)
 
 

@@ -26,14 +26,14 @@ from hri.drive.supervisor.link import (
     encoded,
     pair,
 )
-from hri.drive.supervisor.velocity_arbiter import Level
 from hri.drive.velocity_limits import Cap
 from hri.hal.motion import Way
+from hri.hal.rank import Rank
 
 ORDERS = (
     Heartbeat(1.0),
-    Ask(Level.TASKS, Twist(0.1, -0.2), 1.5),
-    Ask(Level.TELEOP, None, 1.5),
+    Ask(Rank.TASKS, Twist(0.1, -0.2), 1.5),
+    Ask(Rank.TELEOP, None, 1.5),
     Brake(2.0),
     Trip(Cause("e-stop", "you said stop")),
     Trip(Cause("e-stop", "you said stop", 1.5)),
@@ -75,10 +75,10 @@ def test_a_state_arrives_as_it_was_given() -> None:
         2.0,
         report,
         Twist(0.1),
-        Level.TASKS,
+        Rank.TASKS,
         Cause("done", "I was asked to"),
         allowed=Cap(0.5, 0.2, 1.0),
-        waiting=(Level.TELEOP, Level.TASKS),
+        waiting=(Rank.TELEOP, Rank.TASKS),
         faults=("my left bumper says nothing",),
         news=(Numbered(3, Cause("bump", "it hurt")),),
     )
@@ -87,7 +87,7 @@ def test_a_state_arrives_as_it_was_given() -> None:
 
 
 def test_what_is_not_finite_arrives_to_be_refused() -> None:
-    order = decoded_order(encoded(Ask(Level.TASKS, Twist(math.nan, math.inf), 0.0)))
+    order = decoded_order(encoded(Ask(Rank.TASKS, Twist(math.nan, math.inf), 0.0)))
     assert isinstance(order, Ask)
     assert order.twist is not None
     assert math.isnan(order.twist.linear)

@@ -23,15 +23,16 @@ from hri.core.errors import NotAvailable
 from hri.core.signals import Twist
 from hri.drive.supervisor import remote
 from hri.drive.supervisor.base_bus import BaseBus
-from hri.drive.supervisor.base_devices import BaseDrive, BaseOdometry
+from hri.drive.supervisor.base_devices import BaseOdometry
+from hri.drive.supervisor.base_drive import BaseDrive
 from hri.drive.supervisor.cause import Cause
 from hri.drive.supervisor.link import Ask, Release, State, Trip
 from hri.drive.supervisor.process import Settings
 from hri.drive.supervisor.remote import Remote
 from hri.drive.supervisor.supervisor_connection import BEAT
-from hri.drive.supervisor.velocity_arbiter import Level
 from hri.drive.supervisor.watchdog import ABANDONED
 from hri.hal.drivers.serial_port import Backoff
+from hri.hal.rank import Rank
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.simulation.bases.emulated_create2 import PASSIVE
@@ -64,7 +65,7 @@ class Driving:
     def ask(self) -> State:
         """Go on asking, as a program does that does not know what happened."""
         state = self.state()
-        self.connection.say(Ask(Level.TASKS, Twist(SLOW), state.time))
+        self.connection.say(Ask(Rank.TASKS, Twist(SLOW), state.time))
         return state
 
     def stays(self, seconds: float = 0.3) -> bool:

@@ -10,9 +10,10 @@ from hri.drive.supervisor.base_rules import Rules
 from hri.drive.supervisor.cause import Cause
 from hri.drive.supervisor.free_space import Body
 from hri.drive.supervisor.supervisor import Supervisor
-from hri.drive.supervisor.velocity_arbiter import SOURCES, Command, Level
+from hri.drive.supervisor.velocity_arbiter import Command
 from hri.drive.velocity_limits import BaseLimits
 from hri.hal.motion import REST, Way
+from hri.hal.rank import WRITERS, Rank
 
 from .track import PLACES, STEP, Track
 
@@ -36,7 +37,7 @@ reports = st.builds(
     st.booleans(),
     st.sampled_from(("off", "passive", "safe", "full", "ready")),
 )
-commands = st.lists(st.builds(Command, st.sampled_from(list(Level)), twists, st.floats(0, 3)))
+commands = st.lists(st.builds(Command, st.sampled_from(list(Rank)), twists, st.floats(0, 3)))
 steps = st.lists(st.tuples(st.floats(0, 0.1), st.none() | reports, commands), max_size=30)
 
 
@@ -93,8 +94,8 @@ def test_an_emergency_stop_is_abrupt_and_stays() -> None:
     track = Track().released()
     track.run(1.0, GO)
     track.supervisor.trip(Cause("e-stop", "you said stop"))
-    assert track.step((Command(Level.TELEOP, GO, track.now),)).twist == REST
-    assert track.run(5.0, GO, Level.TELEOP).twist == REST
+    assert track.step((Command(Rank.TELEOP, GO, track.now),)).twist == REST
+    assert track.run(5.0, GO, Rank.TELEOP).twist == REST
     assert track.decision.reason.words == "I stopped because you said stop"
     assert track.stops == ["e-stop"]
     assert track.released().run(1.0, GO).twist == GO
@@ -102,7 +103,7 @@ def test_an_emergency_stop_is_abrupt_and_stays() -> None:
 
 def test_what_was_asked_before_a_release_is_void() -> None:
     track = Track()
-    track.step((Command(Level.TASKS, GO, track.now),))
+    track.step((Command(Rank.TASKS, GO, track.now),))
     track.released()
     assert track.run(0.1).twist == REST
 
@@ -133,11 +134,11 @@ def test_teleoperation_goes_first_and_its_dead_man_leaves_the_wheels_to_the_next
     track = Track().released()
     for _ in range(100):
         now = track.now
-        track.step((Command(Level.TASKS, GO, now), Command(Level.TELEOP, Twist(0.1), now)))
-    assert track.decision.level is Level.TELEOP
+        track.step((Command(Rank.TASKS, GO, now), Command(Rank.TELEOP, Twist(0.1), now)))
+    assert track.decision.level is Rank.TELEOP
     assert track.decision.twist == Twist(0.1)
     track.run(0.18, GO)
-    assert track.decision.level is Level.TELEOP
+    assert track.decision.level is Rank.TELEOP
     assert track.run(0.5, GO).twist == GO
 
 
@@ -163,7 +164,7 @@ def test_a_supervisor_that_stood_still_begins_again_from_rest() -> None:
     track = Track().released()
     track.run(1.0, GO)
     track.now += 0.3
-    track.step((Command(Level.TASKS, GO, track.now),))
+    track.step((Command(Rank.TASKS, GO, track.now),))
     assert track.decision.twist == REST
     assert track.stops == ["frozen"]
     assert 0 < track.run(0.1, GO).twist.linear < 0.1
@@ -173,7 +174,7 @@ def test_a_supervisor_that_stood_still_for_long_does_not_go_on_by_itself() -> No
     track = Track().released()
     track.run(1.0, GO)
     track.now += 1.5
-    track.step((Command(Level.TASKS, GO, track.now),))
+    track.step((Command(Rank.TASKS, GO, track.now),))
     assert track.run(0.5, GO).reason.name == "frozen"
     assert track.decision.twist == REST
 
@@ -200,7 +201,7 @@ def test_it_is_slower_near_people_and_where_nobody_knows(distance, speed) -> Non
     for _ in range(150):
         if distance is not None:
             track.supervisor.hear_person(distance, track.now)
-        track.step((Command(Level.TASKS, Twist(0.5), track.now),))
+        track.step((Command(Rank.TASKS, Twist(0.5), track.now),))
     assert track.decision.twist.linear == pytest.approx(speed)
 
 
@@ -218,7 +219,7 @@ def test_it_stops_before_what_its_range_sensors_see() -> None:
     wall = 1.0
     for _ in range(600):
         track.feel(ranges={"front": wall - track.report.rolled.linear})
-        track.step((Command(Level.TASKS, GO, track.now),))
+        track.step((Command(Rank.TASKS, GO, track.now),))
     assert track.decision.twist == REST
     assert 0.1 <= track.report.ranges["front"] < 0.16
     assert track.stops == ["obstacle"]
@@ -232,7 +233,7 @@ def test_it_stands_when_somebody_walks_up_to_it() -> None:
     while away > 0.02:
         away -= 0.01 * 0.9
         track.feel(ranges={"left": away if away < 0.8 else math.inf})
-        speeds.append(track.step((Command(Level.TASKS, GO, track.now),)).twist.linear)
+        speeds.append(track.step((Command(Rank.TASKS, GO, track.now),)).twist.linear)
     assert max(speeds) > 0.2
     assert speeds[-1] == 0.0
 
@@ -266,7 +267,7 @@ def test_an_edge_stops_and_backs_off(place) -> None:
     track = Track().released()
     track.run(1.0, GO)
     track.feel(cliffs={**track.report.cliffs, place: True})
-    assert track.step((Command(Level.TELEOP, GO, track.now),)).twist == REST
+    assert track.step((Command(Rank.TELEOP, GO, track.now),)).twist == REST
     assert "cliff sensor sees an edge" in track.decision.reason.because
     before = track.report.rolled.linear
     track.run(2.0, GO)
@@ -324,7 +325,7 @@ def test_a_button_latches_until_somebody_lets_it_go_and_releases_the_base() -> N
     track = Track().released()
     track.run(1.0, GO)
     track.feel(buttons={"clean": True, "dock": False})
-    assert track.step((Command(Level.TELEOP, GO, track.now),)).twist == REST
+    assert track.step((Command(Rank.TELEOP, GO, track.now),)).twist == REST
     assert track.decision.must_cut
     assert track.decision.reason.words == "I stopped because someone pressed my clean button"
     assert track.stops == ["button"]
@@ -403,7 +404,7 @@ def test_behind_an_edge_it_does_not_back_off_but_drives_ahead() -> None:
     track.feel(cliffs={"left": False, "rear": True})
     assert track.step().twist == REST
     for _ in range(200):
-        track.step((Command(Level.TELEOP, Twist(-0.1), track.now),))
+        track.step((Command(Rank.TELEOP, Twist(-0.1), track.now),))
         assert track.decision.twist.linear >= 0
     assert track.decision.reason.name == "cliff"
     assert track.run(1.0, Twist(0.1)).twist.linear == pytest.approx(0.1)
@@ -517,7 +518,7 @@ def test_wheels_that_do_not_turn_latch_it() -> None:
     assert "my wheels do not turn" in track.decision.reason.words
 
 
-@pytest.mark.parametrize("source", SOURCES)
+@pytest.mark.parametrize("source", WRITERS)
 def test_nobody_talks_it_out_of_a_hazard(source) -> None:
     track = Track().released()
     track.feel(bumps={"left": True, "right": True})

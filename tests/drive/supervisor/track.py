@@ -11,8 +11,9 @@ from hri.drive.bases.protocol import BaseReport, Sensors
 from hri.drive.supervisor.base_rules import Rules
 from hri.drive.supervisor.decision import Decision
 from hri.drive.supervisor.supervisor import Supervisor
-from hri.drive.supervisor.velocity_arbiter import Command, Level
+from hri.drive.supervisor.velocity_arbiter import Command
 from hri.hal.motion import Way
+from hri.hal.rank import Rank
 
 STEP = 0.01
 PLACES = ("left", "front_left", "front_right", "right")
@@ -74,7 +75,7 @@ class Track:
         return self.decision
 
     def run(
-        self, seconds: float, twist: Twist | None = None, source: Level = Level.TASKS
+        self, seconds: float, twist: Twist | None = None, source: Rank = Rank.TASKS
     ) -> Decision:
         """Let time pass, with a source that repeats its command."""
         for _ in range(round(seconds / STEP)):

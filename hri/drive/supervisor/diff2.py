@@ -1,0 +1,66 @@
+"""A base of two motors: the drive of a group of a configuration.
+
+<Group id="drive" type="Hri.Diff2Drive">
+  <Member member_id="Drive_left"/> <Member member_id="Drive_right"/>
+</Group>
+"""
+
+from __future__ import annotations
+
+from hri.core.signals import Twist
+from hri.drive.supervisor.base_drive import BaseDrive
+from hri.drive.supervisor.in_process_bus import DeviceLine, InProcessBus, declare_base
+from hri.drive.velocity_limits import BaseLimits
+from hri.hal.drivers.diff2 import TwoMotors
+
+BASE = "Hri.Diff2Base"
+"""Type of the base that such a drive declares."""
+
+
+class Diff2Drive(TwoMotors, BaseDrive):
+    """Drives over two motors; both drives of the same motors are drives of one base."""
+
+    def _declare_base(self) -> None:
+        half = self.wheels.track / 2
+        fastest = min(motor.max_velocity for motor in self.motors)
+        strongest = min(motor.max_acceleration for motor in self.motors)
+        usual = BaseLimits()
+        numbers = {
+            "linear": fastest,
+            "angular": fastest / half,
+            "track": self.wheels.track,
+            "acceleration": min(usual.acceleration, strongest),
+            "deceleration": min(usual.deceleration, strongest),
+            "angular_acceleration": min(usual.angular_acceleration, strongest / half),
+            "angular_deceleration": min(usual.angular_deceleration, strongest / half),
+        }
+        declare_base(self.manager, self._base_id(), BASE, self.description, numbers)
+
+    def _base_id(self) -> str:
+        return "+".join(sorted(self.description.members)) + "_base"
+
+
+class Diff2Base(InProcessBus):
+    """The base of two motors, whose ids it has, in order, with "_base" behind them."""
+
+    line = "Hri.Diff2Wheels"
+
+
+class Diff2Wheels(TwoMotors, DeviceLine):
+    """Both motors, as the wheels of a base."""
+
+    def roll(self, twist: Twist, now: float) -> None:
+        velocities = self.wheels.rolling(twist.linear, twist.angular)
+        for motor, velocity in zip(self.motors, velocities, strict=True):
+            motor.set_velocity(velocity, now)
+
+    def brake(self, now: float) -> None:
+        for motor in self.motors:
+            motor.stop(now)
+
+    def velocity(self, now: float) -> Twist:
+        return self.wheel_velocity(now)
+
+    def set_power(self, percent: float, now: float) -> None:
+        for motor in self.motors:
+            motor.set_power(percent, now)
