@@ -329,7 +329,8 @@ def test_come_here_brings_it_to_the_person():
 
 
 @pytest.mark.slow
-def test_a_base_with_a_supervisor_moves_when_it_was_released_and_stops_until_the_next_order():
+@pytest.mark.parametrize("config", ["create2", "simulated"])
+def test_a_base_moves_when_it_was_released_and_stops_until_the_next_order(config):
     lines = {
         1.5: "go forward one meter",
         9.0: "you may move again",
@@ -338,10 +339,10 @@ def test_a_base_with_a_supervisor_moves_when_it_was_released_and_stops_until_the
         24.0: "why did you stop",
         29.0: "go back half a meter",
     }
-    visit = Visit(38, lines, config="create2")
+    visit = Visit(38, lines, [(0.5, "space")], config=config)
     assert visit.heard() == ["move", "release", "move", "stop", "why_stop", "move"]
-    refused, thanks, _, _, why, back, *_ = visit.said()
-    assert "I was switched on just now" in refused
+    _, refused, thanks, _, _, why, back, *_ = visit.said()
+    assert "someone pressed the stop key" in refused
     assert "Just say: you may move again." in refused
     assert visit.pose_at(13.0).x == pytest.approx(0.0, abs=0.01)
     assert thanks.startswith("Thanks")

@@ -44,6 +44,8 @@ class Limiter:
         target = within(target, cap)
         up, down = manner.acceleration, manner.deceleration
         quanta, self._left_over = divmod(self._left_over + dt, QUANTUM)
+        if self._linear.rests_at(target.linear) and self._angular.rests_at(target.angular):
+            return self.velocity
         for _ in range(int(quanta)):
             self._linear.step(target.linear, -cap.backward, cap.forward, up.linear, down.linear)
             self._angular.step(target.angular, -cap.angular, cap.angular, up.angular, down.angular)
@@ -61,6 +63,10 @@ class _Axis:
 
     def halt(self) -> None:
         self.velocity = self.acceleration = 0.0
+
+    def rests_at(self, target: float) -> bool:
+        """Whether it is there already, and stays."""
+        return self.velocity == target and self.acceleration == 0.0
 
     def step(
         self,
