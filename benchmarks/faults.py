@@ -24,10 +24,10 @@ from hri.drive.bases.create2 import (
     Create2,
 )
 from hri.drive.bases.protocol import BaseProtocol
+from hri.drive.supervisor.base_rules import rules
 from hri.drive.supervisor.controller import TURN, Controller
 from hri.drive.supervisor.free_space import Body
 from hri.drive.supervisor.link import Ask, Order, Release
-from hri.drive.supervisor.process import rules
 from hri.drive.supervisor.supervisor import Supervisor
 from hri.drive.velocity_limits import BaseLimits
 from hri.hal.rank import Rank

@@ -16,7 +16,8 @@ from hri.drive.bases.arduino import ArduinoBridge
 from hri.drive.bases.create2 import Create2
 from hri.drive.bases.protocol import BaseProtocol, Greeting
 from hri.hal.drivers.serial_id import BY_ID, id_of
-from hri.hal.drivers.serial_port import Port, SerialPort, serial_ports
+from hri.hal.drivers.serial_port import SerialPort, serial_ports
+from hri.hal.port import Port
 
 KINDS: dict[str, type[BaseProtocol]] = {"Hri.Create2": Create2, "Hri.ArduinoBridge": ArduinoBridge}
 """Protocols by device type of a configuration."""

@@ -99,7 +99,7 @@ def test_stop_needs_no_code_and_latches_until_it_is_released(studio, client, rob
     with httpx.Client(base_url=studio.address().partition("?")[0]) as stranger:
         assert stranger.post("/api/v1/stop").status_code == 200
         assert stranger.post("/api/v1/release").status_code == 401
-    assert [base.is_latched for base in robot.resources.opened(EmergencyStop)] == [True]
+    assert all(base.is_latched for base in robot.resources.opened(EmergencyStop))
     base = told(client, "base", lambda base: base["is_stopped"])
     assert base["why"] == f"I stopped because {BECAUSE}"
     client.post("/api/v1/hear", json={"text": "go forward"})
@@ -143,7 +143,7 @@ def test_the_base_stops_though_whoever_follows_its_events_fails(client, robot):
     broken = robot.events.subscribe("drive.halt", lambda event: 1 / 0)
     client.post("/api/v1/stop")
     broken.cancel()
-    assert [base.is_latched for base in robot.resources.opened(EmergencyStop)] == [True]
+    assert all(base.is_latched for base in robot.resources.opened(EmergencyStop))
     assert client.post("/api/v1/release").status_code == 200
 
 

@@ -25,6 +25,7 @@ from hri.core.clock import Timer
 from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Pose2D, Twist
 from hri.drive.bases.protocol import BaseProtocol, BaseReport, Note
+from hri.drive.supervisor.base_rules import rules
 from hri.drive.supervisor.cause import NO_SUPERVISOR, POWER_UP, Cause
 from hri.drive.supervisor.controller import Controller
 from hri.drive.supervisor.free_space import Body
@@ -42,8 +43,6 @@ from hri.drive.supervisor.link import (
     State,
     Trip,
 )
-from hri.drive.supervisor.process import Settings, rules
-from hri.drive.supervisor.remote import Remote
 from hri.drive.supervisor.supervisor import Supervisor
 from hri.drive.supervisor.supervisor_connection import BEAT, Inline, SupervisorConnection
 from hri.drive.velocity_limits import BaseLimits
@@ -297,6 +296,10 @@ class BaseBus(EmergencyStop):
             return Inline(clock, controller)
         if clock.is_fake:
             raise self.not_available("a serial port needs real time", "use its stand-in")
+        # A simulated base needs no serial ports and no processes, which some systems do not have.
+        from hri.drive.supervisor.process import Settings
+        from hri.drive.supervisor.remote import Remote
+
         kind = f"{self.protocol.__module__}:{self.protocol.__qualname__}"
         settings = Settings(
             kind,

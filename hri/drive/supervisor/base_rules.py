@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from hri.core.signals import Pose2D, Twist
-from hri.drive.bases.protocol import Sensors
+from hri.drive.bases.protocol import BaseProtocol, Sensors
 from hri.drive.supervisor.free_space import Body
 from hri.drive.velocity_limits import BaseLimits
 
@@ -25,3 +25,10 @@ class Rules:
     body: Body = field(default_factory=Body)
     mounts: Mapping[str, Pose2D] = field(default_factory=dict)
     """Where its range sensors are in the robot's frame, by the names in reports."""
+
+
+def rules(
+    protocol: BaseProtocol, limits: BaseLimits, body: Body, mounts: Mapping[str, Pose2D]
+) -> Rules:
+    """The rules for a base that speaks this protocol."""
+    return Rules(protocol.limits, protocol.sensors, protocol.period, limits, body, mounts)

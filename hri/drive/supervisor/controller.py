@@ -32,8 +32,8 @@ from hri.drive.supervisor.link import (
 from hri.drive.supervisor.noise import Noise
 from hri.drive.supervisor.supervisor import Supervisor
 from hri.drive.supervisor.velocity_arbiter import Command
-from hri.hal.drivers.serial_port import Port
 from hri.hal.motion import REST, Way
+from hri.hal.port import Port
 from hri.hal.rank import Rank
 
 TURN = 0.01

@@ -23,8 +23,8 @@ from hri.drive.supervisor.base_bus import SIMULATED, STALE, BaseBus
 from hri.drive.supervisor.line import BaseLine
 from hri.hal.bumper import Bumper
 from hri.hal.cliff_sensor import CliffSensor
-from hri.hal.drivers.serial_port import Port
 from hri.hal.motion import Response, Way
+from hri.hal.port import Port
 from hri.hal.range_sensor import RangeSensor
 from hri.hal.resource import Description, Resource, Resources
 

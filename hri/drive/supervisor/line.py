@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 
-from hri.hal.drivers.serial_port import Port
+from hri.hal.port import Port
 from hri.hal.resource import Resource
 
 

@@ -24,7 +24,7 @@ from hri.core.errors import NotAvailable
 from hri.core.python_file import class_named
 from hri.core.signals import Pose2D
 from hri.drive.bases.protocol import BaseProtocol
-from hri.drive.supervisor.base_rules import Rules
+from hri.drive.supervisor.base_rules import rules
 from hri.drive.supervisor.cause import NO_PROGRAM, NO_WATCHDOG, POWER_UP, Cause
 from hri.drive.supervisor.controller import TURN, Controller
 from hri.drive.supervisor.free_space import Body
@@ -81,13 +81,6 @@ class Settings:
         module, _, name = self.base.rpartition(":")
         kind: type[BaseProtocol] = class_named(module, name)
         return kind.described(Description(self.id, name, self.parameters))
-
-
-def rules(
-    protocol: BaseProtocol, limits: BaseLimits, body: Body, mounts: Mapping[str, Pose2D]
-) -> Rules:
-    """The rules for a base that speaks this protocol."""
-    return Rules(protocol.limits, protocol.sensors, protocol.period, limits, body, mounts)
 
 
 class Process:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -14,11 +13,10 @@ from serial.tools import list_ports
 
 from hri.core.errors import NotAvailable
 from hri.hal.drivers.serial_id import BY_ID, id_of
+from hri.hal.port import CHUNK, Port
 
 SOONEST, LATEST = 0.1, 2.0
 """Seconds to the first and to any later attempt to open a port again."""
-CHUNK = 4096
-"""Bytes that are read at once at most; the kernel keeps no more of a port."""
 _BUSY = (errno.EAGAIN, errno.EWOULDBLOCK, errno.EINTR)
 _WHY = {
     errno.ENOENT: ("it is not there", "plug it in, or name another port"),
@@ -29,52 +27,6 @@ _WHY = {
     errno.EISDIR: ("it is a folder", "name a serial port, such as /dev/ttyUSB0"),
     errno.ENXIO: ("there is no device behind it", "plug it in, or name another port"),
 }
-
-
-class Port(ABC):
-    """A line to a device: bytes out, bytes in, as they are ready."""
-
-    @property
-    @abstractmethod
-    def is_open(self) -> bool:
-        """Whether it can be read and written."""
-
-    @abstractmethod
-    def open(self, now: float) -> bool:
-        """Open it, when it is time for another attempt; whether it is open now.
-
-        `reason` says why it is not. Opening an open port does nothing.
-        """
-
-    @property
-    @abstractmethod
-    def reason(self) -> str:
-        """Why it is closed: problem - remedy; empty while nothing is wrong."""
-
-    @abstractmethod
-    def read(self, now: float) -> bytes:
-        """What has come since the last call, perhaps nothing; at most CHUNK bytes.
-
-        Raises NotAvailable, and is closed, when the device has gone.
-        """
-
-    @abstractmethod
-    def write(self, data: bytes, now: float) -> bool:
-        """Send these bytes; false when the line is full and some, or all, did not fit.
-
-        What did not fit is forgotten: after false, begin with what ends half a command, such as
-        the emergency stop of a base. Raises NotAvailable, and is closed, when the device has gone.
-        """
-
-    def discard(self) -> None:  # noqa: B027 - many keep nothing
-        """Forget what was written and is not on the line yet, such as old velocities."""
-
-    def set_rts(self, is_on: bool) -> None:  # noqa: B027 - many have no such wire
-        """Assert the wire "request to send", as it is from the opening on, or let it go."""
-
-    @abstractmethod
-    def close(self) -> None:
-        """Let it go; a second call does nothing."""
 
 
 class Backoff:

@@ -12,7 +12,7 @@ from hri.core.errors import did_you_mean
 from hri.drive.bases.arduino import ArduinoBridge
 from hri.drive.bases.create2 import Create2
 from hri.drive.supervisor.line import BaseLine
-from hri.hal.drivers.serial_port import Port
+from hri.hal.port import Port
 from hri.simulation.bases.body import PLACES, RoomBody
 from hri.simulation.bases.emulated_arduino import EmulatedArduino, limits
 from hri.simulation.bases.emulated_create2 import EmulatedCreate2

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from hri.core.errors import NotAvailable
-from hri.hal.drivers.serial_port import CHUNK, Port
+from hri.hal.port import CHUNK, Port
 from hri.simulation.bases.emulator import Emulator
 
 MOST_WAITING = 8192
