@@ -65,7 +65,7 @@ class _Axis:
         self.velocity = self.acceleration = 0.0
 
     def rests_at(self, target: float) -> bool:
-        """Whether it is there already, and stays."""
+        """Whether it has this velocity, and keeps it."""
         return self.velocity == target and self.acceleration == 0.0
 
     def step(
