@@ -12,7 +12,7 @@ from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
 from hri.core.signals import RangeReading, Twist
 from hri.drive.supervisor.announcement import Announcer, announced
 from hri.drive.supervisor.base_bus import BaseBus
-from hri.hal.manner import Manner
+from hri.hal.manner import UNBOUND, Manner
 from hri.hal.motion import REST
 from hri.hal.rank import Rank
 
@@ -191,12 +191,15 @@ class CommandGate(Behavior):
         return is_bumped
 
     def _manner(self, now: float, is_bumped: bool) -> Manner:
-        """The bounds of this gate, and what is free ahead of the sensors that are linked to it."""
+        """The bounds of this gate, and what is free ahead of the sensors that are linked to it.
+
+        A halt slows down as the base does, not as gently as a motion that ends.
+        """
         distances = [self._distance(reading, now) for reading in self._ranges.at(now)]
         return Manner(
             Twist(self.max_linear, self.max_angular),
             Twist(self.acceleration, self.acceleration * ANGULAR_FACTOR),
-            self.braking,
+            UNBOUND if self._because else self.braking,
             0.0 if is_bumped else min(distances, default=math.inf),
             self.clearance,
         )

@@ -55,7 +55,8 @@ class Announcer:
         """Watch the base; each call wants a `stop`."""
         self._users += 1
         if self._users == 1:
-            self._reported = REST
+            # A base that was opened again counts its news from the beginning.
+            self._told, self._faulty, self._reported = 0, frozenset(), REST
             self._bus.watch(self._hear)
 
     def stop(self) -> None:

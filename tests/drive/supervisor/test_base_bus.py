@@ -352,6 +352,23 @@ def test_every_stop_is_an_event_with_a_sentence(robot) -> None:
     assert robot.bus.explain() == event.properties["words"]
 
 
+def test_the_stops_of_a_base_that_was_opened_again_are_events_too(manager) -> None:
+    events = EventBus(manager.clock)
+    reasons: list[str] = []
+    events.subscribe("drive.stopped", lambda event: reasons.append(event.properties["reason"]))
+    context = Context(manager.clock, events, manager)
+    for _ in range(2):
+        bus = manager.obtain("base", BaseBus)
+        announcer = announced(bus, context)
+        bus.unlatch()
+        manager.clock.advance(0.1)
+        bus.stop_latched("you said stop")
+        manager.clock.advance(0.1)
+        announcer.stop()
+        manager.release(bus)
+    assert reasons == ["e-stop", "e-stop"]
+
+
 def test_what_is_refused_is_an_event_too(robot) -> None:
     robot.unlatched().go(0.2, Twist(math.nan))
     assert robot.told().count(("drive.refused", None)) == 1
