@@ -61,6 +61,8 @@ UNLATCHING = 5.0
 """Seconds that a release waits for a base that does not report yet."""
 _LIMITS = {limit.name: float(getattr(BaseLimits(), limit.name)) for limit in fields(BaseLimits)}
 _BODY = {side.name: float(getattr(Body(), side.name)) for side in fields(Body)}
+LIMITS = (*_LIMITS, *_BODY)
+"""Parameters of a base, whatever its hardware."""
 _LEAST, _MOST = {"clearance": 0.0}, {"jerk": 100.0, "angular_jerk": 500.0}
 
 Watcher = Callable[[State], object]
@@ -84,7 +86,7 @@ class BaseBus(EmergencyStop):
     # The wheels of a Create 2 count 0.44 mm, and turn at whole mm/s.
     response: ClassVar[Response] = Response(3.0, 0.075, 0.075, Way(0.002, math.radians(0.4)))
     """How the base follows what it is told."""
-    parameters: ClassVar[tuple[str, ...]] = ("port", *_LIMITS, *_BODY)
+    parameters: ClassVar[tuple[str, ...]] = ("port", *LIMITS)
 
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
@@ -94,8 +96,7 @@ class BaseBus(EmergencyStop):
     def check(cls, description: Description) -> None:
         super().check(description)
         cls.protocol.described(description)
-        for name in (*_LIMITS, *_BODY):
-            _number(description, name, 1.0)
+        refuse_wrong_limits(description)
         if not description.text("port"):
             raise description.error("port", "no port is given", "name one, such as /dev/ttyUSB0")
 
@@ -405,6 +406,12 @@ class BaseBus(EmergencyStop):
         elif self.age(now) <= STALE and not self._connection.is_mute:
             self._unlatching = None
             self._connection.say(Release(state.time, cause))
+
+
+def refuse_wrong_limits(description: Description) -> None:
+    """Raise AuthoringError for a limit that cannot be."""
+    for name in LIMITS:
+        _number(description, name, 1.0)
 
 
 def _number(description: Description, name: str, default: float) -> float:

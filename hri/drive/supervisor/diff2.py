@@ -7,18 +7,32 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from hri.core.signals import Twist
+from hri.drive.supervisor.base_bus import LIMITS, refuse_wrong_limits
 from hri.drive.supervisor.base_drive import BaseDrive
 from hri.drive.supervisor.in_process_bus import DeviceLine, InProcessBus, declare_base
 from hri.drive.velocity_limits import BaseLimits
 from hri.hal.drivers.diff2 import TwoMotors
+from hri.hal.resource import Description
 
 BASE = "Hri.Diff2Base"
 """Type of the base that such a drive declares."""
 
 
 class Diff2Drive(TwoMotors, BaseDrive):
-    """Drives over two motors; both drives of the same motors are drives of one base."""
+    """Drives over two motors; both drives of the same motors are drives of one base.
+
+    The limits of that base are parameters of the drive.
+    """
+
+    parameters: ClassVar[tuple[str, ...]] = (*BaseDrive.parameters, *LIMITS)
+
+    @classmethod
+    def check(cls, description: Description) -> None:
+        super().check(description)
+        refuse_wrong_limits(description)
 
     def _declare_base(self) -> None:
         half = self.wheels.track / 2

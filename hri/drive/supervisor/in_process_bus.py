@@ -19,7 +19,7 @@ from hri.core.signals import Pose2D, RangeReading, Twist
 from hri.drive.bases.in_process import PERIOD, InProcess, commands, devices, encoded
 from hri.drive.bases.protocol import BaseReport, Sensors
 from hri.drive.mechanics import mechanics_of
-from hri.drive.supervisor.base_bus import SIMULATED, STALE, BaseBus
+from hri.drive.supervisor.base_bus import LIMITS, SIMULATED, STALE, BaseBus
 from hri.drive.supervisor.line import BaseLine
 from hri.hal.bumper import Bumper
 from hri.hal.cliff_sensor import CliffSensor
@@ -71,14 +71,17 @@ class InProcessBus(BaseBus):
 def declare_base(
     manager: Resources, id: str, type: str, of: Description, numbers: Mapping[str, float]
 ) -> None:
-    """Declare a base with the sensors that the configuration has, unless it names that base.
+    """Declare a base with the sensors that the configuration has.
 
-    `of` describes what it moves: its bus and its members; `numbers` are parameters.
+    `of` describes its drive: the bus, the members, and the limits that are given for it; `numbers`
+    are the parameters of its hardware.
     """
     sensors = {kind: _listed(_sensors(manager, kind)) for kind in KINDS}
-    given = {name: repr(number) for name, number in numbers.items()}
-    parameters = {"port": SIMULATED, **given, **sensors}
-    manager.declare(Description(id, type, parameters, bus=of.bus, members=of.members))
+    hardware = {name: repr(number) for name, number in numbers.items()}
+    limits = {name: text for name, text in of.parameters.items() if name in LIMITS}
+    parameters = {"port": SIMULATED, **hardware, **sensors, **limits}
+    base = Description(id, type, parameters, of.bus, of.members, of.place, of.places)
+    manager.declare(base)
 
 
 def _sensors(manager: Resources, kind: str) -> list[str]:

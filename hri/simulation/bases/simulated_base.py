@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from hri.core.signals import Twist
+from hri.drive.supervisor.base_bus import LIMITS, refuse_wrong_limits
 from hri.drive.supervisor.base_drive import BaseDrive
 from hri.drive.supervisor.in_process_bus import DeviceLine, InProcessBus, declare_base
 from hri.hal.motion import Way
+from hri.hal.resource import Description
 from hri.simulation.base import ORDINARY
 from hri.simulation.in_world import InWorld, world_id
 
@@ -14,7 +18,14 @@ BASE = "Hri.SimulatedBase"
 
 
 class SimulatedDrive(InWorld, BaseDrive):
-    """The motors of the simulated base, driven together."""
+    """The motors of the simulated base, driven together; its limits are parameters of the drive."""
+
+    parameters: ClassVar[tuple[str, ...]] = (*BaseDrive.parameters, *LIMITS)
+
+    @classmethod
+    def check(cls, description: Description) -> None:
+        super().check(description)
+        refuse_wrong_limits(description)
 
     def _declare_base(self) -> None:
         numbers = {
