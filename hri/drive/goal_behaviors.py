@@ -19,7 +19,7 @@ from hri.core.geometry import seen_from
 from hri.core.signals import People, Pose2D, Twist
 from hri.drive.avoidance import ROUTE, Avoidance, Manner, straight_to, turn_to
 from hri.drive.following import Following, FollowingManner, Pursuit, tell
-from hri.drive.mechanics import mechanics_of, range_sensors
+from hri.drive.mechanics import mechanics_of, sensors
 from hri.drive.odometry import Estimate, Wheels, arc_between, rolled_on
 from hri.drive.wandering import Wandering
 from hri.hal.drive import Odometry
@@ -109,7 +109,7 @@ class ObstacleAvoidance(_Going):
 
     def start(self, context: Context) -> None:
         super().start(context)
-        ids = self.sensor_ids.split() or range_sensors(context.resources)
+        ids = self.sensor_ids.split() or sensors(context.resources, RangeSensor)
         self._sensors = {id: self.obtain(id, RangeSensor) for id in ids}
         self._avoidance = Avoidance(mechanics_of(context.resources, ids), self._manner())
         self._route = context.board.slot(ROUTE)

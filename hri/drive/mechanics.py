@@ -10,8 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from hri.core.signals import Pose2D
-from hri.hal.range_sensor import RangeSensor
-from hri.hal.resource import Resources
+from hri.hal.resource import Resource, Resources
 from hri.hal.shape import Shape
 
 UNKNOWN_RADIUS = 0.25
@@ -50,7 +49,7 @@ def swept_radius(box: Shape) -> float:
     return max(math.hypot(box.x + cos * u - sin * v, box.y + sin * u + cos * v) for u, v in corners)
 
 
-def range_sensors(resources: Resources) -> list[str]:
-    """Ids of the range sensors; a stand-in is reached through what it stands for."""
+def sensors(resources: Resources, kind: type[Resource]) -> list[str]:
+    """Ids of the sensors of a kind; a stand-in is reached through what it stands for."""
     stand_ins = {description.text("stand_in") for description in resources.descriptions.values()}
-    return [id for id in resources.ids(RangeSensor) if id not in stand_ins]
+    return [id for id in resources.ids(kind) if id not in stand_ins]

@@ -29,7 +29,7 @@ from hri.drive.following import (
     tell_ending,
 )
 from hri.drive.goal_behaviors import PEOPLE
-from hri.drive.mechanics import mechanics_of, range_sensors
+from hri.drive.mechanics import mechanics_of, sensors
 from hri.drive.nominal_pose import nominal_pose, note_arrival
 from hri.drive.own_gate import see_to_gate
 from hri.drive.progress import Approach, Patience
@@ -340,7 +340,7 @@ class _Traveler:
         self._odometry = resources.obtain("odometry", Odometry)
         self._sensors: dict[str, RangeSensor] = {}
         try:
-            for id in range_sensors(resources):
+            for id in sensors(resources, RangeSensor):
                 self._sensors[id] = resources.obtain(id, RangeSensor)
             self._mechanics = mechanics_of(resources, self._sensors)
         except HriError:

@@ -10,9 +10,10 @@ from hri.behavior.drive_command import DriveCommand
 from hri.behavior.network import Network
 from hri.core.errors import HriError
 from hri.drive.behaviors import CommandGate
-from hri.drive.mechanics import range_sensors
+from hri.drive.mechanics import sensors
 from hri.hal.bumper import Bumper
 from hri.hal.drive import DriveSystem
+from hri.hal.range_sensor import RangeSensor
 from hri.task.context import TaskContext
 
 INTERVAL = 0.02
@@ -43,15 +44,15 @@ def see_to_gate(context: TaskContext) -> CommandGate:
 def _network(context: TaskContext, gate: CommandGate, drive_id: str) -> Network:
     resources = context.resources
     drive = DriveCommand("drive", drive_id=drive_id)
-    sensors: list[Behavior] = []
-    for id in range_sensors(resources):
+    readers: list[Behavior] = []
+    for id in sensors(resources, RangeSensor):
         if abs(resources.pose_of(id).yaw) <= AHEAD:
-            sensor = RangeSensorReading(f"range_{len(sensors)}", sensor_id=id)
+            sensor = RangeSensorReading(f"range_{len(readers)}", sensor_id=id)
             gate.range.sources.append(sensor.reading)
-            sensors.append(sensor)
+            readers.append(sensor)
     for id in resources.ids(Bumper):
-        bumper = BumperSwitch(f"bumper_{len(sensors)}", bumper_id=id)
+        bumper = BumperSwitch(f"bumper_{len(readers)}", bumper_id=id)
         gate.bump.sources.append(bumper.is_pressed)
-        sensors.append(bumper)
+        readers.append(bumper)
     drive.velocity.sources.append(gate.velocity)
-    return Network("own gate", INTERVAL, behaviors=[*sensors, gate, drive])
+    return Network("own gate", INTERVAL, behaviors=[*readers, gate, drive])

@@ -18,7 +18,7 @@ from hri.core.errors import HriError, NotAvailable
 from hri.core.signals import Pose2D, RangeReading, Twist
 from hri.drive.bases.in_process import PERIOD, InProcess, commands, devices, encoded
 from hri.drive.bases.protocol import BaseReport, Sensors
-from hri.drive.mechanics import mechanics_of
+from hri.drive.mechanics import mechanics_of, sensors
 from hri.drive.supervisor.base_bus import LIMITS, SIMULATED, STALE, BaseBus
 from hri.drive.supervisor.line import BaseLine
 from hri.hal.bumper import Bumper
@@ -76,17 +76,12 @@ def declare_base(
     `of` describes its drive: the bus, the members, and the limits that are given for it; `numbers`
     are the parameters of its hardware.
     """
-    sensors = {kind: _listed(_sensors(manager, kind)) for kind in KINDS}
+    places = {name: _listed(sensors(manager, kind)) for name, kind in KINDS.items()}
     hardware = {name: repr(number) for name, number in numbers.items()}
     limits = {name: text for name, text in of.parameters.items() if name in LIMITS}
-    parameters = {"port": SIMULATED, **hardware, **sensors, **limits}
+    parameters = {"port": SIMULATED, **hardware, **places, **limits}
     base = Description(id, type, parameters, of.bus, of.members, of.place, of.places)
     manager.declare(base)
-
-
-def _sensors(manager: Resources, kind: str) -> list[str]:
-    stand_ins = {description.text("stand_in") for description in manager.descriptions.values()}
-    return [id for id in manager.ids(KINDS[kind]) if id not in stand_ins]
 
 
 def _listed(ids: Iterable[str]) -> str:
