@@ -1,4 +1,4 @@
-"""Driving: the verbs of tasks, and the gate that every velocity passes.
+"""Driving: the verbs of tasks, and the supervisor that every velocity passes.
 
 from hri.drive import go_to, move, stop, turn
 """

@@ -4,9 +4,9 @@ A motion claims "drive" and writes velocities to the board, where the command ga
 Starting one ends the one before; `stop`, `CommandGate.halt` and a bump end it too. It ends by
 itself at the goal, or when it gets nowhere.
 
-Its velocity follows from the way that is left, so the gate and the supervisor may hold it up. A
-motion of `hri.hal.motion` follows a plan in time, to the millimeter, and fails when it is held up:
-that is for programs that command the drive itself. Both use `hri.hal.motion_profile`.
+Its velocity follows from the way that is left, so the supervisor may hold it up. A motion of
+`hri.hal.motion` follows a plan in time, to the millimeter, and fails when it is held up: that is
+for programs that command the drive itself. Both use `hri.hal.motion_profile`.
 """
 
 from __future__ import annotations
@@ -57,10 +57,9 @@ async def move(
 ) -> float:
     """Drive straight ahead, backward when negative; the distance really traveled, with its sign.
 
-    With an `acceleration` (m/s²) it speeds up and slows down no harder than that; the command gate
-    and the supervisor may allow less. Raises ValueError for a distance that is not finite, or a
-    speed (m/s) or acceleration that is not above 0, HriError for a distance beyond `longest_move`
-    of the drive.
+    With an `acceleration` (m/s²) it speeds up and slows down no harder than that; the supervisor
+    may allow less. Raises ValueError for a distance that is not finite, or a speed (m/s) or
+    acceleration that is not above 0, HriError for a distance beyond `longest_move` of the drive.
     """
     refuse_too_long(
         context, distance_m, f"{distance_m:g} m", f"give {distance_m / 100:g} if you meant cm"
@@ -78,8 +77,8 @@ async def turn(
 ) -> float:
     """Turn on the spot, left when positive, also more than once round; the angle really turned.
 
-    With an `acceleration` (rad/s²) it speeds up and slows down no harder than that; the command
-    gate and the supervisor may allow less. Raises ValueError for an angle that is not finite, or a
+    With an `acceleration` (rad/s²) it speeds up and slows down no harder than that; the supervisor
+    may allow less. Raises ValueError for an angle that is not finite, or a
     rate (rad/s) or acceleration that is not above 0.
     """
     way = _Turn(angle_rad, _above_0(rate, TURN_RATE, "rad/s"), acceleration)
@@ -141,7 +140,7 @@ class _Way(ABC):
         """How much of it has been traveled, as far as `look` has seen."""
         self._speed = speed
         self._down = _above_0(acceleration, self.deceleration, self.unit)
-        # Without an acceleration, how fast it speeds up is the gate's part alone.
+        # Without an acceleration, how fast it speeds up is the supervisor's part alone.
         self._up = math.inf if acceleration is None else acceleration
         self._asked = 0.0
 
@@ -155,7 +154,7 @@ class _Way(ABC):
 
     @abstractmethod
     def steered(self, pose: Pose2D, braking: Twist) -> Twist:
-        """What to ask the base for on the way; `braking` is what the gate slows down with."""
+        """What to ask the base for on the way; `braking` is what it slows down with."""
 
     def _toward_goal(self, braking: float) -> float:
         """The velocity for the next period."""

@@ -1,7 +1,7 @@
 """The navigation tasks of 2003, in the units of `hri.task.units`.
 
-They are the verbs of `hri.drive.tasks`, so all of them go through a command gate, which limits what
-they ask for and stops at obstacles; where none runs they start one.
+They are the verbs of `hri.drive.tasks`, so all of them go through a command gate; where none runs
+they start one.
 """
 
 from __future__ import annotations

@@ -70,7 +70,7 @@ def velocity_for(remaining: float, max_velocity: float, deceleration: float, dt:
 
     `remaining` is signed: what is still to go. The velocity depends on where things are now, not on
     a plan made at the start, so a push or a slow base is made up for. Speeding up evenly is the
-    command gate's part. NaN gives NaN, which the gate refuses.
+    supervisor's part. NaN gives NaN, which the supervisor refuses.
     """
     if math.isnan(remaining):
         return remaining
