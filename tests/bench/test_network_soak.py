@@ -63,10 +63,10 @@ def test_timers_that_are_kept_until_they_would_be_due_are_found():
         def call_at(self, when, callback):
             timer = super().call_at(when, callback)
             if when - self.now() > 1000:
-                self.kept.append(timer)
+                self.kept.append((timer, bytearray(5000)))  # as what it would call back may hold
             return timer
 
-    soak = Soak(0.2, 10, lambda line: None)
+    soak = Soak(0.04, 10, lambda line: None)
     soak.clock.__class__ = Hoarder
     assert [fault.split(" by ")[0] for fault in soak.run().faults] == ["memory grew"]
 
