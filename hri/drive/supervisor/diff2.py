@@ -7,39 +7,25 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from collections.abc import Mapping
 
 from hri.core.signals import Twist
-from hri.drive.supervisor.base_bus import LIMITS, refuse_wrong_limits
-from hri.drive.supervisor.base_drive import BaseDrive
-from hri.drive.supervisor.in_process_bus import DeviceLine, InProcessBus, declare_base
+from hri.drive.supervisor.in_process_bus import DeviceDrive, DeviceLine, InProcessBus
 from hri.drive.velocity_limits import BaseLimits
 from hri.hal.drivers.diff2 import TwoMotors
-from hri.hal.resource import Description
-
-BASE = "Hri.Diff2Base"
-"""Type of the base that such a drive declares."""
 
 
-class Diff2Drive(TwoMotors, BaseDrive):
-    """Drives over two motors; both drives of the same motors are drives of one base.
+class Diff2Drive(TwoMotors, DeviceDrive):
+    """Drives over two motors; both drives of the same motors are drives of one base."""
 
-    The limits of that base are parameters of the drive.
-    """
+    base_type = "Hri.Diff2Base"
 
-    parameters: ClassVar[tuple[str, ...]] = (*BaseDrive.parameters, *LIMITS)
-
-    @classmethod
-    def check(cls, description: Description) -> None:
-        super().check(description)
-        refuse_wrong_limits(description)
-
-    def _declare_base(self) -> None:
+    def _abilities(self) -> Mapping[str, float]:
         half = self.wheels.track / 2
         fastest = min(motor.max_velocity for motor in self.motors)
         strongest = min(motor.max_acceleration for motor in self.motors)
         usual = BaseLimits()
-        numbers = {
+        return {
             "linear": fastest,
             "angular": fastest / half,
             "track": self.wheels.track,
@@ -48,7 +34,6 @@ class Diff2Drive(TwoMotors, BaseDrive):
             "angular_acceleration": min(usual.angular_acceleration, strongest / half),
             "angular_deceleration": min(usual.angular_deceleration, strongest / half),
         }
-        declare_base(self.manager, self._base_id(), BASE, self.description, numbers)
 
     def _base_id(self) -> str:
         return "+".join(sorted(self.description.members)) + "_base"

@@ -19,14 +19,21 @@ from hri.core.signals import Pose2D, RangeReading, Twist
 from hri.drive.bases.in_process import PERIOD, InProcess, commands, devices, encoded
 from hri.drive.bases.protocol import BaseReport, Sensors
 from hri.drive.mechanics import mechanics_of, sensors
-from hri.drive.supervisor.base_bus import LIMITS, SIMULATED, STALE, BaseBus
+from hri.drive.supervisor.base_bus import (
+    LIMITS,
+    SIMULATED,
+    STALE,
+    BaseBus,
+    refuse_wrong_limits,
+)
+from hri.drive.supervisor.base_drive import BaseDrive
 from hri.drive.supervisor.line import BaseLine
 from hri.hal.bumper import Bumper
 from hri.hal.cliff_sensor import CliffSensor
 from hri.hal.motion import Response, Way
 from hri.hal.port import Port
 from hri.hal.range_sensor import RangeSensor
-from hri.hal.resource import Description, Resource, Resources
+from hri.hal.resource import Description, Resource
 
 KINDS: Mapping[str, type[Resource]] = {
     "bumps": Bumper,
@@ -68,20 +75,32 @@ class InProcessBus(BaseBus):
         return {places[id]: mount for id, mount in mounts.items() if places[id] in there}
 
 
-def declare_base(
-    manager: Resources, id: str, type: str, of: Description, numbers: Mapping[str, float]
-) -> None:
-    """Declare a base with the sensors that the configuration has.
+class DeviceDrive(BaseDrive):
+    """The drive of such a base, which it declares; the limits of the base are its parameters."""
 
-    `of` describes its drive: the bus, the members, and the limits that are given for it; `numbers`
-    are the parameters of its hardware.
-    """
-    places = {name: _listed(sensors(manager, kind)) for name, kind in KINDS.items()}
-    hardware = {name: repr(number) for name, number in numbers.items()}
-    limits = {name: text for name, text in of.parameters.items() if name in LIMITS}
-    parameters = {"port": SIMULATED, **hardware, **places, **limits}
-    base = Description(id, type, parameters, of.bus, of.members, of.place, of.places)
-    manager.declare(base)
+    base_type: ClassVar[str]
+    """Type of the base."""
+    parameters: ClassVar[tuple[str, ...]] = (*BaseDrive.parameters, *LIMITS)
+
+    @classmethod
+    def check(cls, description: Description) -> None:
+        super().check(description)
+        refuse_wrong_limits(description)
+
+    @abstractmethod
+    def _abilities(self) -> Mapping[str, float]:
+        """What the hardware can do: the numbers among the parameters of the base."""
+
+    def _declare_base(self) -> None:
+        """Declare it with all sensors that the configuration has."""
+        of = self.description
+        hardware = {name: repr(number) for name, number in self._abilities().items()}
+        places = {name: _listed(sensors(self.manager, kind)) for name, kind in KINDS.items()}
+        limits = {name: text for name, text in of.parameters.items() if name in LIMITS}
+        parameters = {"port": SIMULATED, **hardware, **places, **limits}
+        id = self._base_id()
+        base = Description(id, self.base_type, parameters, of.bus, of.members, of.place, of.places)
+        self.manager.declare(base)
 
 
 def _listed(ids: Iterable[str]) -> str:

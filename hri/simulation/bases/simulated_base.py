@@ -2,40 +2,28 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from collections.abc import Mapping
 
 from hri.core.signals import Twist
-from hri.drive.supervisor.base_bus import LIMITS, refuse_wrong_limits
-from hri.drive.supervisor.base_drive import BaseDrive
-from hri.drive.supervisor.in_process_bus import DeviceLine, InProcessBus, declare_base
+from hri.drive.supervisor.in_process_bus import DeviceDrive, DeviceLine, InProcessBus
 from hri.hal.motion import Way
-from hri.hal.resource import Description
 from hri.simulation.base import ORDINARY
 from hri.simulation.in_world import InWorld, world_id
 
-BASE = "Hri.SimulatedBase"
-"""Type of the base that a simulated drive declares."""
 
+class SimulatedDrive(InWorld, DeviceDrive):
+    """The motors of the simulated base, driven together."""
 
-class SimulatedDrive(InWorld, BaseDrive):
-    """The motors of the simulated base, driven together; its limits are parameters of the drive."""
+    base_type = "Hri.SimulatedBase"
 
-    parameters: ClassVar[tuple[str, ...]] = (*BaseDrive.parameters, *LIMITS)
-
-    @classmethod
-    def check(cls, description: Description) -> None:
-        super().check(description)
-        refuse_wrong_limits(description)
-
-    def _declare_base(self) -> None:
-        numbers = {
+    def _abilities(self) -> Mapping[str, float]:
+        return {
             "linear": ORDINARY.linear,
             "angular": ORDINARY.angular,
             "track": ORDINARY.track,
             "acceleration": ORDINARY.acceleration,
             "angular_acceleration": ORDINARY.angular_acceleration,
         }
-        declare_base(self.manager, self._base_id(), BASE, self.description, numbers)
 
     def _base_id(self) -> str:
         return f"{world_id(self.manager, self.description.bus)}_base"
