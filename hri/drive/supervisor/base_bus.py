@@ -19,6 +19,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields, replace
+from functools import cached_property
 from typing import ClassVar
 
 from hri.core.clock import Timer
@@ -207,12 +208,12 @@ class BaseBus(EmergencyStop):
         if watcher in self._watchers:
             self._watchers.remove(watcher)
 
-    @property
+    @cached_property
     def limits(self) -> BaseLimits:
         """What the configuration allows this base."""
         return BaseLimits(**{n: _number(self.description, n, d) for n, d in _LIMITS.items()})
 
-    @property
+    @cached_property
     def fastest(self) -> Twist:
         """What the hardware can do."""
         return self._protocol().limits
@@ -241,6 +242,11 @@ class BaseBus(EmergencyStop):
     def brake(self) -> None:
         """Stand still at once. Raises NotAvailable."""
         self._order(Brake(self.state.time))
+
+    def look(self) -> None:
+        """Fetch what the supervisor says now; without it, what it said in the last BEAT counts."""
+        with self._lock:
+            self._connection.look()
 
     def report(self) -> BaseReport:
         """The newest. Raises NotAvailable when there is none."""

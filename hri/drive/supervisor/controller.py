@@ -38,6 +38,8 @@ from hri.hal.rank import Rank
 
 TURN = 0.01
 """Seconds between two turns at most."""
+SAME = 1e-6
+"""Seconds; times that differ by no more are one: sums of fractions are not exact."""
 REFRESH = 0.05
 """Seconds after which the velocity is repeated: bytes may be lost, and a base may time out."""
 SILENCE = 1.5

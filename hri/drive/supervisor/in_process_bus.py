@@ -27,6 +27,7 @@ from hri.drive.supervisor.base_bus import (
     refuse_wrong_limits,
 )
 from hri.drive.supervisor.base_drive import BaseDrive
+from hri.drive.supervisor.controller import SAME
 from hri.drive.supervisor.line import BaseLine
 from hri.hal.bumper import Bumper
 from hri.hal.cliff_sensor import CliffSensor
@@ -54,7 +55,7 @@ class InProcessBus(BaseBus):
     """Its devices report through the supervisor; what they are is in its description."""
 
     protocol = InProcess
-    response = Response(5.0, 0.06, 0.05, Way(0.001, math.radians(0.1)))
+    response = Response(5.0, 0.06, 0.045, Way(0.001, math.radians(0.1)))
 
     def set_power(self, percent: float, now: float) -> None:
         self._wheels.set_power(percent, now)
@@ -197,7 +198,7 @@ class _DevicePort(Port):
         return self._is_open
 
     def read(self, now: float) -> bytes:
-        if now < self._due:
+        if now < self._due - SAME:
             return b""
         self._due = now + PERIOD
         try:

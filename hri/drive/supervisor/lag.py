@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections import deque
-from dataclasses import dataclass
+from collections.abc import Iterator
 
 from hri.core.signals import Twist
 from hri.hal.drive import PATIENCE
@@ -43,22 +43,8 @@ Rims = tuple[float, float]
 """Meters, or meters a second, of the left and the right wheel."""
 
 
-@dataclass(slots=True)
-class _Fit:
-    """How well the told motion fits the reported motion at one delay."""
-
-    told: float = 0.0
-    both: float = 0.0
-
-    def add(self, told: Rims, reported: Rims, weight: float, decay: float) -> None:
-        self.told = decay * self.told + weight * _product(told, told)
-        self.both = decay * self.both + weight * _product(told, reported)
-
-    def unexplained(self, reported: float) -> float:
-        """Part of the reported motion, 0 to 1, that is not the told motion times some factor."""
-        if self.told <= 0 or self.both <= 0:
-            return 1.0
-        return max(0.0, 1.0 - self.both**2 / (self.told * reported))
+DELAYS = [number * STEP for number in range(round(LONGEST / STEP) + 1)]
+"""Seconds; those that are tried."""
 
 
 class Lag:
@@ -79,8 +65,12 @@ class Lag:
     def _forget_reports(self) -> None:
         self._heard: deque[tuple[float, Rims]] = deque()
         """What the wheels have rolled until these times, over the last WINDOW."""
-        self._fits = [_Fit() for _ in range(round(LONGEST / STEP) + 1)]
-        self._reported = 0.0
+        self._told_squared = [0.0] * len(DELAYS)
+        """The told motion times itself, by the delay at which it is compared; what was compared
+        lately counts most."""
+        self._products = [0.0] * len(DELAYS)
+        """The told motion times the reported one."""
+        self._reported_squared = 0.0
         self._compared = -math.inf
         self._in_a_row = 0
 
@@ -121,36 +111,52 @@ class Lag:
         elapsed = min(EVERY * 2, time - self._compared)
         decay, weight = math.exp(-elapsed / MEMORY), elapsed / (time - before) ** 2
         self._compared = time
-        self._reported = decay * self._reported + weight * _product(reported, reported)
-        for number, fit in enumerate(self._fits):
-            end, start = self._way_at(time - number * STEP), self._way_at(before - number * STEP)
-            fit.add((end[0] - start[0], end[1] - start[1]), reported, weight, decay)
+        left, right = reported
+        self._reported_squared *= decay
+        self._reported_squared += weight * (left * left + right * right)
+        ways = zip(self._told_until(before), self._told_until(time), strict=True)
+        for number, ((left_0, right_0), (left_1, right_1)) in enumerate(ways):
+            told_left, told_right = left_1 - left_0, right_1 - right_0
+            self._told_squared[number] *= decay
+            self._told_squared[number] += weight * (told_left**2 + told_right**2)
+            self._products[number] *= decay
+            self._products[number] += weight * (told_left * left + told_right * right)
 
     def _found(self) -> float | None:
-        if self._reported < 2 * LEAST_MOTION**2 * MEMORY:
+        if self._reported_squared < 2 * LEAST_MOTION**2 * MEMORY:
             return None
-        missing = [fit.unexplained(self._reported) for fit in self._fits]
+        missing = [
+            _unexplained(told, both, self._reported_squared)
+            for told, both in zip(self._told_squared, self._products, strict=True)
+        ]
         best = min(range(len(missing)), key=missing.__getitem__)
         least = min(missing[: round(MOST_LAG / STEP) + 1])
         is_sure = missing[best] <= FIT and least >= max(MISFIT, CLEARLY * missing[best])
         return best * STEP if is_sure and best < len(missing) - 1 else None
 
-    def _way_at(self, time: float) -> Rims:
-        """What the wheels were told to roll until a time; at rest before the first word."""
-        index = bisect_left(self._told_at, time)
-        if index == 0:
-            return self._told[0] if self._told else (0.0, 0.0)
-        if index == len(self._told_at):
-            return self._told[-1]
-        start, end = self._told_at[index - 1], self._told_at[index]
-        share = (time - start) / (end - start)
-        (left, right), (far_left, far_right) = self._told[index - 1], self._told[index]
-        return left + share * (far_left - left), right + share * (far_right - right)
+    def _told_until(self, now: float) -> Iterator[Rims]:
+        """What the wheels were told to roll until a time, and until each delay before; at rest
+        before the first word."""
+        times, told = self._told_at, self._told or [(0.0, 0.0)]
+        index = len(times)
+        for delay in DELAYS:
+            time = now - delay
+            index = bisect_left(times, time, 0, index)
+            if index in (0, len(times)):
+                yield told[max(0, index - 1)]
+                continue
+            start, end = times[index - 1], times[index]
+            share = (time - start) / (end - start)
+            (left, right), (far_left, far_right) = told[index - 1], told[index]
+            yield left + share * (far_left - left), right + share * (far_right - right)
 
     def _rims(self, linear: float, angular: float) -> Rims:
         aside = self._half_track * angular
         return linear - aside, linear + aside
 
 
-def _product(one: Rims, other: Rims) -> float:
-    return one[0] * other[0] + one[1] * other[1]
+def _unexplained(told: float, both: float, reported: float) -> float:
+    """Part of the reported motion, 0 to 1, that is not the told motion times some factor."""
+    if told <= 0 or both <= 0:
+        return 1.0
+    return max(0.0, 1.0 - both**2 / (told * reported))

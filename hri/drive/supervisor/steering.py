@@ -231,10 +231,11 @@ class Steering:
 
     def _step(self, run: Run) -> bool:
         """Send a command; False when the motion is over."""
+        self._bus.look()
         if self._bus.is_latched and not isinstance(run.motion, (SlowDown, Brake)):
             raise HriError(f"{self._bus.explain()} - unlatch the base first")
         now = self._clock.now()
-        twist = run.motion.step(now - run.began, self._reading(run))
+        twist = run.motion.step(now - run.began, self._reading(run, now))
         if twist is None:
             return False
         if run.motion.is_braking:
@@ -247,10 +248,15 @@ class Steering:
         run.timer = self._clock.call_at(run.due, lambda: self._tick(run))
         return True
 
-    def _reading(self, run: Run) -> Reading:
-        report, origin = self._bus.report(), run.origin
-        way = Way(report.rolled.linear - origin.linear, report.rolled.angular - origin.angular)
-        return Reading(way, report.velocity or REST, self._bus.response)
+    def _reading(self, run: Run, now: float) -> Reading:
+        """What the wheels have done by now: a report is some time old."""
+        report, origin, age = self._bus.report(), run.origin, self._bus.age(now)
+        rolled, velocity = report.rolled, report.velocity or REST
+        way = Way(
+            rolled.linear - origin.linear + velocity.linear * age,
+            rolled.angular - origin.angular + velocity.angular * age,
+        )
+        return Reading(way, velocity, self._bus.response)
 
     def _fail(self, run: Run, error: Exception) -> None:
         """End a motion that cannot go on, whatever the hardware says to that."""

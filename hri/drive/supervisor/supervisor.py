@@ -83,6 +83,10 @@ class Supervisor:
         """What is free before the body."""
         self.is_watched = True
         """Whether the watchdog answers; without it the base rests."""
+        self._allowed = {
+            is_near: within_hardware(rules.limits.cap(is_near), rules.fastest)
+            for is_near in (False, True)
+        }
         self._arbiter = VelocityArbiter(rules.fastest)
         self._limiter = Limiter(rules.limits)
         # On the spot, the wheels run as fast as straight on, half the track from the middle.
@@ -119,7 +123,7 @@ class Supervisor:
     @property
     def allowed(self) -> Cap:
         """How fast it may go by who is near and by its hardware."""
-        return within_hardware(self.rules.limits.cap(self.is_near), self.rules.fastest)
+        return self._allowed[self.is_near]
 
     def waiting(self, now: float) -> list[Rank]:
         """The sources that ask for something, the most important first."""
@@ -183,6 +187,8 @@ class Supervisor:
         self._sent = decision.twist
         news, self._news = self._news, None
         must_cut, self._must_cut = self._must_cut, False
+        if news is None and not must_cut:
+            return decision
         return replace(decision, stop=news, must_cut=must_cut)
 
     def _step_to(self, now: float) -> float:
@@ -311,7 +317,7 @@ class Supervisor:
         cause = self._reflex.cause or DONE
         if wanted == REST:
             return self._rest(Rank.REFLEX, cause)
-        cap = replace(self._cap(), forward=0.0)
+        cap = replace(self._cap(self.allowed), forward=0.0)
         return Decision(self._limiter.step(wanted, cap, dt), Rank.REFLEX, cause)
 
     @property
@@ -323,7 +329,8 @@ class Supervisor:
         command = self._arbiter.chosen(now)
         if command is None or command.twist is None:
             return self._unasked(now, dt, refused)
-        cap, cause = self._cap(command.manner), DONE
+        allowed = within_hardware(self.allowed, command.manner.fastest)
+        cap, cause = self._cap(allowed, command.manner), DONE
         if self._hazards:
             cause = self._hazards[0].cause
             if self._is_heading_for_a_hazard:
@@ -331,7 +338,7 @@ class Supervisor:
         elif _is_blocked(command.twist, cap):
             cause = COMING if self._coming <= 0 else OBSTACLE
         # What is too fast keeps its curve; what is in the way takes nothing from turning away.
-        curve = within(command.twist, within_hardware(self.allowed, command.manner.fastest))
+        curve = within(command.twist, allowed)
         target = Twist(max(-cap.backward, min(cap.forward, curve.linear)), curve.angular)
         velocity = self._limiter.step(target, cap, dt, command.manner)
         return Decision(velocity, command.source, cause, target)
@@ -343,7 +350,7 @@ class Supervisor:
             return self._rest(Rank.NOBODY, Cause("timeout", f"my {silent} fell silent"))
         if refused is not None:
             return self._rest(Rank.NOBODY, Cause("refused", f"I was asked for nonsense: {refused}"))
-        return Decision(self._limiter.step(REST, self._cap(), dt), Rank.NOBODY, DONE)
+        return Decision(self._limiter.step(REST, self._cap(self.allowed), dt), Rank.NOBODY, DONE)
 
     @property
     def _coming(self) -> float:
@@ -351,9 +358,9 @@ class Supervisor:
         now, watch = self._judged, self._oncoming
         return min(watch.speed(now, self.rules.limits.deceleration), watch.pace(now))
 
-    def _cap(self, manner: Manner = FREELY) -> Cap:
+    def _cap(self, allowed: Cap, manner: Manner = FREELY) -> Cap:
         """How fast it may go now, with what is in the way."""
-        cap, clearance = within_hardware(self.allowed, manner.fastest), self.rules.body.clearance
+        clearance = self.rules.body.clearance
         moving, deceleration = self._sent.linear, self.rules.limits.deceleration
         ahead = min(
             safe_speed(self.room.ahead, clearance, deceleration, moving > 0),
@@ -363,8 +370,11 @@ class Supervisor:
         for hazard in self._hazards:
             ahead, behind = (ahead, 0.0) if hazard.is_behind else (0.0, behind)
         coming = self._coming
-        forward, backward = (min(cap.forward, ahead, coming), min(cap.backward, behind, coming))
-        return replace(cap, forward=forward, backward=backward)
+        forward, backward = (
+            min(allowed.forward, ahead, coming),
+            min(allowed.backward, behind, coming),
+        )
+        return Cap(forward, backward, allowed.angular)
 
 
 def _is_blocked(twist: Twist, cap: Cap) -> bool:

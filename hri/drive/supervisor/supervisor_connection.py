@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from hri.core.clock import Clock, Timer
 from hri.drive.supervisor.cause import NO_PROGRAM
-from hri.drive.supervisor.controller import TURN, Controller
+from hri.drive.supervisor.controller import SAME, TURN, Controller
 from hri.drive.supervisor.link import Order, State, Trip
 from hri.hal.motion import REST
 
@@ -70,7 +70,7 @@ class Inline(SupervisorConnection):
         self._turn((order,))
 
     def look(self) -> None:
-        if self.clock.now() > self._turned:
+        if self.clock.now() - self._turned > SAME:
             self._turn()
 
     def close(self) -> None:
@@ -81,7 +81,7 @@ class Inline(SupervisorConnection):
             self._controller.close(self._turned)
 
     def _tick(self) -> None:
-        self._turn()
+        self.look()
         self._timer = self.clock.call_at(self._turned + self._interval, self._tick)
 
     @property

@@ -73,7 +73,6 @@ def scenario(config: str) -> list[Any]:
         robot.wait(0.2)
         ride.go(drive, bus, Twist(0.2))
         bus.hear_person(4.0)
-        robot.wait(0.1)
         ride.notes.append(bus.state.allowed.forward)
     return ride.notes
 
