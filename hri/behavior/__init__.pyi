@@ -10,5 +10,6 @@ from .ports import (
     Param as Param,
     declare_datatype as declare_datatype,
 )
+from .reason import Arrived as Arrived, Reason as Reason
 from .runner import Runner as Runner
 from .running import Networks as Networks

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 import zlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, Protocol
 
@@ -24,6 +24,7 @@ from hri.behavior.declaration import Schema
 from hri.behavior.doors import Doors
 from hri.behavior.effects import Effect
 from hri.behavior.ports import Input, InputPort, Output, OutputPort, Param
+from hri.behavior.reason import Arrived, Reason
 from hri.behavior.tick_statistics import Statistics
 from hri.core.clock import Clock
 from hri.core.errors import HriError, did_you_mean
@@ -215,6 +216,13 @@ class Behavior:
 
     def stop(self) -> None:
         """Give back what `start` took; called once, also after an error."""
+
+    def explain_output(self, output: str, value: Any, arrived: Sequence[Arrived]) -> Reason | None:
+        """Why an output has its value, and which of the inputs decided; None where all did.
+
+        Called between ticks, with the value of the last tick and what each link brought then.
+        """
+        return None
 
 
 def bridge_ports(behaviors: Iterable[Behavior]) -> list[tuple[str, str]]:

@@ -56,8 +56,9 @@ def openapi() -> dict[str, Any]:
         "a WebSocket. It sends text, each a LiveMessage, and pictures: a byte (2 for the face, 3 "
         "for the camera), the time (big-endian double, seconds), and a JPEG. It takes "
         '{"pictures": ["face", "camera"], "networks": ["moving"], "thumbnails": '
-        '["seeing/camera.image"]}: the pictures, the networks whose values, and the outputs whose '
-        "small pictures are wanted. It also takes "
+        '["seeing/camera.image"], "reasons": ["moving/gate.velocity"]}: the pictures, the networks '
+        "whose values, the outputs whose small pictures, and the ports whose reasons are wanted. "
+        "It also takes "
         '{"command": "stop", "number": 1, "press": "a"}, which needs no further connection; the '
         "Answer has the number.",
     )

@@ -27,7 +27,7 @@ PATIENCE = 2.0
 """Seconds that the robot has to answer."""
 MOST_PRESSES = 100
 """Stops that are known again when they come by another way."""
-NETWORK_TOPICS = frozenset({"ports", "thumbnails"})
+NETWORK_TOPICS = frozenset({"ports", "reasons", "thumbnails"})
 """Topics that only pages get that want values."""
 
 

@@ -29,7 +29,7 @@ TEXT, FACE, CAMERA, VALUE = 1, 2, 3, 4
 """Kinds of messages: JSON, pictures as JPEG behind their time, and the value of a topic: its name,
 a line break, and JSON that the server passes on as it is."""
 PICTURES = {"face": FACE, "camera": CAMERA}
-NETWORK, THUMBNAIL = "network:", "thumbnail:"
+NETWORK, THUMBNAIL, REASON = "network:", "thumbnail:", "reason:"
 """What begins the name of a network whose values are wanted, and of an output whose picture is."""
 LARGEST = 4_000_000
 """Bytes of a message."""
@@ -121,7 +121,7 @@ class RobotEnd:
         self._is_closed = False
         self.requests = RequestQueue()
         self.wanted: frozenset[str] = frozenset()
-        """Pictures that someone looks at, and with `NETWORK` and `THUMBNAIL` before, values."""
+        """Pictures that someone looks at, and with one of the words above before, values."""
         self.reader: threading.Thread | None = None
         """Of what the server sends, until it has ended."""
         threading.Thread(target=self._write, name="studio link", daemon=True).start()

@@ -6,17 +6,20 @@ import json
 import logging
 from collections.abc import Callable, Mapping
 
+from hri.behavior.explanation import why
 from hri.behavior.runner import Runner
 from hri.behavior.running import Networks
+from hri.core.errors import HriError
 from hri.core.signals import Frame
-from hri.studio.link import NETWORK, THUMBNAIL, RobotEnd
-from hri.studio.port_values import PortSampler, Sample, thumbnail
+from hri.studio.link import NETWORK, REASON, THUMBNAIL, RobotEnd
+from hri.studio.port_values import PortSampler, Sample, shown, thumbnail
+from hri.studio.topics import ReasonStep
 from hri.task.context import TaskContext
 
 LOOK_EVERY, IDLE_EVERY = 0.05, 0.2
 """Seconds between two looks, while something is wanted and while nothing is."""
 PICTURES_EVERY = 6
-"""Looks between two of the pictures."""
+"""Looks between two of the pictures, and of the reasons."""
 MOST_PICTURES = 4
 log = logging.getLogger("hri.studio")
 
@@ -46,6 +49,7 @@ class NetworkWatch:
             self._take_values()
             if looks % PICTURES_EVERY == 0:
                 self._tell_pictures()
+                self._tell_reasons()
             looks += 1
             await context.clock.sleep(LOOK_EVERY if self._samplers else IDLE_EVERY)
 
@@ -80,6 +84,14 @@ class NetworkWatch:
             self._told = _Values(samples)
             self._link.put_later("ports", self._told)
 
+    def _tell_reasons(self) -> None:
+        reasons: dict[str, list[ReasonStep]] = {}
+        for wanted in self._link.wanted_of(REASON):
+            name, _, port = wanted.partition("/")
+            if (runner := self._networks.runners.get(name)) is not None:
+                reasons[wanted] = _reasons(runner, port)
+        self._link.put("reasons", reasons)
+
     def _pictures(self) -> list[tuple[str, str]]:
         """Networks and outputs whose pictures are wanted."""
         wanted = self._link.wanted_of(THUMBNAIL)[:MOST_PICTURES]
@@ -107,6 +119,15 @@ class NetworkWatch:
 def _is_same(some: Mapping[str, Frame], others: Mapping[str, Frame]) -> bool:
     # By identity: pictures that are compared say of each pixel whether it is the same.
     return some.keys() == others.keys() and all(some[name] is others[name] for name in some)
+
+
+def _reasons(runner: Runner, port: str) -> list[ReasonStep]:
+    """The way back; one step where the network has no such port."""
+    try:
+        steps = why(runner.network, port, runner.resting)
+    except HriError as error:
+        return [{"port": port, "value": None, "words": str(error)}]
+    return [{"port": s.port, "value": shown(s.value), "words": s.words} for s in steps]
 
 
 class _Values:

@@ -17,7 +17,7 @@ from hri.core.errors import HriError
 from hri.studio.commands import checked
 from hri.studio.connections import SEAT
 from hri.studio.hub import Hub, Page
-from hri.studio.link import NETWORK, PICTURES, THUMBNAIL
+from hri.studio.link import NETWORK, PICTURES, REASON, THUMBNAIL
 from hri.studio.request_queue import STOP
 
 MOST_PAGES, MOST_PAGES_EACH = 32, 16
@@ -26,7 +26,7 @@ BEHIND_S = 1.0
 """Seconds for which a page that reads nothing keeps its place when another wants it."""
 MESSAGE_EVERY = 0.02
 """Seconds between two messages of a page."""
-MOST_NETWORKS, MOST_THUMBNAILS = 4, 4
+MOST_WANTED = 4
 """Whose values, and whose pictures, a page may want."""
 LONGEST_NAME = 300
 """Letters of such a name."""
@@ -128,13 +128,15 @@ class PageSockets:
 def _wanted(message: dict[str, list[str]]) -> frozenset[str]:
     """What a page wants to see. Raises KeyError, TypeError, or ValueError for nonsense."""
     pictures = frozenset(message["pictures"]) & PICTURES.keys()
-    networks = [NETWORK + one for one in message.get("networks", [])]
-    thumbnails = [THUMBNAIL + one for one in message.get("thumbnails", [])]
-    if len(networks) > MOST_NETWORKS or len(thumbnails) > MOST_THUMBNAILS:
-        raise ValueError("too much is wanted")
-    if any(len(one) > LONGEST_NAME for one in networks + thumbnails):
-        raise ValueError("a name is too long")
-    return pictures | frozenset(networks) | frozenset(thumbnails)
+    values: set[str] = set()
+    for key, mark in (("networks", NETWORK), ("thumbnails", THUMBNAIL), ("reasons", REASON)):
+        wanted = [mark + one for one in message.get(key, [])]
+        if len(wanted) > MOST_WANTED:
+            raise ValueError("too much is wanted")
+        if any(len(one) > LONGEST_NAME for one in wanted):
+            raise ValueError("a name is too long")
+        values.update(wanted)
+    return pictures | values
 
 
 async def _send_news(websocket: WebSocket, page: Page) -> None:

@@ -229,6 +229,14 @@ class PortValues(TypedDict):
     resting: list[str]
 
 
+class ReasonStep(TypedDict):
+    """An output or a slot on the way back to what decided, its value, and why it has that."""
+
+    port: str
+    value: Any
+    words: str
+
+
 class RobotEvent(TypedDict):
     """Something that happened, at a time in seconds; its own properties come beside."""
 
@@ -258,9 +266,11 @@ TOPICS: Mapping[str, Any] = {
     "networks": list[RunningNetwork],
     "ports": dict[str, PortValues],
     "thumbnails": dict[str, str],
+    "reasons": dict[str, list[ReasonStep]],
 }
-"""Types by the name of the topic. The last two come only while they are wanted: values on wires by
-the name of the network, and pictures (JPEG as base64) by `network/behavior.output`.
+"""Types by the name of the topic. The last three come only while they are wanted: values on wires
+by the name of the network, pictures (JPEG as base64) by `network/behavior.output`, and the way back
+to what decided, nearest first, by `network/behavior.port`.
 """
 
 

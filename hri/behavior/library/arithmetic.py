@@ -5,9 +5,12 @@ a result that is NaN, such as infinity minus infinity.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import Any
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.ports import Input, Output, OutputPort
+from hri.behavior.reason import Arrived, Reason, decided_by, with_value
 
 
 class Addition(Behavior):
@@ -62,6 +65,10 @@ class Division(Behavior):
         if dividend is not None and divisor:
             send_number(self.quotient, dividend / divisor)
 
+    def explain_output(self, output: str, value: Any, arrived: Sequence[Arrived]) -> Reason | None:
+        zero = [one for one in arrived if one.input == "divisor" and one.value == 0]
+        return decided_by("nothing can be divided by 0", zero)
+
 
 class Minimum(Behavior):
     """The least of all inputs; nothing when nothing comes in."""
@@ -74,6 +81,9 @@ class Minimum(Behavior):
         if values := self.input.values:
             send_number(self.minimum, min(values))
 
+    def explain_output(self, output: str, value: Any, arrived: Sequence[Arrived]) -> Reason | None:
+        return decided_by("the least of its inputs", with_value(value, arrived))
+
 
 class Maximum(Behavior):
     """The greatest of all inputs; nothing when nothing comes in."""
@@ -85,6 +95,9 @@ class Maximum(Behavior):
     def compute(self, now: float, dt: float) -> None:
         if values := self.input.values:
             send_number(self.maximum, max(values))
+
+    def explain_output(self, output: str, value: Any, arrived: Sequence[Arrived]) -> Reason | None:
+        return decided_by("the greatest of its inputs", with_value(value, arrived))
 
 
 class Absolute(Behavior):

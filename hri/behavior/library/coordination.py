@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 from hri.behavior.behavior import Behavior
 from hri.behavior.ports import Input, Output, Param
+from hri.behavior.reason import Arrived, Reason, decided_by
 from hri.core.signals import Twist
 
 
@@ -20,6 +22,10 @@ class PriorityArbiter(Behavior):
     def compute(self, now: float, dt: float) -> None:
         if wishes := self.input.values:
             self.winner.send(wishes[0])
+
+    def explain_output(self, output: str, value: Any, arrived: Sequence[Arrived]) -> Reason | None:
+        sent = [one for one in arrived if one.value is not None]
+        return decided_by("the first of its inputs that sent something wins", sent[:1])
 
 
 class VelocityMixer(Behavior):
@@ -88,9 +94,22 @@ class Inhibit(Behavior):
     def compute(self, now: float, dt: float) -> None:
         if any(value is not False for value in self.inhibitor.values):
             self._until = now + self.hold_s
-        is_held = now <= self._until
-        value = (self.replacement if is_held else self.input).value
+        self._is_held = now <= self._until
+        value = (self.replacement if self._is_held else self.input).value
         if value is not None:
             self.output.send(value)
 
+    def explain_output(self, output: str, value: Any, arrived: Sequence[Arrived]) -> Reason | None:
+        sent = [one for one in arrived if one.value is not None]
+        replacement = [one for one in arrived if one.input == "replacement"]
+        held_by = [one for one in sent if one.input == "inhibitor" and one.value is not False]
+        if held_by:
+            return Reason("it is held back by its inhibitor", [*held_by, *replacement])
+        if self._is_held:
+            return Reason(
+                "it is held back still, for hold_s after its inhibitor ended", replacement
+            )
+        return Reason("nothing holds it back", [one for one in arrived if one.input == "input"])
+
     _until = -math.inf
+    _is_held = False

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 from hri.behavior.behavior import Behavior
 from hri.behavior.ports import Input, Output
+from hri.behavior.reason import Arrived, Reason, decided_by, with_value
 
 
 class And(Behavior):
@@ -17,6 +21,9 @@ class And(Behavior):
         if values := self.input.values:
             self.result.send(all(values))
 
+    def explain_output(self, output: str, value: Any, arrived: Sequence[Arrived]) -> Reason | None:
+        return decided_by("one of its inputs is false", with_value(False, arrived))
+
 
 class Or(Behavior):
     """Whether something that came in is true; nothing when nothing comes in."""
@@ -28,6 +35,9 @@ class Or(Behavior):
     def compute(self, now: float, dt: float) -> None:
         if values := self.input.values:
             self.result.send(any(values))
+
+    def explain_output(self, output: str, value: Any, arrived: Sequence[Arrived]) -> Reason | None:
+        return decided_by("one of its inputs is true", with_value(True, arrived))
 
 
 class Not(Behavior):

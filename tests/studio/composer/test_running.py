@@ -13,7 +13,7 @@ from hypothesis import given, strategies as st
 from hri.core.clock import FakeClock
 from hri.core.errors import HriError
 from hri.robot import Robot
-from hri.studio.link import NETWORK, THUMBNAIL
+from hri.studio.link import NETWORK, REASON, THUMBNAIL
 from hri.studio.network_watch import NetworkWatch
 from hri.studio.port_values import MOST_NUMBERS, shown, thumbnail, written
 from hri.studio.running import RunningNetworks
@@ -178,7 +178,8 @@ class Told:
     """Stands for the link: what it was told last, and what is wanted."""
 
     def __init__(self):
-        self.wanted, self.values, self.is_reading = {NETWORK: [], THUMBNAIL: []}, {}, True
+        self.wanted = {NETWORK: [], THUMBNAIL: [], REASON: []}
+        self.values, self.is_reading = {}, True
 
     def wanted_of(self, kind):
         return self.wanted[kind]
@@ -231,6 +232,28 @@ def test_values_come_while_they_are_wanted(robot, running, file):
         told.wanted[NETWORK] = []
         await sleep(0.3)
         assert robot.networks.runners["counting"].after_tick == []
+
+    watched(robot, running, script)
+
+
+def test_reasons_come_while_they_are_wanted(robot, running, file):
+    started(robot, running, file)
+
+    async def script(told, sleep):
+        wanted = ["counting/board.half", "counting/half.nothing", "nobody/x.y"]
+        told.wanted[REASON] = wanted
+        await sleep(2.0)
+        reasons = told.values["reasons"]
+        assert list(reasons) == wanted[:2]
+        assert reasons[wanted[0]] == [
+            {"port": "board.half", "value": 1.5, "words": "written by half.scaled"},
+            {"port": "half.scaled", "value": 1.5, "words": "Hri.Scale makes it of its inputs"},
+            {"port": "three.value", "value": 3, "words": "Hri.Constant makes it: parsed_value = 3"},
+        ]
+        assert 'has no port "half.nothing"' in reasons[wanted[1]][0]["words"]
+        told.wanted[REASON] = []
+        await sleep(2.0)
+        assert told.values["reasons"] == {}
 
     watched(robot, running, script)
 
@@ -293,7 +316,7 @@ def test_pictures_come_small():
             assert list(told.values["thumbnails"]) == [wanted]
             assert 500 < len(told.values["thumbnails"][wanted]) < 8000
             assert told.values["ports"] == {}
-            told.wanted = {NETWORK: ["seeing"], THUMBNAIL: []}
+            told.wanted |= {NETWORK: ["seeing"], THUMBNAIL: []}
             await sleep(0.5)
             seen = told.values["ports"]["seeing"]["values"]["camera.raw_image"]
             assert seen is None or seen["kind"] == "image"

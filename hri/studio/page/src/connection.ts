@@ -14,7 +14,7 @@ export interface Listener {
 
 export class Connection {
   private socket: WebSocket | null = null;
-  private wanted = { pictures: [] as Picture[], networks: [] as string[], thumbnails: [] as string[] };
+  private wanted = { pictures: [] as Picture[], networks: [] as string[], thumbnails: [] as string[], reasons: [] as string[] };
   private wait = 250;
   private stops = 0;
   /** What to tell those who stopped the robot over the link, by number. */
@@ -48,9 +48,9 @@ export class Connection {
     this.tellWanted();
   }
 
-  /** The networks whose values are wanted, by name, and the outputs (`network/behavior.output`) of pictures. */
-  wantValues(networks: string[], thumbnails: string[]): void {
-    this.wanted = { ...this.wanted, networks, thumbnails };
+  /** The networks whose values are wanted, by name, the outputs (`network/behavior.output`) of pictures, and the ports of reasons. */
+  wantValues(networks: string[], thumbnails: string[], reasons: string[]): void {
+    this.wanted = { ...this.wanted, networks, thumbnails, reasons };
     this.tellWanted();
   }
 

@@ -369,7 +369,7 @@ async function compose(path: string): Promise<void> {
     const { ComposerView } = await import("./composer/view");
     composer ??= new ComposerView(element("networks"), {
       ask: (command, given) => connection.ask(command, given).then(() => {}),
-      want: (networks, thumbnails) => connection.wantValues(networks, thumbnails),
+      want: (networks, thumbnails, reasons) => connection.wantValues(networks, thumbnails, reasons),
       hashOf: (other) => hashOf("networks", other),
     });
   }

@@ -186,6 +186,13 @@ export interface PortValues {
   resting: string[];
 }
 
+/** An output or a slot on the way back to what decided, its value, and why it has that. */
+export interface ReasonStep {
+  port: string;
+  value: unknown;
+  words: string;
+}
+
 /** Something that happened, at a time in seconds; its own properties come beside. */
 export interface RobotEvent {
   t: number;
@@ -214,4 +221,5 @@ export interface Values {
   networks?: RunningNetwork[];
   ports?: Record<string, PortValues>;
   thumbnails?: Record<string, string>;
+  reasons?: Record<string, ReasonStep[]>;
 }

@@ -29,7 +29,7 @@ export interface ComposerProps {
   live: LiveValues;
   ask: Ask;
   open(path: string): void;
-  want(networks: string[], thumbnails: string[]): void;
+  want(networks: string[], thumbnails: string[], reasons: string[]): void;
 }
 
 type Asked = { kind: "open" | "new" | "save as" } | { kind: "break"; port: string } | { kind: "schema"; title: string; text: string };
@@ -77,9 +77,9 @@ function Desktop({ doc, live, ask, open, want }: ComposerProps) {
   const images = useMemo(() => imagePorts(doc.network, palette, running?.name ?? ""), [doc, revision, palette, running?.name]);
   useEffect(() => {
     live.follow(running?.name ?? "");
-    want(running ? [running.name] : [], images);
-    return () => want([], []);
-  }, [live, running?.name, images, want]);
+    want(running ? [running.name] : [], images, running && whyPort ? [`${running.name}/${whyPort}`] : []);
+    return () => want([], [], []);
+  }, [live, running?.name, images, whyPort, want]);
 
   const desk: Desk = {
     doc,

@@ -17,6 +17,8 @@ export class LiveValues {
   readonly networks = new Store<RunningNetwork[]>([]);
   /** Counts samples, for what is not written straight into the page. */
   readonly count = new Store(0);
+  /** The way back to what decided, by `network/behavior.port`. */
+  readonly reasons = new Store<NonNullable<Values["reasons"]>>({});
   readonly thumbnails = new Store<Record<string, string>>({});
   sample: Sample | null = null;
   private readonly shown = new Map<string, Set<Element>>();
@@ -31,6 +33,7 @@ export class LiveValues {
     this.sample = null;
     this.curves.clear();
     this.thumbnails.set({});
+    this.reasons.set({});
     for (const element of [...[...this.shown.values()].flatMap((all) => [...all]), ...this.costs.values()]) write(element, "");
   }
 
@@ -39,9 +42,10 @@ export class LiveValues {
   }
 
   /** Take the newest values of the topics. */
-  take(networks: RunningNetwork[], ports: Values["ports"], thumbnails: Values["thumbnails"]): void {
+  take(networks: RunningNetwork[], ports: Values["ports"], thumbnails: Values["thumbnails"], reasons: Values["reasons"]): void {
     this.networks.set(networks);
     if (thumbnails) this.thumbnails.set(thumbnails);
+    if (reasons) this.reasons.set(reasons);
     const sample = ports?.[this.followed];
     if (sample === undefined || sample === this.sample) return;
     this.sample = sample;

@@ -3,7 +3,6 @@
 import type { ComposerDocument } from "./document";
 import { inWords, type LiveValues } from "./live_values";
 import { useStore } from "./store";
-import { why } from "./trace";
 
 const WIDTH = 180;
 const HEIGHT = 48;
@@ -60,9 +59,8 @@ export function Curve({ points }: { points: readonly number[] }) {
 
 /** "Why is this 0?": the way back from a port to what decided. */
 export function Why({ doc, live, port, close }: { doc: ComposerDocument; live: LiveValues; port: string; close(): void }) {
+  const steps = useStore(live.reasons)[`${live.name}/${port}`] ?? [];
   useStore(live.count);
-  const resting = live.sample?.resting ?? [];
-  const steps = why(doc.network, doc.palette.value, live.sample?.values ?? {}, port, resting);
   return (
     <section className="why" aria-label={`Why ${port} is what it is`}>
       <h2>Why is {port} {inWords(live.sample?.values[port])}?</h2>
@@ -70,7 +68,7 @@ export function Why({ doc, live, port, close }: { doc: ComposerDocument; live: L
         {steps.map((step, number) => (
           <li key={number}>
             <button type="button" onClick={() => doc.select([step.port.startsWith("board.") ? step.port : step.port.split(".")[0]!])}>{step.port}</button> <b>{inWords(step.value)}</b>
-            <br />{step.text}
+            <br />{step.words}
           </li>
         ))}
       </ol>

@@ -10,7 +10,7 @@ import type { Ask } from "./run_bar";
 
 export interface Host {
   ask(command: string, given: Record<string, unknown>): Promise<void>;
-  want(networks: string[], thumbnails: string[]): void;
+  want(networks: string[], thumbnails: string[], reasons: string[]): void;
   /** The address of the view of a network, for the page's history. */
   hashOf(path: string): string;
 }
@@ -45,7 +45,7 @@ export class ComposerView {
       const open = (other: string) => {
         location.hash = this.host.hashOf(other);
       };
-      const want = (networks: string[], thumbnails: string[]) => this.host.want(networks, thumbnails);
+      const want: Host["want"] = (...wanted) => this.host.want(...wanted);
       this.root.render(<Composer doc={this.doc} live={this.live} ask={this.ask} open={open} want={want} />);
     }
     this.doc.begin();
@@ -58,12 +58,12 @@ export class ComposerView {
 
   close(): void {
     this.doc.end();
-    this.host.want([], []);
+    this.host.want([], [], []);
   }
 
   /** The newest values of the robot's topics. */
-  take({ networks, ports, thumbnails }: Values): void {
-    this.live.take(networks ?? [], ports, thumbnails);
+  take({ networks, ports, thumbnails, reasons }: Values): void {
+    this.live.take(networks ?? [], ports, thumbnails, reasons);
   }
 }
 
