@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from hri.core import paths
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError, HriError
 from hri.core.signals import Event, Twist
@@ -17,14 +18,14 @@ from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
 from hri.robot import Robot
 
-SMALL_SCREEN = Description("screen", "Hri.OffscreenScreen", {"width": "80", "height": "60"})
+MOVING = str(paths.house() / "apps" / "companion" / "moving.xml")
 
 
 class Ride:
-    """A robot without an app, and what happens to it."""
+    """A robot with the network alone that drives the companion, and what happens to it."""
 
     def __init__(self, config: str) -> None:
-        self.robot = Robot(config=config, clock=FakeClock(), devices=[SMALL_SCREEN])
+        self.robot = Robot(MOVING, config, clock=FakeClock())
         self.clock, self.notes = self.robot.clock, list[Any]()
         self.robot.events.subscribe("drive.*", self._note)
 
