@@ -5,10 +5,12 @@ from hri.hal.microphone import Microphone
 from hri.hal.resource import Description
 
 SMALL_SCREEN = Description("screen", "Hri.OffscreenScreen", {"width": "32", "height": "24"})
+UNSEEN = Description("screen", "Hri.BlankScreen")
 BLIND = Description("camera", "Hri.BlankCamera")
-"""Seeing costs most of the time of a life; where it is of no concern a robot sees nothing."""
+"""Seeing and drawing cost most of the time of a life; where they are of no concern a robot does
+neither."""
 TYPED = (
-    Description("screen", "Hri.OffscreenScreen", {"width": "16", "height": "16"}),
+    UNSEEN,
     Description("recognizer", "Hri.Typed"),
     BLIND,
     Description("microphone", "Hri.MemoryMicrophone"),

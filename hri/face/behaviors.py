@@ -264,7 +264,7 @@ class FaceRenderer(Behavior):
                 self._screen.show(picture, now)
                 self.frames += 1
         weights = self.weights.value
-        if weights is not None and not self._worker.is_busy:
+        if weights is not None and self._screen.is_seen and not self._worker.is_busy:
             text = (self.caption.value or "") if self.captions_on else ""
             self._worker.submit(partial(self._draw, weights, text, any(self.is_watching.values)))
 

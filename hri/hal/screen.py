@@ -1,6 +1,7 @@
 """The screen interface."""
 
 from abc import abstractmethod
+from typing import ClassVar
 
 from hri.core.signals import Image
 from hri.hal.resource import Resource
@@ -14,6 +15,8 @@ class Screen(Resource):
 
     width: int = 640
     height: int = 480
+    is_seen: ClassVar[bool] = True
+    """Whether anyone, or a recording, may look; otherwise nothing needs to be drawn."""
 
     def _take_size(self) -> None:
         """Width and height as the configuration has them. Raises AuthoringError."""

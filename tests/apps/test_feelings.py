@@ -7,14 +7,14 @@ from hri.emotion.behaviors import EmotionModel
 from hri.robot import Robot
 from hri.simulation.world import SimulatedWorld
 from hri.testing import live_for
-from tests.devices import SMALL_SCREEN
+from tests.devices import UNSEEN
 
 
 class Alone:
     """The companion with nobody about, to which things happen at times."""
 
     def __init__(self, seconds, happenings):
-        self.robot = Robot(config="simulated", clock=FakeClock(), devices=[SMALL_SCREEN])
+        self.robot = Robot(config="simulated", clock=FakeClock(), devices=[UNSEEN])
         self.robot.resources.obtain("world", SimulatedWorld).person.starts_present = False
         self.emotion = self.robot.context.behavior(EmotionModel)
         self.felt = []

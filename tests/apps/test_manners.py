@@ -11,7 +11,7 @@ from hri.hal.resource import Description
 from hri.robot import verbs
 from hri.speech.behaviors import Listener
 from tests.apps.test_companion import SLOW_CAMERA, Visit
-from tests.devices import BLIND, SMALL_SCREEN
+from tests.devices import BLIND, UNSEEN
 
 UNKNOWN = ["glue a zeppelin", "purple elephants", "juggle nine pineapples", "iron a shirt"]
 
@@ -123,7 +123,7 @@ def test_no_question_comes_while_a_task_of_an_app_drives():
     async def drive(context):
         await verbs.move(context, 4.0)
 
-    devices = [SMALL_SCREEN, SLOW_CAMERA]
+    devices = [UNSEEN, SLOW_CAMERA]
     visit = Visit(14, {1.0: "hello robot"}, jobs=[drive], devices=devices)
     assert visit.pose_at(13).x > 2
     assert questions(visit) == []
@@ -138,7 +138,7 @@ def nods(visit):
 
 @pytest.mark.slow
 def test_it_nods_to_who_talks_for_long_and_looks_at_it():
-    assert len(nods(Visit(11, {2.0: LONG}, devices=[SMALL_SCREEN, SLOW_CAMERA]))) >= 1
+    assert len(nods(Visit(11, {2.0: LONG}, devices=[UNSEEN, SLOW_CAMERA]))) >= 1
     assert nods(Visit(11, {2.0: LONG})) == []
 
 
@@ -177,7 +177,7 @@ def first_question(level=None):
 def room(level=None):
     """Devices of a room in which its voice is heard as loud as that, in dB, or not at all."""
     loud = Description("speaker", "Hri.SimulatedSpeaker", {"level": str(level)}, "world")
-    return [SMALL_SCREEN, BLIND, *([] if level is None else [loud])]
+    return [UNSEEN, BLIND, *([] if level is None else [loud])]
 
 
 @pytest.mark.slow

@@ -13,6 +13,7 @@ from hri.core.event_bus import EventBus
 from hri.core.signals import Event, Expression, FaceWeights, Gaze, Image, Speech
 from hri.face.behaviors import Face, FaceRecorder, FaceRenderer
 from hri.face.live_link import read_weights
+from hri.hal.drivers.blank import BlankScreen
 from hri.hal.drivers.memory import OffscreenScreen
 from hri.hal.resource import Description
 from hri.hal.resource_manager import ResourceManager
@@ -66,16 +67,27 @@ class Recorder(OffscreenScreen):
         self.pictures.append((time, image))
 
 
+class Unseen(Recorder):
+    """A screen that nobody sees."""
+
+    is_seen = BlankScreen.is_seen
+
+
 class Stage:
     """A director, a face, a renderer and a screen on a fake clock."""
 
     def __init__(
-        self, *, is_face_wired: bool = True, captions: bool = False, is_drawn: bool = True
+        self,
+        *,
+        is_face_wired: bool = True,
+        captions: bool = False,
+        is_drawn: bool = True,
+        screen: type[Recorder] = Recorder,
     ) -> None:
         self.clock = FakeClock()
         self.resources = ResourceManager([], self.clock)
         size = {"width": "160", "height": "120"}
-        self.screen = Recorder(Description("screen", "Hri.OffscreenScreen", size), self.resources)
+        self.screen = screen(Description("screen", "Hri.OffscreenScreen", size), self.resources)
         self.screen.activate()
         self.resources.substitute("screen", self.screen)
         self.events: list[Event] = []
@@ -113,6 +125,13 @@ def test_every_tick_shows_one_picture() -> None:
     assert np.diff(times) == pytest.approx(TICK)
     assert stage.renderer.frames == len(times)
     stage.runner.stop()
+
+
+def test_nothing_is_drawn_for_a_screen_that_nobody_sees() -> None:
+    stage = Stage(screen=Unseen)
+    stage.run(1.0)
+    assert stage.screen.pictures == []
+    assert stage.face.output_port("weights").value is not None
 
 
 def test_two_runs_show_the_same_pictures() -> None:

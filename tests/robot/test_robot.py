@@ -16,19 +16,19 @@ from hri.robot import load_app, verbs
 from hri.simulation.world import SimulatedWorld
 from hri.speech.behaviors import Listener
 from hri.task import navigation, speech
-from tests.devices import BLIND, SMALL_SCREEN, TYPED
+from tests.devices import BLIND, TYPED, UNSEEN
 
 
 @pytest.fixture
 def robot():
-    devices = [SMALL_SCREEN, BLIND]
+    devices = [UNSEEN, BLIND]
     with Robot(config="simulated", clock=FakeClock(), seed=1, devices=devices) as robot:
         yield robot
 
 
 @pytest.fixture
 def seeing_robot():
-    devices = [SMALL_SCREEN]
+    devices = [UNSEEN]
     with Robot(config="simulated", clock=FakeClock(), seed=1, devices=devices) as robot:
         yield robot
 

@@ -10,7 +10,7 @@ from hri.hal.drive import DriveSystem, Odometry
 from hri.robot import Robot
 from hri.simulation.world import SimulatedWorld
 from hri.testing import live_for
-from tests.devices import BLIND, SMALL_SCREEN
+from tests.devices import BLIND, UNSEEN
 
 
 def fail(now, dt):
@@ -21,7 +21,7 @@ class Ride:
     """Drives ahead; after three seconds something happens; poses are noted all the while."""
 
     def __init__(self, happening, distance=10.0):
-        robot = Robot(config="simulated", clock=FakeClock(), devices=[SMALL_SCREEN, BLIND])
+        robot = Robot(config="simulated", clock=FakeClock(), devices=[UNSEEN, BLIND])
         odometry = robot.resources.obtain("odometry", Odometry)
         self.way = {}
 
@@ -72,7 +72,7 @@ def test_a_task_that_writes_nonsense_moves_nothing():
 
 
 def test_a_drive_that_gets_nonsense_stands_still():
-    robot = Robot(config="simulated", clock=FakeClock(), devices=[SMALL_SCREEN, BLIND])
+    robot = Robot(config="simulated", clock=FakeClock(), devices=[UNSEEN, BLIND])
     drive = robot.resources.obtain("drive", DriveSystem)
     odometry = robot.resources.obtain("odometry", Odometry)
     for twist in (Twist(float("nan"), 0.0), Twist(float("inf"), float("nan"))):

@@ -67,7 +67,7 @@ CONFIGURATION = """\
       </Device>
     </DeviceBus>
     <Device id="mute" type="Hri.EspeakVoice"/>
-    <Device id="screen" type="Hri.OffscreenScreen"/>
+    <Device id="screen" type="Hri.BlankScreen"/>
   </Devices>
 </Resources>
 """
