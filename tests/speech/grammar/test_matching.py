@@ -387,10 +387,16 @@ def test_the_flat_form_has_one_public_rule_and_no_tags(companion):
 
 
 def test_a_sentence_takes_as_long_however_many_commands_there_are(write):
-    rules = (f"public <r{number}> = word{number} now;" for number in range(4000))
-    grammar = load_grammar(write("\n".join(rules)))
-    assert parse(grammar, "word7 now").rule == "r7"
+    def seconds(count):
+        """The quickest of five times that a number of sentences take."""
+        rules = (f"public <r{number}> = word{number} now;" for number in range(count))
+        grammar = load_grammar(write("\n".join(rules)))
+        assert parse(grammar, "word7 now").rule == "r7"
+        times = []
+        for _ in range(5):
+            start = time.process_time()
+            assert all(parse(grammar, f"word{number} now") for number in range(40))
+            times.append(time.process_time() - start)
+        return min(times)
 
-    start = time.process_time()
-    assert all(parse(grammar, f"word{number} now") for number in range(4000))
-    assert time.process_time() - start < 1.0
+    assert seconds(4000) < 25 * seconds(40), "100 times the commands"
