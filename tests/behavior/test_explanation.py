@@ -30,12 +30,18 @@ BEHAVIORS = """
 """
 
 
+def started(network: Network) -> Runner:
+    clock = FakeClock()
+    runner = Runner(network, Context(clock, EventBus(clock), ResourceManager((), clock)))
+    runner.start()
+    return runner
+
+
 def explained(parts: str, port: str, ticks: int = 1) -> list[Step]:
     """The way back from a port after some ticks."""
     text = f"<BehaviorNetwork>{BEHAVIORS}{parts}</BehaviorNetwork>"
-    network, clock = read_network(text, Path("test.xml")), FakeClock()
-    runner = Runner(network, Context(clock, EventBus(clock), ResourceManager((), clock)))
-    runner.start()
+    network = read_network(text, Path("test.xml"))
+    runner = started(network)
     for number in range(ticks):
         runner.tick(number * 0.1)
     steps = why(network, port, runner.resting)
@@ -116,9 +122,7 @@ def test_what_is_held_back_after_its_inhibitor_has_ended_says_so() -> None:
         network.add(one)
     network.connect("number.output", "it.input")
     network.connect("holds.output", "it.inhibitor")
-    clock = FakeClock()
-    runner = Runner(network, Context(clock, EventBus(clock), ResourceManager((), clock)))
-    runner.start()
+    runner = started(network)
     runner.tick(0.0)
     holds.value = None
     runner.tick(0.1)
@@ -208,9 +212,7 @@ def test_an_author_explains_an_output_in_one_method(
         network.add(one)
     network.connect("a.output", "it.input")
     network.connect("b.output", "it.input")
-    clock = FakeClock()
-    runner = Runner(network, Context(clock, EventBus(clock), ResourceManager((), clock)))
-    runner.start()
+    runner = started(network)
     runner.tick(0.0)
     first, *others = why(network, "it.output", runner.resting)
     assert first.words == words

@@ -32,13 +32,13 @@ RING = 2.5
 def rows(quick: bool) -> Iterator[Row]:
     """CPU time of one thread; the median of some times."""
     seconds = QUICK_SECONDS if quick else SECONDS
-    rates = [seconds / _spent(seconds) for _ in range(TIMES)]
+    rates = [seconds / spent(seconds) for _ in range(TIMES)]
     what = f"simulated world, 3 sensors and {OBSTACLES} obstacles"
     rate = float(np.median(rates))
     yield amount(what, rate, "times real time", at_least(LEAST), slowest=round(min(rates), 1))
 
 
-def _spent(seconds: float) -> float:
+def spent(seconds: float) -> float:
     """CPU seconds per period of the world's time."""
     clock = FakeClock()
     with tempfile.TemporaryDirectory() as folder:
