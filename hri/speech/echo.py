@@ -10,6 +10,8 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from itertools import takewhile
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +47,10 @@ REMEMBERED = 30.0
 """Seconds of sound of which is known how much was left: more than the longest piece of speech."""
 AFTER = 0.1
 """Seconds from a sound to the end of the blocks that it comes in, at most."""
+WHILE = 0.4
+"""Seconds of sound in which the rest of its voice is compared with the sound played."""
+AUDIBLE = 300.0
+"""Samples' root mean square from which its voice counts as played, of 32768."""
 
 Spectra = NDArray[np.complex128]
 
@@ -119,33 +125,74 @@ def _gain(heard: NDArray[np.float64], left: NDArray[np.float64]) -> float:
     return min(1.0, after / before / FOREIGN_SHARE)
 
 
+class _Block(NamedTuple):
+    """Energies of a block of sound, in squares of samples."""
+
+    end: float
+    """Seconds of the clock."""
+    heard: float
+    left: float
+    played: float
+    samples: int
+    """How many are left."""
+
+
 class Leftover:
     """How much of what the microphone heard of late was left without the robot's voice."""
 
     def __init__(self) -> None:
-        self._blocks: deque[tuple[float, float, float, int]] = deque()
+        self._blocks: deque[_Block] = deque()
+        self._least = math.inf  # energy left of what was played, at least
 
-    def add(self, heard: Samples, left: Samples, now: float) -> None:
-        """Add the sound up to a time in seconds, before and after subtraction."""
-        self._blocks.append((now, _energy(heard), _energy(left), len(left)))
-        while now - self._blocks[0][0] > REMEMBERED:
+    def add(self, heard: Samples, left: Samples, played: Samples, now: float) -> None:
+        """Add the sound up to a time in seconds, before and after subtraction, and its voice."""
+        block = _Block(now, _energy(heard), _energy(left), _energy(played), len(left))
+        self._blocks.append(block)
+        while now - self._blocks[0].end > REMEMBERED:
             self._blocks.popleft()
+        self._note_least(now)
+
+    def _note_least(self, now: float) -> None:
+        """Nobody speaks in each moment: the least that is left in a while is its voice alone.
+
+        R. Martin, "Noise power spectral density estimation based on optimal smoothing and minimum
+        statistics", IEEE Transactions on Speech and Audio Processing 9 (2001).
+        """
+        recent = list(takewhile(lambda block: block.end > now - WHILE, reversed(self._blocks)))
+        is_whole = self._blocks[0].end <= now - WHILE and all(block.played for block in recent)
+        played = sum(block.played for block in recent)
+        if is_whole and played > sum(block.samples for block in recent) * AUDIBLE**2:
+            self._least = min(self._least, sum(block.left for block in recent) / played)
 
     def share(self, start: float, end: float) -> float:
         """Share of the energy between two times in seconds that is left; 1 when none is known."""
         blocks = self._between(start, end)
-        before = sum(block[1] for block in blocks)
-        return sum(block[2] for block in blocks) / before if before else 1.0
+        before = sum(block.heard for block in blocks)
+        return sum(block.left for block in blocks) / before if before else 1.0
 
     def level_db(self, start: float, end: float) -> float:
         """Level of what is left between two times in seconds, dB against full scale."""
         blocks = self._between(start, end)
-        count = max(1, sum(block[3] for block in blocks))
-        power = sum(block[2] for block in blocks) / count / FULL_SCALE**2
-        return 10.0 * math.log10(max(power, 1e-12))
+        count = max(1, sum(block.samples for block in blocks))
+        return _decibels(sum(block.left for block in blocks) / count / FULL_SCALE**2)
 
-    def _between(self, start: float, end: float) -> list[tuple[float, float, float, int]]:
-        return [block for block in self._blocks if start <= block[0] <= end + AFTER]
+    def above_least_db(self, start: float, end: float) -> float:
+        """How far what is left between two times is above the least left of its voice, in dB.
+
+        Both are compared with what was played meanwhile; infinite where it said nothing.
+        """
+        blocks = self._between(start, end)
+        played = sum(block.played for block in blocks)
+        if not played or math.isinf(self._least):
+            return math.inf
+        return _decibels(sum(block.left for block in blocks) / played) - _decibels(self._least)
+
+    def _between(self, start: float, end: float) -> list[_Block]:
+        return [block for block in self._blocks if start <= block.end <= end + AFTER]
+
+
+def _decibels(power: float) -> float:
+    return 10.0 * math.log10(max(power, 1e-12))
 
 
 def _energy(samples: Samples) -> float:

@@ -24,6 +24,9 @@ that sounded like a command it had 0.24 at most, a stop word as loud as its voic
 FAR_ABOVE = 20.0
 """Decibels above the noise at which a voice is not what is left of the robot's own: that had 17 at
 most, people in the simulated room 27 and more."""
+ABOVE_LEAST = 15.0
+"""Decibels above the least that was left of its voice from which unclear words may be someone's:
+words found in its own voice had 13 at most, those of people in the simulated room 23 and more."""
 RECENT = 0.2
 """Seconds of sound that show whether its voice is subtracted, and nobody else speaks."""
 
@@ -52,20 +55,15 @@ class OwnVoiceFilter:
         self, heard: Samples, speech: Speech | None, position: float, now: float
     ) -> Samples:
         """The sound up to a time, without the `speech` of which `position` seconds were played."""
-        samples = self._cancelled(heard, speech, position, now)
-        self._leftover.add(heard, samples, now)
-        return samples
-
-    def _cancelled(
-        self, heard: Samples, speech: Speech | None, position: float, now: float
-    ) -> Samples:
         if now - self._spoke > ECHO_TAIL:
-            rest = self._canceller.flush()
-            return np.concatenate([rest, heard]) if len(rest) else heard
-        played = self._own_voice.played(speech, position, len(heard), now)
+            played, samples = heard[:0], np.concatenate([self._canceller.flush(), heard])
+        else:
+            played = self._own_voice.played(speech, position, len(heard), now)
+            samples = self._canceller.cancel(heard, played)
         if played.any():
             self._note_sound(len(heard) / self._rate, now)
-        return self._canceller.cancel(heard, played)
+        self._leftover.add(heard, samples, played, now)
+        return samples
 
     def _note_sound(self, seconds: float, now: float) -> None:
         self._sounded = now
@@ -107,11 +105,15 @@ class OwnVoiceFilter:
     def is_own(self, heard: Heard) -> bool:
         """Whether words heard while the robot spoke are its own, and its voice most of the sound.
 
-        As long as its voice cannot be subtracted yet, and where little is left without it,
-        unclear words are taken for its own.
+        As long as its voice cannot be subtracted yet, where little is left without it, and where
+        the rest is hardly louder than its voice leaves, unclear words are taken for its own.
         """
         left = self._leftover.share(heard.start, heard.end)
-        if heard.confidence < CLEAR and (heard.start < self._learned or left < LITTLE):
+        if heard.confidence < CLEAR and (
+            heard.start < self._learned
+            or left < LITTLE
+            or self._leftover.above_least_db(heard.start, heard.end) < ABOVE_LEAST
+        ):
             return True
         if left >= OWN_SHARE:
             return False

@@ -104,22 +104,39 @@ def test_how_much_was_left_is_known_by_the_time():
     assert leftover.share(0.0, 1.0) == 1.0
 
     for tick in range(1, 21):
-        leftover.add(loud, loud if tick > 10 else soft, tick / 10)
+        leftover.add(loud, loud if tick > 10 else soft, loud, tick / 10)
 
     assert 0.05 < leftover.share(0.0, 0.8) < 0.07
     assert leftover.share(1.05, 2.0) == 1.0
     assert 0.5 < leftover.share(0.0, 2.0) < 0.6
-    leftover.add(loud, loud, 2.0 + REMEMBERED)
+    leftover.add(loud, loud, loud, 2.0 + REMEMBERED)
     assert leftover.share(0.0, 1.5) == 1.0  # long ago
 
 
 def test_how_loud_is_what_was_left():
     left = Leftover()
     assert left.level_db(0.0, 1.0) == -120.0
-    left.add(np.full(1600, 3277, np.int16), np.full(1600, 3277, np.int16), 0.1)
-    left.add(np.full(1600, 3277, np.int16), np.full(1600, 328, np.int16), 1.0)
+    loud, soft = np.full(1600, 3277, np.int16), np.full(1600, 328, np.int16)
+    left.add(loud, loud, loud, 0.1)
+    left.add(loud, soft, loud, 1.0)
     assert left.level_db(0.0, 0.2) == pytest.approx(-20.0, abs=0.01)
     assert left.level_db(0.9, 1.0) == pytest.approx(-40.0, abs=0.1)
+
+
+def test_what_its_voice_leaves_is_told_from_who_is_louder():
+    voice, left = babble(8.0), Leftover()
+    faint = (in_room(voice) * 0.05).astype(np.int16)
+    faint[5 * RATE : 6 * RATE] += babble(1.0, seed=3, level=1500)
+    assert left.above_least_db(0.0, 1.0) == np.inf
+
+    for first in range(0, len(voice), 512):
+        block = slice(first, first + 512)
+        left.add(faint[block], faint[block], voice[block], (first + 512) / RATE)
+
+    assert left.above_least_db(5.0, 6.0) > 20
+    assert all(left.above_least_db(start, start + 1.0) < 3 for start in (1, 3, 7))
+    left.add(faint[:512], faint[:512], voice[:0], 12.0)
+    assert left.above_least_db(11.9, 12.0) == np.inf
 
 
 def test_its_words_are_known_by_their_times():
