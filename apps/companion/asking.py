@@ -85,7 +85,7 @@ def _agree(companion: Companion, question: Question) -> str | None:
     if question.action == "keep":
         companion.emotion.begin_keeping()
         return None
-    return companion.act(question.action, {}) if question.action else None
+    return companion.perform(question.task, {})
 
 
 async def _give_way(context: TaskContext, companion: Companion, words: str) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from hri.conversation import (
@@ -21,16 +21,15 @@ from hri.conversation import (
     sayings,
 )
 from hri.core import Event, Latest, NotAvailable, Person
-from hri.drive import CommandGate, SupervisorRelay, navigation_tasks
+from hri.drive import CommandGate, SupervisorRelay
 from hri.emotion import EmotionModel, load_stimuli, personality_names, personality_path
 from hri.face import FaceRenderer, load_face, load_gestures
 from hri.hal import Battery, Camera
 from hri.robot import App, verbs
 from hri.speech import QUESTION, Grammar, Listener, Voice, written
-from hri.task import Job, Lane, TaskContext, TaskType, said
+from hri.task import ImmediateTask, Job, Lane, TaskContext, TaskType, said
 from hri.vision import people_of
 
-from . import things
 from .facts import Commands, aloud, direction_words
 from .replies import FILE, Replies, Reply, Vocabulary, load_replies
 from .reply_texts import fields_of
@@ -156,19 +155,17 @@ class Companion:
         if reply is None or (self.is_asleep and rule not in ALWAYS):
             return
         if self.is_asleep and rule in DANGER:
-            self._wake(tags)
+            self.wake()
         if rule in SPEAK_UP and not self.may_speak:
-            self._be_quiet(0.0)
+            self.be_quiet(0.0)
         may_speak = self.may_speak  # a robot asked to be quiet may still answer that
         if reply.show in TENDER:
             self.last_tender = now
         if reply.feel:
             self.feel(reply.feel, reply.intensity)
-        objection = self.act(reply.action, tags) if reply.action else None
+        objection = self.perform(reply.task, {"text": text, **tags})
         if reply.event:
             self.context.events.raise_event(reply.event, text=text, **tags)
-        if reply.task is not None:
-            self._perform(reply.task, {"text": text, **tags})
         may_speak = may_speak or self.may_speak
         is_wanted = may_speak and not objection
         then = self.replies.then.get(topic, ()) if rule in GOES_ON else ()
@@ -219,16 +216,6 @@ class Companion:
         is_own = self._is_own_question(str(event.properties["text"]))
         if words and not is_own and self.may_speak:
             self.voice.say(words)
-
-    def _perform(self, task: TaskType, tags: dict[str, Any]) -> None:
-        """Start a task of the app with the tags it takes; a text that it returns is said."""
-
-        async def performed(context: TaskContext) -> None:
-            words = await task.with_those_it_takes(tags)(context)
-            if isinstance(words, str) and words:
-                self.say(words)
-
-        self.context.manager.install(TaskType(task.id, performed))
 
     def make(self, gesture: str) -> None:
         """Make a gesture, instead of one that is being made."""
@@ -320,7 +307,7 @@ class Companion:
         last = self._last
         if last is not None and last.because:
             return self._filled_in(last.because, text, tags)
-        if last is not None and (last.action or last.task is not None):
+        if last is not None and last.task is not None:
             return self.words("asked_to")
         return aloud(self.emotion.why_words(""))
 
@@ -349,96 +336,63 @@ class Companion:
         grammar: Grammar = self.listener.loaded_grammar
         return {rule: examples[0] for rule, examples in sayings(grammar).items()}
 
-    # --- actions, named as in replies.toml; what one returns is said instead of the reply ---
+    # --- what its actions do ---
 
-    def act(self, action: str, tags: dict[str, Any]) -> str | None:
-        """Do one of ACTIONS; what is to be said instead of the reply, if anything."""
-        words: str | None = getattr(self, f"_{action}")(tags)
-        return words
+    def perform(self, task: TaskType | None, values: Mapping[str, object]) -> str | None:
+        """Do a task with the values it takes; what is to be said instead of the reply, if anything.
 
-    def _drive(self, job: Job, *arguments: Any) -> str | None:
+        A text that comes after more than one step is said when it comes.
+        """
+        if task is None:
+            return None
+        if isinstance(task, ImmediateTask):
+            words: str | None = task.at_once(self.context, values)
+            return words
+        job = task.with_those_it_takes(values)
+
+        async def performed(context: TaskContext) -> None:
+            words = await job(context)
+            if isinstance(words, str) and words:
+                self.say(words)
+
+        self.context.manager.install(TaskType(task.id, performed))
+        return None
+
+    def drive(self, job: Job, *arguments: Any) -> str | None:
         """Start a motion; while the order does not let the base move, return why it does not."""
         if not self.guard.lift(said()):
             return f"{self._why_stopped()} {self.words('waiting')}"
         self.motion.start(job, *arguments)
         return None
 
-    def _move(self, tags: dict[str, Any]) -> str | None:
-        return self._drive(self._move_on, float(tags.get("distance", 0.5)))
-
-    async def _move_on(self, context: TaskContext, distance: float) -> None:
-        travelled = await verbs.move(context, distance)
-        if abs(travelled) < 0.9 * abs(distance):
-            self.tell("blocked")
-
-    def _turn(self, tags: dict[str, Any]) -> str | None:
-        angle = math.radians(float(tags.get("angle", 90.0)))
-        return self._drive(verbs.turn, angle)
-
-    def _come(self, tags: dict[str, Any]) -> str | None:
-        return self._drive(self._come_here)
-
-    def _follow(self, tags: dict[str, Any]) -> str | None:
-        return self._drive(self._go_along)
-
-    async def _come_here(self, context: TaskContext) -> None:
-        if not self.camera.is_on or not await navigation_tasks.come_here(context):
-            self.tell("nobody")
-
-    async def _go_along(self, context: TaskContext) -> None:
-        if self.person() is None or not await navigation_tasks.follow(context):
-            self.tell("nobody")
-
-    def _find(self, tags: dict[str, Any]) -> str | None:
-        return self._drive(things.find, self, tags["thing"])
-
-    def _learn(self, tags: dict[str, Any]) -> None:
-        self.lessons.start(things.learn, self, tags["thing"])
-
-    def _forget(self, tags: dict[str, Any]) -> None:
-        self.lessons.start(things.forget, self, tags["thing"])
-
-    def _see(self, tags: dict[str, Any]) -> str:
-        return things.seen_words(self)
-
-    def _where(self, tags: dict[str, Any]) -> str:
-        return things.where_words(self, tags["thing"])
-
-    def _stop(self, tags: dict[str, Any]) -> None:
+    def halt(self) -> None:
+        """Stand still, and fall silent."""
         self.motion.stop()
         self.gate.halt()
+        self.hush()
+
+    def hush(self) -> None:
+        """Fall silent."""
         self.talk.stop()
         self.voice.hush()
 
-    def _release(self, tags: dict[str, Any]) -> None:
-        self.guard.release()
-
-    def _quiet(self, tags: dict[str, Any]) -> None:
-        self.talk.stop()
-        self.voice.hush()
-        self._be_quiet(QUIET_SECONDS)
-
-    def _be_quiet(self, seconds: float) -> None:
+    def be_quiet(self, seconds: float) -> None:
         """Say nothing for so long, and show that it listens."""
         self.silent_until = self.voice.quiet_until = self.context.clock.now() + seconds
         self._settle()
 
-    def _sleep(self, tags: dict[str, Any]) -> None:
+    def fall_asleep(self) -> None:
+        """Stand still, say nothing and shut its eyes until it is woken."""
         self.is_asleep = True
         self.voice.quiet_until = math.inf
         self.motion.stop()
         self._settle()
 
-    def _wake(self, tags: dict[str, Any]) -> str | None:
-        if not self.is_asleep:
-            return self.words("awake")
+    def wake(self) -> None:
+        """Listen and speak again."""
         self.is_asleep = False
         self.voice.quiet_until = self.silent_until
         self._settle()
-        return None
-
-    def _eyes(self, tags: dict[str, Any]) -> None:
-        self.switch_camera(tags.get("eyes") == "open")
 
     # --- what the face shows ---
 

@@ -117,7 +117,7 @@ def _tell(companion: Companion, answer: Answer, text: str) -> None:
         if shown in TENDER:
             companion.last_tender = companion.context.clock.now()
     if answer.kind is Kind.FORBIDDEN:
-        companion.act("stop", {})  # It may be doing just that.
+        companion.halt()  # It may be doing just that.
     if answer.kind in FELT:
         companion.feel(FELT[answer.kind])
     nearest = as_said(_most_like(companion, text))

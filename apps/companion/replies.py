@@ -22,20 +22,12 @@ from hri.core import (
 from hri.emotion import personality_names
 from hri.robot import GRAMMARS, App
 from hri.speech import Grammar, sure_tags
-from hri.task import TaskType
+from hri.task import ImmediateTask, TaskType
 
-from . import things
 from .reply_files import KIND, joined_entries, parts_of
 from .reply_texts import check_braces, fields_of, read_wording
 
 FILE = "replies.toml"
-# fmt: off
-ACTIONS = (
-    "move", "turn", "come", "follow", "stop", "release", "quiet", "eyes", "sleep", "wake",
-    "learn", "forget", "see", "where", "find",
-)
-# fmt: on
-"""What the companion itself can do; other actions are tasks."""
 AFTER_YES = ("keep", "see")
 """What may be done after a yes: begin to save feelings, or say what it sees. Nothing that moves the
 base: a nod, or a "yes" in other people's talk, is not heard as clearly as an order must be."""
@@ -70,9 +62,8 @@ class Reply:
     show: str = ""
     gesture: str = ""
     action: str = ""
-    """One of ACTIONS."""
     task: TaskType | None = None
-    """The task that `action` names, when it is not one of ACTIONS."""
+    """What `action` names."""
     event: str = ""
     """What is raised, with the tags as its properties."""
     because: str = ""
@@ -92,7 +83,9 @@ class Question:
     yes: str
     no: str
     action: str = ""
-    """What is done after a yes."""
+    """What is done after a yes, one of AFTER_YES."""
+    task: TaskType | None = None
+    """What `action` names."""
     show: str = ""
     """An expression that is shown after a yes."""
     hour: tuple[str, ...] = ()
@@ -185,7 +178,18 @@ USUALLY_UNASKED: Mapping[str, tuple[str, ...]] = {
     "nothing_said": ("I haven't said anything yet.",),
     "asked_to": ("Because you asked me to.",),
     "battery_unknown": ("I don't know how full my battery is.",),
-    **{key: (text,) for key, text in things.WORDS.items()},
+    "learned": ("Got it. Now I know your {thing}.",),
+    "nothing_shown": ("I don't see your {thing}. Hold it up close, and say: this is my {thing}.",),
+    "no_camera": ("I don't have a camera to see your {thing} with.",),
+    "not_learned": ("I couldn't see enough of your {thing}. Hold it closer, in better light.",),
+    "sees": ("I see {things}.",),
+    "sees_nothing": ("I don't see anything I know.",),
+    "sees_at": ("I see your {thing} {place}.",),
+    "not_in_sight": ("I don't see your {thing} right now. Say: find my {thing}.",),
+    "found": ("Here's your {thing}.",),
+    "not_found": ("I looked around, but I couldn't find your {thing}.",),
+    "forgotten": ("Okay, I forgot your {thing}.",),
+    "unknown_thing": ("I don't know your {thing} yet. Hold it up and say: this is my {thing}.",),
 }
 """What need not be written."""
 MORE_FILLED_IN: Mapping[str, tuple[str, ...]] = {"not_understood": ("nearest",)}
@@ -346,7 +350,7 @@ def _reply(rule: str, entry: Table, vocabulary: Vocabulary) -> Reply:
         remedy = did_you_mean(feel, sorted(vocabulary.stimuli))
         raise entry.error("feel", f'no stimulus "{feel}"', remedy)
     intensity = entry.number("intensity", 1.0, minimum=0, maximum=1)
-    action, task = _action(rule, entry, vocabulary)
+    action, task = entry.string("action", ""), _action(rule, entry, vocabulary)
     event = _event(entry)
     because = entry.string("because", "")
     check_braces(entry, because, braces, "because")
@@ -354,17 +358,17 @@ def _reply(rule: str, entry: Table, vocabulary: Vocabulary) -> Reply:
     return Reply(wording, feel, intensity, show, gesture, action, task, event, because)
 
 
-def _action(rule: str, entry: Table, vocabulary: Vocabulary) -> tuple[str, TaskType | None]:
-    """What `action` names: one of ACTIONS, or a task. An own task comes before an action."""
-    action = entry.string("action", "")
+def _action(rule: str, entry: Table, vocabulary: Vocabulary) -> TaskType | None:
+    """The task that `action` names; one of the app comes before one of the companion."""
+    if not (action := entry.string("action", "")):
+        return None
     own = [name for name in vocabulary.app.task_names() if name not in vocabulary.app.tasks]
-    if action in ("", *ACTIONS) and action not in own:
-        return action, None
-    if vocabulary.app.has_plain_function(action):
-        what = f"{action} in tasks.py is not a coroutine function"
-        raise entry.error("action", what, f"write: async def {action}(context, ...)")
+    if action not in own and vocabulary.app.has_plain_function(action):
+        what = f"{action} in tasks.py is not a task"
+        remedy = f"write: async def {action}(context, ...), or decorate it with @immediate"
+        raise entry.error("action", what, remedy)
     if action not in own and "." not in action:
-        remedy = did_you_mean(action, [*ACTIONS, *own])
+        remedy = did_you_mean(action, own)
         tasks = vocabulary.app.folder / "tasks.py"
         if not tasks.exists():
             remedy = f"{remedy} If it is a task of yours, {tasks} is missing"
@@ -375,14 +379,15 @@ def _action(rule: str, entry: Table, vocabulary: Vocabulary) -> tuple[str, TaskT
         what, _, remedy = str(error).partition(" - ")
         raise entry.error("action", what, remedy) from error
     _refuse_unfit(rule, task, entry, vocabulary.grammar)
-    return "", task
+    return task
 
 
 def _refuse_unfit(rule: str, task: TaskType, entry: Table, grammar: Grammar) -> None:
     """Refuse a task that does not take a tag of the rule, or needs one that may be missing."""
     tags, sure = grammar.tag_names(rule), sure_tags(grammar.rules, rule) | {HEARD}
     taken = list(task.parameters)
-    for tag in sorted(tags - set(taken)):
+    # The companion's own actions may leave out tags, as they always did.
+    for tag in () if isinstance(task, ImmediateTask) else sorted(tags - set(taken)):
         what = f'<{rule}> gives "{tag}", which the task {task.id} does not take'
         remedy = did_you_mean(tag, taken, f"give it a parameter {tag}")
         raise entry.error("action", what, remedy)
@@ -417,7 +422,8 @@ def _question(entry: Table, vocabulary: Vocabulary, is_own: bool) -> Question:
         _refuse_unknown_rules(entry, "after", after, vocabulary)
     once = entry.string("once", "", among=(DAY,))
     entry.finish()
-    return Question(ask, yes, no, action, show, hour, once, after)
+    task = vocabulary.app.task_type(action) if action in vocabulary.app.task_names() else None
+    return Question(ask, yes, no, action, task, show, hour, once, after)
 
 
 def _then(entry: Table, vocabulary: Vocabulary, is_own: bool) -> dict[str, tuple[str, ...]]:

@@ -26,14 +26,39 @@ from hri.hal import Screen
 from hri.robot import App
 from hri.task import TaskContext
 
+from .actions import come, eyes, follow, move, quiet, release, sleep, stop, turn, wake
 from .asking import ask, next_question, scene
 from .companion import Companion, authored_replies, vocabulary_of
 from .presence import attend
 from .puzzled import puzzle
 from .replies import FILE, Replies, load_replies
 from .reply_files import with_named_files
+from .things import find, forget, learn, see, where
 
-__all__ = ["attend", "check", "converse", "notice", "take_saved_replies", "watch_keys", "wonder"]
+__all__ = [
+    "attend",
+    "check",
+    "come",
+    "converse",
+    "eyes",
+    "find",
+    "follow",
+    "forget",
+    "learn",
+    "move",
+    "notice",
+    "quiet",
+    "release",
+    "see",
+    "sleep",
+    "stop",
+    "take_saved_replies",
+    "turn",
+    "wake",
+    "watch_keys",
+    "where",
+    "wonder",
+]
 
 log = logging.getLogger("hri.task")
 
@@ -119,7 +144,7 @@ async def converse(context: TaskContext) -> None:
                     bool(heard.get("may_go_on")),
                     bool(heard.get("continues")),
                 )
-            except (LookupError, ValueError, TypeError) as error:
+            except (HriError, LookupError, ValueError, TypeError) as error:
                 # A reply that cannot be filled in costs this reply, not the companion.
                 why = f"nothing fills in {{{error.args[0]}}}" if type(error) is KeyError else error
                 log.error("the reply to <%s> failed: %s", heard["rule"], why)

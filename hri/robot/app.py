@@ -154,10 +154,14 @@ class App:
         """
         if "." in name:
             return find_task(name)
-        for app in self.line():
-            if app.module is not None and hasattr(app.module, name):
-                own: Job = getattr(app.module, name)
-                return own
+        modules = [app.module for app in self.line() if app.module is not None]
+        modules.sort(
+            key=lambda module: name not in _tasks_of(module)
+        )  # what is imported comes last
+        for module in modules:
+            if hasattr(module, name):
+                job: Job = getattr(module, name)
+                return job
         where = self.folder / "tasks.py"
         raise HriError(f'no task "{name}" in {where} - {did_you_mean(name, self.task_names())}')
 
@@ -167,7 +171,7 @@ class App:
         return job if isinstance(job, TaskType) else TaskType(name, job)
 
     def task_names(self) -> list[str]:
-        """The coroutine functions of its `tasks.py` and of those it extends, sorted."""
+        """The tasks in its `tasks.py` and in those of the apps it extends, sorted."""
         modules = [app.module for app in self.line() if app.module is not None]
         return sorted({name for module in modules for name in _tasks_of(module)})
 
@@ -176,7 +180,7 @@ class App:
         modules = [app.module for app in self.line() if app.module is not None]
         return any(
             inspect.isfunction(found := getattr(module, name, None))
-            and not inspect.iscoroutinefunction(found)
+            and not _is_task(found)
             and found.__module__ == module.__name__
             for module in modules
         )
@@ -248,11 +252,16 @@ class App:
 
 
 def _tasks_of(module: ModuleType) -> Iterator[str]:
-    """Names of what can be meant by a task: not what the module only imports."""
+    """Names of what can be meant by a task: not what the module only imports for itself."""
+    offered = getattr(module, "__all__", ())
     for name, value in vars(module).items():
         is_own = getattr(value, "__module__", "") == module.__name__ and not name.startswith("_")
-        if is_own and (inspect.iscoroutinefunction(value) or isinstance(value, TaskType)):
+        if (is_own or name in offered) and _is_task(value):
             yield name
+
+
+def _is_task(value: object) -> bool:
+    return inspect.iscoroutinefunction(value) or isinstance(value, TaskType)
 
 
 def load_app(name: str) -> App:

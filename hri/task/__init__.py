@@ -6,7 +6,7 @@ speech.Speak("Off we go.")                      # in a script: blocks until it i
 navigation.DriveMoveDelta(50, 20, 20)           # centimeters, unless set_default_units says else
 get_task_manager().shutdown()
 
-task            the decorator `@task`, Task (one run), TaskStatus, find_task
+task            the decorators `@task` and `@immediate`, TaskType, find_task
 parallel        Parallel: until the first is done, or until all are
 patterns        with_timeout, retry, repeat
 claims          who may use the drive and the voice
@@ -22,7 +22,7 @@ from hri.task.lane import Lane
 from hri.task.order import said
 from hri.task.parallel import Parallel
 from hri.task.script import get_task_manager, use
-from hri.task.task import TaskType, find_task
+from hri.task.task import ImmediateTask, TaskType, find_task, immediate
 from hri.task.task_manager import TaskManager
 from hri.task.task_run import Job, TaskStatus
 from hri.task.units import (
@@ -37,6 +37,7 @@ __all__ = [
     "UNIT_ANGLE",
     "UNIT_DISTANCE",
     "UNIT_TIME",
+    "ImmediateTask",
     "Job",
     "Lane",
     "Parallel",
@@ -47,6 +48,7 @@ __all__ = [
     "find_task",
     "get_default_units",
     "get_task_manager",
+    "immediate",
     "said",
     "set_default_units",
     "use",

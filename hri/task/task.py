@@ -132,6 +132,31 @@ _KINDS: dict[Any, str] = {
 }
 
 
+class ImmediateTask(TaskType):
+    """A task that is over in one step: its result is there when it has been started."""
+
+    def __init__(self, id: str, function: Callable[..., Any]) -> None:
+        async def awaited(context: TaskContext, *arguments: Any) -> Any:
+            return function(context, *arguments)
+
+        super().__init__(id, awaited, function)
+        update_wrapper(self, function)
+        self._step = function
+
+    def at_once(self, context: TaskContext, values: Mapping[str, Any]) -> Any:
+        """Do it with those of these values that it has a parameter for; what it returns.
+
+        Raises HriError for values that do not fit.
+        """
+        taken = {name: value for name, value in values.items() if name in self.parameters}
+        return self._step(context, *self.bound(**taken))
+
+
+def immediate(function: Callable[..., Any]) -> ImmediateTask:
+    """Make a plain function that takes a TaskContext first a task of its name, over in one step."""
+    return ImmediateTask(function.__name__, function)
+
+
 _declared: dict[str, TaskType] = {}
 """The tasks that modules which are imported by now have declared, by name."""
 

@@ -79,6 +79,31 @@ def test_an_action_is_a_task_of_the_app_with_the_tags_as_arguments(put):
     assert named(events, "speech.said")[1].time == pytest.approx(5.1, abs=0.3)
 
 
+IMMEDIATE = """from hri.task import immediate
+
+@immediate
+def timer(context, seconds: float) -> str | None:
+    return "That is too long for me." if seconds > 60 else None
+"""
+
+
+@pytest.mark.parametrize(
+    ("order", "answer"),
+    [("five seconds", "Okay."), ("ninety seconds", "That is too long for me.")],
+)
+def test_what_a_task_of_one_step_returns_is_said_instead_of_the_reply(put, order, answer):
+    robot = robot_of(put({**TIMER, "tasks.py": IMMEDIATE}))
+    assert said(live(robot, 4, {1.0: f"set a timer for {order}"})) == [answer]
+
+
+def test_an_event_starts_an_action_of_the_companion(put):
+    app = 'extends = "companion"\n[on]\n"bedtime.came" = "sleep"\n'
+    robot = robot_of(put({**JOKE, "app.toml": app}))
+    bedtime = {3.0: lambda: robot.events.raise_event("bedtime.came")}
+    events = live(robot, 7, {1.0: "what is your name", 5.0: "what is your name"}, bedtime)
+    assert said(events) == ["My name is Robin."]
+
+
 def test_a_list_of_words_is_an_argument(put):
     files = {
         "grammar.jsgf": "#JSGF V1.0; /** @extends companion */ grammar pizza;\n"
@@ -172,7 +197,9 @@ def test_a_reply_to_a_rule_names_the_grammar_that_is_missing(put):
 
 def test_a_function_that_is_not_a_task_is_named(put):
     files = {**TIMER, "tasks.py": "def timer(context, seconds: float):\n    pass\n"}
-    message = r"timer in tasks.py is not a coroutine function - write: async def timer\(context,"
+    message = (
+        r"timer in tasks.py is not a task - write: async def timer\(context, \.\.\.\), or deco"
+    )
     with pytest.raises(AuthoringError, match=message):
         robot_of(put(files))
 
@@ -254,7 +281,7 @@ def test_an_unknown_task_names_only_what_can_be_meant(put):
     folder = put({**TIMER, "app.toml": app})
     with pytest.raises(HriError) as error:
         load_app(str(folder)).load_tasks()
-    known = "converse, notice, take_saved_replies, timer, watch_keys, wonder"
+    known = ", ".join(sorted([*load_app("companion").task_names(), "timer"]))
     what = f'no task "sing" in {folder}/tasks.py - known are: {known}'
     assert str(error.value) == f"{folder}/app.toml:3:1: {what}"
 
