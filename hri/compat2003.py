@@ -15,10 +15,11 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from hri.behavior.runner import Runner
-from hri.core.errors import HriError
+from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import Phoneme, Speech
 from hri.emotion.behaviors import EmotionDisplay
 from hri.face.behaviors import Face
+from hri.face.lips.phonemes import Alphabet, mnemonics
 from hri.robot import Robot
 from hri.task.context import TaskContext
 
@@ -70,13 +71,16 @@ class FaceInterface:
         """
         self._do(lambda context: context.behavior(EmotionDisplay).act_all(emotions, duration))
 
-    def speak(self, phonemes: str | Sequence[str]) -> None:
+    def speak(self, phonemes: str | Sequence[str], alphabet: Alphabet | str | None = None) -> None:
         """Move the lips to phonemes without a sound, and wait until they are through.
 
-        Mnemonics of espeak-ng or ARPAbet, between spaces or one by one; "_" is a pause, "'" before
-        a vowel stresses it. Each lasts PHONEME_S. Raises HriError for more than MOST_PHONEMES.
+        Mnemonics of espeak-ng, or ARPAbet ("arpabet"; found out where no `alphabet` is given),
+        between spaces or one by one; "_" is a pause, "'" before a vowel stresses it. Each lasts
+        PHONEME_S. Raises HriError for more than MOST_PHONEMES, and for another alphabet.
         """
-        self._robot.run(_speak, phonemes)
+        if alphabet is not None and alphabet not in list(Alphabet):
+            raise HriError(f'"{alphabet}" - {did_you_mean(alphabet, list(Alphabet))}')
+        self._robot.run(_speak, phonemes, Alphabet(alphabet) if alphabet else None)
 
     def wait_for_emotional_change(self, timeout: float = float("inf")) -> bool:
         """Wait until all that was put on is over; whether that is so within `timeout` seconds."""
@@ -90,8 +94,11 @@ class FaceInterface:
         self._robot.run(job)
 
 
-async def _speak(context: TaskContext, phonemes: str | Sequence[str]) -> None:
-    speech = _mouthed(phonemes.split() if isinstance(phonemes, str) else tuple(phonemes))
+async def _speak(
+    context: TaskContext, phonemes: str | Sequence[str], alphabet: Alphabet | None
+) -> None:
+    names = phonemes.split() if isinstance(phonemes, str) else tuple(phonemes)
+    speech = _mouthed(mnemonics(names, alphabet))
     runner, face = _face_of(context)
     async with context.claim("lips"):
         start = context.clock.now()

@@ -35,6 +35,7 @@ from hri.core.signals import Expression, Gaze, Phoneme, Samples, Speech
 from hri.core.toml import Table, load_toml
 from hri.face.animator import Animator
 from hri.face.drawing.baking import Vector
+from hri.face.lips.phonemes import Alphabet, mnemonics
 from hri.face.live_link import read_weights
 from hri.face.model import FaceModel
 from hri.face.motion import idle
@@ -276,20 +277,22 @@ def _phonemes(step: Table) -> tuple[Phoneme, ...]:
     """Times as `hri say --phonemes` writes them."""
     text = read_text(step.path.parent / step.string("phonemes"), "file of phoneme times")
     try:
-        rows: Any = parse_json(text)["phonemes"]
-        if not 0 < len(rows) <= MOST_PHONEMES:
+        times: Any = parse_json(text)
+        if not 0 < len(rows := times["phonemes"]) <= MOST_PHONEMES:
             raise ValueError("too many, or none")
-        return tuple(_phoneme(row) for row in rows)
+        named = times.get("alphabet")
+        names = mnemonics([str(row["name"]) for row in rows], Alphabet(named) if named else None)
+        return tuple(map(_phoneme, rows, names))
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         what = f"{step.string('phonemes')} holds no phoneme times"
         raise step.error("phonemes", what, "write it by `hri say --phonemes`") from error
 
 
-def _phoneme(row: Mapping[str, Any]) -> Phoneme:
+def _phoneme(row: Mapping[str, Any], name: str) -> Phoneme:
     start, duration = float(row["start"]), float(row["duration"])
     if not (0 <= start <= LONGEST and 0 <= duration <= LONGEST):
         raise ValueError("out of range")
-    return Phoneme(str(row["name"]), start, duration, bool(row.get("stressed", False)))
+    return Phoneme(name, start, duration, bool(row.get("stressed", False)))
 
 
 def _gaze(step: Table) -> Gaze | None:

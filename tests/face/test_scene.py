@@ -9,6 +9,7 @@ import pytest
 from hri.core.errors import AuthoringError, HriError
 from hri.core.signals import Expression, Phoneme, Speech
 from hri.face import load_face
+from hri.face.lips.phonemes import sound_of
 from hri.face.scene import Moment, Scene, load_scene, scene_of
 from hri.hal.drivers.wav_file import write_wav
 
@@ -136,6 +137,24 @@ def test_a_recording_is_said_with_its_phonemes_or_without(scene, tmp_path: Path)
     assert weight(played(heard), 0.5, "jawOpen") > 0.1
     assert weight(played(told), 0.5, "jawOpen") < 0.02
     assert played(told)[9].caption == "mmm"
+
+
+@pytest.mark.parametrize(
+    ("alphabet", "viseme"), [("arpabet", "DD"), ("espeak", "TH"), (None, "TH"), ("ipa", None)]
+)
+def test_a_file_of_phonemes_says_how_they_are_written(scene, tmp_path, alphabet, viseme):  # type: ignore[no-untyped-def]
+    """ "D" is the sound of "day" in the one alphabet, and of "this" in the other."""
+    write_wav(tmp_path / "d.wav", np.zeros(RATE, np.int16), RATE)
+    named = {"alphabet": alphabet} if alphabet else {}
+    rows = [{"name": "D", "start": 0.0, "duration": 1.0}]
+    (tmp_path / "d.json").write_text(json.dumps({**named, "phonemes": rows}))
+    step = '[[step]]\nsound = "d.wav"\nphonemes = "d.json"\n'
+    if viseme is None:
+        with pytest.raises(AuthoringError, match="holds no phoneme times"):
+            scene(step)
+    else:
+        sounds = scene(step).cues[0].speech.phonemes
+        assert [sound_of(sound.name).visemes for sound in sounds] == [(viseme,)]
 
 
 def test_one_speech_alone_is_a_scene() -> None:

@@ -24,6 +24,7 @@ from hri.emotion.display import felt_now, load_display
 from hri.emotion.emotions import NAMES
 from hri.face import load_face
 from hri.face.lips.lipsync import ARTICULATORS, PhonemeTrack
+from hri.face.lips.phonemes import Alphabet
 from hri.face.scene import scene_of
 from hri.hal.drivers.wav_file import write_wav
 from hri.hal.resource import Description
@@ -42,10 +43,10 @@ RATES = f"{SLOWEST} to {FASTEST}"
 
 HELP = """\
 --phonemes writes one JSON object: "text", "rate" (samples a second), "duration" (seconds),
-"phonemes" (each with the "name" that espeak-ng has for it, "start" and "duration" in seconds, and
-whether it is "stressed"; names that begin with "_" are pauses), "words" and "sentences" (each with
-"text", "position" in characters, "start" and "end" in seconds), "marks" (of SSML, each with "name"
-and "time").
+"alphabet" ("espeak"), "phonemes" (each with the "name" that espeak-ng has for it, "start" and
+"duration" in seconds, and whether it is "stressed"; names that begin with "_" are pauses), "words"
+and "sentences" (each with "text", "position" in characters, "start" and "end" in seconds), "marks"
+(of SSML, each with "name" and "time").
 
 --visemes also writes one JSON object: "text", "duration", "visemes" (the mouth shapes, each with
 "viseme" by its Oculus name, "start" and "end" in seconds and "strength", 0 to 1; sounds too short
@@ -200,6 +201,7 @@ def times_of(speech: Speech) -> dict[str, Any]:
         "text": speech.text,
         "rate": speech.rate,
         "duration": round(speech.duration, DECIMALS),
+        "alphabet": Alphabet.ESPEAK,
         "phonemes": [_rounded(asdict(phoneme)) for phoneme in speech.phonemes],
         "words": [_rounded(asdict(word)) for word in speech.words],
         "sentences": [_rounded(asdict(sentence)) for sentence in speech.sentences],

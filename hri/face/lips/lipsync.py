@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hri.core.signals import Phoneme
-from hri.face.lips.phonemes import BREATH, Sound, is_arpabet, sound_of
+from hri.face.lips.phonemes import BREATH, Sound, sound_of
 from hri.face.vocabulary import VISEMES
 
 Values = NDArray[np.float64]
@@ -303,15 +303,14 @@ def spoken(phonemes: Sequence[Phoneme]) -> Iterator[VisemeSpan]:
     In order, without overlaps and gaps, whatever the order and the lengths of the phonemes.
     """
     ordered = sorted(phonemes, key=lambda phoneme: phoneme.start)
-    arpabet = is_arpabet(phoneme.name for phoneme in ordered)
     for number, phoneme in enumerate(ordered):
-        sound = sound_of(phoneme.name, arpabet=arpabet)
+        sound = sound_of(phoneme.name)
         end = phoneme.start + max(phoneme.duration, 0.0)
         if number + 1 < len(ordered):
             following = ordered[number + 1]
             end = min(end, following.start)
-            if phoneme.name in BREATH:
-                vowel = sound_of(following.name, arpabet=arpabet)
+            if phoneme.name == BREATH:
+                vowel = sound_of(following.name)
                 sound = Sound(vowel.visemes[:1], ECHO * vowel.strength)
         middle = phoneme.start + SPLIT * (end - phoneme.start)
         bounds = (phoneme.start, end) if len(sound.visemes) == 1 else (phoneme.start, middle, end)

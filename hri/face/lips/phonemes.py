@@ -1,14 +1,15 @@
 """Which sound makes which shape of the mouth: one table from phonemes to visemes.
 
-Two notations are read: the mnemonics of espeak-ng, as the built-in voice gives them, and
-ARPAbet, as CMUdict and the voices built on it do. "D" is the sound of "this" in the one and of
-"day" in the other, so a whole speech is read in one notation, never a sound alone.
+A voice names its sounds by the mnemonics of espeak-ng. Files and calls may have ARPAbet instead,
+which is translated where they are read: "D" is the sound of "this" in the one and of "day" in the
+other, so that is done for a whole speech, never for a sound alone.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from enum import StrEnum
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,31 +50,32 @@ ESPEAK_GLIDES = {
 """Sounds that glide from one viseme to another."""
 
 ESPEAK_REDUCED = "@ @2 @5 @# @- - I# a#"
+"""Vowels that hardly open the mouth."""
 
-ARPABET = {
-    "sil": "SIL SP PAU",
-    "PP": "P B M EM",
-    "FF": "F V",
-    "TH": "TH DH",
-    "DD": "T D DX",
-    "kk": "K G NG ENG Q",
-    "CH": "CH JH SH ZH",
-    "SS": "S Z",
-    "nn": "N L EL EN NX",
-    "RR": "R ER AXR",
-    "aa": "AA AE AH",
-    "E": "EH",
-    "ih": "IH IY Y IX",
-    "oh": "AO",
-    "ou": "UH UW W WH UX",
-}
-"""ARPAbet by viseme."""
+ARPABET: Mapping[str, str] = {
+    "SIL": "_", "SP": "_", "PAU": "_", "P": "p", "B": "b", "M": "m", "EM": "m-", "F": "f", "V": "v",
+    "TH": "T", "DH": "D", "T": "t", "D": "d", "DX": "*", "K": "k", "G": "g", "NG": "N", "ENG": "N",
+    "Q": "q", "CH": "tS", "JH": "dZ", "SH": "S", "ZH": "Z", "S": "s", "Z": "z", "N": "n", "L": "l",
+    "EL": "@L", "EN": "n-", "NX": "n", "R": "r", "HH": "h", "W": "w", "WH": "w", "Y": "j",
+    "AA": "A:", "AE": "a", "AH": "V", "AH0": "@", "AO": "O:", "AW": "aU", "AX": "@", "AXR": "3",
+    "AY": "aI", "EH": "E", "ER": "3:", "EY": "eI", "IH": "I", "IX": "I2", "IY": "i:", "OW": "oU",
+    "OY": "OI", "UH": "U", "UW": "u:", "UX": "u:",
+}  # fmt: skip
+"""The mnemonic of each sound of ARPAbet, as CMUdict and TIMIT write it."""
+STRESSES = "012"
+"""Marks that follow a vowel of ARPAbet: none, the first, the second stress."""
 
-ARPABET_GLIDES = {"AY": "aa ih", "AW": "aa ou", "EY": "E ih", "OW": "oh ou", "OY": "oh ih"}
-ARPABET_REDUCED = "AX AH0"
 
-BREATH = ("h", "HH")
-"""Sounds without their own mouth shape: the mouth is already at the next one."""
+class Alphabet(StrEnum):
+    """How the sounds of a speech are written."""
+
+    ESPEAK = "espeak"
+    """Mnemonics of espeak-ng, in which the lips read them."""
+    ARPABET = "arpabet"
+
+
+BREATH = "h"
+"""The sound without its own mouth shape: the mouth is already at the next one."""
 _SCHWA = Sound(("E",), 0.5)
 _UNKNOWN = Sound(("kk",), 0.3)
 _STRESS = "'%,=|"
@@ -87,22 +89,27 @@ def _table(singles: Mapping[str, str], glides: Mapping[str, str], reduced: str) 
 
 
 _ESPEAK = _table(ESPEAK, ESPEAK_GLIDES, ESPEAK_REDUCED)
-_ARPABET = _table(ARPABET, ARPABET_GLIDES, ARPABET_REDUCED)
-_ONLY_ARPABET = {name for name in _ARPABET if len(name) > 1} - set(_ESPEAK)
+_ONLY_ARPABET = {name for name in ARPABET if len(name) > 1} - set(_ESPEAK)
 
 
-def is_arpabet(names: Iterable[str]) -> bool:
-    """Whether the sounds of a speech are ARPAbet, as its two-letter vowels show."""
-    return any(name.strip("012") in _ONLY_ARPABET for name in names)
+def mnemonics(names: Sequence[str], alphabet: Alphabet | None = None) -> list[str]:
+    """The sounds of a whole speech by their mnemonics; unknown names stay as they are.
+
+    Without an alphabet, one that has a two-letter vowel of ARPAbet is taken for that.
+    """
+    if alphabet is None:
+        is_arpabet = any(name.strip(STRESSES) in _ONLY_ARPABET for name in names)
+        alphabet = Alphabet.ARPABET if is_arpabet else Alphabet.ESPEAK
+    if alphabet is Alphabet.ESPEAK:
+        return list(names)
+    return [ARPABET.get(name) or ARPABET.get(name.rstrip(STRESSES), name) for name in names]
 
 
-def sound_of(name: str, *, arpabet: bool = False) -> Sound:
+def sound_of(name: str) -> Sound:
     """How the mouth makes a sound; an unknown one is a slightly open mouth.
 
     Marks of stress and of length are ignored where the table does not name them.
     """
-    if arpabet:
-        return _ARPABET.get(name) or _ARPABET.get(name.rstrip("012")) or _UNKNOWN
     plain = name.strip(_STRESS)
     for candidate in (plain, plain.rstrip(_LENGTH), plain.rstrip(_LENGTH + "0123456789")):
         if candidate in _ESPEAK:

@@ -26,6 +26,7 @@ def test_the_times_are_written_as_json(tmp_path):
         "text",
         "rate",
         "duration",
+        "alphabet",
         "phonemes",
         "words",
         "sentences",
