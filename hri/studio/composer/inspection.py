@@ -9,7 +9,7 @@ from __future__ import annotations
 import inspect
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -48,8 +48,10 @@ def palette() -> Json:
         {"name": one.name, "datatype": one.datatype, "semantic": GENERIC, "about": one.about}
         for one in DECLARED.values()
     ]
-    today = {old: registry.canonical(old) for old in registry.ALIASES}
-    aliases = {old: name for old, name in today.items() if name in registry.known(GROUP)}
+    known = registry.known(GROUP)
+    older = {*registry.ALIASES, *(f"Evolution.{name.partition('.')[2]}" for name in known)}
+    today = {old: registry.canonical(old) for old in sorted(older)}
+    aliases = {old: name for old, name in today.items() if name in known}
     return {"behaviors": behaviors, "aliases": aliases, "slots": slots, "broken": broken}
 
 
@@ -128,17 +130,36 @@ def schema(type_name: str) -> Json:
 
 
 def check(text: str, path: str) -> Json:
-    """What `hri network check` finds in a text, and the order in which its behaviors run."""
+    """What `hri network check` finds in a text, and of a text that can be read the order in which
+    its behaviors run, and the datatypes of outputs that parameters decide.
+    """
     file = Path(path)
     try:
         network = read_network(text, file)
     except AuthoringErrors as several:
-        return {"problems": [_mistake(error, text) for error in several.errors], "order": []}
+        return _refused([_mistake(error, text) for error in several.errors])
     except AuthoringError as error:
-        return {"problems": [_mistake(error, text)], "order": []}
+        return _refused([_mistake(error, text)])
     except HriError as error:
-        return {"problems": [_problem(str(error), "", "error")], "order": []}
-    return {"problems": _remarks(network), "order": [one.id for one in network.authored]}
+        return _refused([_problem(str(error), "", "error")])
+    return {
+        "problems": _remarks(network),
+        "order": [one.id for one in network.authored],
+        "datatypes": dict(_decided(network.authored)),
+    }
+
+
+def _refused(problems: list[Json]) -> Json:
+    return {"problems": problems, "order": [], "datatypes": None}
+
+
+def _decided(behaviors: Iterable[Behavior]) -> Iterator[tuple[str, str]]:
+    """Outputs with another datatype than their type declares, as of a constant."""
+    for behavior in behaviors:
+        declared = type(behavior).outputs
+        for name, output in behavior.outputs.items():
+            if name in declared and output.datatype != declared[name].datatype:
+                yield f"{behavior.id}.{name}", output.datatype
 
 
 def _remarks(network: Network) -> list[Json]:

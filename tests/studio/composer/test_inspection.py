@@ -86,7 +86,8 @@ def test_each_kind_of_device_that_is_asked_for_has_an_interface(palette):
 
 
 def test_names_of_2003_are_known(palette):
-    assert palette["aliases"]
+    assert palette["aliases"]["Evolution.Addition"] == "Hri.Addition"
+    assert palette["aliases"]["Evolution.WinVoiceRecognizer"] == "Hri.Recognizer"
     assert set(palette["aliases"].values()) <= {one["type"] for one in palette["behaviors"]}
 
 
@@ -98,6 +99,21 @@ def test_the_networks_of_the_companion_have_no_problems(name):
     checked = inspection.check(path.read_text(), str(path))
     assert checked["problems"] == []
     assert checked["order"] == [one.id for one in load_network(path).authored]
+
+
+@pytest.mark.parametrize(
+    ("value", "datatype"),
+    [
+        ("-5*pi/6", "double"),
+        ("(1, pi/2,)", "doublearray"),
+        ("True", "boolean"),
+        ("1e999", "string"),
+    ],
+)
+def test_a_constant_has_the_datatype_of_its_value(value, datatype):
+    parameter = f'<Parameter name="parsed_value" value="{value}"/>'
+    checked = check(f'<Behavior id="a" type="Hri.Constant">{parameter}</Behavior>')
+    assert checked["datatypes"] == {"a.value": datatype}
 
 
 def test_problems_are_at_their_behavior_parameter_or_link():

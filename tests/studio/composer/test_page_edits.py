@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from hri.behavior.library.constant import Constant
 from hri.behavior.network_difference import compare
 from hri.behavior.network_file import read_network
 from hri.behavior.network_writer import write_network
@@ -84,14 +85,25 @@ def ask(tmp_path_factory):
         [ESBUILD, "test/model.ts", *options, f"--outfile={program}"], cwd=PAGE, check=True
     )
     palette = inspection.palette() | {"devices": []}
+    texts = [CANONICAL, *map(constant, WRITTEN), *(path.read_text("utf-8") for path in SHIPPED)]
+    known = {"palette": palette, "constants": {"0": "double"} | dict(constants_of(texts))}
 
     def answers(**questions):
         file = folder / "questions.json"
-        file.write_text(json.dumps({"palette": palette} | questions))
+        file.write_text(json.dumps(known | questions))
         run = subprocess.run(["node", program, file], capture_output=True, check=True)
         return json.loads(run.stdout)
 
     return answers
+
+
+def constants_of(texts):
+    """Values of constants, and their datatypes as `check` says them."""
+    for text in texts:
+        decided = inspection.check(text, str(NAME))["datatypes"] or {}
+        for one in read_network(text, NAME).authored:
+            if isinstance(one, Constant):
+                yield one.parsed_value, decided[f"{one.id}.value"]
 
 
 def edits(text, seed, count=80):
@@ -202,24 +214,26 @@ WRITTEN = [
 ]  # fmt: skip
 
 
-def test_a_constant_is_refused_only_where_the_robot_refuses_it(ask):
+def constant(written, others=""):
+    """A network of a constant and others."""
+    parameter = f'<Parameter name="parsed_value" value="{written}"/>'
+    behavior = f'<Behavior id="c" type="Hri.Constant">{parameter}</Behavior>'
+    return f"<BehaviorNetwork>{others}{behavior}  <Layout></Layout></BehaviorNetwork>"
+
+
+def test_a_constant_is_refused_where_the_robot_refuses_it(ask):
     takers = {"one": "Scale", "two": "Not", "three": "FaceRenderer", "four": "DoubleArraySplitter"}
     ports = ["one.input", "two.input", "three.caption", "four.array"]
     behaviors = "".join(f'<Behavior id="{id}" type="Hri.{name}"/>' for id, name in takers.items())
-    constant = '<Behavior id="c" type="Hri.Constant"><Parameter name="parsed_value" value="{}"/>'
-    texts = [
-        f"<BehaviorNetwork>{behaviors}{constant.format(written)}</Behavior>  <Layout></Layout>"
-        "</BehaviorNetwork>"
-        for written in WRITTEN
-    ]
+    texts = [constant(written, behaviors) for written in WRITTEN]
     asked = [{"text": text, "pairs": [("c.value", port) for port in ports]} for text in texts]
     refused = 0
     for text, verdicts in zip(texts, ask(links=asked)["links"], strict=True):
         for port, verdict in zip(ports, verdicts, strict=True):
+            found = checked(with_link(text, "c.value", port))
+            assert verdict["ok"] is not isinstance(found, AuthoringError), (text, port)
             if not verdict["ok"]:
                 refused += 1
-                found = checked(with_link(text, "c.value", port))
-                assert isinstance(found, AuthoringError)
                 assert verdict["reason"].startswith(found.what)
     assert refused > 40
 

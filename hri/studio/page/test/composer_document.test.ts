@@ -4,7 +4,7 @@ import { fragmentOf } from "../src/composer/clipboard";
 import { ComposerDocument } from "../src/composer/document";
 import { addBehavior } from "../src/composer/edits";
 
-const PALETTE = { mark: "known", behaviors: [], aliases: {}, slots: [], devices: [], broken: [] };
+const PALETTE = { mark: "known", behaviors: [], aliases: {}, datatypes: {}, slots: [], devices: [], broken: [] };
 
 type Answer = { status: number; body: object };
 interface Asked {

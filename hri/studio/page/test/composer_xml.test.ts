@@ -111,10 +111,14 @@ test("a megabyte of anything is read or refused within a second", () => {
   }
 });
 
-test("a network of 300 behaviors is read in 5 ms", () => {
+/** The time to read a text, in that to find its words: 3 to 5 on any machine, where the second takes 0.7 to 1.3 ms. */
+const MOST_TIMES = 7;
+
+test("a network of 300 behaviors is read about as fast as its words can be found", () => {
   const text = large(300);
   assert.equal(readNetwork(text).behaviors.length, 300);
   const took = milliseconds(() => readNetwork(text));
-  console.log(`reading 300 behaviors, 598 links, 300 boxes: ${took.toFixed(2)} ms`);
-  assert.ok(took < 5, `${took} ms`);
+  const words = milliseconds(() => [...text.matchAll(/[^\s<>="]+/g)].length);
+  console.log(`reading 300 behaviors, 598 links, 300 boxes: ${took.toFixed(2)} ms, finding its words: ${words.toFixed(2)} ms`);
+  assert.ok(took < MOST_TIMES * words, `${took} ms, ${words} ms`);
 });

@@ -4,13 +4,15 @@
 import { readFileSync } from "node:fs";
 import { compare } from "../src/composer/difference";
 import { applySplices } from "../src/composer/edits";
-import { readNetwork } from "../src/composer/network";
+import { readNetwork, type Network } from "../src/composer/network";
 import { canLink, type Palette } from "../src/composer/wiring";
 import { parseXml, XmlError, type Element } from "../src/composer/xml";
 import { command, random } from "./plain_network";
 
 interface Questions {
-  palette: Palette;
+  palette: Omit<Palette, "datatypes">;
+  /** Datatypes of constants by their values, as the robot reads these. */
+  constants: Record<string, string>;
   /** Random commands, one after the other. */
   edits?: { text: string; types: string[]; seed: number; count: number }[];
   /** Whether outputs may be linked to inputs. */
@@ -21,13 +23,20 @@ interface Questions {
   differences?: [string, string][];
 }
 
-function edited(palette: Palette, { text, types, seed, count }: NonNullable<Questions["edits"]>[number]): [string, string][] {
+function edited({ text, types, seed, count }: NonNullable<Questions["edits"]>[number]): [string, string][] {
   const chance = random(seed);
   return Array.from({ length: count }, () => {
-    const { label, splices } = command(readNetwork(text), palette, types, chance);
+    const network = readNetwork(text);
+    const { label, splices } = command(network, paletteFor(network), types, chance);
     text = applySplices(text, splices);
     return [label, text];
   });
+}
+
+/** The palette, with what the robot says of the constants of a network. */
+function paletteFor({ behaviors }: Network): Palette {
+  const values = behaviors.filter((one) => one.type.endsWith(".Constant")).map((one) => [`${one.id}.value`, constants[one.parameters.get("parsed_value") ?? "0"] ?? "any"]);
+  return { ...palette, datatypes: Object.fromEntries(values) };
 }
 
 type Tree = [string, Record<string, string>, Tree[]];
@@ -45,10 +54,10 @@ function parsed(text: string): Tree | string {
   }
 }
 
-const { palette, edits = [], links = [], texts = [], differences = [] } = JSON.parse(readFileSync(process.argv[2]!, "utf8")) as Questions;
+const { palette, constants, edits = [], links = [], texts = [], differences = [] } = JSON.parse(readFileSync(process.argv[2]!, "utf8")) as Questions;
 const answers = {
-  edits: edits.map((one) => edited(palette, one)),
-  links: links.map(({ text, pairs }) => pairs.map(([from, to]) => canLink(readNetwork(text), palette, from, to))),
+  edits: edits.map(edited),
+  links: links.map(({ text, pairs }) => pairs.map(([from, to]) => canLink(readNetwork(text), paletteFor(readNetwork(text)), from, to))),
   texts: texts.map(parsed),
   differences: differences.map(([old, next]) => compare(readNetwork(old), readNetwork(next))),
 };

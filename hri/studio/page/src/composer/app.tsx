@@ -67,7 +67,7 @@ function Desktop({ doc, live, ask, open, want }: ComposerProps) {
   const current = useRef<Composition>({ parts: new Map(), wires: [] });
   const composition = useMemo(() => {
     const own = compose(doc.network, palette, problems);
-    const all = others.size === 0 ? own : together(own, [...others].map(([name, network]) => compose(network, palette, [], name)));
+    const all = others.size === 0 ? own : together(own, [...others].map(([name, network]) => compose(network, { ...palette, datatypes: {} }, [], name)));
     current.current = settled(current.current, all);
     return current.current;
   }, [doc, revision, palette, problems, others]);

@@ -12,7 +12,7 @@ import type { Palette } from "./wiring";
 
 const CHECK_AFTER_MS = 250;
 const WATCH_EVERY_MS = 2000;
-const NO_PALETTE: Palette = { mark: "", behaviors: [], aliases: {}, slots: [], devices: [], broken: [] };
+const NO_PALETTE: Palette = { mark: "", behaviors: [], aliases: {}, datatypes: {}, slots: [], devices: [], broken: [] };
 
 export interface Selection {
   /** Ids of behaviors, and of slots of the board as `board.name`. */
@@ -190,6 +190,7 @@ export class ComposerDocument {
         if (asked !== revision.value) return;
         this.problems.set(checked.problems);
         this.order.set(checked.order);
+        if (checked.datatypes) this.palette.set({ ...this.palette.value, datatypes: checked.datatypes });
       }),
     );
     if (asked !== revision.value && this.history.error === null) this.checkSoon();
@@ -386,7 +387,7 @@ export class ComposerDocument {
     const { mark } = this.palette.value;
     const found = await this.askWorkshop(() => server.palette(mark).catch(() => null));
     if (found === null) return;
-    this.palette.set(found);
+    this.palette.set({ ...found, datatypes: this.palette.value.datatypes });
     if (mark !== "") this.notice.set("the behaviors on the configuration path changed");
     if (this.history.error === null) void this.check();
   }

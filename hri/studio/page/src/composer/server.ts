@@ -52,6 +52,8 @@ export interface Checked {
   problems: Problem[];
   /** The ids of the behaviors in the order in which they run. */
   order: string[];
+  /** Of outputs as `id.output` whose parameters decide them; null while the text cannot be read. */
+  datatypes: Record<string, string> | null;
 }
 
 /** What the server refuses. */
@@ -103,7 +105,7 @@ export const check = (path: string, text: string) => answer<Checked>("/check", "
 export const schema = (type: string) => answer<{ text: string; path: string | null }>(`/schema?type=${encodeURIComponent(type)}`);
 
 /** The palette; null while it is still the one of that mark. */
-export async function palette(mark: string): Promise<Palette | null> {
-  const found = await answer<Palette | { mark: string }>(`/palette?mark=${mark}`);
+export async function palette(mark: string): Promise<Omit<Palette, "datatypes"> | null> {
+  const found = await answer<Omit<Palette, "datatypes"> | { mark: string }>(`/palette?mark=${mark}`);
   return "behaviors" in found ? found : null;
 }

@@ -40,6 +40,8 @@ export interface Palette {
   behaviors: BehaviorType[];
   /** Today's names by older ones. */
   aliases: Record<string, string>;
+  /** Datatypes of outputs as `id.output`, where parameters decide them: the robot reads these. */
+  datatypes: Record<string, string>;
   slots: { name: string; datatype: string; semantic: string; about: string }[];
   devices: { id: string; interface: string; about: string }[];
   broken: { type: string; what: string }[];
@@ -56,13 +58,7 @@ export function behaviorKind(palette: Palette, type: string): BehaviorType | und
     types = new Map(palette.behaviors.map((one) => [one.type, one]));
     byType.set(palette, types);
   }
-  return types.get(type) ?? types.get(today(palette, type));
-}
-
-/** Of 2003's names, those that are not in the table begin with another word alone. */
-function today(palette: Palette, type: string): string {
-  const name = palette.aliases[type] ?? type.replace(/^Evolution\./, "Hri.");
-  return palette.aliases[name] ?? name;
+  return types.get(type) ?? types.get(palette.aliases[type] ?? "");
 }
 
 export interface Ports {
@@ -75,34 +71,9 @@ export function portsOf(n: Network, palette: Palette, id: string): Ports {
   if (isSlot(id)) return slotPorts(n, palette, id);
   const behavior = behaviorsOf(n).get(id);
   const kind = behavior && behaviorKind(palette, behavior.type);
-  if (kind) return { inputs: kind.inputs, outputs: kind.type === CONSTANT ? constantOutputs(kind, behavior) : kind.outputs };
+  if (kind) return { inputs: kind.inputs, outputs: kind.outputs.map((one) => ({ ...one, datatype: palette.datatypes[`${id}.${one.name}`] ?? one.datatype })) };
   const named = (ends: string[]) => [...new Set(ends.filter((one) => one.startsWith(`${id}.`)))].map((one) => unknown(one.slice(id.length + 1)));
   return { inputs: named(n.links.map((one) => one.to)), outputs: named(n.links.map((one) => one.from)) };
-}
-
-const CONSTANT = "Hri.Constant";
-
-/** A constant has the datatype of its value. */
-function constantOutputs({ parameters, outputs }: BehaviorType, behavior: Behavior): Port[] {
-  const [declared] = parameters;
-  const datatype = datatypeOf(behavior.parameters.get(declared?.name ?? "") ?? declared?.default ?? "");
-  return outputs.map((one) => ({ ...one, datatype }));
-}
-
-const NUMBER = String.raw`\s*([-+]\s*)?(\d+(\.\d*)?([eE][-+]?\d+)?|pi|e)\s*`;
-const SUM = new RegExp(`^${NUMBER}([-+*/]${NUMBER})*$`);
-/** What is no number in spite of that, or too large a one. */
-const ODD = /\/\s*0|[eE]\+?\d{3}|(?<![\d.])0\d/;
-
-/** Of a value as it is written; "any" where only the robot can say. */
-function datatypeOf(written: string): string {
-  const text = written.trim();
-  if (text.length > 1 && text.startsWith('"') && text.endsWith('"')) return "string";
-  if (/^(true|false)$/i.test(text)) return "boolean";
-  if (text.length > 200) return ANY;
-  const numbers = text.replace(/^\((.*,.*)\)$/, "$1").replace(/,$/, "").split(",");
-  if (numbers.every((one) => SUM.test(one) && !ODD.test(one))) return text.includes(",") ? "doublearray" : "double";
-  return /^[^\d#]*$/.test(text) && /[^pie\s\W]/.test(text) ? "string" : ANY;
 }
 
 const known = new WeakMap<Network, Map<string, Behavior>>();
