@@ -79,7 +79,8 @@ class FaceInterface:
         PHONEME_S. Raises HriError for more than MOST_PHONEMES, and for another alphabet.
         """
         if alphabet is not None and alphabet not in list(Alphabet):
-            raise HriError(f'"{alphabet}" - {did_you_mean(alphabet, list(Alphabet))}')
+            remedy = did_you_mean(alphabet, list(Alphabet))
+            raise HriError(f'"{alphabet}" is not an alphabet of phonemes - {remedy}')
         self._robot.run(_speak, phonemes, Alphabet(alphabet) if alphabet else None)
 
     def wait_for_emotional_change(self, timeout: float = float("inf")) -> bool:
@@ -98,7 +99,7 @@ async def _speak(
     context: TaskContext, phonemes: str | Sequence[str], alphabet: Alphabet | None
 ) -> None:
     names = phonemes.split() if isinstance(phonemes, str) else tuple(phonemes)
-    speech = _mouthed(mnemonics(names, alphabet))
+    speech = _mouthed(names, alphabet)
     runner, face = _face_of(context)
     async with context.claim("lips"):
         start = context.clock.now()
@@ -118,14 +119,15 @@ async def _wait_for_emotional_change(context: TaskContext, timeout: float) -> bo
     return not display.is_acting
 
 
-def _mouthed(names: Sequence[str]) -> Speech:
+def _mouthed(names: Sequence[str], alphabet: Alphabet | None) -> Speech:
     """Phonemes one after the other, in silence."""
     if len(names) > MOST_PHONEMES:
         raise HriError(f"{len(names)} phonemes - speak at most {MOST_PHONEMES} at once")
+    sounds = mnemonics([name.lstrip("',") for name in names], alphabet)
     phonemes = tuple(
-        Phoneme("_" if _PAUSE.fullmatch(name) else name.lstrip("',"), i * PHONEME_S, PHONEME_S,
+        Phoneme("_" if _PAUSE.fullmatch(sound) else sound, i * PHONEME_S, PHONEME_S,
                 stressed=name.startswith("'"))
-        for i, name in enumerate(names)
+        for i, (name, sound) in enumerate(zip(names, sounds, strict=True))
     )  # fmt: skip
     silence = np.zeros(round(len(names) * PHONEME_S * _RATE), np.int16)
     return Speech("", silence, _RATE, phonemes)

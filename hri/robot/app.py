@@ -155,9 +155,8 @@ class App:
         if "." in name:
             return find_task(name)
         modules = [app.module for app in self.line() if app.module is not None]
-        modules.sort(
-            key=lambda module: name not in _tasks_of(module)
-        )  # what is imported comes last
+        # A task comes before what a module only imports.
+        modules.sort(key=lambda module: name not in _tasks_of(module))
         for module in modules:
             if hasattr(module, name):
                 job: Job = getattr(module, name)

@@ -150,7 +150,8 @@ class Leftover:
         self._blocks.append(block)
         while now - self._blocks[0].end > REMEMBERED:
             self._blocks.popleft()
-        self._note_least(now)
+        if block.played:
+            self._note_least(now)
 
     def _note_least(self, now: float) -> None:
         """Nobody speaks in each moment: the least that is left in a while is its voice alone.
