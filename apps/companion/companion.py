@@ -52,9 +52,9 @@ GOES_ON = ("corrected",)
 SPEAK_UP = ("greet", "wake", *DANGER)
 """Rules that end its being quiet."""
 FAREWELLS = ("leave", "good_night", "sleep")
+"""Rules that end a talk; it asks no question then."""
 TENDER = ("sad", "vulnerable", "embarrassed")
 """Faces of moments in which it asks nothing by itself."""
-"""Rules that end a talk; it asks no question then."""
 MOST_HEARD = 100
 """Rules that are remembered."""
 
