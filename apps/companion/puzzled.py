@@ -73,7 +73,12 @@ SHOWN: Mapping[Kind, str] = {
 """What it shows instead."""
 GOES_ON = (Kind.TOLD, Kind.NOTED, Kind.CORRECTED)
 """Kinds of lines that may go on with what was understood before them."""
-FELT: Mapping[Kind, str] = {Kind.PRAISED: "praise", Kind.INSULTED: "insulted"}
+FELT: Mapping[Kind, str] = {
+    Kind.PRAISED: "praise",
+    Kind.INSULTED: "insulted",
+    Kind.TOLD_SAD: "friend_sad",
+    Kind.TOLD_GLAD: "friend_glad",
+}
 """Stimuli."""
 OWN_WORDS = TELLING | GESTURES.keys()
 """Of these a request for other words would be no answer."""

@@ -14,8 +14,9 @@ from __future__ import annotations
 import string
 from collections.abc import Collection
 
-from hri.conversation import KNOWN_FEELINGS, PARTS_OF_DAY, Texts, Wording
+from hri.conversation import PARTS_OF_DAY, Texts, Wording
 from hri.core import Table, did_you_mean
+from hri.emotion import KNOWN_FEELINGS
 
 LONGEST = 5000
 """Characters of what is said; voices say no more."""

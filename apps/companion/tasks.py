@@ -68,6 +68,8 @@ READING_SECONDS = 0.05
 """What reading them takes on a fake clock."""
 IGNORED_SECONDS = 25.0
 """Calm while someone is there, after which it feels ignored; again after each such time."""
+ALONE_SECONDS = 60.0
+"""Seconds in which nobody is seen or heard, after which it is alone."""
 
 
 def check(context: TaskContext) -> None:
@@ -167,22 +169,33 @@ async def wonder(context: TaskContext) -> None:
 async def notice(context: TaskContext) -> None:
     """React to what happens, and feel that nothing happens."""
     companion = Companion.of(context)
-    calm_since = context.clock.now()
+    calm_since = heard_at = context.clock.now()
+    is_alone = False
     deeds = {
         "bumper.pressed": partial(_bumped, companion),
         "battery.lowered": partial(_talk_about, companion, "battery_low"),
     }
-    others = ("person.seen", "speech.heard", "question.answered")
+    people = ("person.seen", "speech.heard", "question.answered", "speech.rejected")
+    others = (*people, "person.lost")
     with context.queue(*deeds, *others) as queue:
         while True:
             event: Event | None = None
             with context.clock.move_on_after(1.0):
                 event = await queue.get()
             now = context.clock.now()
+            if companion.person() is not None or (event is not None and event.name in people):
+                heard_at = now
+            if is_alone != (now - heard_at >= ALONE_SECONDS):
+                is_alone = not is_alone
+                companion.emotion.feel("alone", float(is_alone))
             if event is not None:
                 calm_since = now
                 if event.name in deeds:
                     deeds[event.name]()
+                elif event.name == "person.seen":
+                    companion.emotion.feel("company", 1.0, event.properties.get("person"))
+                elif event.name == "person.lost":
+                    companion.emotion.feel("company", 0.0)
             elif not companion.is_calm or companion.is_asleep:
                 calm_since = now
             elif now - calm_since > IGNORED_SECONDS and companion.person() is not None:

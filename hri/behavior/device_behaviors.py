@@ -156,7 +156,8 @@ class CliffEdge(DeviceBehavior):
 
 
 class BatteryLevel(DeviceBehavior):
-    """Sends how full the battery is; raises `battery.lowered` when it falls below the limit.
+    """Sends how full the battery is; raises `battery.lowered` when it falls below the limit, and
+    `battery.raised` when it has been charged since.
 
     While that is not known, it sends nothing, and what was low stays low.
     """
@@ -179,6 +180,8 @@ class BatteryLevel(DeviceBehavior):
         is_low = level < self.low + (0.05 if self._is_low else 0.0)
         if is_low and not self._is_low:
             self._events.raise_event("battery.lowered", level=round(level, 3))
+        elif self._is_low and not is_low:
+            self._events.raise_event("battery.raised", level=round(level, 3))
         self._is_low = is_low
         self.level.send(level)
 

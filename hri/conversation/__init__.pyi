@@ -19,7 +19,6 @@ from .examples import (
     nearest_sentence as nearest_sentence,
     sayings as sayings,
 )
-from .feelings import KNOWN_FEELINGS as KNOWN_FEELINGS
 from .first_names import introduced as introduced
 from .floor import (
     GIVES_WAY_SECONDS as GIVES_WAY_SECONDS,

@@ -12,7 +12,7 @@ from collections import OrderedDict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from hri.conversation.feelings import fitting
+from hri.emotion.everyday_words import fitting
 
 RECENT_SECONDS = 300.0
 """How long people remember that something was said, or asked."""
@@ -30,7 +30,7 @@ class Wording:
     again: Texts = ()
     """Said when the robot has answered the same a short time ago."""
     feeling: Mapping[str, Texts] = field(default_factory=dict)
-    """By a word or label of `hri.conversation.feelings.KNOWN_FEELINGS`."""
+    """By a word or label of `hri.emotion.everyday_words.KNOWN_FEELINGS`."""
     hour: Mapping[str, Texts] = field(default_factory=dict)
     """By the part of the day, see `hri.conversation.day`."""
     personality: Mapping[str, Texts] = field(default_factory=dict)

@@ -242,6 +242,8 @@ class EmotionState:
     """Intensity 0 to 1 of each emotion."""
     drives: Mapping[str, float] = field(default_factory=dict)
     """How pressing each need is, 0 to 1."""
+    mood: str = ""
+    """The name of the mood, whatever the label; empty where nobody has named it."""
 
 
 @dataclass(frozen=True, slots=True)

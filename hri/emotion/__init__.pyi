@@ -5,6 +5,7 @@ from .appraisal import (
 )
 from .behaviors import EmotionDisplay as EmotionDisplay, EmotionModel as EmotionModel
 from .dynamics import Dynamics as Dynamics
+from .everyday_words import KNOWN_FEELINGS as KNOWN_FEELINGS
 from .model_spec import EmotionModelSpec as EmotionModelSpec, load_emotions as load_emotions
 from .personality import (
     Personality as Personality,

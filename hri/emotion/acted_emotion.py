@@ -109,7 +109,7 @@ def _mood_of(state: EmotionState) -> tuple[str, float]:
     if state.label in MOODS:
         return state.label, state.intensity
     mood = (state.valence, state.arousal, state.dominance)
-    return mood_name(mood), math.hypot(*mood) / math.sqrt(3)
+    return state.mood or mood_name(mood), math.hypot(*mood) / math.sqrt(3)
 
 
 def _check(emotion: str, value: float, lowest: float) -> None:

@@ -10,12 +10,19 @@ from collections.abc import Collection, Mapping
 from math import exp
 from typing import NamedTuple
 
-from hri.emotion.emotions import OPPOSITES_OF, OPPOSITES_OF_THE_SAME
-from hri.emotion.label import Course
-from hri.emotion.ledger import Axes, Ledger, LedgerRow, Origin, merged, summed
+from hri.emotion.emotions import EMOTIONS, OPPOSITES_OF, OPPOSITES_OF_THE_SAME, PART_OF, whole
+from hri.emotion.held import Held
+from hri.emotion.label import STRONG, Course
+from hri.emotion.ledger import REST, Axes, Ledger, LedgerRow, Origin, merged, summed
 
 Fresh = Mapping[Origin, Mapping[str, float]]
-"""Charges by cause and emotion."""
+"""Charges by cause and part of an emotion."""
+
+TURNS = 0.4
+"""How far each unit of charge above STRONG moves the mood at once, of the emotion's coordinates."""
+_AXES = {
+    emotion.name: (emotion.pleasure, emotion.arousal, emotion.dominance) for emotion in EMOTIONS
+}
 
 
 class Trace(NamedTuple):
@@ -50,17 +57,33 @@ class Need(NamedTuple):
     """What it has done to the mood; see Row."""
 
 
+class Soothed(NamedTuple):
+    """What somebody did, and how they made up for it."""
+
+    deed: str
+    """Under which the ledger has it."""
+    amends: str
+    """The same for what made up for it."""
+    person: str | None
+    emotion: str
+    """What was felt most about the deed."""
+    time: float
+    """Seconds."""
+
+
 class Outlook(NamedTuple):
     """What follows from an imprint, worked out once for all the times at which it is read."""
 
     older: Ledger
     """The imprint's ledger without what the fresh charges drove out."""
     charges: Mapping[str, float]
-    """The sum of all causes by emotion."""
+    """The sum of all causes by part of an emotion, without what is held."""
     mood: Axes
-    """The sum of the pulls of all causes and drives on the mood."""
+    """The sum of the pulls of all causes and drives on the mood, without what is held."""
     course: Course
     """Which emotions will have the label."""
+    turned: Mapping[Origin, Axes]
+    """How far strong fresh charges have moved the mood at once, by cause."""
 
 
 class Imprint(NamedTuple):
@@ -81,6 +104,16 @@ class Imprint(NamedTuple):
     """Regard by person; see relations.relation_of."""
     label: str
     """The emotion that stood out just before that instant; label.NOTHING for none."""
+    held: Mapping[Origin, Held] = {}
+    """States that go on, or are still felt."""
+    mood: str = ""
+    """The name of the mood; empty: not named yet."""
+    named_at: float = 0.0
+    """When it was named, in seconds."""
+    words: Mapping[str, str] = {}
+    """What is said of goals, deeds and things, by the name of the cause."""
+    soothed: Soothed | None = None
+    """The last deed that was made up for."""
 
 
 class Affect(NamedTuple):
@@ -127,26 +160,77 @@ def driven_out(ledger: Ledger, fresh: Fresh) -> Ledger:
                 there[opposite] = there.get(opposite, 0.0) + charge
     if not everywhere and not any(about.values()):
         return ledger
+    against = {goal: summed(everywhere, there) for goal, there in about.items() if there}
     return {
-        origin: _less(row, summed(everywhere, about.get(origin.goal, {})))
-        for origin, row in ledger.items()
+        origin: _less(row, against.get(origin.goal, everywhere)) for origin, row in ledger.items()
     }
 
 
 def _less(row: LedgerRow, against: Mapping[str, float]) -> LedgerRow:
-    if against.keys().isdisjoint(row.charges):
-        return row
-    charges = {
-        name: charge * exp(-against[name]) if name in against else charge
-        for name, charge in row.charges.items()
-    }
+    charges = dict(row.charges)
+    for part, charge in row.charges.items():
+        if (driven := against.get(PART_OF[part])) is not None:
+            charges[part] = charge * exp(-driven)
     return LedgerRow(charges, row.mood, row.time)
 
 
-def sums(imprint: Imprint, older: Ledger) -> tuple[dict[str, float], Axes]:
+def turns(fresh: Fresh) -> Mapping[Origin, Axes]:
+    """How far the strong ones among fresh charges move the mood at once, by cause.
+
+    What counts is all that comes at one instant, so that its order does not.
+    """
+    total: dict[str, float] = {}
+    for charges in fresh.values():
+        for part, charge in charges.items():
+            name = PART_OF[part]
+            total[name] = total.get(name, 0.0) + charge
+    if not total or max(total.values()) <= STRONG:
+        return {}
+    strong = {
+        name: TURNS * (charge - STRONG) / charge
+        for name, charge in total.items()
+        if charge > STRONG
+    }
+    moved = {}
+    for origin, charges in fresh.items():
+        p = a = d = 0.0
+        for part, charge in charges.items():
+            if share := strong.get(PART_OF[part]):
+                pleasure, arousal, dominance = _AXES[PART_OF[part]]
+                p += charge * share * pleasure
+                a += charge * share * arousal
+                d += charge * share * dominance
+        moved[origin] = p, a, d
+    return moved
+
+
+def soothed(
+    ledger: Ledger, about: Collection[Origin], shares: Mapping[str, float]
+) -> tuple[Ledger, tuple[float, Origin, str]]:
+    """A ledger in which less of some emotions is felt for some causes, and of their pull.
+
+    `shares` say how much goes of each emotion, 0 to 1; of the pull on the mood goes as much as of
+    all charges together. With it comes what fell most: by how much, for which cause, what emotion.
+    """
+    calmer, most = dict(ledger), (0.0, REST, "")
+    for origin in about:
+        charges, (p, a, d), time = ledger[origin]
+        left = {part: c * (1.0 - shares.get(PART_OF[part], 0.0)) for part, c in charges.items()}
+        fallen = whole({part: charge - left[part] for part, charge in charges.items()})
+        # The pull stays when it is all that is left: what is over cannot be undone.
+        share = sum(fallen.values()) / sum(charges.values()) if charges else 0.0
+        calmer[origin] = LedgerRow(left, (p * (1 - share), a * (1 - share), d * (1 - share)), time)
+        for name, charge in fallen.items():
+            most = max(most, (charge, origin, name))
+    return calmer, most
+
+
+def sums(
+    imprint: Imprint, older: Ledger, turned: Mapping[Origin, Axes]
+) -> tuple[dict[str, float], Axes]:
     """All charges by emotion, and all pulls on the mood, just after an imprint.
 
-    `older` is what is left of its ledger.
+    `older` is what is left of its ledger, `turned` what strong fresh charges did to the mood.
     """
     total: dict[str, float] = {}
     pleasure = arousal = dominance = 0.0
@@ -159,6 +243,10 @@ def sums(imprint: Imprint, older: Ledger) -> tuple[dict[str, float], Axes]:
     for charges in imprint.fresh.values():
         for name, charge in charges.items():
             total[name] = total.get(name, 0.0) + charge
+    for p, a, d in turned.values():
+        pleasure += p
+        arousal += a
+        dominance += d
     for _, (p, a, d) in imprint.needs.values():
         pleasure += p
         arousal += a
@@ -190,8 +278,22 @@ def renamed(imprint: Imprint, names: Mapping[str, str | None]) -> Imprint:
     for person, trace in imprint.relations.items():
         if (name := names.get(person, person)) is not None:
             relations[name] = _together(relations[name], trace) if name in relations else trace
+    held: dict[Origin, Held] = {}
+    for origin, state in imprint.held.items():
+        other = named(origin)
+        # Of two that turn out to be one, the later is what goes on.
+        if other not in held or state.since > held[other].since:
+            held[other] = state
+    last = imprint.soothed
+    if last is not None:
+        last = last._replace(person=named(Origin("", last.person)).person)
     return imprint._replace(
-        ledger=ledger, fresh=fresh, habituation=habituation, relations=relations
+        ledger=ledger,
+        fresh=fresh,
+        habituation=habituation,
+        relations=relations,
+        held=held,
+        soothed=last,
     )
 
 
@@ -203,17 +305,20 @@ def _together(one: Trace, other: Trace) -> Trace:
 
 def shifted(imprint: Imprint, seconds: float) -> Imprint:
     """The same on a clock that shows `seconds` more, such as after a restart."""
-    return Imprint(
-        imprint.time + seconds,
-        {
-            origin: LedgerRow(row.charges, row.mood, row.time + seconds)
-            for origin, row in imprint.ledger.items()
+    last = imprint.soothed
+    return imprint._replace(
+        time=imprint.time + seconds,
+        ledger={
+            origin: row._replace(time=row.time + seconds) for origin, row in imprint.ledger.items()
         },
-        imprint.fresh,
-        imprint.needs,
-        {key: _shifted(trace, seconds) for key, trace in imprint.habituation.items()},
-        {person: _shifted(trace, seconds) for person, trace in imprint.relations.items()},
-        imprint.label,
+        habituation={key: _shifted(trace, seconds) for key, trace in imprint.habituation.items()},
+        relations={key: _shifted(trace, seconds) for key, trace in imprint.relations.items()},
+        held={
+            origin: state._replace(since=state.since + seconds, until=state.until + seconds)
+            for origin, state in imprint.held.items()
+        },
+        named_at=imprint.named_at + seconds,
+        soothed=None if last is None else last._replace(time=last.time + seconds),
     )
 
 

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from hri.core.event_bus import EventBus
 from hri.core.signals import EmotionState
-from hri.emotion.label import mood_name
 
 NOTABLE = 0.1
 """A change of valence worth an event when the label stays the same."""
 INTERVAL_S = 1.0
-"""Seconds between two such events, and between two of the mood."""
+"""Seconds between two such events."""
 
 
 class Announcer:
@@ -26,7 +25,6 @@ class Announcer:
         self._valence = 0.0
         self._time = 0.0
         self._mood = ""
-        self._mood_time = 0.0
 
     def announce(self, state: EmotionState, now: float) -> None:
         """Report changes at a time in seconds."""
@@ -34,11 +32,9 @@ class Announcer:
         if state.label != self._label or moved:
             self._label, self._valence, self._time = state.label, state.valence, now
             self._raise("emotion.changed", state.label, "valence", state)
-        mood = mood_name((state.valence, state.arousal, state.dominance))
-        # A mood that lies at the border of two names does not flicker between them.
-        if mood != self._mood and (not self._mood or now - self._mood_time >= INTERVAL_S):
-            self._mood, self._mood_time = mood, now
-            self._raise("mood.changed", mood, "pleasure", state)
+        if state.mood != self._mood:
+            self._mood = state.mood
+            self._raise("mood.changed", state.mood, "pleasure", state)
 
     def _raise(self, event: str, label: str, pleasure: str, state: EmotionState) -> None:
         axes = {pleasure: state.valence, "arousal": state.arousal, "dominance": state.dominance}

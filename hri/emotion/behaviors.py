@@ -18,6 +18,7 @@ from hri.emotion.affect import Affect
 from hri.emotion.announcer import Announcer
 from hri.emotion.appraisal import OccEvent, name_of, people_of
 from hri.emotion.display import HONEST, felt_now, load_display
+from hri.emotion.explanation import explained
 from hri.emotion.files import Reloading
 from hri.emotion.keeper import Keeper
 from hri.emotion.label import CALM
@@ -25,16 +26,11 @@ from hri.emotion.ledger import Cause
 from hri.emotion.model_spec import load_emotions
 from hri.emotion.persistence import traces
 from hri.emotion.personality import load_personality
-from hri.emotion.reasons import labels_called, why_words
 from hri.emotion.relations import is_unnamed
 from hri.emotion.triggers import Triggers
 
 LOOK_EVERY_S = 1.0
 """Seconds between looks for ports to watch."""
-FAINT = 0.05
-"""An emotion of less than this is not felt, when someone asks why it is."""
-CLEAR = 0.25
-"""From this on it is more than a little."""
 BATTERY_STEP = 0.01
 """A change of the battery's level that counts, of 1."""
 
@@ -160,7 +156,8 @@ class EmotionModel(Behavior):
 
     def feeling_words(self) -> str:
         """What the robot is, after "I am": "happy"."""
-        return self._files.model.words(self.feeling().label)
+        state = self.feeling()
+        return self._files.model.words(state.label, state.intensity)
 
     def why(self) -> tuple[Cause, ...]:
         """The causes of the feelings with their shares and ages, the largest first."""
@@ -172,25 +169,8 @@ class EmotionModel(Behavior):
         `about` is the feeling in the question, such as "sad". People with names are named, except
         the attended person, who hears "you".
         """
-        state, looks = self.feeling(), self._files.model.display.looks
-        labels = labels_called(about, looks)
-        if not labels or state.label in labels:
-            return self._because(state.label, state, looks[state.label].words)
-        strongest = max(labels, key=lambda label: state.emotions.get(label, 0.0))
-        intensity = state.emotions.get(strongest, 0.0)
-        if intensity >= FAINT:
-            much = "also" if intensity >= CLEAR else "a little"
-            return self._because(strongest, state, f"{much} {about}")
-        return f"I am not {about}. {self._because(state.label, state, looks[state.label].words)}"
-
-    def _because(self, label: str, state: EmotionState, feeling: str) -> str:
-        words = {name: spec.words for name, spec in self._files.model.stimuli.items()}
         asking = self._name_of(self._people.attended)
-        causes = [
-            replace(cause, person=None) if cause.person == asking else cause
-            for cause in self._dynamics.why(self._current(), label)
-        ]
-        return why_words(feeling, causes, words, state.drives)
+        return explained(self._files.model, self._dynamics, self._current(), about, asking)
 
     def _meet(self, people: People) -> None:
         """Attribute feelings about a track id to a name, once it is known."""

@@ -34,6 +34,11 @@ EXPRESSIONS = (
 LABELS = (*NAMES, *MOODS)
 """Every label that a state can have."""
 
+FAINT = 0.3
+"""A feeling of less intensity is faint."""
+STRONG_EMOTION, STRONG_MOOD = 0.8, 0.6
+"""An emotion, or a mood, of more is strong."""
+
 HONEST = ""
 """The name for no display rules: feelings are shown as they are."""
 
@@ -50,6 +55,18 @@ class EmotionLook:
     """Intensity of the expression for intensity 1 of the feeling."""
     words: str
     """What the robot is, after "I am": "happy"."""
+    faintly: str = ""
+    """The same while it is faint: "fine"; empty: no other words."""
+    strongly: str = ""
+    """The same while it is strong: "in high spirits"."""
+    strong: float = STRONG_EMOTION
+    """Intensity above which it is strong."""
+
+    def said(self, intensity: float) -> str:
+        """What the robot is, for an intensity from 0 to 1."""
+        is_strong = intensity > self.strong
+        degree = self.faintly if intensity < FAINT else self.strongly if is_strong else ""
+        return degree or self.words
 
 
 @dataclass(frozen=True, slots=True)
@@ -221,18 +238,21 @@ def _looks(table: Table) -> dict[str, EmotionLook]:
     for name in table.data:
         if known_as(name) not in LABELS:
             raise table.error(name, f'no label "{name}"', did_you_mean(name, LABELS))
-    written = {known_as(name): _look(table.table(name)) for name in table.data}
+    written = {known_as(name): _look(known_as(name), table.table(name)) for name in table.data}
     return {
         label: written.get(label, EmotionLook("neutral", 1.0, label.replace("_", " ")))
         for label in LABELS
     }
 
 
-def _look(table: Table) -> EmotionLook:
+def _look(label: str, table: Table) -> EmotionLook:
     look = EmotionLook(
         expression=table.string("expression", among=EXPRESSIONS),
         gain=table.number("gain", 1.0, minimum=0.0, maximum=5.0),
         words=table.string("words"),
+        faintly=table.string("faintly", ""),
+        strongly=table.string("strongly", ""),
+        strong=STRONG_MOOD if label in MOODS else STRONG_EMOTION,
     )
     table.finish()
     return look

@@ -1,7 +1,8 @@
 """How feelings rise and fade: a state goes in, what has happened since, and a state comes out.
 
-Each event leaves a charge per emotion that decays exponentially, each need drifts to its resting
-level; both pull a slow mood (pleasure, arousal, dominance) that returns to the personality's
+Each event leaves a charge per emotion that decays exponentially, some of it slowly; what goes on
+holds its charges for as long as it does (see `held`); each need drifts to its resting level. All
+of them pull a slow mood (pleasure, arousal, dominance) that returns to the personality's
 baseline. All of it is linear, so the state is kept as one row per cause, a ledger: the sum of its
 rows is the state, and "why?" is answered by reading it. What others see saturates by itself:
 intensity = 1 - exp(-charge), mood = tanh(atanh(baseline) + pull). Nothing is clamped, and nothing
@@ -25,17 +26,40 @@ from hri.emotion.affect import (
     Imprint,
     Need,
     Outlook,
+    Soothed,
     Trace,
     driven_out,
     renamed,
+    soothed,
     sums,
+    turns,
     without,
 )
-from hri.emotion.appraisal import GoalEvent, OccEvent, appraise, check_name
+from hri.emotion.appraisal import (
+    NO_BELIEF,
+    Appraisal,
+    Belief,
+    GoalEvent,
+    OccEvent,
+    appraise,
+    check_name,
+    prospects,
+)
+from hri.emotion.clauses import words_of
 from hri.emotion.drives import cause_of
-from hri.emotion.emotions import EMOTIONS, NAMES
-from hri.emotion.fading import Fading
-from hri.emotion.label import CALM, MOODS, NOTHING, course, known_as, label_at, mood_name
+from hri.emotion.emotions import EMOTIONS, NAMES, SLOW, in_parts, whole
+from hri.emotion.fading import FORGOTTEN, Fading
+from hri.emotion.held import MOST as MOST_HELD, SOON_S, Held, Level, lines_of
+from hri.emotion.label import (
+    CALM,
+    MOOD_S,
+    MOODS,
+    NOTHING,
+    course,
+    known_as,
+    label_at,
+    mood_name,
+)
 from hri.emotion.ledger import (
     REST,
     STILL,
@@ -45,6 +69,7 @@ from hri.emotion.ledger import (
     Ledger,
     LedgerRow,
     Origin,
+    merged,
     pruned,
     summed,
     total_mood,
@@ -57,6 +82,13 @@ MOST_HABITS = 500
 MOST_AT_ONCE = 50
 """Causes that are kept apart of what happens at one instant; what is more counts as the rest."""
 _FADING_RATE = 1.0 / relations.FADES_S
+RELIEF, LOSS = 1.2, 0.3
+"""Of the charge of a state that ends, that of the relief, and of the sadness, at its end."""
+UNWELCOME = 2.5
+"""How much of the pleasure of meeting someone goes with each unit of dislike."""
+RELIEVED = 0.05
+"""Charge that must fall for it to be worth words that someone made up for a deed."""
+_REUNION = "joy" + SLOW
 _FARTHEST = sqrt(3)
 """Distance of a corner from the origin."""
 
@@ -66,7 +98,9 @@ class _Taken:
     """A stimulus as a personality takes it."""
 
     charges: Mapping[str, float]
-    """Charge per emotion in full strength, with the personality's gains."""
+    """Charge per part of an emotion in full strength, with the personality's gains; per emotion
+    where it is held."""
+    spec: StimulusSpec
     satisfies: Mapping[str, float]
     relation: float
     habituates: float
@@ -83,15 +117,19 @@ class Dynamics:
         self._gains = {emotion.name: personality.gain(emotion) for emotion in EMOTIONS}
         self._stimuli = {stimulus.name: self._taken(stimulus) for stimulus in stimuli}
         self._fading = Fading(personality)
+        self._named: tuple[Imprint, float, str] | None = None
+        """The last mood that was named, for which imprint and time: it is asked for often."""
         self._rest = {drive.name: Need(drive.resting, STILL) for drive in personality.drives}
 
     def _taken(self, stimulus: StimulusSpec) -> _Taken:
+        charges = {
+            name: self._gains[name] * charge
+            for name, charge in zip(NAMES, stimulus.charges(), strict=True)
+            if charge
+        }
         return _Taken(
-            charges={
-                name: self._gains[name] * charge
-                for name, charge in zip(NAMES, stimulus.charges(), strict=True)
-                if charge
-            },
+            charges=charges if stimulus.held else in_parts(charges),
+            spec=stimulus,
             satisfies=stimulus.satisfies,
             relation=stimulus.relation,
             habituates=stimulus.habituates,
@@ -112,7 +150,13 @@ class Dynamics:
         for a time that is not finite.
         """
         needs = {name: imprint.needs.get(name, need) for name, need in self._rest.items()}
-        return self.advance(self._affect(imprint._replace(needs=needs)), now)
+        affect = self._affect(imprint._replace(needs=needs))
+        if not imprint.mood:
+            name = mood_name(self.mood(affect))
+            affect = affect._replace(
+                imprint=affect.imprint._replace(mood=name, named_at=imprint.time)
+            )
+        return self.advance(affect, now)
 
     def settle(self, affect: Affect) -> Affect:
         """The same state with all that has faded since the last event worked out.
@@ -141,9 +185,9 @@ class Dynamics:
     ) -> Affect:
         """The state just after a stimulus of intensity 0 to 1, which may come from a person.
 
-        One of intensity 0 has not happened. Raises HriError for an unknown stimulus, ValueError for
-        an intensity out of range, a person without a name or of a very long one, or a time that is
-        not finite.
+        One of intensity 0 has not happened; one that lasts is over then. Raises HriError for an
+        unknown stimulus, ValueError for an intensity out of range, a person without a name or of a
+        very long one, or a time that is not finite.
         """
         if name not in self._stimuli:
             raise HriError(f'no stimulus "{name}" - {did_you_mean(name, self.names)}')
@@ -151,28 +195,35 @@ class Dynamics:
             raise ValueError(f"the intensity of {name} is {intensity} - give 0 to 1")
         if person is not None:
             check_name("person", person)
+        stimulus, origin = self._stimuli[name], Origin(name, person)
+        if stimulus.spec.held:
+            return self._affect(self._holding(self._imprint_at(affect, now), origin, intensity))
         if intensity == 0:
             return self.advance(affect, now)
-        stimulus, origin = self._stimuli[name], Origin(name, person)
         # It habituates to people it cannot distinguish as if they were one.
         habit = Origin(name) if person is not None and relations.is_unnamed(person) else origin
         imprint = self._imprint_at(affect, now)
         worn = imprint.habituation.get(habit, FRESH).at(imprint.time, stimulus.recovery_rate)
         strength = intensity * (1.0 - worn.before)
         charges = {name: charge * strength for name, charge in stimulus.charges.items()}
-        if relation := _relation(imprint, person):
+        if person is not None and (relation := _relation(imprint, person)):
             charges = relations.weighted(charges, relation)
-        return self._affect(
-            Imprint(
-                imprint.time,
-                imprint.ledger,
-                _with_charges(imprint.fresh, origin, charges),
-                _satisfied(imprint.needs, stimulus.satisfies, strength),
-                _habituated(imprint.habituation, habit, worn, stimulus.habituates),
-                _regarded(imprint, person, stimulus.relation * strength),
-                imprint.label,
-            )
+            if stimulus.spec.reunion:
+                charges = self._met(imprint, stimulus, person, charges, strength)
+        imprint = Imprint(
+            imprint.time,
+            imprint.ledger,
+            _with_charges(imprint.fresh, origin, charges),
+            _satisfied(imprint.needs, stimulus.satisfies, strength),
+            _habituated(imprint.habituation, habit, worn, stimulus.habituates),
+            _regarded(imprint, person, stimulus.relation * strength),
+            *imprint[6:],
         )
+        if stimulus.spec.soothes:
+            shares = {name: share * strength for name, share in stimulus.spec.soothes.items()}
+            about = [cause for cause in imprint.ledger if cause.person == person != cause.name]
+            imprint = _soothed(imprint, about, shares, origin)
+        return self._affect(imprint)
 
     def appraise(self, affect: Affect, event: OccEvent, now: float) -> Affect:
         """The state just after an event that touches the robot's goals, standards or tastes.
@@ -180,23 +231,155 @@ class Dynamics:
         Raises ValueError for a time that is not finite.
         """
         imprint = self._imprint_at(affect, now)
-        owner = event.owner if isinstance(event, GoalEvent) else None
-        meaning = appraise(event, _relation(imprint, owner))
+        if isinstance(event, GoalEvent):
+            imprint, meaning = self._goal(imprint, event)
+        else:
+            meaning = appraise(event)
         charges = {name: charge * self._gains[name] for name, charge in meaning.charges.items()}
-        ledger = imprint.ledger
+        if relation := _relation(imprint, meaning.agent):
+            charges = relations.weighted(charges, relation)
+        origin = Origin(meaning.cause, meaning.person)
         if meaning.ends:
-            ledger = without(ledger, meaning.cause, meaning.ends)
-        return self._affect(
-            Imprint(
-                imprint.time,
-                ledger,
-                _with_charges(imprint.fresh, Origin(meaning.cause, meaning.person), charges),
-                imprint.needs,
-                imprint.habituation,
-                _regarded(imprint, meaning.person, relations.PRAISED * meaning.praise),
-                imprint.label,
-            )
+            imprint = imprint._replace(ledger=without(imprint.ledger, meaning.cause, meaning.ends))
+        imprint = imprint._replace(words={**imprint.words, meaning.cause: words_of(event)})
+        imprint = imprint._replace(
+            fresh=_with_charges(imprint.fresh, origin, in_parts(charges)),
+            relations=_regarded(imprint, meaning.person, relations.PRAISED * meaning.praise),
         )
+        if meaning.soothes:
+            about = [cause for cause in imprint.ledger if cause.name == meaning.about]
+            imprint = _soothed(imprint, about, meaning.soothes, origin)
+        return self._affect(imprint)
+
+    def _met(
+        self,
+        imprint: Imprint,
+        stimulus: _Taken,
+        person: str,
+        charges: dict[str, float],
+        strength: float,
+    ) -> dict[str, float]:
+        """What it is to meet someone again: a friend who was missed, or a bully."""
+        relation = _relation(imprint, person)
+        if relation < 0.0:
+            left = max(1.0 + UNWELCOME * relation, 0.0)
+            return {
+                part: charge * left if relations.SIGNS[part] > 0 else charge
+                for part, charge in charges.items()
+            }
+        missed = 1.0 - exp((imprint.relations[person].time - imprint.time) / relations.MISSED_S)
+        more = self._gains["joy"] * stimulus.spec.reunion * relation * missed * strength
+        return summed(charges, {_REUNION: more})
+
+    def _goal(self, imprint: Imprint, event: GoalEvent) -> tuple[Imprint, Appraisal]:
+        """What a goal means, and what is held for it while it is open."""
+        origin = Origin(f"goal.{event.goal}", event.owner)
+        open_goal, belief = imprint.held.get(origin), NO_BELIEF
+        if open_goal is not None and open_goal.likelihood is not None:
+            believed = open_goal.at(open_goal.likelihood, imprint.time)
+            belief = Belief(believed, open_goal.peak)
+        meaning = appraise(event, _relation(imprint, event.owner), belief)
+        if event.owner is not None:
+            return imprint, meaning
+        if event.is_decided:
+            return (imprint if open_goal is None else self._let_go(imprint, origin)), meaning
+        now, later = (
+            {name: self._gains[name] * charge for name, charge in levels.items()}
+            for levels in prospects(event)
+        )
+        mood = STILL if open_goal is None else self._fading.held(open_goal, imprint.time).mood
+        likelihood = event.likelihood_after
+        held = Held(
+            since=imprint.time,
+            levels={name: Level(now[name], later[name]) for name in now},
+            rate=event.doubt_rate or 1.0 / SOON_S,
+            mood=mood,
+            likelihood=Level(likelihood, 0.0 if event.doubt_rate else likelihood),
+            peak=max(likelihood, belief.peak),
+        )
+        return self._held(imprint, origin, held), meaning
+
+    def _holding(self, imprint: Imprint, origin: Origin, intensity: float) -> Imprint:
+        """A state that goes on in a strength from now on; 0: it is over."""
+        if intensity == 0.0:
+            # Whoever it was about, when nobody is named.
+            for other in imprint.held:
+                if other == origin or (origin.person is None and other.name == origin.name):
+                    imprint = self._over(imprint, other)
+            return imprint
+        stimulus = self._stimuli[origin.name]
+        spec = stimulus.spec
+        if spec.held is None:
+            raise ValueError(f"{origin.name} is not held")
+        relation = _relation(imprint, origin.person)
+        if spec.held.as_liked:
+            intensity *= (1.0 + relation) / 2.0
+        charges = {name: charge * intensity for name, charge in stimulus.charges.items()}
+        if relation:
+            charges = relations.weighted(charges, relation)
+        before = imprint.held.get(origin)
+        row = None if before is None else self._fading.held(before, imprint.time)
+        felt = {} if row is None else row.charges
+        held = Held(
+            since=imprint.time,
+            levels={
+                name: Level(felt.get(name, 0.0), charges.get(name, 0.0))
+                for name in {**charges, **felt}
+            },
+            rate=1.0 / spec.held.rise_s,
+            mood=STILL if row is None else row.mood,
+            until=imprint.time + spec.held.for_s,
+            fall_rate=1.0 / spec.held.fall_s,
+        )
+        return self._held(imprint, origin, held)
+
+    def _over(self, imprint: Imprint, origin: Origin) -> Imprint:
+        """A state that ends now and fades: a relief, or a small loss.
+
+        How large it is follows from what was felt, as the neutral personality would.
+        """
+        held = imprint.held[origin]
+        if held.until <= imprint.time or held.is_over:
+            return imprint
+        charges = self._fading.held(held, imprint.time).charges
+        ended = self._fading.ended(held._replace(until=imprint.time))
+        pleased = displeased = 0.0
+        for name, charge in charges.items():
+            if gain := self._gains[name]:
+                if relations.SIGNS[name] > 0:
+                    pleased += charge / gain
+                else:
+                    displeased += charge / gain
+        after = {
+            "relief": self._gains["relief"] * RELIEF * displeased,
+            "sadness": self._gains["sadness"] * LOSS * pleased,
+        }
+        after = {name: charge for name, charge in after.items() if charge}
+        fresh = _with_charges(imprint.fresh, origin, in_parts(after)) if after else imprint.fresh
+        return imprint._replace(held={**imprint.held, origin: ended}, fresh=fresh)
+
+    def _let_go(self, imprint: Imprint, origin: Origin) -> Imprint:
+        """A state of which no more than its pull on the mood is left."""
+        row = self._fading.held(imprint.held[origin], imprint.time)
+        pull = LedgerRow({}, row.mood, row.time)
+        before = imprint.ledger.get(origin)
+        return imprint._replace(
+            held={other: held for other, held in imprint.held.items() if other != origin},
+            ledger={**imprint.ledger, origin: pull if before is None else merged(before, pull)},
+        )
+
+    def _held(self, imprint: Imprint, origin: Origin, held: Held) -> Imprint:
+        """With a state among those that go on, whatever was held for the same before."""
+        imprint = imprint._replace(held={**imprint.held, origin: held})
+        if len(imprint.held) > MOST_HELD:
+            faintest = min(
+                imprint.held,
+                key=lambda other: sum(
+                    self._fading.held(imprint.held[other], imprint.time).charges.values()
+                ),
+            )
+            imprint = self._let_go(imprint, faintest)
+        return imprint
 
     def report(self, affect: Affect, drive: str, level: float, now: float) -> Affect:
         """The state just after a need was found at a level, 0 to 1: energy is 1 minus the battery.
@@ -218,17 +401,34 @@ class Dynamics:
         """The feelings, as a value for others."""
         intensities, mood, levels = self._fading.read(affect)
         label = label_at(affect.outlook.course, affect.time - affect.imprint.time)
+        named = self._mood_name(affect)
         if label == NOTHING:
-            label, intensity = mood_name(mood), hypot(*mood) / _FARTHEST
+            label, intensity = named, hypot(*mood) / _FARTHEST
         else:
             intensity = intensities[label]
-        return EmotionState(label, intensity, *mood, intensities, levels)
+        return EmotionState(label, intensity, *mood, intensities, levels, named)
+
+    def _mood_name(self, affect: Affect) -> str:
+        """The name of the mood, which it keeps from one naming to the next."""
+        return self._mood_named_at(affect, _last_naming(affect))
+
+    def _mood_named_at(self, affect: Affect, at: float) -> str:
+        imprint = affect.imprint
+        if at <= imprint.named_at:
+            return imprint.mood
+        if self._named is None or self._named[0] is not imprint or self._named[1] != at:
+            mood = self._fading.read(affect._replace(time=max(at, imprint.time)))[1]
+            self._named = imprint, at, mood_name(mood)
+        return self._named[2]
 
     def charges(self, affect: Affect) -> dict[str, float]:
         """The charge, above 0, of each emotion that has one."""
         rates, seconds = self._fading.rates, affect.age
         charges = affect.outlook.charges.items()
-        return {name: charge * exp(-rates[name] * seconds) for name, charge in charges}
+        felt = whole({part: charge * exp(-rates[part] * seconds) for part, charge in charges})
+        for held in affect.imprint.held.values():
+            felt = summed(felt, self._fading.held(held, affect.time).charges)
+        return {name: charge for name, charge in felt.items() if charge > 0.0}
 
     def mood(self, affect: Affect) -> Axes:
         """Pleasure, arousal and dominance, each -1 to 1."""
@@ -253,7 +453,11 @@ class Dynamics:
         The charges sum to the state's, the pulls to the argument of the mood's tanh. TEMPERAMENT
         stands for the baseline, "drive.NAME" for a drive.
         """
-        rows = self._fading.rows(affect.imprint, affect.outlook, affect.age)
+        parts = self._fading.rows(affect.imprint, affect.outlook, affect.age)
+        rows = {origin: row._replace(charges=whole(row.charges)) for origin, row in parts.items()}
+        for origin, held in affect.imprint.held.items():
+            row = self._fading.held(held, affect.time)
+            rows[origin] = merged(rows[origin], row) if origin in rows else row
         rows[Origin(TEMPERAMENT)] = LedgerRow({}, self._fading.baseline, affect.time)
         for name, need in self._fading.needs(affect.imprint.needs, affect.age).items():
             rows[Origin(cause_of(name))] = LedgerRow({}, need.mood, affect.time)
@@ -272,17 +476,27 @@ class Dynamics:
         elif label not in MOODS:
             remedy = did_you_mean(label, (*NAMES, *MOODS))
             raise HriError(f'no emotion and no mood "{label}" - {remedy}')
-        elif label == CALM or label != mood_name(self.mood(affect)):
+        elif label == CALM or label != self._mood_name(affect):
             parts = {}
         else:
             parts = _toward_sum(ledger)
-        whole = sum(part for part in parts.values() if part > 0)
+        total = sum(part for part in parts.values() if part > 0)
         causes = [
-            Cause(origin.name, part / whole, affect.time - ledger[origin].time, origin.person)
+            Cause(
+                origin.name,
+                part / total,
+                affect.time - ledger[origin].time,
+                origin.person,
+                lasts=_lasts(affect, origin),
+            )
             for origin, part in parts.items()
             if part > 0
         ]
         return tuple(sorted(causes, key=lambda cause: (-cause.share, cause.name)))
+
+    def said(self, affect: Affect) -> Mapping[str, str]:
+        """What is said of goals, deeds and things after "because", by the name of the cause."""
+        return affect.imprint.words
 
     # What an event finds and leaves.
 
@@ -298,22 +512,80 @@ class Dynamics:
         seconds = time - imprint.time
         if seconds == 0:
             return imprint
-        return Imprint(
+        named_at = _last_naming(Affect(time, imprint, affect.outlook))
+        rows = self._fading.rows(imprint, affect.outlook, seconds)
+        found = Imprint(
             time,
-            pruned(self._fading.rows(imprint, affect.outlook, seconds), time),
+            pruned(rows, time),
             {},
             self._fading.needs(imprint.needs, seconds),
             imprint.habituation,
             imprint.relations,
             label_at(affect.outlook.course, seconds),
+            imprint.held,
+            self._mood_named_at(affect, named_at),
+            named_at,
+            imprint.words,
+            imprint.soothed,
         )
+        return self._without_faded(found) if imprint.held or imprint.words else found
+
+    def _without_faded(self, imprint: Imprint) -> Imprint:
+        """Without states of which nothing is left to feel, and words that nobody needs any more."""
+        for origin, held in imprint.held.items():
+            if held.until <= imprint.time:
+                held = self._fading.ended(held)
+                imprint = imprint._replace(held={**imprint.held, origin: held})
+            if held.is_over and all(
+                held.at(level, imprint.time) < FORGOTTEN for level in held.levels.values()
+            ):
+                imprint = self._let_go(imprint, origin)
+        if imprint.words:
+            causes = {origin.name for origin in (*imprint.ledger, *imprint.held)}
+            if not causes >= imprint.words.keys():
+                kept = {name: said for name, said in imprint.words.items() if name in causes}
+                imprint = imprint._replace(words=kept)
+        return imprint
 
     def _affect(self, imprint: Imprint) -> Affect:
         """The state just after an imprint."""
         older = driven_out(imprint.ledger, imprint.fresh)
-        charges, mood = sums(imprint, older)
-        ahead = course(imprint.label, charges, self._fading.rates)
-        return Affect(imprint.time, imprint, Outlook(older, charges, mood, ahead))
+        turned = turns(imprint.fresh)
+        charges, mood = sums(imprint, older, turned)
+        lines = [line for held in imprint.held.values() for line in lines_of(held, imprint.time)]
+        ahead = course(imprint.label, charges, self._fading.rates, lines)
+        affect = Affect(imprint.time, imprint, Outlook(older, charges, mood, ahead, turned))
+        if turned:
+            name = mood_name(self._fading.read(affect)[1])
+            affect = affect._replace(imprint=imprint._replace(mood=name, named_at=imprint.time))
+        return affect
+
+
+def _last_naming(affect: Affect) -> float:
+    """When the mood was named last: once an emotion has given way to it, and each MOOD_S."""
+    now, imprint = affect.time, affect.imprint
+    at, emotion = affect.outlook.course[-1]
+    since = imprint.named_at
+    if emotion == NOTHING and at > 0.0 and imprint.time + at <= now:
+        since = imprint.time + at
+    return since + int((now - since) / MOOD_S) * MOOD_S
+
+
+def _lasts(affect: Affect, origin: Origin) -> bool:
+    held = affect.imprint.held.get(origin)
+    return held is not None and not held.is_over and affect.time < held.until
+
+
+def _soothed(
+    imprint: Imprint, about: Sequence[Origin], shares: Mapping[str, float], amends: Origin
+) -> Imprint:
+    """After someone made up for what they did."""
+    ledger, (fallen, deed, emotion) = soothed(imprint.ledger, about, shares)
+    imprint = imprint._replace(ledger=ledger)
+    if fallen < RELIEVED:
+        return imprint
+    last = Soothed(deed.name, amends.name, deed.person, emotion, imprint.time)
+    return imprint._replace(soothed=last)
 
 
 def _with_charges(fresh: Fresh, origin: Origin, charges: Mapping[str, float]) -> Fresh:

@@ -3,7 +3,8 @@
     du/dt = -u / tau_emotion            dq/dt = (q_resting - q) / tau_drive
     dm/dt = -m / tau_return + sum(PAD * u) / tau_follow + sum(PAD * (q - q_resting)) / tau_return
 
-for charges u, needs q and the mood m (pleasure, arousal, dominance, off the baseline). An
+for charges u, needs q and the mood m (pleasure, arousal, dominance, off the baseline). Slow parts
+of emotions and what is held pull it with less force, since they do for longer (CALMLY). An
 exponential decay of rate a, in something that itself decays at rate b, leaves the convolution of
 both, exp(-slow t) (1 - exp(-gap t)) / gap with slow = min(a, b) and gap = |a - b|. Written so, with
 expm1, nearly equal rates and huge times are harmless.
@@ -16,12 +17,15 @@ from math import atanh, exp, expm1, tanh
 from typing import NamedTuple
 
 from hri.emotion.affect import Affect, Imprint, Need, Outlook
-from hri.emotion.emotions import EMOTIONS, NAMES
+from hri.emotion.emotions import EMOTIONS, INDEX, NAMES, PART_OF
+from hri.emotion.held import Held, Level
 from hri.emotion.ledger import STILL, Axes, LedgerRow, Origin, merged
 from hri.emotion.personality import Personality
 
 FORGOTTEN = 1e-15
 """A charge below this is dropped when something new happens."""
+CALMLY = 0.25
+"""Of the force of a pulse, that of a slow part and of a state that goes on."""
 _UNFELT = dict.fromkeys(NAMES, 0.0)
 _NO_GAP = -1e-200
 """Instead of a gap of 0, so that (1 - exp(-gap t)) / gap is t as it ought to be."""
@@ -52,16 +56,27 @@ class Fading:
         self.baseline = (pleasure, arousal, dominance)
         """Of the mood, before the tanh."""
         self._return_rate = 1.0 / personality.return_s
-        self.rates = {emotion.name: 1.0 / personality.tau_s(emotion) for emotion in EMOTIONS}
-        """Decay of each emotion's charge, 1/s."""
+        self.rates = {
+            part: 1.0 / personality.tau_s(EMOTIONS[INDEX[name]], is_slow=part != name)
+            for part, name in PART_OF.items()
+        }
+        """Decay of each part of an emotion, 1/s."""
         follow_rate = 1.0 / personality.follow_s
-        self._emotions = {
-            emotion.name: self._force(
-                self.rates[emotion.name],
-                follow_rate,
-                (emotion.pleasure, emotion.arousal, emotion.dominance),
+        self._pulls = {
+            emotion.name: tuple(
+                CALMLY * follow_rate * axis
+                for axis in (emotion.pleasure, emotion.arousal, emotion.dominance)
             )
             for emotion in EMOTIONS
+        }
+        """Speed at which a charge of 1 that is held pulls the mood, 1/s."""
+        self._emotions = {
+            part: self._force(
+                self.rates[part],
+                follow_rate if part == emotion.name else CALMLY * follow_rate,
+                (emotion.pleasure, emotion.arousal, emotion.dominance),
+            )
+            for part, emotion in ((part, EMOTIONS[INDEX[name]]) for part, name in PART_OF.items())
         }
         self._drives = {
             drive.name: self._force(
@@ -85,7 +100,7 @@ class Fading:
         """
         now, imprint, outlook = affect
         seconds = now - imprint.time
-        forces, mood_rate, intensities = self._emotions, self._return_rate, _UNFELT.copy()
+        forces, mood_rate, felt = self._emotions, self._return_rate, dict[str, float]()
         kept = exp(-mood_rate * seconds)
         p, a, d = outlook.mood
         p, a, d = p * kept, a * kept, d * kept
@@ -94,11 +109,12 @@ class Fading:
             if slow == mood_rate:
                 held = charge * kept
                 lost = held * expm1(gap * seconds)
-                intensities[name] = -expm1(-(held + lost))
+                charge = held + lost
             else:
-                held = charge * exp(-slow * seconds)
+                charge = held = charge * exp(-slow * seconds)
                 lost = held * expm1(gap * seconds)
-                intensities[name] = -expm1(-held)
+            emotion = PART_OF[name]
+            felt[emotion] = felt.get(emotion, 0.0) + charge
             p += lost * pleasure
             a += lost * arousal
             d += lost * dominance
@@ -119,6 +135,16 @@ class Fading:
                 a += lost * arousal
                 d += lost * dominance
             levels[name] = level
+        for state in imprint.held.values():
+            charges, (pleasure, arousal, dominance), _ = self.held(state, now)
+            for name, charge in charges.items():
+                felt[name] = felt.get(name, 0.0) + charge
+            p += pleasure
+            a += arousal
+            d += dominance
+        intensities = _UNFELT.copy()
+        for name, charge in felt.items():
+            intensities[name] = -expm1(-charge) or 0.0
         pleasure, arousal, dominance = self.baseline
         return intensities, (tanh(pleasure + p), tanh(arousal + a), tanh(dominance + d)), levels
 
@@ -130,10 +156,40 @@ class Fading:
         for origin, (charges, (p, a, d), time) in outlook.older.items():
             mood = p * kept, a * kept, d * kept
             rows[origin] = _evolved(charges, steps, mood, time)
+        turned = outlook.turned
         for origin, charges in imprint.fresh.items():
-            row = _evolved(charges, steps, STILL, imprint.time)
+            p, a, d = turned.get(origin, STILL)
+            row = _evolved(charges, steps, (p * kept, a * kept, d * kept), imprint.time)
             rows[origin] = merged(rows[origin], row) if origin in rows else row
         return rows
+
+    def held(self, state: Held, now: float) -> LedgerRow:
+        """What a state is worth by emotion at a time, and what it has done to the mood."""
+        if now > state.until:
+            state = self.ended(state)
+        seconds, mood_rate = now - state.since, self._return_rate
+        kept = exp(-mood_rate * seconds)
+        steady = -expm1(-mood_rate * seconds) / mood_rate
+        # The convolution of what is still on its way with the way back of the mood.
+        gap = abs(state.rate - mood_rate) or -_NO_GAP
+        moving = exp(-min(state.rate, mood_rate) * seconds) * -expm1(-gap * seconds) / gap
+        p, a, d = state.mood
+        p, a, d = p * kept, a * kept, d * kept
+        charges = {}
+        for name, level in state.levels.items():
+            pleasure, arousal, dominance = self._pulls[name]
+            pull = level.target * steady + (level.start - level.target) * moving
+            p += pull * pleasure
+            a += pull * arousal
+            d += pull * dominance
+            charges[name] = state.at(level, now)
+        return LedgerRow(charges, (p, a, d), state.since)
+
+    def ended(self, state: Held) -> Held:
+        """A state from its end on, when its levels fall."""
+        charges, mood, _ = self.held(state, state.until)
+        levels = {name: Level(charge, 0.0) for name, charge in charges.items()}
+        return Held(state.until, levels, state.fall_rate, mood, fall_rate=state.fall_rate)
 
     def needs(self, needs: Mapping[str, Need], seconds: float) -> dict[str, Need]:
         """The drives, and what they have done to the mood."""

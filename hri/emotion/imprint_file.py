@@ -9,9 +9,10 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from hri.core.errors import HriError, did_you_mean
-from hri.emotion.affect import Imprint, Need, Trace
-from hri.emotion.emotions import NAMES
-from hri.emotion.label import NOTHING
+from hri.emotion.affect import Imprint, Need, Soothed, Trace
+from hri.emotion.emotions import NAMES, PART_OF
+from hri.emotion.held import Held, Level
+from hri.emotion.label import MOODS, NOTHING
 from hri.emotion.ledger import Axes, LedgerRow, Origin
 
 T = TypeVar("T")
@@ -40,7 +41,18 @@ def encoded(imprint: Imprint) -> dict[str, Any]:
             {**_named(origin), **trace._asdict()} for origin, trace in imprint.habituation.items()
         ],
         "relations": {person: trace._asdict() for person, trace in imprint.relations.items()},
+        "held": [{**_named(origin), **_lasting(held)} for origin, held in imprint.held.items()],
+        "mood": imprint.mood,
+        "named_at": imprint.named_at,
+        "words": dict(imprint.words),
+        "soothed": None if imprint.soothed is None else imprint.soothed._asdict(),
     }
+
+
+def _lasting(held: Held) -> dict[str, Any]:
+    """What goes on; what has no end is written as null."""
+    until = None if held.until == math.inf else held.until
+    return {**held._asdict(), "levels": dict(held.levels), "until": until}
 
 
 def decoded(data: object) -> Imprint:
@@ -69,6 +81,12 @@ def decoded(data: object) -> Imprint:
             "relations", lambda entry: _trace(entry, time, lowest=-LARGEST, highest=LARGEST)
         ),
         label=label,
+        # Files of earlier versions end here.
+        held={_origin(entry): _held(entry, time) for entry in fields.entries("held", [])},
+        mood=_mood(fields),
+        named_at=fields.number("named_at", time, default=time),
+        words=_words(fields),
+        soothed=_soothed(fields, time),
     )
 
 
@@ -82,14 +100,26 @@ class Fields:
         self._data: Mapping[str, Any] = data
         self._place = place
 
+    def __contains__(self, name: str) -> bool:
+        """Whether anything stands there, null aside."""
+        return self._data.get(name) is not None
+
+    def names(self) -> tuple[str, ...]:
+        """All its names."""
+        return tuple(self._data)
+
     def value(self, name: str) -> Any:
         """Whatever stands there. Raises HriError when nothing does."""
         if name not in self._data:
             raise HriError(f"{self._place} has no {name}")
         return self._data[name]
 
-    def number(self, name: str, highest: float, lowest: float = -LATEST) -> float:
-        """A number within a range."""
+    def number(
+        self, name: str, highest: float, lowest: float = -LATEST, default: float | None = None
+    ) -> float:
+        """A number within a range; the default, if there is one, when nothing stands there."""
+        if default is not None and self._data.get(name) is None:
+            return default
         return _number(self.value(name), f"{self._place}.{name}", lowest, highest)
 
     def numbers(self, name: str) -> list[float]:
@@ -108,9 +138,9 @@ class Fields:
             raise HriError(f"{self._place}.{name} is neither true nor false")
         return value
 
-    def entries(self, name: str) -> list[Fields]:
-        """A list of objects."""
-        items = enumerate(self._list(name))
+    def entries(self, name: str, default: list[Any] | None = None) -> list[Fields]:
+        """A list of objects; the default, if there is one, when nothing stands there."""
+        items = enumerate(self._list(name) if default is None or name in self else default)
         return [Fields(item, f"{self._place}.{name}[{number}]") for number, item in items]
 
     def below(self, name: str) -> Fields:
@@ -125,8 +155,8 @@ class Fields:
     def charges(self, name: str) -> dict[str, float]:
         """Charges by emotion."""
         below = self.below(name)
-        for emotion in below._data:
-            _check_emotion(emotion, below._place)
+        for part in below._data:
+            _check_emotion(PART_OF.get(part, part), below._place)
         return {emotion: below.number(emotion, LARGEST, 0.0) for emotion in below._data}
 
     def _list(self, name: str) -> list[Any]:
@@ -154,6 +184,57 @@ def _axes(entry: Fields) -> Axes:
     if len(axes) != 3:
         raise HriError(f"a mood of {len(axes)} numbers, not 3")
     return axes[0], axes[1], axes[2]
+
+
+def _held(entry: Fields, time: float) -> Held:
+    levels = entry.below("levels")
+    for name in levels.names():
+        _check_emotion(name, "affect.held.levels")
+    likelihood = entry.numbers("likelihood") if "likelihood" in entry else None
+    return Held(
+        since=entry.number("since", time),
+        levels={name: _level(levels.numbers(name), LARGEST) for name in levels.names()},
+        rate=entry.number("rate", LARGEST, 1.0 / LARGEST),
+        mood=_axes(entry),
+        until=entry.number("until", LATEST, default=math.inf),
+        fall_rate=entry.number("fall_rate", LARGEST, 1.0 / LARGEST),
+        likelihood=None if likelihood is None else _level(likelihood, 1.0),
+        peak=entry.number("peak", 1.0, 0.0),
+    )
+
+
+def _level(ends: list[float], highest: float) -> Level:
+    if len(ends) != 2 or not all(0.0 <= end <= highest for end in ends):
+        raise HriError(f"a level of {ends!r:.60}, not from and to, 0 to {highest:g}")
+    return Level(*ends)
+
+
+def _mood(fields: Fields) -> str:
+    mood = fields.text("mood") if "mood" in fields else ""
+    if mood and mood not in MOODS:
+        raise HriError(f'affect.mood: no mood "{mood}" - {did_you_mean(mood, MOODS)}')
+    return mood
+
+
+def _words(fields: Fields) -> dict[str, str]:
+    if "words" not in fields:
+        return {}
+    words = fields.below("words")
+    return {cause: words.text(cause) for cause in words.names()}
+
+
+def _soothed(fields: Fields, time: float) -> Soothed | None:
+    if "soothed" not in fields:
+        return None
+    entry = fields.below("soothed")
+    _check_emotion(entry.text("emotion"), "affect.soothed.emotion")
+    return Soothed(
+        entry.text("deed"),
+        entry.text("amends"),
+        entry.text("person") if "person" in entry else None,
+        entry.text("emotion"),
+        entry.number("time", time),
+    )
 
 
 def _trace(entry: Fields, time: float, lowest: float, highest: float) -> Trace:

@@ -80,6 +80,8 @@ class Cause:
     """Seconds since it last happened; 0 for what always acts: drives and the temperament."""
     person: str | None = None
     """Who did it."""
+    lasts: bool = False
+    """Whether it is a state that goes on."""
 
 
 Ledger = Mapping[Origin, LedgerRow]

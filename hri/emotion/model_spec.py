@@ -22,9 +22,9 @@ class EmotionModelSpec:
         """The arithmetic of all this."""
         return Dynamics(self.personality, list(self.stimuli.values()))
 
-    def words(self, label: str) -> str:
-        """What the robot is, after "I am"."""
-        return self.display.looks[label].words
+    def words(self, label: str, intensity: float) -> str:
+        """What the robot is, after "I am", for an intensity from 0 to 1."""
+        return self.display.looks[label].said(intensity)
 
 
 def load_emotions(personality: str) -> EmotionModelSpec:

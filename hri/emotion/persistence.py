@@ -196,7 +196,7 @@ def forget(path: Path, person: str | None = None) -> bool:
 
 def people(imprint: Imprint) -> set[str]:
     """Everyone whose name is in it."""
-    origins = (*imprint.ledger, *imprint.fresh, *imprint.habituation)
+    origins = (*imprint.ledger, *imprint.fresh, *imprint.habituation, *imprint.held)
     named = {origin.person for origin in origins if origin.person is not None}
     return named | set(imprint.relations)
 
@@ -212,8 +212,20 @@ def without(imprint: Imprint, person: str) -> Imprint:
         called = {origin for origin in causes if is_named(person, origin.name.partition(".")[2])}
         return {origin: of for origin, of in causes.items() if origin not in called}
 
+    last = rest.soothed
+    if last is not None and (last.person is None or is_named(person, f"{last.deed} {last.amends}")):
+        last = None
     return rest._replace(
-        ledger=others(rest.ledger), fresh=others(rest.fresh), habituation=others(rest.habituation)
+        ledger=others(rest.ledger),
+        fresh=others(rest.fresh),
+        habituation=others(rest.habituation),
+        held=others(rest.held),
+        words={
+            cause: said
+            for cause, said in rest.words.items()
+            if not is_named(person, cause.partition(".")[2]) and not is_named(person, said)
+        },
+        soothed=last,
     )
 
 

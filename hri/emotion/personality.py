@@ -25,7 +25,7 @@ FOLDER = "emotions/personalities"
 _STRONGEST = 5.0
 """Largest factor a personality may put on an emotion."""
 _RETURN_S = 150.0
-_FOLLOW_S = 40.0
+_FOLLOW_S = 55.0
 FARTHEST = 0.9
 """A baseline lies within plus and minus this on each axis: the rest is left to what happens."""
 FACTORS = ("openness", "conscientiousness", "extraversion", "agreeableness", "neuroticism")
@@ -67,10 +67,10 @@ class Personality:
         """Factor on what the emotion is charged with."""
         return self._general(emotion).gain * self._special(emotion).gain
 
-    def tau_s(self, emotion: Emotion) -> float:
-        """Seconds in which the emotion's charge falls to 1/e."""
+    def tau_s(self, emotion: Emotion, is_slow: bool = False) -> float:
+        """Seconds in which the emotion's charge falls to 1/e, or its slow part."""
         persistence = self._general(emotion).persistence * self._special(emotion).persistence
-        return emotion.tau_s * persistence
+        return (emotion.slow_tau_s if is_slow else emotion.tau_s) * persistence
 
     def _general(self, emotion: Emotion) -> Temper:
         return self.positive if emotion.is_positive else self.negative

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
+from hri.emotion.affect import Soothed
 from hri.emotion.display import EmotionLook
 from hri.emotion.ledger import TEMPERAMENT, Cause
 from hri.emotion.relations import is_unnamed
@@ -16,8 +17,10 @@ ALONE = 0.9
 """With this share a cause is the reason, with less it is a part of it."""
 MOSTLY = 0.6
 """From this share on the first cause outweighs the second."""
-APPRAISED = ("goal", "action", "object")
-"""What causes begin with that have no stimulus: `goal.charger`."""
+FORGIVEN_S = 300.0
+"""Seconds for which it is worth saying that someone made up for what they did."""
+GONE = 0.05
+"""An emotion of less intensity is not felt any more."""
 ALWAYS = {
     TEMPERAMENT: ("that is how I am", "that is how I am"),
     "drive.company": ("I have had company", "I have been alone"),
@@ -36,6 +39,8 @@ ALSO_CALLED = {"afraid": "scared"}
 
 _PERSON = re.compile(r"\{([^{}]*)\}")
 """In words of a stimulus, what gives way to a name."""
+VERB_WITH_NAME = {"are": "is", "were": "was", "have": "has"}
+"""Verbs that go with a name instead: "{you are} here" becomes "Anna is here"."""
 
 _TIMELESS = re.compile(
     r"\b(am|is|are|has|have|ago|lately|recently|today|yesterday|since|always|never|"
@@ -59,9 +64,8 @@ def why_words(
 
     `feeling` is what follows "I am"; `causes` come largest first; `needs` are 0, stilled, to 1;
     `words` say of each cause by name what happened: "{you} praised me", which is "Anna praised me"
-    where it was Anna. It follows how long ago that was, unless the words are of what lasts ("my
-    battery is low") or say a time themselves. Goals, actions and objects of an appraisal are called
-    by their own name; any other cause without words is not mentioned.
+    where it was Anna. It follows how long ago that was, unless the cause lasts ("my battery is
+    low") or its words say a time themselves. A cause without words is not mentioned.
     """
     shares: dict[str, float] = {}
     for cause in causes:
@@ -87,7 +91,8 @@ def labels_called(word: str, looks: Mapping[str, EmotionLook]) -> list[str]:
     return [
         label
         for label, look in looks.items()
-        if meant in (label, look.words, look.expression) and meant != "neutral"
+        if meant not in ("", "neutral")
+        and meant in (label, look.words, look.expression, look.faintly, look.strongly)
     ]
 
 
@@ -103,10 +108,35 @@ def age_words(age_s: float) -> str:
     raise ValueError(f"an age of {age_s} s")
 
 
+def forgiven_words(
+    last: Soothed, words: Mapping[str, str], felt: str, intensity: float, asking: str | None
+) -> str:
+    """How someone made up for what they did: "I was angry because you kicked me. You said sorry,
+    so I am less angry.". Empty without words for it.
+
+    `felt` is what was felt, after "I was", and `intensity` what is left of it; `asking` is the name
+    of the person who hears it.
+    """
+    person = None if last.person == asking else last.person
+    deed, amends = (_said(words.get(name, ""), person) for name in (last.deed, last.amends))
+    if not deed or not amends:
+        return ""
+    now = f"am not {felt} any more" if intensity < GONE else f"am less {felt}"
+    return f"I was {felt} because {deed}. {amends[:1].upper()}{amends[1:]}, so I {now}."
+
+
 def _said(words: str, person: str | None) -> str:
     if person is None or is_unnamed(person):
         return _PERSON.sub(lambda found: found[1], words)
-    return _PERSON.sub(lambda found: person, words)
+    return _PERSON.sub(lambda found: _named(person, found[1]), words)
+
+
+def _named(person: str, written: str) -> str:
+    """A person in the place of "you", "your" or "you are"."""
+    pronoun, _, verb = written.partition(" ")
+    if verb:
+        return f"{person} {VERB_WITH_NAME[verb]}"
+    return f"{person}'s" if pronoun == "your" else person
 
 
 def _reason(cause: Cause, words: Mapping[str, str], needs: Mapping[str, float]) -> str:
@@ -115,11 +145,7 @@ def _reason(cause: Cause, words: Mapping[str, str], needs: Mapping[str, float]) 
         stilled, pressing = ALWAYS[cause.name]
         level = needs.get(cause.name.removeprefix("drive."), 0.0)
         return pressing if level >= PRESSING else stilled
-    kind, _, name = cause.name.partition(".")
-    if cause.name in words:
-        what = _said(words[cause.name], cause.person)
-    elif kind in APPRAISED and name:
-        what = f"of {name.replace('_', ' ')}"
-    else:
-        return ""
-    return what if _TIMELESS.search(what) else f"{what} {age_words(cause.age_s)}".rstrip()
+    what = _said(words.get(cause.name, ""), cause.person)
+    if not what or cause.lasts or _TIMELESS.search(what):
+        return what
+    return f"{what} {age_words(cause.age_s)}".rstrip()

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from hri.emotion.emotions import EMOTIONS
+from hri.emotion.emotions import EMOTIONS, INDEX, PART_OF
 
 FADES_S = 30 * 86400.0
 """Seconds in which a regard falls to 1/e."""
@@ -21,8 +21,10 @@ WEIGHT = 0.5
 MOST = 200
 """People that are remembered; of more the most indifferent one is forgotten."""
 
-SIGNS = {emotion.name: 1.0 if emotion.is_positive else -1.0 for emotion in EMOTIONS}
-"""1 for each emotion that pleases, -1 for the others."""
+SIGNS = {part: 1.0 if EMOTIONS[INDEX[name]].is_positive else -1.0 for part, name in PART_OF.items()}
+"""1 for each part of an emotion that pleases, -1 for the others."""
+MISSED_S = 3600.0
+"""Seconds without a friend after which two thirds of how much it can miss them is reached."""
 
 
 def is_unnamed(person: str) -> bool:

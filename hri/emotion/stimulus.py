@@ -24,9 +24,30 @@ MOST = 1000
 """Stimuli at most, in all files."""
 _STRONGEST = 0.95
 _FULL = parse_formula("1")
-_WORDS = re.compile(r"(?:[^{}]|\{[^{}\s]+\})*")
+_WORDS = re.compile(r"(?:[^{}]|\{[^{}\s]+(?: (?:are|were|have))?\})*")
+_PASTS = {"am": "was", "is": "was", "are": "were", "has": "had", "have": "had", "may": "might"}
+_PRESENT = re.compile(rf"\b({'|'.join(_PASTS)})\b")
 _NAME = re.compile(r"[\w-]{1,60}", re.ASCII)
 _TRIGGER = re.compile(r"[\w-]+(\.[\w-]+)+", re.ASCII)
+
+
+@dataclass(frozen=True, slots=True)
+class HeldSpec:
+    """How a state lasts: its emotions rise while it goes on, and fall when it is over."""
+
+    rise_s: float = 2.0
+    """Seconds in which all but 1/e of the way is gone."""
+    fall_s: float = 10.0
+    """Seconds in which they fall to 1/e."""
+    for_s: float = math.inf
+    """Seconds after which it is over, unless it is felt again; infinite: when it is felt with an
+    intensity of 0."""
+    ended_by: str = ""
+    """The event that ends it; empty for none."""
+    as_liked: bool = False
+    """Whether it counts as much as the robot likes the person: half as much for a stranger."""
+    past: str = ""
+    """What is said of it after "because" once it is over; empty: the words in the past tense."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,8 +75,21 @@ class StimulusSpec:
     """What it adds to the liking of who does it, in full strength, -1 to 1."""
     person: str = ""
     """The person behind events without a property `person`; empty for none."""
+    held: HeldSpec | None = None
+    """How it lasts, where it is not a moment but a state; None: it fades from the first."""
+    soothes: Mapping[str, float] = field(default_factory=dict)
+    """Share of each emotion about the same person's deeds that goes in full strength, 0 to 1."""
+    reunion: float = 0.0
+    """Charge of lasting joy that the robot's best friend brings after a long absence."""
     expects: tuple[Expectation, ...] = ()
     """What must be felt after it, for `hri emotion check`."""
+
+    @property
+    def past_words(self) -> str:
+        """What is said once it is over, where it lasts."""
+        if self.held is None:
+            return self.words
+        return self.held.past or _PRESENT.sub(lambda verb: _PASTS[verb[0]], self.words, count=1)
 
     def charges(self) -> list[float]:
         """Charge it adds to each emotion in full strength, in the order of the table."""
@@ -116,11 +150,35 @@ def _stimulus(name: str, table: Table) -> StimulusSpec:
         satisfies=_satisfied(table.table("satisfies", optional=True)),
         relation=table.number("relation", 0.0, minimum=-1, maximum=1),
         person=_text(table, "person", ""),
+        held=_held(table.table("held")) if "held" in table else None,
+        soothes=_soothed(table.table("soothes", optional=True)),
+        reunion=table.number("reunion", 0.0, minimum=0, maximum=5),
         expects=expectations_in(table),
     )
+    if stimulus.held and stimulus.habituates:
+        remedy = "leave out the habituation: what lasts does not wear off"
+        raise table.error("habituation", f"{name} is held and habituates", remedy)
     habituation.finish()
     table.finish()
     return stimulus
+
+
+def _held(table: Table) -> HeldSpec:
+    held = HeldSpec(
+        rise_s=table.number("rise_s", 2.0, minimum=0.1, maximum=86400),
+        fall_s=table.number("fall_s", 10.0, minimum=0.1, maximum=86400),
+        for_s=table.number("for_s", math.inf, minimum=0.1, maximum=math.inf),
+        ended_by=_trigger(table, "ended_by"),
+        as_liked=table.flag("as_liked"),
+        past=_words(table, "past", ""),
+    )
+    table.finish()
+    return held
+
+
+def _soothed(table: Table) -> dict[str, float]:
+    emotions_in(table)
+    return table.weights()
 
 
 def _text(table: Table, name: str, default: str = REQUIRED) -> str:
@@ -131,19 +189,19 @@ def _text(table: Table, name: str, default: str = REQUIRED) -> str:
     return text
 
 
-def _words(table: Table) -> str:
-    words = _text(table, "words")
+def _words(table: Table, name: str = "words", default: str = REQUIRED) -> str:
+    words = _text(table, name, default)
     if not _WORDS.fullmatch(words):
         remedy = 'put one word in braces, such as "{you} praised me", or none'
-        raise table.error("words", f'"{words}" has a brace too many', remedy)
+        raise table.error(name, f'"{words}" has a brace too many', remedy)
     return words
 
 
-def _trigger(table: Table) -> str:
-    trigger = table.string("trigger", "")
+def _trigger(table: Table, name: str = "trigger") -> str:
+    trigger = table.string(name, "")
     if trigger and not _TRIGGER.fullmatch(trigger):
         remedy = 'write an event, "bumper.pressed", or a port, "battery.level"'
-        raise table.error("trigger", f'"{trigger}" is not a trigger', remedy)
+        raise table.error(name, f'"{trigger}" is not a trigger', remedy)
     return trigger
 
 

@@ -1,7 +1,8 @@
 """What happens on the robot becomes stimuli: events by name, and ports of behaviors.
 
 An event is felt each time it is raised. A port is felt when the formula of its stimulus rises above
-zero, so that it does not matter how often the port is read; it counts again after a zero.
+zero, so that it does not matter how often the port is read; it counts again after a zero. What
+lasts is felt as strongly as its event or port says, until that is zero or another event ends it.
 """
 
 from __future__ import annotations
@@ -17,6 +18,8 @@ from hri.core.event_bus import Subscription
 from hri.core.signals import Event
 from hri.emotion.stimulus import StimulusSpec
 
+STEP = 0.05
+"""A change of the intensity of a state that counts; less is too little to be felt."""
 MOST_REFUSED = 100
 """Most stimuli whose refusals are reported, so that nonsense does not fill the memory."""
 
@@ -44,11 +47,17 @@ class Triggers:
         self._context = context
         self._feel = feel
         self._refused: set[str] = set()
+        stimuli = list(stimuli)
         self._triggered = [spec for spec in stimuli if spec.trigger]
         subscribe = context.events.subscribe
         self._subscriptions: list[Subscription] = [
             subscribe("stimulus.felt", self._on_felt),
             *(subscribe(spec.trigger, partial(self._on_event, spec)) for spec in self._triggered),
+            *(
+                subscribe(spec.held.ended_by, partial(self._on_end, spec))
+                for spec in stimuli
+                if spec.held is not None and spec.held.ended_by
+            ),
         ]
         self._watches: dict[str, tuple[Running, Watch]] = {}
         """Ports that turned out to be triggers, and what runs them, by stimulus."""
@@ -97,13 +106,23 @@ class Triggers:
         self.feel(name, properties.get("intensity", 1.0), properties.get("person"))
 
     def _on_event(self, spec: StimulusSpec, event: Event) -> None:
-        if (intensity := self._intensity(spec, event.properties)) > 0:
+        intensity = self._intensity(spec, event.properties)
+        if intensity > 0 or spec.held is not None:
             self.feel(spec.name, intensity, spec.doer(event.properties))
+
+    def _on_end(self, spec: StimulusSpec, event: Event) -> None:
+        self.feel(spec.name, 0.0, spec.doer(event.properties))
 
     def _on_port(self, spec: StimulusSpec, value: Any, now: float) -> None:
         intensity = self._intensity(spec, {"value": value})
-        before, self.levels[spec.name] = self.levels.get(spec.name, 0.0), intensity
-        if before == 0.0 < intensity:
+        before = self.levels.get(spec.name, 0.0)
+        is_other = spec.held is not None and (
+            abs(intensity - before) >= STEP or (intensity == 0.0) != (before == 0.0)
+        )
+        is_new = before == 0.0 < intensity
+        if spec.held is None or is_new or is_other:
+            self.levels[spec.name] = intensity
+        if is_new or is_other:
             self.feel(spec.name, intensity, spec.doer({}))
 
     def _intensity(self, spec: StimulusSpec, properties: Mapping[str, Any]) -> float:

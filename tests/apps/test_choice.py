@@ -4,10 +4,10 @@ import re
 
 import pytest
 
-from hri.conversation.feelings import FEELINGS
 from hri.core.clock import FakeClock
 from hri.core.errors import AuthoringError
 from hri.emotion.behaviors import EmotionModel
+from hri.emotion.everyday_words import FEELINGS
 from hri.robot import Robot
 from tests.apps.test_own_app import JOKE, live, named, put, robot_of, shown  # noqa: F401
 from tests.devices import TYPED

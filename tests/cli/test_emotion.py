@@ -122,7 +122,7 @@ def test_simulate_prints_a_state_for_each_event_and_time(
 def test_printed_shares_add_up_to_a_hundred(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    names = ("praise", "person_seen", "scold", "bump", "ignored", "battery_low", "praise")
+    names = ("praise", "person_seen", "scold", "bump", "insulted", "cliff_found", "praise")
     lines = [f"{3 * n} {name} 0.{n + 3}" for n, name in enumerate(names)]
     (tmp_path / "visit.txt").write_text("\n".join(lines))
     words = ["--events", str(tmp_path / "visit.txt"), "--at", "60,200,400,900"]
@@ -194,7 +194,8 @@ def test_the_names_in_a_drawing_can_be_read() -> None:
     dynamics = load_emotions("neutral").dynamics()
     whiles = [0.0, 0.1, 0.2, 1.0, 1.1, 5.0, 20.0, 20.5, 21.0, 60.0] + [90.0] * 20
     timeline = [Happening(time, Stimulus("praise", 1.0)) for time in whiles]
-    figure = figure_of(dynamics, list(play(dynamics, timeline, [])), timeline)
+    named = [(time, "praise") for time in whiles]
+    figure = figure_of(dynamics, list(play(dynamics, timeline, [])), named)
     figure.draw_without_rendering()
     for axes in figure.axes:
         boxes = [text.get_window_extent() for text in axes.texts]

@@ -11,8 +11,8 @@ from hri.conversation.choosing import (
     Wording,
     pools,
 )
-from hri.conversation.feelings import FEELINGS, KNOWN_FEELINGS, fitting
 from hri.emotion.emotions import NAMES
+from hri.emotion.everyday_words import FEELINGS, KNOWN_FEELINGS, fitting
 from hri.emotion.label import MOODS
 
 LABELS = (*NAMES, *MOODS)

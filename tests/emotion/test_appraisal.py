@@ -16,6 +16,7 @@ from hri.emotion.appraisal import (
 )
 from hri.emotion.dynamics import Dynamics
 from hri.emotion.emotions import NAMES
+from hri.emotion.ledger import Origin
 from hri.emotion.personality import Personality, Temper
 from tests.emotion.streams import NEUTRAL, goals
 
@@ -88,17 +89,18 @@ def test_hope_ends_when_it_is_decided() -> None:
 
 def test_hope_for_one_goal_leaves_the_fear_for_another() -> None:
     afraid = NEUTRAL.appraise(NEUTRAL.rest(), goal(-1.0, 0.2, 0.9), 0.0)
-    before = NEUTRAL.charges(NEUTRAL.advance(afraid, 1.0))["fear"]
+    origin = Origin("goal.goal")
+    before = NEUTRAL.ledger(NEUTRAL.advance(afraid, 1.0))[origin].charges["fear"]
 
     hopeful = NEUTRAL.appraise(afraid, GoalEvent("another", 1.0, 0.9), 1.0)
-    assert NEUTRAL.charges(hopeful)["fear"] == pytest.approx(before)
+    assert NEUTRAL.ledger(hopeful)[origin].charges["fear"] == pytest.approx(before)
     assert NEUTRAL.charges(hopeful)["hope"] > 0.0
 
     safer = NEUTRAL.appraise(afraid, goal(-1.0, 0.9, 0.2), 1.0)
     assert NEUTRAL.charges(safer)["fear"] < 0.7 * before
 
 
-@pytest.mark.parametrize(("utility", "saved"), [(0.8, 1.0), (-0.8, 0.0)])
+@pytest.mark.parametrize(("utility", "saved"), [(0.9, 1.0), (-0.9, 0.0)])
 def test_pity_ends_when_the_goal_is_saved(utility: float, saved: float) -> None:
     anna = {"owner": "Anna", "liking": 0.9}
     endangered = goal(utility, 0.5, 0.9 if utility < 0 else 0.1, **anna)

@@ -53,12 +53,14 @@ def test_praise_makes_happy_for_a_while_and_lifts_the_mood() -> None:
     feeling.live(1.0)
     feeling.context.events.raise_event("stimulus.felt", stimulus="praise", intensity=1.0)
     state = feeling.live(15.0)
-    assert state.label == "joy"
     assert state.valence > 0.15
     state = feeling.live(20.0)
-    assert state.label == "exuberant"
+    assert state.label == state.mood == "exuberant"
+    assert feeling.model.feeling_words() == "fine"
     assert abs(feeling.live(600.0).valence) < 0.03
-    assert feeling.labels() == ["calm", "joy", "exuberant", "calm"]
+    assert feeling.labels()[:3] == ["calm", "joy", "exuberant"]
+    assert feeling.labels()[-1] == "calm"
+    assert len(feeling.labels()) <= 6
 
 
 @pytest.mark.parametrize(
@@ -81,13 +83,17 @@ def test_a_bump_surprises_and_then_annoys() -> None:
 def test_being_ignored_makes_sad_slowly() -> None:
     feeling = Feeling()
     intensities = []
-    for _ in range(4):
+    for _ in range(24):
         feeling.model.feel("ignored")
         intensities.append(feeling.model.feeling().emotions["sadness"])
-        feeling.live(15.0)
-    assert feeling.labels()[0] == "sadness"
-    assert intensities[0] < intensities[1] < 0.5
+        feeling.live(25.0)
+    assert feeling.labels() == ["calm", "sadness"]
+    assert intensities == sorted(intensities)
+    assert intensities[1] < 0.25 < intensities[-1] <= 0.45
     assert feeling.model.feeling().valence < -0.1
+    assert feeling.model.why_words() == "I am sad because nobody has talked to me for a while."
+    feeling.live(120.0)
+    assert feeling.model.feeling().emotions["sadness"] < 0.05
 
 
 @pytest.mark.proves("B24", "R04")
@@ -125,7 +131,7 @@ def test_it_says_why() -> None:
     assert (cause.name, cause.share, cause.age_s) == ("scold", 1.0, pytest.approx(1.0))
     assert feeling.model.why_words() == "I am sad because you scolded me."
     assert feeling.model.feeling_words() == "sad"
-    assert Feeling("pessimist").model.why_words() == "I am a bit down because that is how I am."
+    assert Feeling("pessimist").model.why_words() == "I am not at my best because that is how I am."
 
 
 def test_who_praised_it_is_named_unless_it_is_the_one_who_asks() -> None:
@@ -306,7 +312,12 @@ def test_the_mood_is_told_by_its_name_when_that_changes() -> None:
     feeling.live(1.0)
     feeling.model.feel("praise")
     feeling.live(400.0)
-    assert [event.properties["label"] for event in moods] == ["calm", "exuberant", "calm"]
+    names = [event.properties["label"] for event in moods]
+    assert names[0] == names[-1] == "calm"
+    assert 3 <= len(names) <= 5
+    # It is named once joy has faded, and from then on each minute.
+    gaps = [later.time - one.time for one, later in pairwise(moods[1:])]
+    assert min(gaps) >= 59.0
     assert set(moods[1].properties) == {"label", "pleasure", "arousal", "dominance"}
     assert moods[1].properties["pleasure"] > 0.05
 
@@ -318,7 +329,7 @@ def test_the_valence_that_is_told_is_the_pleasure_of_the_mood() -> None:
     told = feeling.events[-1].properties
     assert feeling.model.mood.value is not None
     assert told["valence"] == pytest.approx(feeling.model.mood.value[0], abs=0.15)
-    assert told["valence"] < 0
+    assert told["valence"] <= 0
 
 
 @given(st.lists(st.floats(0.01, 30.0), max_size=20))
@@ -341,7 +352,7 @@ def test_hopes_and_deeds_are_appraised() -> None:
     feeling = Feeling()
     feeling.model.appraise(GoalEvent("charger", utility=0.9, likelihood_after=0.9))
     assert feeling.model.feeling().label == "hope"
-    assert feeling.model.why_words() == "I am hopeful because of charger."
+    assert feeling.model.why_words() == "I am hopeful because of the charger."
     feeling.live(5.0)
     feeling.model.appraise(GoalEvent("charger", 0.9, likelihood_before=0.9, likelihood_after=0.0))
     assert feeling.model.feeling().emotions["disappointment"] > 0.5

@@ -58,7 +58,6 @@ def test_what_pulls_the_other_way_or_has_no_words_is_not_told() -> None:
         ("drive.company", {"company": 0.9}, "I have been alone"),
         ("drive.company", {"company": 0.1}, "I have had company"),
         ("drive.energy", {"energy": 1.0, "company": 0.0}, "my battery runs down"),
-        ("goal.find_the_charger", {}, "of find the charger"),
     ],
 )
 def test_what_is_no_stimulus_has_words_too(

@@ -6,13 +6,14 @@ import argparse
 from contextlib import nullcontext
 
 from hri.cli import forget
-from hri.cli.emotion import check, list, simulate, watch
+from hri.cli.emotion import check, list, simulate, story, watch
 from hri.cli.terminal.progress_line import waiting
 
 COMMANDS = {
     "check": (check, "load all emotion files, run their self-tests, report what is wrong"),
     "list": (list, "show personalities, stimuli and emotions"),
     "simulate": (simulate, "play events and print the feelings"),
+    "story": (story, "play stories and say where the feelings are not as they expect"),
     "watch": (watch, "show what a running robot feels"),
     "forget": (forget, "the same as `hri forget`"),
 }

@@ -11,14 +11,15 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from hri.cli.emotion.stimulus_timeline import Happening
-from hri.core.signals import EmotionState, Stimulus
+from hri.core.signals import EmotionState
 from hri.core.writing import write_bytes
 from hri.emotion.affect import Affect
-from hri.emotion.appraisal import appraise
 from hri.emotion.dynamics import Dynamics
 from hri.robot.feeling_plot import MOOD_COLORS
 from hri.robot.labels import placed
+
+Named = tuple[float, str]
+"""When something happens, in seconds, and what it is called."""
 
 POINTS = 600
 """Number of evenly spaced samples; events are added."""
@@ -37,23 +38,21 @@ LONGEST_NAME = 38
 
 
 def plot_affects(
-    dynamics: Dynamics, affects: Sequence[Affect], timeline: Sequence[Happening], path: Path
+    dynamics: Dynamics, affects: Sequence[Affect], events: Sequence[Named], path: Path
 ) -> None:
-    """Draw a simulation to a PNG file. Raises HriError when it cannot be written."""
-    figure = figure_of(dynamics, affects, timeline)
+    """Draw the feelings of a while to a PNG file. Raises HriError when it cannot be written."""
+    figure = figure_of(dynamics, affects, events)
     picture = io.BytesIO()
     figure.savefig(picture, dpi=DPI, format="png", metadata={"Software": "hri"})
     write_bytes(path, picture.getvalue())
 
 
-def figure_of(
-    dynamics: Dynamics, affects: Sequence[Affect], timeline: Sequence[Happening]
-) -> Figure:
-    """Mood, emotions and drives over the time of a simulation."""
+def figure_of(dynamics: Dynamics, affects: Sequence[Affect], events: Sequence[Named]) -> Figure:
+    """Mood, emotions and drives over time, with the events above."""
     figure = Figure(figsize=(12, 9), dpi=DPI, layout="constrained")
     FigureCanvasAgg(figure)
     mood, emotions, drives = figure.subplots(3, 1, sharex=True, height_ratios=[2, 2, 1])
-    times, states = _sampled(dynamics, affects, timeline)
+    times, states = _sampled(dynamics, affects, events)
     axes = {
         "pleasure": [state.valence for state in states],
         "arousal": [state.arousal for state in states],
@@ -66,7 +65,7 @@ def figure_of(
     for name in _strongest(states):
         emotions.plot(times, [state.emotions[name] for state in states], label=name)
     _finish(emotions, "emotions", -0.02)
-    _write(emotions, ((event.time, _name_of(event)[:LONGEST_NAME]) for event in timeline))
+    _write(emotions, ((time, name[:LONGEST_NAME]) for time, name in events))
     for name in states[0].drives if states else ():
         drives.plot(times, [state.drives[name] for state in states], label=name)
     _finish(drives, "drives", -0.02)
@@ -75,13 +74,13 @@ def figure_of(
 
 
 def _sampled(
-    dynamics: Dynamics, affects: Sequence[Affect], timeline: Sequence[Happening]
+    dynamics: Dynamics, affects: Sequence[Affect], events: Sequence[Named]
 ) -> tuple[list[float], list[EmotionState]]:
     """States at even intervals and at all printed times, in order."""
     if not affects:
         return [], []
     first, last = affects[0].time, affects[-1].time
-    if timeline and timeline[-1].time == last:
+    if events and events[-1][0] == last:
         last += FADES_S
     even = [first + (last - first) * step / POINTS for step in range(POINTS + 1)]
     known = [affect.time for affect in affects]
@@ -125,11 +124,6 @@ def _write(axes: Axes, names: Iterable[tuple[float, str]]) -> None:
             fontsize=8,
             parse_math=False,
         )
-
-
-def _name_of(event: Happening) -> str:
-    what = event.what
-    return what.name if isinstance(what, Stimulus) else appraise(what).cause
 
 
 def _finish(axes: Axes, title: str, bottom: float) -> None:

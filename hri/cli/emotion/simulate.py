@@ -12,6 +12,7 @@ from hri.cli.emotion.output import json_line, text_line
 from hri.cli.emotion.stimulus_timeline import Happening, read_timeline, seconds
 from hri.core.signals import Stimulus
 from hri.emotion.affect import Affect
+from hri.emotion.appraisal import appraise
 from hri.emotion.dynamics import Dynamics
 from hri.emotion.model_spec import load_emotions
 
@@ -44,7 +45,8 @@ def run(options: argparse.Namespace) -> int:
     if options.plot is not None:
         from hri.cli.emotion.plot import plot_affects
 
-        plot_affects(dynamics, drawn, timeline, options.plot)
+        named = [(event.time, _name_of(event)) for event in timeline]
+        plot_affects(dynamics, drawn, named, options.plot)
     return 0
 
 
@@ -66,6 +68,11 @@ def _felt(dynamics: Dynamics, affect: Affect, event: Happening) -> Affect:
     if isinstance(what, Stimulus):
         return dynamics.feel(affect, what.name, what.intensity, event.time, event.person)
     return dynamics.appraise(affect, what, event.time)
+
+
+def _name_of(event: Happening) -> str:
+    what = event.what
+    return what.name if isinstance(what, Stimulus) else appraise(what).cause
 
 
 def _times(text: str) -> list[float]:

@@ -16,10 +16,11 @@ from hri.core.errors import HriError
 from hri.core.quoting import escaped, report
 from hri.emotion.affect import Affect
 from hri.emotion.dynamics import Dynamics
+from hri.emotion.explanation import explained
 from hri.emotion.files import EmotionFiles
 from hri.emotion.model_spec import EmotionModelSpec
 from hri.emotion.persistence import Memory, memory_file, recall
-from hri.emotion.reasons import age_words, why_words
+from hri.emotion.reasons import age_words
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -117,7 +118,6 @@ def kept(path: Path) -> Memory:
 
 def _told(model: EmotionModelSpec, dynamics: Dynamics, affect: Affect) -> str:
     state = dynamics.read(affect)
-    words = {name: spec.words for name, spec in model.stimuli.items()}
-    why = why_words(model.words(state.label), dynamics.why(affect), words, state.drives)
+    why = explained(model, dynamics, affect)
     drives = " ".join(f"{name} {level:.2f}" for name, level in state.drives.items())
     return escaped(f"{state.label} {state.intensity:.2f}  {mood_words(state)}  {drives}  {why}")
