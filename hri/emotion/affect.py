@@ -58,7 +58,7 @@ class Need(NamedTuple):
 
 
 class Soothed(NamedTuple):
-    """What somebody did, and how they made up for it."""
+    """A deed, and how its doer made up for it."""
 
     deed: str
     """Under which the ledger has it."""
@@ -66,7 +66,7 @@ class Soothed(NamedTuple):
     """The same for what made up for it."""
     person: str | None
     emotion: str
-    """What was felt most about the deed."""
+    """The strongest feeling about the deed."""
     time: float
     """Seconds."""
 
@@ -230,7 +230,7 @@ def sums(
 ) -> tuple[dict[str, float], Axes]:
     """All charges by emotion, and all pulls on the mood, just after an imprint.
 
-    `older` is what is left of its ledger, `turned` what strong fresh charges did to the mood.
+    `older` is the rest of its ledger, `turned` the effect of strong fresh charges on the mood.
     """
     total: dict[str, float] = {}
     pleasure = arousal = dominance = 0.0

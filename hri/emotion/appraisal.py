@@ -33,9 +33,9 @@ REMAINS = 0.8
 AMENDS = 0.5
 """Of the charge of a good deed, that of the relief that something is made good."""
 RESENTFUL = ("anger", "reproach", "hate", "resentment", "sadness", "disgust")
-"""What is felt about the deeds of others, and less so once they are sorry."""
+"""Feelings about the deeds of others, which fall once they are sorry."""
 GUILTY = ("shame", "remorse", "sadness")
-"""What is felt about deeds of one's own, and less so once they are made good."""
+"""Feelings about deeds of the robot itself, which fall once they are made good."""
 LONGEST_NAME = 100
 """Letters that the name of a goal, a deed, a thing or a person may have."""
 
@@ -223,7 +223,7 @@ def _deed(event: ActionEvent) -> Appraisal:
     praise = event.praiseworthiness
     cause = f"action.{event.action}"
     if event.makes_good:
-        # Whoever makes good what they did is forgiven, not admired.
+        # Amends are forgiven, not admired.
         charges = {"relief": AMENDS * _charge(praise)} if praise > 0 else {}
         if agent is None:
             charges |= _judged(SELF, praise)
@@ -248,7 +248,7 @@ def prospects(event: GoalEvent) -> tuple[dict[str, float], dict[str, float]]:
     """Charges of hope and fear for a goal of the robot's that is open: now, and in the long run.
 
     A pulse says that something has changed, these that it is not decided. They follow the expected
-    utility, utility * likelihood, of what is hoped for and of what is feared.
+    utility, utility * likelihood, of either outcome.
     """
     likely = event.likelihood_after
     in_the_end = 0.0 if event.doubt_rate else likely

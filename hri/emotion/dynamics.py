@@ -272,7 +272,7 @@ class Dynamics:
         return summed(charges, {_REUNION: more})
 
     def _goal(self, imprint: Imprint, event: GoalEvent) -> tuple[Imprint, Appraisal]:
-        """What a goal means, and what is held for it while it is open."""
+        """The meaning of a goal; as long as it is open, hope and fear are held for it."""
         origin = Origin(f"goal.{event.goal}", event.owner)
         open_goal, belief = imprint.held.get(origin), NO_BELIEF
         if open_goal is not None and open_goal.likelihood is not None:
@@ -336,7 +336,7 @@ class Dynamics:
     def _over(self, imprint: Imprint, origin: Origin) -> Imprint:
         """A state that ends now and fades: a relief, or a small loss.
 
-        How large it is follows from what was felt, as the neutral personality would.
+        How large it is follows from the charges that the neutral personality would have.
         """
         held = imprint.held[origin]
         if held.until <= imprint.time or held.is_over:

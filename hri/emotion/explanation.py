@@ -81,7 +81,7 @@ def _forgiven(
     state: EmotionState,
     asking: str | None,
 ) -> str:
-    """How someone made up for what is felt, or was felt just now; empty if nobody did."""
+    """How someone made up for the deed behind it, a short while ago; empty if nobody did."""
     last = affect.imprint.soothed
     if last is None or affect.time - last.time > FORGIVEN_S:
         return ""

@@ -164,7 +164,7 @@ class Fading:
         return rows
 
     def held(self, state: Held, now: float) -> LedgerRow:
-        """What a state is worth by emotion at a time, and what it has done to the mood."""
+        """The charges of a state at a time, and its pull on the mood until then."""
         if now > state.until:
             state = self.ended(state)
         seconds, mood_rate = now - state.since, self._return_rate

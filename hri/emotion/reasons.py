@@ -114,7 +114,7 @@ def forgiven_words(
     """How someone made up for what they did: "I was angry because you kicked me. You said sorry,
     so I am less angry.". Empty without words for it.
 
-    `felt` is what was felt, after "I was", and `intensity` what is left of it; `asking` is the name
+    `felt` is the feeling, after "I was", and `intensity` what is left of it; `asking` is the name
     of the person who hears it.
     """
     person = None if last.person == asking else last.person

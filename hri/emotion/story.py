@@ -1,4 +1,4 @@
-"""Stories: what happens to the robot, when, and what one would expect it to feel, as plain text.
+"""Stories as plain text: events in the life of the robot, and the feelings to expect of it.
 
     title: A friend comes late
     0:00   hope: Anna comes (worth 0.8, likely 0.9, within 5 min)
@@ -125,7 +125,7 @@ def load_story(path: Path, model: Callable[[str], EmotionModelSpec]) -> Story:
 
 
 def played(story: Story, model: EmotionModelSpec) -> Iterator[Moment]:
-    """What is felt after each line."""
+    """The feelings after each line."""
     dynamics = model.dynamics()
     affect = dynamics.rest(0.0)
     for line in story.lines:
@@ -331,7 +331,7 @@ def _expected(kind: str, text: str) -> Expected:
 
 
 def _options(text: str) -> tuple[str, dict[str, str]]:
-    """What stands before the brackets, and what stands in them by its first words."""
+    """The text before the brackets, and the parts within them by their first words."""
     found = _BRACKETS.fullmatch(text)
     if found is None:
         return text, {}
