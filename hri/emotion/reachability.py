@@ -75,6 +75,9 @@ def unreachable_stimuli(
         if spec.trigger and spec.trigger not in mentioned and behavior not in behaviors:
             near = did_you_mean(spec.trigger, mentioned, "raise it, or name another event or port")
             yield f'{spec.name}: nothing raises "{spec.trigger}" - {near}'
+        if spec.held is not None and spec.held.ended_by and spec.held.ended_by not in mentioned:
+            near = did_you_mean(spec.held.ended_by, mentioned, "raise it, or name another event")
+            yield f'{spec.name}: nothing raises "{spec.held.ended_by}", which ends it - {near}'
         if not spec.formula.fields and spec.intensity({}) == 0.0:
             yield f"{spec.name}: its intensity is 0 - write more"
         if not (any(spec.charges()) or spec.satisfies or spec.relation):

@@ -53,7 +53,7 @@ def run(options: argparse.Namespace) -> int:
             plot_affects(model.dynamics(), affects, happened, options.plot)
     if not options.json:
         count = f"{len(files)} stories" if len(files) != 1 else "1 story"
-        print(f"{count}: {expected - unmet} of {expected} expectations met")
+        report(f"{count}: {expected - unmet} of {expected} expectations met")
     return 1 if unmet else 0
 
 
