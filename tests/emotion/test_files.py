@@ -16,7 +16,10 @@ from hri.emotion.personality import load_personality, personality_path
 from hri.emotion.reachability import unmet_expectations, unreachable_emotions, unreachable_stimuli
 from hri.emotion.stimulus import load_stimuli
 
-SHIPPED = ("neutral", "optimist", "pessimist", "shy", "hot_tempered", "easy_going", "curious")
+SHIPPED = (
+    "neutral", "optimist", "pessimist", "shy", "hot_tempered", "easy_going", "curious", "gentle",
+    "proud", "worrier",
+)  # fmt: skip
 TICKLED = '[stimulus.tickled]\nwords = "you tickled me"\n'
 
 

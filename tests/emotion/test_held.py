@@ -3,6 +3,7 @@
 import json
 import math
 from itertools import pairwise
+from random import Random
 
 import pytest
 from hypothesis import given, settings, strategies as st
@@ -15,7 +16,7 @@ from hri.emotion.imprint_file import decoded, encoded
 from hri.emotion.ledger import Origin
 from hri.emotion.model_spec import load_emotions
 from hri.emotion.personality import load_personality, personality_names
-from hri.emotion.stimulus import HeldSpec, StimulusSpec
+from hri.emotion.stimulus import HeldSpec, StimulusSpec, load_stimuli
 from tests.emotion.streams import STIMULI, numbers
 
 HELD = (
@@ -175,6 +176,28 @@ def test_labels_do_not_flicker(personality: str) -> None:
             affect = model.feel(affect, "ignored", 1.0, float(second))
         labels.append(model.read(model.advance(affect, second + 0.5)).label)
     assert sum(one != other for one, other in pairwise(labels)) <= 5
+
+
+@pytest.mark.parametrize("personality", SHIPPED)
+def test_trivial_events_seldom_take_the_label(personality: str) -> None:
+    """Half a change a minute at most, in three half hours with a hundred events each."""
+    model = SHIPPED[personality]
+    moments = [name for name, spec in load_stimuli().items() if spec.held is None]
+    changes = 0
+    for seed in (5, 6, 7):
+        chance = Random(seed)
+        events = sorted(
+            (chance.uniform(0, 1800), chance.choice(moments), chance.uniform(0.0, 0.2))
+            for _ in range(100)
+        )
+        affect, labels = model.rest(), []
+        for second in range(1800):
+            while events and events[0][0] <= second:
+                time, name, intensity = events.pop(0)
+                affect = model.feel(affect, name, intensity, time)
+            labels.append(model.read(model.advance(affect, float(second))).label)
+        changes += sum(one != other for one, other in pairwise(labels))
+    assert changes <= 0.5 * 90
 
 
 def test_two_minutes_of_praise_do_not_last_for_ever() -> None:

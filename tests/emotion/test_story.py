@@ -89,6 +89,28 @@ def test_names_stand_where_the_words_have_somebody(tmp_path: Path) -> None:
     ]
 
 
+def test_one_story_is_another_for_each_personality() -> None:
+    """The worrier worries sooner, the proud one forgives later, the gentle one minds others."""
+
+    def lived(name: str, personality: str) -> dict[str, float]:
+        model = load_emotions(personality)
+        story = load_story(paths.house() / "emotions" / "stories" / f"{name}.txt", load_emotions)
+        moments = list(played(story, model))
+        sums = dict.fromkeys(("fear", "anger", "pity", "pride"), 0.0)
+        for moment in moments:
+            for emotion in sums:
+                sums[emotion] += moment.state.emotions[emotion]
+        return sums
+
+    neutral, worrier = (lived("the_parcel", who)["fear"] for who in ("neutral", "worrier"))
+    assert worrier > 1.2 * neutral
+    kicks = {who: lived("kicked_and_sorry", who)["anger"] for who in ("gentle", "neutral", "proud")}
+    assert kicks["gentle"] < 0.7 * kicks["neutral"] < 0.7 * kicks["proud"]
+    assert lived("sad_friend", "gentle")["pity"] > 1.1 * lived("sad_friend", "neutral")["pity"]
+    praised = {who: lived("ten_praises", who)["pride"] for who in ("neutral", "proud")}
+    assert praised["proud"] > 1.2 * praised["neutral"]
+
+
 def test_what_is_over_is_said_in_the_past(tmp_path: Path) -> None:
     text = "0:00 I am all alone\n30:00 over: I am all alone\n30:02 expect because: I was all alone"
     last = moments_of(story_of(tmp_path, text))[-1]
