@@ -41,6 +41,6 @@ def direction_words(tags: Mapping[str, Any]) -> str:
 
 def aloud(reason: str) -> str:
     """A reason for a feeling as it is said aloud, not as a record has it."""
-    reason = reason.replace(", and there is no special reason.", ". Nothing much has happened yet.")
+    reason = reason.replace(", for no special reason.", ". Nothing much has happened yet.")
     reason = reason.replace("I have had ", "I've had ").replace("I have been ", "I've been ")
     return reason.replace("that is how I am", "that's just how I am").replace("I am ", "I'm ")

@@ -44,7 +44,7 @@ def _goal(event: GoalEvent) -> str:
     if not event.is_decided:
         said = event.waiting
         if said and event.utility < 0 and event.likelihood_after < UNKNOWN:
-            return "it may not come to that"
+            return f"even though {said}"
     else:
         said = event.fulfilled if event.likelihood_after == 1.0 else event.failed
     if said:

@@ -221,7 +221,7 @@ class Dynamics:
         )
         if stimulus.spec.soothes:
             shares = {name: share * strength for name, share in stimulus.spec.soothes.items()}
-            about = [cause for cause in imprint.ledger if cause.person == person != cause.name]
+            about = [cause for cause in imprint.ledger if self._is_deed_of(cause, person)]
             imprint = _soothed(imprint, about, shares, origin)
         return self._affect(imprint)
 
@@ -250,6 +250,15 @@ class Dynamics:
             about = [cause for cause in imprint.ledger if cause.name == meaning.about]
             imprint = _soothed(imprint, about, meaning.soothes, origin)
         return self._affect(imprint)
+
+    def _is_deed_of(self, origin: Origin, person: str | None) -> bool:
+        """Whether a cause is a deed of a person: of one without a name, a stimulus that names its
+        doer.
+        """
+        if origin.person is not None or person is not None:
+            return origin.person == person
+        stimulus = self._stimuli.get(origin.name)
+        return stimulus is not None and "{" in stimulus.spec.words
 
     def _met(
         self,

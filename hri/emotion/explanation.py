@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from hri.core.signals import EmotionState
 from hri.emotion.affect import Affect
 from hri.emotion.dynamics import Dynamics
-from hri.emotion.label import MOODS
+from hri.emotion.emotions import EMOTIONS, INDEX, NAMES
+from hri.emotion.label import MOODS, OCTANTS
 from hri.emotion.ledger import Cause
 from hri.emotion.model_spec import EmotionModelSpec
-from hri.emotion.reasons import FORGIVEN_S, forgiven_words, labels_called, why_words
+from hri.emotion.reasons import EVEN_THOUGH, FORGIVEN_S, forgiven_words, labels_called, why_words
 
 FAINT = 0.05
 """An emotion of less than this is not felt, when someone asks why it is."""
 CLEAR = 0.25
 """From this on it is more than a little."""
+PLEASANT = frozenset(name for name in NAMES if EMOTIONS[INDEX[name]].is_positive) | {
+    name for (is_pleasant, *_), name in OCTANTS.items() if is_pleasant
+}
+"""Labels of feelings that please."""
+_UNMET = re.compile(r"\b(not|yet|no)\b|n't\b")
+"""In the words of an open goal, what speaks against it."""
 FRESH_S = 60.0
 """Seconds for which a deed that was made good explains a mood, whatever else pulls at it."""
 
@@ -57,13 +65,24 @@ def _because(
 ) -> str:
     """One sentence about a label of which the robot is `feeling`."""
     causes, words = dynamics.why(affect, label), _words(model, dynamics, affect)
+    is_pleasant = label in PLEASANT
     if forgiven := _forgiven(model, affect, label, causes, words, state, asking):
         return forgiven
     for cause in causes:
         if cause.name in model.stimuli and not cause.lasts:
-            words[cause.name] = model.stimuli[cause.name].past_words
+            words[cause.name] = model.stimuli[cause.name].past_words(is_pleasant)
+        elif cause.lasts and label == "hope" and _UNMET.search(words.get(cause.name, "")):
+            words[cause.name] = f"{EVEN_THOUGH} {words[cause.name]}"
+    if causes and not is_pleasant and _is_over(model, causes[0]):
+        feeling = f"still {feeling}"
     heard = [replace(cause, person=None) if cause.person == asking else cause for cause in causes]
     return why_words(feeling, heard, words, state.drives)
+
+
+def _is_over(model: EmotionModelSpec, cause: Cause) -> bool:
+    """Whether it was a state that has ended."""
+    spec = model.stimuli.get(cause.name)
+    return spec is not None and spec.held is not None and not cause.lasts
 
 
 def _words(model: EmotionModelSpec, dynamics: Dynamics, affect: Affect) -> dict[str, str]:

@@ -13,8 +13,8 @@ from hri.emotion.relations import is_unnamed
 WORTH_SAYING = 0.2
 """A cause with a smaller share is not mentioned."""
 MOST_CAUSES = 2
-ALONE = 0.9
-"""With this share a cause is the reason, with less it is a part of it."""
+EVEN_THOUGH = "even though"
+"""What the words of a reason begin with that speaks against the feeling."""
 MOSTLY = 0.6
 """From this share on the first cause outweighs the second."""
 FORGIVEN_S = 300.0
@@ -75,14 +75,21 @@ def why_words(
     largest = sorted(shares, key=lambda reason: -shares[reason])
     told = [(shares[r], r) for r in largest if shares[r] >= WORTH_SAYING][:MOST_CAUSES]
     if not told:
-        return f"I am {feeling}, and there is no special reason."
+        return f"I am {feeling}, for no special reason."
+    if told[0][1] == ALWAYS[TEMPERAMENT][0]:
+        # That is how it is explains least, whatever its share.
+        told.reverse()
     share, first = told[0]
     if len(told) == 1:
-        return f"I am {feeling} {'because' if share >= ALONE else 'mostly because'} {first}."
+        return f"I am {feeling} {_clause(first)}."
     second = told[1][1]
-    if share >= MOSTLY:
-        return f"I am {feeling} mostly because {first}, and a little because {second}."
-    return f"I am {feeling} because {first}, and because {second}."
+    if share >= MOSTLY and not first.startswith(EVEN_THOUGH):
+        return f"I am {feeling}, mostly because {first}, and a little {_clause(second)}."
+    return f"I am {feeling} {_clause(first)}, and {_clause(second)}."
+
+
+def _clause(reason: str) -> str:
+    return reason if reason.startswith(EVEN_THOUGH) else f"because {reason}"
 
 
 def labels_called(word: str, looks: Mapping[str, EmotionLook]) -> list[str]:
@@ -111,8 +118,8 @@ def age_words(age_s: float) -> str:
 def forgiven_words(
     last: Soothed, words: Mapping[str, str], felt: str, intensity: float, asking: str | None
 ) -> str:
-    """How someone made up for what they did: "I was angry because you kicked me. You said sorry,
-    so I am less angry.". Empty without words for it.
+    """How someone made up for what they did: "I was angry because you kicked me. But then you
+    said sorry, so I am less angry now.". Empty without words for it.
 
     `felt` is the feeling, after "I was", and `intensity` what is left of it; `asking` is the name
     of the person who hears it.
@@ -121,8 +128,8 @@ def forgiven_words(
     deed, amends = (_said(words.get(name, ""), person) for name in (last.deed, last.amends))
     if not deed or not amends:
         return ""
-    now = f"am not {felt} any more" if intensity < GONE else f"am less {felt}"
-    return f"I was {felt} because {deed}. {amends[:1].upper()}{amends[1:]}, so I {now}."
+    now = f"am not {felt} anymore" if intensity < GONE else f"am less {felt} now"
+    return f"I was {felt} because {deed}. But then {amends}, so I {now}."
 
 
 def _said(words: str, person: str | None) -> str:

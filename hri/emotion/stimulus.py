@@ -48,6 +48,8 @@ class HeldSpec:
     """Whether it counts as much as the robot likes the person: half as much for a stranger."""
     past: str = ""
     """What is said of it after "because" once it is over; empty: the words in the past tense."""
+    over: str = ""
+    """What is said instead where that pleases: "my battery is not low anymore"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,11 +86,12 @@ class StimulusSpec:
     expects: tuple[Expectation, ...] = ()
     """What must be felt after it, for `hri emotion check`."""
 
-    @property
-    def past_words(self) -> str:
-        """What is said once it is over, where it lasts."""
+    def past_words(self, is_pleasant: bool) -> str:
+        """What is said of a feeling, pleasant or not, once it is over, where it lasts."""
         if self.held is None:
             return self.words
+        if is_pleasant and self.held.over:
+            return self.held.over
         return self.held.past or _PRESENT.sub(lambda verb: _PASTS[verb[0]], self.words, count=1)
 
     def charges(self) -> list[float]:
@@ -171,6 +174,7 @@ def _held(table: Table) -> HeldSpec:
         ended_by=_trigger(table, "ended_by"),
         as_liked=table.flag("as_liked"),
         past=_words(table, "past", ""),
+        over=_words(table, "over", ""),
     )
     table.finish()
     return held

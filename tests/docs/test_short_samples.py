@@ -14,7 +14,7 @@ PRINTED = {
     "button": "Ouch!",
     "follow_face": r"Pose2D\(x=0\.\d+, y=0\.\d+",
     "sensor_to_face": r"inf m\n0\.\d\d m",
-    "emotion": "I am happy mostly because you praised me",
+    "emotion": "I am happy, mostly because you praised me",
     "picture": r"\(240, 320, 3\) uint8",
     "parse": r"move \{'distance': 2\.0\}",
     "network": "True 1.",

@@ -124,14 +124,14 @@ def test_events_come_with_labels_and_at_most_one_a_second_without() -> None:
 def test_it_says_why() -> None:
     feeling = Feeling()
     assert feeling.model.why() == ()
-    assert feeling.model.why_words() == "I am calm, and there is no special reason."
+    assert feeling.model.why_words() == "I am calm, for no special reason."
     feeling.model.feel("scold")
     feeling.live(1.0)
     (cause,) = feeling.model.why()
     assert (cause.name, cause.share, cause.age_s) == ("scold", 1.0, pytest.approx(1.0))
     assert feeling.model.why_words() == "I am sad because you scolded me."
     assert feeling.model.feeling_words() == "sad"
-    assert Feeling("pessimist").model.why_words() == "I am not at my best because that is how I am."
+    assert Feeling("pessimist").model.why_words() == "I am a little low because that is how I am."
 
 
 def test_who_praised_it_is_named_unless_it_is_the_one_who_asks() -> None:

@@ -16,7 +16,7 @@ def test_of_two_causes_the_larger_weighs_more_and_each_has_its_age() -> None:
     causes = [Cause("scold", 0.7, 130.0), Cause("bump", 0.25, 30.0), Cause("praise", 0.05, 1.0)]
     told = why_words("sad", causes, WORDS, {})
     assert told == (
-        "I am sad mostly because you scolded me 2 minutes ago, "
+        "I am sad, mostly because you scolded me 2 minutes ago, "
         "and a little because I bumped into something a moment ago."
     )
     causes = [Cause("scold", 0.5, 0.0), Cause("bump", 0.45, 0.0)]
@@ -40,15 +40,27 @@ def test_what_two_people_did_is_one_reason_where_the_words_are_the_same() -> Non
     assert told == "I am happy because you praised me."
 
 
-def test_a_cause_that_is_most_of_it_is_told_so() -> None:
+def test_a_cause_that_is_most_of_it_is_the_reason() -> None:
     causes = [Cause("scold", 0.8, 0.0), Cause("bump", 0.15, 0.0)]
-    assert why_words("sad", causes, WORDS, {}) == "I am sad mostly because you scolded me."
+    assert why_words("sad", causes, WORDS, {}) == "I am sad because you scolded me."
+
+
+def test_how_it_is_comes_last_among_the_reasons() -> None:
+    causes = [Cause("temperament", 0.7, 0.0), Cause("scold", 0.3, 0.0)]
+    told = why_words("sad", causes, WORDS, {})
+    assert told == "I am sad because you scolded me, and because that is how I am."
+
+
+def test_what_speaks_against_a_feeling_is_said_so() -> None:
+    causes = [Cause("goal.x", 1.0, 0.0, lasts=True)]
+    told = why_words("hopeful", causes, {"goal.x": "even though she is not here yet"}, {})
+    assert told == "I am hopeful even though she is not here yet."
 
 
 def test_what_pulls_the_other_way_or_has_no_words_is_not_told() -> None:
     causes = [Cause("other", 1.2, 0.0), Cause("praise", -0.2, 0.0)]
-    assert why_words("calm", [], WORDS, {}) == "I am calm, and there is no special reason."
-    assert why_words("sad", causes, WORDS, {}) == "I am sad, and there is no special reason."
+    assert why_words("calm", [], WORDS, {}) == "I am calm, for no special reason."
+    assert why_words("sad", causes, WORDS, {}) == "I am sad, for no special reason."
 
 
 @pytest.mark.parametrize(

@@ -63,13 +63,13 @@ def test_who_comes_late_is_waited_for(tmp_path: Path) -> None:
 """
     moments = moments_of(story_of(tmp_path, text))
     assert [moment.failure for moment in moments] == [""] * 5
-    assert moments[0].because == "I am hopeful because Anna is not here yet."
+    assert moments[0].because == "I am hopeful even though Anna is not here yet."
 
 
 def test_an_apology_is_said_with_what_it_was_for(tmp_path: Path) -> None:
     text = "0:00 Anna kicked me\n0:05 Anna said sorry\n0:06 expect because: so I am less angry"
     moments = moments_of(story_of(tmp_path, text))
-    told = "I was angry because Anna kicked me. Anna said sorry, so I am less angry."
+    told = "I was angry because Anna kicked me. But then Anna said sorry, so I am less angry now."
     assert moments[-1].because == told
     assert moments[-1].failure == ""
 
@@ -112,9 +112,13 @@ def test_one_story_is_another_for_each_personality() -> None:
 
 
 def test_what_is_over_is_said_in_the_past(tmp_path: Path) -> None:
-    text = "0:00 I am all alone\n30:00 over: I am all alone\n30:02 expect because: I was all alone"
-    last = moments_of(story_of(tmp_path, text))[-1]
-    assert last.failure == ""
+    text = "0:00 I am all alone\n30:00 over: I am all alone\n"
+    told = [
+        moment.because for moment in moments_of(story_of(tmp_path, text + "30:01 expect: relief"))
+    ]
+    assert told[-1] == "I am relieved because I am not alone anymore."
+    text = "0:00 my battery is low\n0:20 over: my battery is low\n0:50 expect because: was low"
+    assert moments_of(story_of(tmp_path, text))[-1].because.startswith("I am")
 
 
 @pytest.mark.parametrize(
