@@ -11,7 +11,7 @@ and falls to 0 once the state is over. All times are seconds of one clock.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from math import e, exp, inf, log
+from math import exp, inf, log
 from typing import NamedTuple
 
 from hri.emotion.label import Line
@@ -19,6 +19,8 @@ from hri.emotion.ledger import Axes
 
 MOST = 50
 """States that are held at a time; of more the faintest one is let go."""
+_STEPS = (0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 0.97)
+"""Shares of a level at which its rise counts for the label."""
 SOON_S = 2.0
 """Seconds in which a level is mostly there, where nothing else is said."""
 
@@ -66,23 +68,22 @@ class Held(NamedTuple):
 def lines_of(held: Held, now: float) -> Iterator[Line]:
     """The levels from `now` on, for the label.
 
-    One that rises counts from the moment at which it is mostly (1 - 1/e) there, and as much as
-    where it was until then: a rise is not a straight line on a logarithmic scale.
+    A rise is not a straight line on a logarithmic scale: it counts in steps, from below.
     """
-    end = held.until - now
+    end, passed = held.until - now, now - held.since
     for name, level in held.levels.items():
         start, target = level
-        passed = now - held.since
-        begin = 0.0
         if start > target:
             yield Line(name, log(start - target) - held.rate * passed, held.rate, 0.0, end)
-        elif target > start:
-            rises = log((target - start) * e / target) / held.rate - passed
-            if rises > 0.0:
-                begin = min(rises, end)
-                if start:
-                    yield Line(name, log(start), 0.0, 0.0, begin)
-        if target:
-            yield Line(name, log(target), 0.0, begin, end)
+        if target > start:
+            for share in _STEPS:
+                if share * target >= start:
+                    there = log((target - start) / (target * (1.0 - share))) / held.rate - passed
+                    begin = min(max(there, 0.0), end)
+                    yield Line(name, log(share * target), 0.0, begin, end)
+            if start:
+                yield Line(name, log(start), 0.0, 0.0, end)
+        elif target:
+            yield Line(name, log(target), 0.0, 0.0, end)
         if held.until < inf and (left := held.at(level, held.until)):
             yield Line(name, log(left) + held.fall_rate * end, held.fall_rate, end, inf)
