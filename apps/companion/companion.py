@@ -45,6 +45,8 @@ FOR_GOOD = 1e9
 QUIET_SECONDS = 60.0
 TOPIC_SECONDS = 60.0
 """How long what comes after something that was understood may go on with it."""
+WORN = 0.8
+"""Share of a stimulus that is lost by habit, from which on it is answered as what is overdone."""
 ABOUT_THE_LAST = ("why_that", "say_again")
 """Rules that speak of the reply before them."""
 GOES_ON = ("corrected",)
@@ -264,18 +266,25 @@ class Companion:
         """What to say to a rule at this moment, with its braces, and where it is from: one of the
         texts `before`, if there are any.
         """
-        now = self.context.clock.now()
+        now, reply = self.context.clock.now(), self.replies.replies[rule]
         moment = Moment(
             self.emotion.feeling().label,
             part_of_day(self.context.clock.wall().hour),
             personality_path(self.emotion.personality).stem,
             self._spoken.answer(rule, now) and not goes_on,
+            self._is_worn(reply.feel),
         )
-        usual = pools(self.replies.replies[rule].wording, moment)
+        usual = pools(reply.wording, moment)
         template, pool = self._spoken.choose([Pool(before), *usual], now)
         if template:
             self._spoken.note(template, now)
         return template, pool
+
+    def _is_worn(self, stimulus: str) -> bool:
+        """Whether a stimulus has come from who talks so often that it means little."""
+        if not stimulus:
+            return False
+        return self.emotion.wear(stimulus, people_of(self.context).attended) >= WORN
 
     def _filled_in(self, template: str, text: str, tags: dict[str, Any]) -> str:
         """A text with what its braces stand for."""

@@ -2,6 +2,7 @@
 
     say = "Hi there!"                         # or a list: ["Hi there!", "Hello!"]
     again = ["Hello again!"]                  # it has answered the same within five minutes
+    worn = ["You're exaggerating."]           # its stimulus has come so often that it wears off
     feeling.angry = ["Hello."]                # it is angry: instead of the others
     hour.morning = ["Good morning!"]          # in the morning: beside `say`
     personality.shy = ["Oh. Hi."]             # it is shy: beside `say`
@@ -33,6 +34,7 @@ def read_wording(entry: Table, braces: Collection[str], personalities: Collectio
         _texts_by_name(entry, "feeling", KNOWN_FEELINGS, braces),
         _texts_by_name(entry, "hour", PARTS_OF_DAY, braces),
         _texts_by_name(entry, "personality", personalities, braces),
+        _texts(entry, "worn", braces),
     )
 
 

@@ -35,11 +35,14 @@ class Wording:
     """By the part of the day, see `hri.conversation.day`."""
     personality: Mapping[str, Texts] = field(default_factory=dict)
     """By the name of a personality."""
+    worn: Texts = ()
+    """Said when what it feels by the reply has come so often that it means little."""
 
     def texts(self) -> list[str]:
         """All of them."""
         by_name = (self.feeling, self.hour, self.personality)
-        lists = [self.say, self.again, *(texts for names in by_name for texts in names.values())]
+        lists = [self.say, self.again, self.worn]
+        lists += [texts for names in by_name for texts in names.values()]
         return [text for texts in lists for text in texts]
 
 
@@ -53,6 +56,8 @@ class Moment:
     personality: str = "neutral"
     is_again: bool = False
     """Whether it has answered the same within RECENT_SECONDS."""
+    is_worn: bool = False
+    """Whether the stimulus of the reply has come so often that it is hardly felt."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,11 +72,14 @@ class Pool:
 def pools(wording: Wording, moment: Moment) -> list[Pool]:
     """The texts that fit a moment, those that should be said first in the first pool.
 
-    `again` comes before all others. `feeling` replaces the rest; without one for this feeling, the
-    texts for this hour, those for this personality, and `say` count together, in this order.
+    `worn` comes before all others, and `again` before the rest. `feeling` replaces the rest;
+    without one for this feeling, the texts for this hour, those for this personality, and `say`
+    count together, in this order.
     """
     felt = wording.feeling.get(fitting(moment.feeling, wording.feeling), ())
-    found = [Pool(wording.again, bool(felt))] if moment.is_again else []
+    found = [Pool(wording.worn)] if moment.is_worn else []
+    if moment.is_again:
+        found.append(Pool(wording.again, bool(felt)))
     if felt:
         found.append(Pool(felt, is_felt=True))
     else:

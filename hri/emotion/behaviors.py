@@ -159,6 +159,13 @@ class EmotionModel(Behavior):
         state = self.feeling()
         return self._files.model.words(state.label, state.intensity)
 
+    def wear(self, name: str, person: str | None = None) -> float:
+        """How much of a stimulus is lost because it came so often: 0 (nothing) to 1.
+
+        Raises HriError for an unknown stimulus.
+        """
+        return self._dynamics.wear(self._current(), name, self._name_of(person))
+
     def why(self) -> tuple[Cause, ...]:
         """The causes of the feelings with their shares and ages, the largest first."""
         return self._dynamics.why(self._current())

@@ -200,8 +200,7 @@ class Dynamics:
             return self._affect(self._holding(self._imprint_at(affect, now), origin, intensity))
         if intensity == 0:
             return self.advance(affect, now)
-        # It habituates to people it cannot distinguish as if they were one.
-        habit = Origin(name) if person is not None and relations.is_unnamed(person) else origin
+        habit = _habit(name, person)
         imprint = self._imprint_at(affect, now)
         worn = imprint.habituation.get(habit, FRESH).at(imprint.time, stimulus.recovery_rate)
         strength = intensity * (1.0 - worn.before)
@@ -454,6 +453,16 @@ class Dynamics:
             for person, trace in affect.imprint.relations.items()
         }
 
+    def wear(self, affect: Affect, name: str, person: str | None = None) -> float:
+        """How much of a stimulus is lost because it came so often: 0 (nothing) to 1.
+
+        Raises HriError for an unknown stimulus.
+        """
+        if name not in self._stimuli:
+            raise HriError(f'no stimulus "{name}" - {did_you_mean(name, self.names)}')
+        trace = affect.imprint.habituation.get(_habit(name, person), FRESH)
+        return trace.at(affect.time, self._stimuli[name].recovery_rate).after
+
     # Why.
 
     def ledger(self, affect: Affect) -> Ledger:
@@ -568,6 +577,11 @@ class Dynamics:
             name = mood_name(self._fading.read(affect)[1])
             affect = affect._replace(imprint=imprint._replace(mood=name, named_at=imprint.time))
         return affect
+
+
+def _habit(name: str, person: str | None) -> Origin:
+    """Under which it gets used to a stimulus; people without a name count as one."""
+    return Origin(name, None if person is not None and relations.is_unnamed(person) else person)
 
 
 def _last_naming(affect: Affect) -> float:

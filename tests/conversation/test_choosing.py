@@ -1,5 +1,7 @@
 """Which words are said, whatever was said before."""
 
+from dataclasses import replace
+
 from hypothesis import given, strategies as st
 
 from hri.conversation.choosing import (
@@ -102,6 +104,9 @@ def test_a_feeling_replaces_it():
 
 def test_again_comes_first_and_the_rest_is_left_when_it_is_used_up():
     assert texts_at(is_again=True) == [("Hi again.",), ("Hi.",)]
+    worn = replace(ALL, worn=("Hi, hi, hi.",))
+    found = pools(worn, Moment(is_again=True, is_worn=True))
+    assert [pool.texts for pool in found] == [("Hi, hi, hi.",), ("Hi again.",), ("Hi.",)]
     assert texts_at(is_again=True, feeling="anger") == [("Hi again.",), ("What?",)]
     spoken, told = Spoken(), []
     for now in (0.0, 10.0, 20.0):
