@@ -26,13 +26,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--quiet", action="store_true", help="only print what is not as expected")
     add("--json", action="store_true", help="print one JSON object per line of a story")
     add("--plot", type=Path, metavar="PNG", help="draw mood, emotions and drives (of one story)")
+    film_help = "film the face at each event, with its answer (of one story): .mp4, .webp or .gif"
+    add("--film", type=Path, metavar="FILE", help=film_help)
+    add("--wav", type=Path, metavar="FILE", help="write the sound of the film as well")
     parser.epilog = "The exit status is 1 if anything is not as a story expects."
 
 
 def run(options: argparse.Namespace) -> int:
     files = list(_files(options.files))
-    if options.plot is not None and len(files) != 1:
-        raise HriError(f"--plot draws one story, not {len(files)} - name one file")
+    if options.wav is not None and options.film is None:
+        raise HriError("--wav is the sound of a film - add --film FILE")
+    for option in ("plot", "film"):
+        if getattr(options, option) is not None and len(files) != 1:
+            raise HriError(f"--{option} is of one story, not {len(files)} - name one file")
     expected = unmet = 0
     for path in files:
         story = load_story(path, _model)
@@ -51,10 +57,32 @@ def run(options: argparse.Namespace) -> int:
             ]
             affects = [moment.affect for moment in moments]
             plot_affects(model.dynamics(), affects, happened, options.plot)
+        if options.film is not None:
+            _shoot(model, moments, options.film, options.wav)
     if not options.json:
         count = f"{len(files)} stories" if len(files) != 1 else "1 story"
         report(f"{count}: {expected - unmet} of {expected} expectations met")
     return 1 if unmet else 0
+
+
+def _shoot(
+    model: EmotionModelSpec, moments: Sequence[Moment], path: Path, wav: Path | None
+) -> None:
+    from hri.cli.emotion.story_film import scene_of_story
+    from hri.cli.face_film import FaceFilm
+    from hri.cli.voice.voice_options import PLAIN_VOICE, open_voice
+    from hri.core.clock import RealClock
+    from hri.face import load_face
+    from hri.hal.drivers.wav_file import write_wav
+    from hri.hal.resource_manager import ResourceManager
+
+    with ResourceManager((), RealClock(), notice=report) as resources:
+        voice = open_voice(resources, PLAIN_VOICE)
+        scene = scene_of_story(model, moments, voice.synthesize)
+    sound = scene.sound()
+    if wav is not None and sound is not None:
+        write_wav(wav, *sound)
+    FaceFilm(captions=True).shoot(scene, load_face("robot"), path, wav)
 
 
 @cache

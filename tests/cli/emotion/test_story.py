@@ -1,10 +1,15 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PIL import Image
 
+from hri.cli.emotion.story_film import scene_of_story
 from hri.cli.main import main
+from hri.core.signals import Prosody, Speech
+from hri.emotion.model_spec import load_emotions
+from hri.emotion.story import load_story, played
 
 TEXT = """title: A short visit
 0:00 I saw Anna
@@ -59,7 +64,7 @@ def test_a_story_as_json_and_as_a_picture(
 
 def test_a_plot_is_of_one_story(story: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["emotion", "story", str(story), str(story), "--plot", "x.png"]) == 2
-    assert "--plot draws one story, not 2" in capsys.readouterr().err
+    assert "--plot is of one story, not 2" in capsys.readouterr().err
 
 
 def test_a_folder_without_stories_is_said(
@@ -67,3 +72,26 @@ def test_a_folder_without_stories_is_said(
 ) -> None:
     assert main(["emotion", "story", str(tmp_path)]) == 2
     assert "no story there" in capsys.readouterr().err
+
+
+def test_a_film_has_the_face_and_the_answer_of_each_event(story: Path) -> None:
+    model = load_emotions("neutral")
+    moments = list(played(load_story(story, load_emotions), model))
+    asked: list[tuple[str, Prosody]] = []
+
+    def voice(text: str, prosody: Prosody) -> Speech:
+        asked.append((text, prosody))
+        return Speech(text, np.zeros(24000, np.int16), 24000)
+
+    scene = scene_of_story(model, moments, voice)
+    said = [cue.speech.text for cue in scene.cues if cue.speech is not None]
+    assert said == [text for text, _ in asked] == [moments[0].because, moments[1].because]
+    assert asked[1][1].pitch > 1.0
+    faces = {cue.expression.label for cue in scene.cues if cue.expression is not None}
+    assert faces == {"happy"}
+    assert scene.duration == 8.0
+
+
+def test_the_sound_of_a_film_needs_a_film(story: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["emotion", "story", str(story), "--wav", "x.wav"]) == 2
+    assert "add --film FILE" in capsys.readouterr().err
