@@ -18,6 +18,8 @@ from hri.emotion.ledger import REST, Axes, Ledger, LedgerRow, Origin, merged, su
 Fresh = Mapping[Origin, Mapping[str, float]]
 """Charges by cause and part of an emotion."""
 
+MOST_AT_ONCE = 50
+"""Causes that are kept apart of what happens at one instant; what is more counts as the rest."""
 TURNS = 0.4
 """How far each unit of charge above STRONG moves the mood at once, of the emotion's coordinates."""
 _AXES = {
@@ -172,6 +174,15 @@ def _less(row: LedgerRow, against: Mapping[str, float]) -> LedgerRow:
         if (driven := against.get(PART_OF[part])) is not None:
             charges[part] = charge * exp(-driven)
     return LedgerRow(charges, row.mood, row.time)
+
+
+def with_charges(fresh: Fresh, origin: Origin, charges: Mapping[str, float]) -> Fresh:
+    """Fresh charges and those of one more cause; of too many, those of the rest."""
+    if origin not in fresh and len(fresh) >= MOST_AT_ONCE:
+        origin = REST
+    if origin in fresh:
+        charges = summed(fresh[origin], charges)
+    return {**fresh, origin: charges}
 
 
 def turns(fresh: Fresh) -> Mapping[Origin, Axes]:

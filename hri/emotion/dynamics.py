@@ -22,7 +22,6 @@ from hri.emotion import relations
 from hri.emotion.affect import (
     FRESH,
     Affect,
-    Fresh,
     Imprint,
     Need,
     Outlook,
@@ -33,6 +32,7 @@ from hri.emotion.affect import (
     soothed,
     sums,
     turns,
+    with_charges,
     without,
 )
 from hri.emotion.appraisal import (
@@ -43,13 +43,12 @@ from hri.emotion.appraisal import (
     OccEvent,
     appraise,
     check_name,
-    prospects,
 )
 from hri.emotion.clauses import words_of
 from hri.emotion.drives import cause_of
 from hri.emotion.emotions import EMOTIONS, NAMES, SLOW, in_parts, whole
-from hri.emotion.fading import FORGOTTEN, Fading
-from hri.emotion.held import MOST as MOST_HELD, SOON_S, Held, Level, lines_of
+from hri.emotion.fading import Fading
+from hri.emotion.held import lines_of
 from hri.emotion.label import (
     CALM,
     MOOD_S,
@@ -61,7 +60,6 @@ from hri.emotion.label import (
     mood_name,
 )
 from hri.emotion.ledger import (
-    REST,
     STILL,
     TEMPERAMENT,
     Axes,
@@ -75,15 +73,12 @@ from hri.emotion.ledger import (
     total_mood,
 )
 from hri.emotion.personality import Personality
-from hri.emotion.stimulus import StimulusSpec
+from hri.emotion.states import States
+from hri.emotion.stimulus import HeldSpec, StimulusSpec
 
 MOST_HABITS = 500
 """Habituations that are remembered; of more the one that was touched longest ago is forgotten."""
-MOST_AT_ONCE = 50
-"""Causes that are kept apart of what happens at one instant; what is more counts as the rest."""
 _FADING_RATE = 1.0 / relations.FADES_S
-RELIEF, LOSS = 1.2, 0.3
-"""Of the charge of a state that ends, that of the relief, and of the sadness, at its end."""
 UNWELCOME = 2.5
 """How much of the pleasure of meeting someone goes with each unit of dislike."""
 RELIEVED = 0.05
@@ -119,6 +114,7 @@ class Dynamics:
         self._fading = Fading(personality)
         self._named: tuple[Imprint, float, str] | None = None
         """The last mood that was named, for which imprint and time: it is asked for often."""
+        self._states = States(self._fading, self._gains)
         self._rest = {drive.name: Need(drive.resting, STILL) for drive in personality.drives}
 
     def _taken(self, stimulus: StimulusSpec) -> _Taken:
@@ -196,8 +192,9 @@ class Dynamics:
         if person is not None:
             check_name("person", person)
         stimulus, origin = self._stimuli[name], Origin(name, person)
-        if stimulus.spec.held:
-            return self._affect(self._holding(self._imprint_at(affect, now), origin, intensity))
+        if stimulus.spec.held is not None:
+            imprint = self._imprint_at(affect, now)
+            return self._affect(self._lasting(imprint, origin, stimulus.spec.held, intensity))
         if intensity == 0:
             return self.advance(affect, now)
         habit = _habit(name, person)
@@ -212,7 +209,7 @@ class Dynamics:
         imprint = Imprint(
             imprint.time,
             imprint.ledger,
-            _with_charges(imprint.fresh, origin, charges),
+            with_charges(imprint.fresh, origin, charges),
             _satisfied(imprint.needs, stimulus.satisfies, strength),
             _habituated(imprint.habituation, habit, worn, stimulus.habituates),
             _regarded(imprint, person, stimulus.relation * strength),
@@ -242,13 +239,38 @@ class Dynamics:
             imprint = imprint._replace(ledger=without(imprint.ledger, meaning.cause, meaning.ends))
         imprint = imprint._replace(words={**imprint.words, meaning.cause: words_of(event)})
         imprint = imprint._replace(
-            fresh=_with_charges(imprint.fresh, origin, in_parts(charges)),
+            fresh=with_charges(imprint.fresh, origin, in_parts(charges)),
             relations=_regarded(imprint, meaning.person, relations.PRAISED * meaning.praise),
         )
         if meaning.soothes:
             about = [cause for cause in imprint.ledger if cause.name == meaning.about]
             imprint = _soothed(imprint, about, meaning.soothes, origin)
         return self._affect(imprint)
+
+    def _lasting(
+        self, imprint: Imprint, origin: Origin, spec: HeldSpec, intensity: float
+    ) -> Imprint:
+        """A state that goes on in a strength from now on; 0: it is over."""
+        if intensity == 0.0:
+            return self._states.end(imprint, origin)
+        relation = _relation(imprint, origin.person)
+        strength = intensity * (1.0 + relation) / 2.0 if spec.as_liked else intensity
+        full = self._stimuli[origin.name].charges
+        charges = {name: charge * strength for name, charge in full.items()}
+        return self._states.begin(imprint, origin, spec, relations.weighted(charges, relation))
+
+    def _goal(self, imprint: Imprint, event: GoalEvent) -> tuple[Imprint, Appraisal]:
+        """The meaning of a goal; as long as it is open, hope and fear are held for it."""
+        origin = Origin(f"goal.{event.goal}", event.owner)
+        held, belief = imprint.held.get(origin), NO_BELIEF
+        if held is not None and held.likelihood is not None:
+            belief = Belief(held.at(held.likelihood, imprint.time), held.peak)
+        meaning = appraise(event, _relation(imprint, event.owner), belief)
+        if event.owner is None and not event.is_decided:
+            imprint = self._states.open(imprint, origin, event, belief.peak)
+        elif held is not None:
+            imprint = self._states.let_go(imprint, origin)
+        return imprint, meaning
 
     def _is_deed_of(self, origin: Origin, person: str | None) -> bool:
         """Whether a cause is a deed of a person: of one without a name, a stimulus that names its
@@ -278,116 +300,6 @@ class Dynamics:
         missed = 1.0 - exp((imprint.relations[person].time - imprint.time) / relations.MISSED_S)
         more = self._gains["joy"] * stimulus.spec.reunion * relation * missed * strength
         return summed(charges, {_REUNION: more})
-
-    def _goal(self, imprint: Imprint, event: GoalEvent) -> tuple[Imprint, Appraisal]:
-        """The meaning of a goal; as long as it is open, hope and fear are held for it."""
-        origin = Origin(f"goal.{event.goal}", event.owner)
-        open_goal, belief = imprint.held.get(origin), NO_BELIEF
-        if open_goal is not None and open_goal.likelihood is not None:
-            believed = open_goal.at(open_goal.likelihood, imprint.time)
-            belief = Belief(believed, open_goal.peak)
-        meaning = appraise(event, _relation(imprint, event.owner), belief)
-        if event.owner is not None:
-            return imprint, meaning
-        if event.is_decided:
-            return (imprint if open_goal is None else self._let_go(imprint, origin)), meaning
-        now, later = (
-            {name: self._gains[name] * charge for name, charge in levels.items()}
-            for levels in prospects(event)
-        )
-        mood = STILL if open_goal is None else self._fading.held(open_goal, imprint.time).mood
-        likelihood = event.likelihood_after
-        held = Held(
-            since=imprint.time,
-            levels={name: Level(now[name], later[name]) for name in now},
-            rate=event.doubt_rate or 1.0 / SOON_S,
-            mood=mood,
-            likelihood=Level(likelihood, 0.0 if event.doubt_rate else likelihood),
-            peak=max(likelihood, belief.peak),
-        )
-        return self._held(imprint, origin, held), meaning
-
-    def _holding(self, imprint: Imprint, origin: Origin, intensity: float) -> Imprint:
-        """A state that goes on in a strength from now on; 0: it is over."""
-        if intensity == 0.0:
-            # Whoever it was about, when nobody is named.
-            for other in imprint.held:
-                if other == origin or (origin.person is None and other.name == origin.name):
-                    imprint = self._over(imprint, other)
-            return imprint
-        stimulus = self._stimuli[origin.name]
-        spec = stimulus.spec
-        if spec.held is None:
-            raise ValueError(f"{origin.name} is not held")
-        relation = _relation(imprint, origin.person)
-        if spec.held.as_liked:
-            intensity *= (1.0 + relation) / 2.0
-        charges = {name: charge * intensity for name, charge in stimulus.charges.items()}
-        if relation:
-            charges = relations.weighted(charges, relation)
-        before = imprint.held.get(origin)
-        row = None if before is None else self._fading.held(before, imprint.time)
-        felt = {} if row is None else row.charges
-        held = Held(
-            since=imprint.time,
-            levels={
-                name: Level(felt.get(name, 0.0), charges.get(name, 0.0))
-                for name in {**charges, **felt}
-            },
-            rate=1.0 / spec.held.rise_s,
-            mood=STILL if row is None else row.mood,
-            until=imprint.time + spec.held.for_s,
-            fall_rate=1.0 / spec.held.fall_s,
-        )
-        return self._held(imprint, origin, held)
-
-    def _over(self, imprint: Imprint, origin: Origin) -> Imprint:
-        """A state that ends now and fades: a relief, or a small loss.
-
-        How large it is follows from the charges that the neutral personality would have.
-        """
-        held = imprint.held[origin]
-        if held.until <= imprint.time or held.is_over:
-            return imprint
-        charges = self._fading.held(held, imprint.time).charges
-        ended = self._fading.ended(held._replace(until=imprint.time))
-        pleased = displeased = 0.0
-        for name, charge in charges.items():
-            if gain := self._gains[name]:
-                if relations.SIGNS[name] > 0:
-                    pleased += charge / gain
-                else:
-                    displeased += charge / gain
-        after = {
-            "relief": self._gains["relief"] * RELIEF * displeased,
-            "sadness": self._gains["sadness"] * LOSS * pleased,
-        }
-        after = {name: charge for name, charge in after.items() if charge}
-        fresh = _with_charges(imprint.fresh, origin, in_parts(after)) if after else imprint.fresh
-        return imprint._replace(held={**imprint.held, origin: ended}, fresh=fresh)
-
-    def _let_go(self, imprint: Imprint, origin: Origin) -> Imprint:
-        """A state of which no more than its pull on the mood is left."""
-        row = self._fading.held(imprint.held[origin], imprint.time)
-        pull = LedgerRow({}, row.mood, row.time)
-        before = imprint.ledger.get(origin)
-        return imprint._replace(
-            held={other: held for other, held in imprint.held.items() if other != origin},
-            ledger={**imprint.ledger, origin: pull if before is None else merged(before, pull)},
-        )
-
-    def _held(self, imprint: Imprint, origin: Origin, held: Held) -> Imprint:
-        """With a state among those that go on, whatever was held for the same before."""
-        imprint = imprint._replace(held={**imprint.held, origin: held})
-        if len(imprint.held) > MOST_HELD:
-            faintest = min(
-                imprint.held,
-                key=lambda other: sum(
-                    self._fading.held(imprint.held[other], imprint.time).charges.values()
-                ),
-            )
-            imprint = self._let_go(imprint, faintest)
-        return imprint
 
     def report(self, affect: Affect, drive: str, level: float, now: float) -> Affect:
         """The state just after a need was found at a level, 0 to 1: energy is 1 minus the battery.
@@ -546,24 +458,7 @@ class Dynamics:
             imprint.words,
             imprint.soothed,
         )
-        return self._without_faded(found) if imprint.held or imprint.words else found
-
-    def _without_faded(self, imprint: Imprint) -> Imprint:
-        """Without states of which nothing is left to feel, and words that nobody needs any more."""
-        for origin, held in imprint.held.items():
-            if held.until <= imprint.time:
-                held = self._fading.ended(held)
-                imprint = imprint._replace(held={**imprint.held, origin: held})
-            if held.is_over and all(
-                held.at(level, imprint.time) < FORGOTTEN for level in held.levels.values()
-            ):
-                imprint = self._let_go(imprint, origin)
-        if imprint.words:
-            causes = {origin.name for origin in (*imprint.ledger, *imprint.held)}
-            if not causes >= imprint.words.keys():
-                kept = {name: said for name, said in imprint.words.items() if name in causes}
-                imprint = imprint._replace(words=kept)
-        return imprint
+        return self._states.without_faded(found) if imprint.held or imprint.words else found
 
     def _affect(self, imprint: Imprint) -> Affect:
         """The state just after an imprint."""
@@ -609,14 +504,6 @@ def _soothed(
         return imprint
     last = Soothed(deed.name, amends.name, deed.person, emotion, imprint.time)
     return imprint._replace(soothed=last)
-
-
-def _with_charges(fresh: Fresh, origin: Origin, charges: Mapping[str, float]) -> Fresh:
-    if origin not in fresh and len(fresh) >= MOST_AT_ONCE:
-        origin = REST
-    if origin in fresh:
-        charges = summed(fresh[origin], charges)
-    return {**fresh, origin: charges}
 
 
 def _satisfied(

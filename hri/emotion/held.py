@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping
 from math import exp, inf, log
 from typing import NamedTuple
 
-from hri.emotion.label import Line
+from hri.emotion.label import FALL, Line
 from hri.emotion.ledger import Axes
 
 MOST = 50
@@ -73,6 +73,8 @@ def lines_of(held: Held, now: float) -> Iterator[Line]:
     end, passed = held.until - now, now - held.since
     for name, level in held.levels.items():
         start, target = level
+        if max(level) < FALL:
+            continue  # It never has the label.
         if start > target:
             yield Line(name, log(start - target) - held.rate * passed, held.rate, 0.0, end)
         if target > start:

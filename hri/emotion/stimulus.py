@@ -158,9 +158,10 @@ def _stimulus(name: str, table: Table) -> StimulusSpec:
         reunion=table.number("reunion", 0.0, minimum=0, maximum=5),
         expects=expectations_in(table),
     )
-    if stimulus.held and stimulus.habituates:
-        remedy = "leave out the habituation: what lasts does not wear off"
-        raise table.error("habituation", f"{name} is held and habituates", remedy)
+    for key in ("habituation", "satisfies", "relation", "soothes", "reunion"):
+        if stimulus.held is not None and key in table:
+            remedy = "leave that out: only what happens at a moment has it"
+            raise table.error(key, f"{name} is held and has {key}", remedy)
     habituation.finish()
     table.finish()
     return stimulus

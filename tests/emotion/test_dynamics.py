@@ -7,9 +7,9 @@ import pytest
 from hypothesis import assume, given, settings, strategies as st
 
 from hri.core.errors import HriError
-from hri.emotion.affect import Affect, shifted
+from hri.emotion.affect import MOST_AT_ONCE, Affect, shifted
 from hri.emotion.appraisal import GoalEvent
-from hri.emotion.dynamics import MOST_AT_ONCE, MOST_HABITS, Dynamics
+from hri.emotion.dynamics import MOST_HABITS, Dynamics
 from hri.emotion.emotions import (
     EMOTIONS,
     INDEX,

@@ -225,6 +225,13 @@ def test_a_friend_who_was_away_is_greeted_longer() -> None:
     assert model.read(model.advance(stranger, stranger.time + 60.0)).emotions["joy"] < joys[1] / 2
 
 
+def test_a_goal_that_nobody_decides_is_given_up() -> None:
+    goal = GoalEvent("Anna comes", 0.8, 0.9, expected_s=60.0)
+    affect = NEUTRAL.appraise(NEUTRAL.rest(), goal, 0.0)
+    assert NEUTRAL.read(NEUTRAL.advance(affect, 400.0)).emotions["fear"] > 0.4
+    assert NEUTRAL.read(NEUTRAL.advance(affect, 3600.0)).emotions["fear"] < 1e-6
+
+
 def test_the_words_of_goals_go_with_their_cause() -> None:
     affect = NEUTRAL.appraise(NEUTRAL.rest(), GoalEvent("tea", 0.5, 0.9), 0.0)
     assert NEUTRAL.said(affect) == {"goal.tea": "of the tea"}
