@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
-from math import exp, hypot, inf, log
+from math import hypot, inf, log
 from typing import NamedTuple
 
 from hri.emotion.emotions import PART_OF, SLOW_SHARES
@@ -177,7 +177,7 @@ def _next_change(current: str, now: float, lines: Iterable[Line]) -> tuple[float
     own = [line for line in lines if line.emotion == current]
     fades = max(max(_time_at(line, _LOG_FALL) for line in own), now)
     # Of several at the same moment the strongest emotion wins, and any wins over none.
-    first = (fades, 0.0, 0.0, NOTHING)
+    first = (fades, inf, 0.0, NOTHING)
     for line in lines:
         if line.emotion == current:
             continue
@@ -191,7 +191,7 @@ def _next_change(current: str, now: float, lines: Iterable[Line]) -> tuple[float
             elif faster < 0:
                 latest = min(latest, behind / faster)
         if at <= latest:
-            rival = (at, -exp(line.height), line.rate, line.emotion)
+            rival = (at, -_height(line, at), line.rate, line.emotion)
             if rival < first:
                 first = rival
     return first[0], first[3]

@@ -230,6 +230,10 @@ def test_a_goal_that_nobody_decides_is_given_up() -> None:
     affect = NEUTRAL.appraise(NEUTRAL.rest(), goal, 0.0)
     assert NEUTRAL.read(NEUTRAL.advance(affect, 400.0)).emotions["fear"] > 0.4
     assert NEUTRAL.read(NEUTRAL.advance(affect, 3600.0)).emotions["fear"] < 1e-6
+    any_time = NEUTRAL.appraise(NEUTRAL.rest(), GoalEvent("snow", 0.9, 0.9), 0.0)
+    lonely = NEUTRAL.feel(any_time, "alone", 1.0, 10.0)
+    assert NEUTRAL.read(NEUTRAL.advance(lonely, 80_000.0)).label == "hope"
+    assert NEUTRAL.read(NEUTRAL.advance(lonely, 90_000.0)).label == "sadness"
 
 
 def test_the_words_of_goals_go_with_their_cause() -> None:
