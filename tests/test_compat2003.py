@@ -94,8 +94,8 @@ def test_the_end_of_what_was_put_on_can_be_waited_for(robot):
 def test_a_hope_can_be_told_and_its_reason_asked_for(robot):
     robot.appraise(GoalEvent("charger", utility=1.0, likelihood_after=0.9))
     assert feeling(robot).label == "hope"
-    assert robot.why() == "I am hopeful because of charger."
-    assert robot.why("sad") == "I am not sad. I am hopeful because of charger."
+    assert robot.why() == "I am full of hope because of the charger."
+    assert robot.why("sad") == "I am not sad. I am full of hope because of the charger."
 
 
 def test_an_action_is_played_while_the_script_goes_on(robot):

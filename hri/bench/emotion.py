@@ -20,7 +20,7 @@ from hri.bench.workers import variables
 from hri.emotion.affect import Affect
 from hri.emotion.appraisal import GoalEvent
 from hri.emotion.dynamics import Dynamics
-from hri.emotion.emotions import NAMES
+from hri.emotion.emotions import NAMES, whole
 from hri.emotion.files import EmotionFiles
 from hri.emotion.ledger import MOST
 from hri.emotion.model_spec import load_emotions
@@ -83,7 +83,7 @@ def costs() -> dict[str, Any]:
     goal = GoalEvent("charger", 0.8, 0.9, likelihood_before=0.4)
     return {
         "emotions": len(NAMES),
-        "active": len(affect.outlook.charges),
+        "active": len(whole(affect.outlook.charges)),
         "causes": len(model.ledger(affect)),
         "advance": _us(lambda now: model.advance(affect, now)),
         "advance_and_read": _us(lambda now: model.read(model.advance(affect, now))),

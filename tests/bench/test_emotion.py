@@ -3,13 +3,14 @@ import pytest
 from hri.bench import emotion
 from hri.bench.emotion import STIMULI, lived, rates
 from hri.emotion.dynamics import Dynamics
+from hri.emotion.emotions import whole
 from hri.emotion.personality import Personality
 
 
 def test_the_robot_that_is_measured_feels_six_emotions_from_three_causes() -> None:
     model = Dynamics(Personality("bench"), STIMULI)
     affect = lived(model)
-    assert len(affect.outlook.charges) == 6
+    assert len(whole(affect.outlook.charges)) == 6
     names = {origin.name for origin in model.ledger(affect)}
     assert {"praise", "scold", "petted", "drive.company", "drive.energy"} < names
 
