@@ -102,7 +102,7 @@ def test_one_story_is_another_for_each_personality() -> None:
                 sums[emotion] += moment.state.emotions[emotion]
         return sums
 
-    neutral, worrier = (lived("the_parcel", who)["fear"] for who in ("neutral", "worrier"))
+    neutral, worrier = (lived("the_package", who)["fear"] for who in ("neutral", "worrier"))
     assert worrier > 1.2 * neutral
     kicks = {who: lived("kicked_and_sorry", who)["anger"] for who in ("gentle", "neutral", "proud")}
     assert kicks["gentle"] < 0.7 * kicks["neutral"] < 0.7 * kicks["proud"]

@@ -74,9 +74,11 @@ def test_a_folder_without_stories_is_said(
     assert "no story there" in capsys.readouterr().err
 
 
-def test_a_film_has_the_face_and_the_answer_of_each_event(story: Path) -> None:
+def test_a_film_has_the_face_and_the_answer_of_each_event(tmp_path: Path) -> None:
+    path = tmp_path / "alone.txt"
+    path.write_text("0:00 Anna praised me\n1:00 I am all alone\n30:00 over: I am all alone\n")
     model = load_emotions("neutral")
-    moments = list(played(load_story(story, load_emotions), model))
+    moments = list(played(load_story(path, load_emotions), model))
     asked: list[tuple[str, Prosody]] = []
 
     def voice(text: str, prosody: Prosody) -> Speech:
@@ -84,12 +86,18 @@ def test_a_film_has_the_face_and_the_answer_of_each_event(story: Path) -> None:
         return Speech(text, np.zeros(24000, np.int16), 24000)
 
     scene = scene_of_story(model, moments, voice)
-    said = [cue.speech.text for cue in scene.cues if cue.speech is not None]
-    assert said == [text for text, _ in asked] == [moments[0].because, moments[1].because]
-    assert asked[1][1].pitch > 1.0
-    faces = {cue.expression.label for cue in scene.cues if cue.expression is not None}
-    assert faces == {"happy"}
-    assert scene.duration == 8.0
+    assert [text for text, _ in asked] == [
+        "I am happy because Anna praised me.",
+        "I am sad because I am all alone.",
+        "I am relieved because I am not alone anymore.",
+    ]
+    assert [cue.speech.text for cue in scene.cues if cue.speech is not None] == [
+        text for text, _ in asked
+    ]
+    assert asked[0][1].pitch > 1.0 > asked[1][1].pitch
+    faces = [cue.expression.label for cue in scene.cues if cue.expression is not None]
+    assert set(faces) == {"happy", "sad"}
+    assert scene.duration == 12.0
 
 
 def test_the_sound_of_a_film_needs_a_film(story: Path, capsys: pytest.CaptureFixture[str]) -> None:
