@@ -81,15 +81,22 @@ def why_words(
         told.reverse()
     share, first = told[0]
     if len(told) == 1:
-        return f"I am {feeling} {_clause(first)}."
+        return f"I am {feeling} {_clause(first, _joint(feeling))}."
     second = told[1][1]
     if share >= MOSTLY and not first.startswith(EVEN_THOUGH):
         return f"I am {feeling}, mostly because {first}, and a little {_clause(second)}."
     return f"I am {feeling} {_clause(first)}, and {_clause(second)}."
 
 
-def _clause(reason: str) -> str:
-    return reason if reason.startswith(EVEN_THOUGH) else f"because {reason}"
+def _clause(reason: str, joint: str = "because") -> str:
+    if reason.startswith(EVEN_THOUGH):
+        return reason
+    return f"because {reason}" if reason.startswith("of ") else f"{joint} {reason}"
+
+
+def _joint(feeling: str) -> str:
+    """What joins a feeling to its only reason: one is sorry that someone is sad."""
+    return "that" if feeling.rpartition(" ")[2] in ("sorry", "glad") else "because"
 
 
 def labels_called(word: str, looks: Mapping[str, EmotionLook]) -> list[str]:

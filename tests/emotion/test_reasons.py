@@ -51,6 +51,14 @@ def test_how_it_is_comes_last_among_the_reasons() -> None:
     assert told == "I am sad because you scolded me, and because that is how I am."
 
 
+def test_one_is_sorry_that_and_sad_because() -> None:
+    causes = [Cause("scold", 1.0, 0.0)]
+    assert why_words("very sorry", causes, WORDS, {}) == "I am very sorry that you scolded me."
+    exam = {"goal.exam": "of {your} exam"}
+    told = why_words("sorry", [Cause("goal.exam", 1.0, 0.0, "Anna")], exam, {})
+    assert told == "I am sorry because of Anna's exam."
+
+
 def test_what_speaks_against_a_feeling_is_said_so() -> None:
     causes = [Cause("goal.x", 1.0, 0.0, lasts=True)]
     told = why_words("hopeful", causes, {"goal.x": "even though she is not here yet"}, {})
