@@ -128,5 +128,5 @@ def test_what_lasts_or_says_its_own_time_is_no_time_ago(lasting: str) -> None:
 
 
 def test_what_is_over_has_its_age() -> None:
-    told = why_words("glad", [Cause("x", 1.0, 40.0)], {"x": "you took me for a walk"}, {})
-    assert told == "I am glad because you took me for a walk a moment ago."
+    told = why_words("happy", [Cause("x", 1.0, 40.0)], {"x": "you took me for a walk"}, {})
+    assert told == "I am happy because you took me for a walk a moment ago."
