@@ -89,6 +89,16 @@ def test_it_goes_on_from_a_file_and_on_another_clock(
     assert all(abs(one[name] - value) < 1e-9 for name, value in other.items())
 
 
+def test_a_file_of_an_earlier_version_goes_on() -> None:
+    affect = lived(NEUTRAL, [(0.0, "praise", 1.0), (5.0, "scold", 0.5)], until=3.0)
+    written = json.loads(json.dumps(encoded(affect.imprint)))
+    for key in ("held", "mood", "named_at", "words", "soothed"):
+        del written[key]
+    again = NEUTRAL.resume(decoded(written), affect.time)
+    assert NEUTRAL.read(again).emotions == NEUTRAL.read(affect).emotions
+    assert NEUTRAL.read(again).mood == "calm"
+
+
 def test_a_state_rises_lasts_and_ends_in_relief() -> None:
     affect = NEUTRAL.feel(NEUTRAL.rest(), "alone", 1.0, 0.0)
     seen = [NEUTRAL.read(NEUTRAL.advance(affect, 20.0 * n)).emotions["sadness"] for n in range(60)]
