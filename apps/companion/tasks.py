@@ -183,7 +183,8 @@ async def notice(context: TaskContext) -> None:
             with context.clock.move_on_after(1.0):
                 event = await queue.get()
             now = context.clock.now()
-            if companion.person() is not None or (event is not None and event.name in people):
+            is_met = companion.is_asleep or companion.person() is not None
+            if is_met or (event is not None and event.name in people):
                 heard_at = now
             if is_alone != (now - heard_at >= ALONE_SECONDS):
                 is_alone = not is_alone

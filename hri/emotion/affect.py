@@ -108,7 +108,7 @@ class Imprint(NamedTuple):
     """The emotion that stood out just before that instant; label.NOTHING for none."""
     held: Mapping[Origin, Held] = {}
     """States that go on, or are still felt."""
-    mood: str = ""
+    mood_name: str = ""
     """The name of the mood; empty: not named yet."""
     named_at: float = 0.0
     """When it was named, in seconds."""

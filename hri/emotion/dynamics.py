@@ -147,10 +147,10 @@ class Dynamics:
         """
         needs = {name: imprint.needs.get(name, need) for name, need in self._rest.items()}
         affect = self._affect(imprint._replace(needs=needs))
-        if not imprint.mood:
+        if not imprint.mood_name:
             name = mood_name(self.mood(affect))
             affect = affect._replace(
-                imprint=affect.imprint._replace(mood=name, named_at=imprint.time)
+                imprint=affect.imprint._replace(mood_name=name, named_at=imprint.time)
             )
         return self.advance(affect, now)
 
@@ -335,7 +335,7 @@ class Dynamics:
     def _mood_named_at(self, affect: Affect, at: float) -> str:
         imprint = affect.imprint
         if at <= imprint.named_at:
-            return imprint.mood
+            return imprint.mood_name
         if self._named is None or self._named[0] is not imprint or self._named[1] != at:
             mood = self._fading.read(affect._replace(time=max(at, imprint.time)))[1]
             self._named = imprint, at, mood_name(mood)
@@ -470,7 +470,9 @@ class Dynamics:
         affect = Affect(imprint.time, imprint, Outlook(older, charges, mood, ahead, turned))
         if turned:
             name = mood_name(self._fading.read(affect)[1])
-            affect = affect._replace(imprint=imprint._replace(mood=name, named_at=imprint.time))
+            affect = affect._replace(
+                imprint=imprint._replace(mood_name=name, named_at=imprint.time)
+            )
         return affect
 
 

@@ -74,7 +74,7 @@ def _because(
         elif cause.lasts and label == "hope" and _UNMET.search(words.get(cause.name, "")):
             words[cause.name] = f"{EVEN_THOUGH} {words[cause.name]}"
     if causes and not is_pleasant and _is_over(model, causes[0]):
-        feeling = f"still {feeling}"
+        feeling = f"still {feeling.removeprefix('also ')}"
     heard = [replace(cause, person=None) if cause.person == asking else cause for cause in causes]
     return why_words(feeling, heard, words, state.drives)
 

@@ -42,7 +42,7 @@ def encoded(imprint: Imprint) -> dict[str, Any]:
         ],
         "relations": {person: trace._asdict() for person, trace in imprint.relations.items()},
         "held": [{**_named(origin), **_lasting(held)} for origin, held in imprint.held.items()],
-        "mood": imprint.mood,
+        "mood_name": imprint.mood_name,
         "named_at": imprint.named_at,
         "words": dict(imprint.words),
         "soothed": None if imprint.soothed is None else imprint.soothed._asdict(),
@@ -83,7 +83,7 @@ def decoded(data: object) -> Imprint:
         label=label,
         # Files of earlier versions end here.
         held={_origin(entry): _held(entry, time) for entry in fields.entries("held", [])},
-        mood=_mood(fields),
+        mood_name=_mood_name(fields),
         named_at=fields.number("named_at", time, default=time),
         words=_words(fields),
         soothed=_soothed(fields, time),
@@ -209,10 +209,10 @@ def _level(ends: list[float], highest: float) -> Level:
     return Level(*ends)
 
 
-def _mood(fields: Fields) -> str:
-    mood = fields.text("mood") if "mood" in fields else ""
+def _mood_name(fields: Fields) -> str:
+    mood = fields.text("mood_name") if "mood_name" in fields else ""
     if mood and mood not in MOODS:
-        raise HriError(f'affect.mood: no mood "{mood}" - {did_you_mean(mood, MOODS)}')
+        raise HriError(f'affect.mood_name: no mood "{mood}" - {did_you_mean(mood, MOODS)}')
     return mood
 
 

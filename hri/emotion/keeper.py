@@ -23,6 +23,7 @@ from hri.emotion.persistence import (
     put_aside,
     recall,
     spare_real_time,
+    switched_off,
     without_unnamed,
 )
 
@@ -71,7 +72,8 @@ class Keeper:
             self._put_aside(error)
             memory = None
         if memory is not None:
-            memory = replace(memory, imprint=without_unnamed(memory.imprint))
+            imprint = switched_off(without_unnamed(memory.imprint), memory.time)
+            memory = replace(memory, imprint=imprint)
         return self._resumed(memory, dynamics, now)
 
     def forgotten(self, dynamics: Dynamics) -> Affect | None:

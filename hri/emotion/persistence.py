@@ -198,6 +198,8 @@ def people(imprint: Imprint) -> set[str]:
     """Everyone whose name is in it."""
     origins = (*imprint.ledger, *imprint.fresh, *imprint.habituation, *imprint.held)
     named = {origin.person for origin in origins if origin.person is not None}
+    if imprint.soothed is not None and imprint.soothed.person is not None:
+        named.add(imprint.soothed.person)
     return named | set(imprint.relations)
 
 
@@ -227,6 +229,17 @@ def without(imprint: Imprint, person: str) -> Imprint:
         },
         soothed=last,
     )
+
+
+def switched_off(imprint: Imprint, time: float) -> Imprint:
+    """The same for a robot that was switched off at a time: states ended then, since nobody can
+    say that they still go on; goals stay open.
+    """
+    held = {
+        origin: state if origin.goal else state._replace(until=min(state.until, time))
+        for origin, state in imprint.held.items()
+    }
+    return imprint._replace(held=held)
 
 
 def without_unnamed(imprint: Imprint) -> Imprint:

@@ -23,7 +23,7 @@ from hri.core.errors import AuthoringError, Place, did_you_mean
 from hri.core.reading import read_text
 from hri.core.signals import EmotionState
 from hri.emotion.affect import Affect
-from hri.emotion.appraisal import SELF, ActionEvent, GoalEvent, ObjectEvent, OccEvent
+from hri.emotion.appraisal import SELF, ActionEvent, GoalEvent, ObjectEvent, OccEvent, check_name
 from hri.emotion.dynamics import Dynamics
 from hri.emotion.emotions import NAMES
 from hri.emotion.everyday_words import FEELINGS
@@ -40,10 +40,10 @@ GOOD = 0.05
 NEUTRAL = 0.15
 """Pleasure, either way, up to which it may be called neutral."""
 
-_TIME = re.compile(r"(?:(\d+):)?(\d+):(\d\d(?:\.\d+)?)\s+(.+)")
+_TIME = re.compile(r"(?:(\d{1,6}):)?(\d{1,6}):(\d\d(?:\.\d+)?)\s+(.+)")
 _KEYED = re.compile(r"([a-z]+(?: [a-z]+)?):\s*(.*)")
 _BRACKETS = re.compile(r"(.*?)\s*\(([^()]*)\)\s*")
-_DURATION = re.compile(r"([\d.]+) ?(s|min|h)")
+_DURATION = re.compile(r"(\d{1,6}(?:\.\d+)?) ?(s|min|h)")
 _UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 _NOBODY = ("somebody", "someone", "you")
 _MOOD_SIGNS = ("good", "bad", "neutral")
@@ -117,7 +117,7 @@ def load_story(path: Path, model: Callable[[str], EmotionModelSpec]) -> Story:
         raise AuthoringError(Place(path), f"{len(lines)} lines", f"keep {MOST_LINES} at most")
     headers = _headers(path, lines)
     personality = headers.get("personality", "neutral")
-    reader = _Reader(path, model(personality))
+    reader = _Reader(model(personality))
     for number, line in enumerate(lines, start=1):
         if text := line.partition("#")[0].strip():
             reader.read(text, Place(path, number))
@@ -196,7 +196,7 @@ def _headers(path: Path, lines: list[str]) -> dict[str, str]:
 class _Reader:
     """Reads the lines of a story one by one."""
 
-    def __init__(self, path: Path, model: EmotionModelSpec) -> None:
+    def __init__(self, model: EmotionModelSpec) -> None:
         self.lines: list[Line] = []
         self._stimuli = [
             (_pattern(spec.words), spec.name, spec.held is not None)
@@ -271,6 +271,8 @@ class _Reader:
                 person = match.groupdict().get("person")
                 if person is not None and person.lower() in _NOBODY:
                     person = None
+                if person is not None:
+                    check_name("person", person)
                 strength = _number(options.get("", "1"), "a strength", 0.0)
                 return Felt(name, 0.0 if is_over else strength, person)
         raise ValueError(f'"{sentence}" - {did_you_mean(sentence, self._sentences)}')
@@ -376,12 +378,3 @@ def _pattern(words: str) -> re.Pattern[str]:
         else:
             parts.append(r"(?P<person>[^\W\d]\w*)" + ("'s" if pronoun == "your" else ""))
     return re.compile("".join(parts), re.IGNORECASE)
-
-
-def failures(story: Story, model: EmotionModelSpec) -> Iterator[AuthoringError]:
-    """What a story expects and is not felt, with the place of the line."""
-    for moment in played(story, model):
-        if moment.failure:
-            yield AuthoringError(
-                moment.line.place, f"{moment.line.text}: {moment.failure}", "change one of them"
-            )

@@ -15,6 +15,7 @@ from hri.emotion.held import MOST
 from hri.emotion.imprint_file import decoded, encoded
 from hri.emotion.ledger import Origin
 from hri.emotion.model_spec import load_emotions
+from hri.emotion.persistence import people, switched_off, without
 from hri.emotion.personality import load_personality, personality_names
 from hri.emotion.stimulus import HeldSpec, StimulusSpec, load_stimuli
 from tests.emotion.streams import STIMULI, numbers
@@ -92,11 +93,28 @@ def test_it_goes_on_from_a_file_and_on_another_clock(
 def test_a_file_of_an_earlier_version_goes_on() -> None:
     affect = lived(NEUTRAL, [(0.0, "praise", 1.0), (5.0, "scold", 0.5)], until=3.0)
     written = json.loads(json.dumps(encoded(affect.imprint)))
-    for key in ("held", "mood", "named_at", "words", "soothed"):
+    for key in ("held", "mood_name", "named_at", "words", "soothed"):
         del written[key]
     again = NEUTRAL.resume(decoded(written), affect.time)
     assert NEUTRAL.read(again).emotions == NEUTRAL.read(affect).emotions
     assert NEUTRAL.read(again).mood == "calm"
+
+
+def test_states_ended_when_the_robot_was_switched_off_and_goals_stay_open() -> None:
+    affect = NEUTRAL.feel(NEUTRAL.rest(), "alone", 1.0, 0.0)
+    affect = NEUTRAL.appraise(affect, GoalEvent("snow", 0.9, 0.9), 500.0)
+    off = switched_off(NEUTRAL.settle(affect).imprint, 600.0)
+    later = NEUTRAL.read(NEUTRAL.resume(off, 900.0)).emotions
+    assert later["sadness"] < 0.01
+    assert later["hope"] > 0.4
+
+
+def test_who_made_up_for_a_deed_can_be_forgotten() -> None:
+    affect = lived(SHIPPED["neutral"], [(0.0, "kicked", 1.0), (5.0, "apologized", 1.0)])
+    kept = affect.imprint._replace(ledger={}, fresh={}, habituation={}, relations={})
+    assert kept.soothed is not None
+    assert people(kept) == {"Anna"}
+    assert without(kept, "Anna").soothed is None
 
 
 def test_a_state_rises_lasts_and_ends_in_relief() -> None:

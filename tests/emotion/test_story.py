@@ -7,7 +7,9 @@ import pytest
 
 from hri.core import paths
 from hri.core.errors import AuthoringError
+from hri.emotion.explanation import explained
 from hri.emotion.model_spec import load_emotions
+from hri.emotion.stimulus import load_stimuli
 from hri.emotion.story import Expected, Felt, Moment, load_story, played
 
 STORIES = sorted((paths.house() / "emotions" / "stories").glob("*.txt"))
@@ -117,8 +119,13 @@ def test_what_is_over_is_said_in_the_past(tmp_path: Path) -> None:
         moment.because for moment in moments_of(story_of(tmp_path, text + "30:01 expect: relief"))
     ]
     assert told[-1] == "I am relieved because I am not alone anymore."
-    text = "0:00 my battery is low\n0:20 over: my battery is low\n0:50 expect because: was low"
-    assert moments_of(story_of(tmp_path, text))[-1].because.startswith("I am")
+    battery = load_stimuli()["battery_low"]
+    assert battery.past_words(is_pleasant=False) == "my battery was low"
+    assert battery.past_words(is_pleasant=True) == "my battery is not low anymore"
+    model = load_emotions("neutral")
+    last = moments_of(story_of(tmp_path, text))[-1].affect
+    told = explained(model, model.dynamics(), last, "sad")
+    assert told == "I am still sad because I was all alone."
 
 
 @pytest.mark.parametrize(
@@ -134,6 +141,8 @@ def test_what_is_over_is_said_in_the_past(tmp_path: Path) -> None:
         ("0:00 failed: x", 'no goal "x" before'),
         ("0:00 over: Anna praised me", "does not last - leave out over:"),
         ("0:00 wish: x", 'no "wish:"'),
+        (f"0:00 {'x' * 101} praised me", "person has 101 letters"),
+        ("0:00 hope: x (within 1.2.3 min)", '"1.2.3 min" is not a time'),
         ("1:00 Anna praised me\n0:30 Anna praised me", "the times go back"),
         ("0:00 Anna praised me\nwaiting: x", "waiting belongs to no goal"),
         ("0:00 Anna praised me\nand then", "has no time"),

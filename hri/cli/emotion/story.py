@@ -127,7 +127,7 @@ def _told(moment: Moment) -> Iterator[str]:
     minutes, seconds = divmod(line.time, 60)
     time = f"{minutes:4.0f}:{seconds:02.0f}"
     if isinstance(line.what, Expected):
-        yield f"{time}  {line.text} - so it is"
+        yield f"{time}  {line.text}: as expected"
     else:
         yield f"{time}  {line.text}"
         yield f"{'':9}{state.label} {state.intensity:.2f}  {mood_words(state)}"
