@@ -132,6 +132,11 @@ class CommandGate(Behavior):
         """How fast it slows down, m/s² and rad/s²."""
         return Twist(self.deceleration, self.deceleration * ANGULAR_FACTOR)
 
+    @property
+    def factor(self) -> float:
+        """What it multiplies every command by."""
+        return 1.0 if self.speed.value is None else self.speed.value
+
     def _drop(self, reason: str) -> None:
         self._slot.clear()
         self._motion.clear()
@@ -169,8 +174,7 @@ class CommandGate(Behavior):
             if self._command != REST:
                 self._rest("timeout")
             return REST
-        factor = 1.0 if self.speed.value is None else self.speed.value
-        return Twist(self._command.linear * factor, self._command.angular * factor)
+        return Twist(self._command.linear * self.factor, self._command.angular * self.factor)
 
     def _rank(self, now: float) -> str:
         """Of who asks; a network that asks for rest asks, too, and a task that does has ended."""

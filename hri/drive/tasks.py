@@ -153,15 +153,18 @@ class _Way(ABC):
         """Where it leads from there."""
 
     @abstractmethod
-    def steered(self, pose: Pose2D, braking: Twist) -> Twist:
-        """What to ask the base for on the way; `braking` is what it slows down with."""
+    def steered(self, pose: Pose2D, braking: Twist, factor: float) -> Twist:
+        """What to ask the base for on the way.
 
-    def _toward_goal(self, braking: float) -> float:
-        """The velocity for the next period."""
+        `braking` is what it slows down with, `factor`, above 0, what the gate makes of a velocity.
+        """
+
+    def _toward_goal(self, braking: float, factor: float) -> float:
+        """The velocity for the next period, such that the base comes to rest at the goal."""
         down = min(self._down, _HEADROOM * braking)
-        wanted = velocity_for(self.goal - self.gone, self._speed, down, _PERIOD)
+        wanted = velocity_for(self.goal - self.gone, self._speed * factor, down, _PERIOD)
         self._asked = min(abs(wanted), self._asked + self._up * _PERIOD)
-        return math.copysign(self._asked, wanted)
+        return math.copysign(self._asked, wanted) / factor
 
 
 class _Straight(_Way):
@@ -177,9 +180,9 @@ class _Straight(_Way):
     def end(self, start: Pose2D) -> Pose2D:
         return along_arc(start, self.goal, 0.0)
 
-    def steered(self, pose: Pose2D, braking: Twist) -> Twist:
+    def steered(self, pose: Pose2D, braking: Twist, factor: float) -> Twist:
         astray = wrapped((self._start or pose).heading - pose.heading)
-        return Twist(self._toward_goal(braking.linear), _HEADING_GAIN * astray)
+        return Twist(self._toward_goal(braking.linear, factor), _HEADING_GAIN * astray)
 
 
 class _Turn(_Way):
@@ -195,8 +198,8 @@ class _Turn(_Way):
     def end(self, start: Pose2D) -> Pose2D:
         return along_arc(start, 0.0, self.goal)
 
-    def steered(self, pose: Pose2D, braking: Twist) -> Twist:
-        return Twist(0.0, self._toward_goal(braking.angular))
+    def steered(self, pose: Pose2D, braking: Twist, factor: float) -> Twist:
+        return Twist(0.0, self._toward_goal(braking.angular, factor))
 
 
 class Pilot:
@@ -225,7 +228,9 @@ class Pilot:
             is_there = remaining <= way.near
             if is_there or patience.is_over(now, remaining):
                 return None
-            return way.steered(pose, self._gate.braking)
+            if (factor := self._gate.factor) <= 0:
+                return REST
+            return way.steered(pose, self._gate.braking, factor)
 
         await self.lead(steer)
         pose = self._pose()

@@ -34,6 +34,18 @@ def test_move_takes_a_speed_and_a_mood() -> None:
     assert course.fastest == pytest.approx(0.12)
 
 
+@pytest.mark.parametrize("hurry", [0.6, 1.2])
+def test_who_hurries_or_dawdles_comes_to_rest_at_the_goal_and_does_not_come_back(
+    hurry: float,
+) -> None:
+    course = Course()
+    course.hurries.value = hurry
+    moved = course.run(lambda context: move(context, 0.5))
+    assert moved == pytest.approx(0.5, abs=0.01)
+    assert course.base.way == pytest.approx(moved, abs=0.002)
+    assert course.run(lambda context: turn(context, 0.3)) == pytest.approx(0.3, abs=0.02)
+
+
 def test_move_takes_an_acceleration_for_both_ends() -> None:
     course = Course()
     moved = course.run(lambda context: move(context, 1.0, speed=0.2, acceleration=0.1))
