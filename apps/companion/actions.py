@@ -27,6 +27,7 @@ def move(context: TaskContext, distance: float = 0.5) -> str | None:
 async def _go(context: TaskContext, companion: Companion, distance: float) -> None:
     travelled = await verbs.move(context, distance)
     if abs(travelled) < ARRIVED * abs(distance):
+        companion.emotion.feel("stuck")
         companion.tell("blocked")
 
 

@@ -43,8 +43,8 @@ def scene(companion: Companion, wondered: float) -> Scene:
 def next_question(companion: Companion) -> Question | None:
     """The question that it asks next; None when none fits the hour and what was said."""
     questions = _questions(companion)
-    at = companion.context.clock.wall()
-    place = companion.curiosity.choose(questions, companion.heard, at)
+    at, feeling = companion.context.clock.wall(), companion.emotion.feeling().label
+    place = companion.curiosity.choose(questions, companion.heard, feeling, at)
     return None if place is None else questions[place]
 
 

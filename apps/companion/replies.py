@@ -19,7 +19,7 @@ from hri.core import (
     did_you_mean,
     load_toml,
 )
-from hri.emotion import personality_names
+from hri.emotion import KNOWN_FEELINGS, personality_names
 from hri.robot import GRAMMARS, App
 from hri.speech import Grammar, sure_tags
 from hri.task import ImmediateTask, TaskType
@@ -94,6 +94,8 @@ class Question:
     """DAY for a question that is asked once a day."""
     after: tuple[str, ...] = ()
     """Rules of which one must have been heard before."""
+    feeling: tuple[str, ...] = ()
+    """Words and labels of feelings in which it may be asked; any without one."""
 
 
 @dataclass(frozen=True)
@@ -415,6 +417,12 @@ def _question(entry: Table, vocabulary: Vocabulary, is_own: bool) -> Question:
     action = entry.string("action", "", among=AFTER_YES)
     show = _expression(entry, entry.string("show", ""), vocabulary)
     hour, after = _listed(entry, "hour"), _listed(entry, "after")
+    feeling = _listed(entry, "feeling")
+    for name in feeling:
+        if name not in KNOWN_FEELINGS:
+            raise entry.error(
+                "feeling", f'unknown feeling "{name}"', did_you_mean(name, KNOWN_FEELINGS)
+            )
     for part in hour:
         if part not in PARTS_OF_DAY:
             raise entry.error("hour", f'hour is "{part}"', did_you_mean(part, PARTS_OF_DAY))
@@ -423,7 +431,7 @@ def _question(entry: Table, vocabulary: Vocabulary, is_own: bool) -> Question:
     once = entry.string("once", "", among=(DAY,))
     entry.finish()
     task = vocabulary.app.task_type(action) if action in vocabulary.app.task_names() else None
-    return Question(ask, yes, no, action, task, show, hour, once, after)
+    return Question(ask, yes, no, action, task, show, hour, once, after, feeling)
 
 
 def _then(entry: Table, vocabulary: Vocabulary, is_own: bool) -> dict[str, tuple[str, ...]]:

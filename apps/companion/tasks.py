@@ -6,6 +6,7 @@ take_saved_replies  reads the replies again when they are saved
 notice      reacts to a bump and a low battery, and feels ignored; the triggers in
             emotions/stimuli handle other events
 attend      nods to who talks for long, and shows that it thinks
+pose        moves the base a little as a feeling begins to show
 watch_keys  space stops it, r releases a base that must be released, m mutes the microphone, v turns
             the camera off and on, c switches captions, escape ends
 """
@@ -29,6 +30,7 @@ from hri.task import TaskContext
 from .actions import come, eyes, follow, move, quiet, release, sleep, stop, turn, wake
 from .asking import ask, next_question, scene
 from .companion import Companion, authored_replies, vocabulary_of
+from .moving_by_feeling import pose
 from .presence import attend
 from .puzzled import puzzle
 from .replies import FILE, Replies, load_replies
@@ -47,6 +49,7 @@ __all__ = [
     "learn",
     "move",
     "notice",
+    "pose",
     "quiet",
     "release",
     "see",

@@ -1,4 +1,4 @@
-"""Which question the robot asks next, of those that fit the hour and what people said."""
+"""Which question the robot asks next, of those that fit the hour, its feeling, and the talk."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from datetime import date, datetime
 from typing import Protocol
 
 from hri.conversation.day import part_of_day
+from hri.emotion.everyday_words import fitting
 
 DAY = "day"
 
@@ -32,6 +33,10 @@ class Asking(Protocol):
     def after(self) -> Sequence[str]:
         """Rules of which one must have been heard; none for a question that needs no occasion."""
 
+    @property
+    def feeling(self) -> Sequence[str]:
+        """Words and labels of feelings in which it may be asked; any without one."""
+
 
 @dataclass
 class Curiosity:
@@ -43,29 +48,34 @@ class Curiosity:
     """By the words: its number among all that were asked, from 1, and the day."""
     _count: int = 0
 
-    def choose(self, questions: Sequence[Asking], heard: Sequence[str], at: datetime) -> int | None:
+    def choose(
+        self, questions: Sequence[Asking], heard: Sequence[str], feeling: str, at: datetime
+    ) -> int | None:
         """The place of the question to ask now in `questions`; None when none fits.
 
-        `heard` are the rules that people said, the last one last. Of those that fit, one that was
-        not asked yet comes first, then one that has an occasion, then one for this part of the day.
+        `heard` are the rules that people said, the last one last, `feeling` is the label of what
+        the robot feels. Of those that fit, one that was not asked yet comes first, then one that
+        has an occasion, in the talk or in the feeling, then one for this part of the day.
         """
-        fitting = [n for n, one in enumerate(questions) if self._fits(one, heard, at)]
-        return min(fitting, key=lambda n: self._rank(questions[n]), default=None)
+        fit = [n for n, one in enumerate(questions) if self._fits(one, heard, feeling, at)]
+        return min(fit, key=lambda n: self._rank(questions[n]), default=None)
 
     def note(self, ask: str, at: datetime) -> None:
         """A question was asked."""
         self._count += 1
         self._asked[ask] = self._count, at.date()
 
-    def _fits(self, one: Asking, heard: Sequence[str], at: datetime) -> bool:
+    def _fits(self, one: Asking, heard: Sequence[str], feeling: str, at: datetime) -> bool:
         _, day = self._asked.get(one.ask, (0, None))
         is_early = bool(one.hour) and part_of_day(at.hour) not in one.hour
         is_repeated = one.once == DAY and day == at.date()
         is_occasion = not one.after or not set(one.after).isdisjoint(heard)
-        return is_occasion and not is_early and not is_repeated
+        is_felt = not one.feeling or bool(fitting(feeling, one.feeling))
+        return is_occasion and is_felt and not is_early and not is_repeated
 
     def _rank(self, one: Asking) -> tuple[int, int, int, float]:
         number, _ = self._asked.get(one.ask, (0, None))
         # A text as a seed gives the same number on every machine.
         chance = random.Random(f"{self.seed}/{one.ask}").random()
-        return (number, -bool(one.after), -bool(one.hour), chance)
+        has_occasion = bool(one.after or one.feeling)
+        return (number, -has_occasion, -bool(one.hour), chance)

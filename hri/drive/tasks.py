@@ -156,7 +156,7 @@ class _Way(ABC):
     def steered(self, pose: Pose2D, braking: Twist, factor: float) -> Twist:
         """What to ask the base for on the way.
 
-        `braking` is what it slows down with, `factor`, above 0, what the gate makes of a velocity.
+        The gate slows down with `braking`, and multiplies every velocity by `factor`, above 0.
         """
 
     def _toward_goal(self, braking: float, factor: float) -> float:

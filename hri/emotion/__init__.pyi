@@ -6,6 +6,7 @@ from .appraisal import (
 from .behaviors import EmotionDisplay as EmotionDisplay, EmotionModel as EmotionModel
 from .dynamics import Dynamics as Dynamics
 from .everyday_words import KNOWN_FEELINGS as KNOWN_FEELINGS
+from .expressive_motion import ExpressiveMotion as ExpressiveMotion
 from .model_spec import EmotionModelSpec as EmotionModelSpec, load_emotions as load_emotions
 from .personality import (
     Personality as Personality,

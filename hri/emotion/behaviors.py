@@ -19,6 +19,7 @@ from hri.emotion.announcer import Announcer
 from hri.emotion.appraisal import OccEvent, name_of, people_of
 from hri.emotion.display import HONEST, felt_now, load_display
 from hri.emotion.explanation import explained
+from hri.emotion.expressive_motion import ExpressiveMotion
 from hri.emotion.files import Reloading
 from hri.emotion.keeper import Keeper
 from hri.emotion.label import CALM
@@ -309,6 +310,11 @@ class EmotionDisplay(Behavior):
     def act_all(self, values: Mapping[str, float] | Sequence[float], duration: float) -> None:
         """Show these and no other emotions for some seconds. Raises HriError."""
         self.act(whole_vector(values), duration)
+
+    @property
+    def motion(self) -> ExpressiveMotion | None:
+        """What the base does for the feeling that shows; None where that is not strong enough."""
+        return self._model.display.motion(self._state, self._model.personality.expressiveness)
 
     @property
     def is_acting(self) -> bool:

@@ -18,6 +18,7 @@ from hri.core.errors import HriError, did_you_mean
 from hri.core.signals import EmotionState, Expression, Gaze, Prosody
 from hri.core.toml import Table, load_toml
 from hri.emotion.emotions import EMOTIONS, INDEX, NAMES, emotions_in
+from hri.emotion.expressive_motion import ExpressiveMotion, read_motion
 from hri.emotion.label import CALM, LEAD, MOODS, STANDS_OUT, known_as
 
 Felt = tuple[float, float, float]
@@ -118,6 +119,8 @@ class Display:
     """Height of the eyes, -1 (down) to 1 (up)."""
     rules: Mapping[str, Mapping[str, DisplayRule]]
     """Display rules by the name of the set and the emotion."""
+    motions: Mapping[str, ExpressiveMotion]
+    """What the base does as an emotion begins to show."""
 
     def shown(self, state: EmotionState, rules: str = HONEST) -> EmotionState:
         """What others get to see of a state under a set of display rules.
@@ -141,6 +144,12 @@ class Display:
             min(max(axis * expressiveness, -1.0), 1.0) for axis in (state.valence, state.arousal)
         )
         return Expression(look.expression, intensity, valence=valence, arousal=arousal)
+
+    def motion(self, state: EmotionState, expressiveness: float = 1.0) -> ExpressiveMotion | None:
+        """What the base does for a state; None where it is not felt strongly enough."""
+        motion = self.motions.get(state.label)
+        is_shown = motion is not None and state.intensity * expressiveness >= motion.above
+        return motion if is_shown else None
 
     def prosody(self, felt: Felt) -> Prosody:
         """The voice for pleasure, arousal and dominance, each -1 to 1."""
@@ -218,6 +227,7 @@ def load_display(path: Path | None = None) -> Display:
     voice = table.table("voice")
     drive = table.table("drive")
     eyes = table.table("eyes", optional=True)
+    motions = table.table("motion", optional=True)
     display = Display(
         looks=_looks(looks),
         rate=_factor(voice.table("rate")),
@@ -227,8 +237,9 @@ def load_display(path: Path | None = None) -> Display:
         speed=_factor(drive.table("speed")),
         gaze=_height(eyes.table("height")) if "height" in eyes else STRAIGHT,
         rules={name: _rules(below) for name, below in table.tables("rules")},
+        motions={name: read_motion(motions.table(name)) for name in emotions_in(motions)},
     )
-    for part in (voice, drive, eyes, table):
+    for part in (voice, drive, eyes, motions, table):
         part.finish()
     return display
 

@@ -21,6 +21,7 @@ from hri.emotion.display import (
 )
 from hri.emotion.dynamics import Dynamics
 from hri.emotion.emotions import EMOTIONS, INDEX, NAMES
+from hri.emotion.model_spec import load_emotions
 from hri.face import vocabulary
 from tests.emotion.streams import Stream, models, play, streams
 from tests.recorded import SHARED, needs_shared
@@ -228,3 +229,54 @@ def test_moods_may_go_by_their_former_names(tmp_path: Path) -> None:
     path.write_text(text)
 
     assert load_display(path).looks == DISPLAY.looks
+
+
+def felt(label: str, intensity: float) -> EmotionState:
+    return EmotionState(label, intensity, 0.0, 0.0, 0.0)
+
+
+def test_the_base_moves_for_what_is_felt_strongly_enough() -> None:
+    assert DISPLAY.motion(felt("calm", 1.0)) is None
+    for emotion, motion in DISPLAY.motions.items():
+        assert DISPLAY.motion(felt(emotion, motion.above)) == motion
+        assert DISPLAY.motion(felt(emotion, motion.above - 0.01)) is None
+        assert DISPLAY.motion(felt(emotion, motion.above), 0.5) is None
+
+
+def test_the_base_ends_as_it_began() -> None:
+    """It would lose sight of the people if each feeling turned it a little."""
+    assert DISPLAY.motions
+    for emotion, motion in DISPLAY.motions.items():
+        assert sum(motion.turns) == pytest.approx(0.0), emotion
+
+
+def test_the_shy_are_slower() -> None:
+    dynamics = [load_emotions(name).dynamics() for name in ("shy", "neutral")]
+    states = [one.read(one.rest(0.0)) for one in dynamics]
+    shy, neutral = (DISPLAY.speed.value(felt_now(state)) for state in states)
+    assert shy < 0.95 * neutral
+
+
+@pytest.mark.parametrize(
+    ("entry", "message"),
+    [
+        ("joy = { turns = [8] }", "above"),
+        ("joy = { above = 0.5, turns = [90] }", "turns from -45 to 45 degrees"),
+        ("joy = { above = 0.5, turns = [1, 1, 1, 1, 1, 1, 1, 1, 1] }", "write up to 8 turns"),
+        ("joy = { above = 0.5, backs_off = 1 }", "backs_off"),
+        ("joy = { above = 0.5, turn = [8] }", "turns"),
+        ("joi = { above = 0.5 }", '"joy"'),
+    ],
+)
+def test_a_broken_motion_is_refused_with_its_place(
+    entry: str, message: str, tmp_path: Path
+) -> None:
+    written = display_path().read_text(encoding="utf-8")
+    before, _, _ = written.partition("[motion]")
+    file = tmp_path / "display.toml"
+    file.write_text(f"{before}[motion]\n{entry}\n", encoding="utf-8")
+    line = before.count("\n") + 2
+    with pytest.raises(HriError) as caught:
+        load_display(file)
+    assert f"display.toml:{line}" in str(caught.value)
+    assert message in str(caught.value)

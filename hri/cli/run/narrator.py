@@ -20,6 +20,7 @@ LINES = {
     "speech.rejected": "ignored   {text} ({why})",
     "speech.said": "said      {text}",
     "emotion.changed": "feels     {label}",
+    "emotion.moved": "moves     out of {emotion}",
     "grammar.changed": "reloaded the grammar",
     "grammar.refused": "refused   {error}",
     "replies.changed": "reloaded replies.toml",
