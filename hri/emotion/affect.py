@@ -169,10 +169,12 @@ def driven_out(ledger: Ledger, fresh: Fresh) -> Ledger:
 
 
 def _less(row: LedgerRow, against: Mapping[str, float]) -> LedgerRow:
+    driven = against.keys() & row.charges.keys()
+    if not driven:
+        return row
     charges = dict(row.charges)
-    for part, charge in row.charges.items():
-        if (driven := against.get(PART_OF[part])) is not None:
-            charges[part] = charge * exp(-driven)
+    for part in driven:
+        charges[part] *= exp(-against[part])
     return LedgerRow(charges, row.mood, row.time)
 
 

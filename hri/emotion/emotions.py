@@ -143,11 +143,13 @@ OPPOSITES_ABOUT_ONE_THING = (
 
 
 def _opposites_of(name: str, pairs: tuple[tuple[str, str], ...]) -> tuple[str, ...]:
-    return tuple(other for pair in pairs if name in pair for other in pair if other != name)
+    """The parts of the emotions that are paired with one."""
+    others = {other for pair in pairs if name in pair for other in pair if other != name}
+    return tuple(part for part, name in PART_OF.items() if name in others)
 
 
 OPPOSITES_OF = {part: _opposites_of(name, OPPOSITES) for part, name in PART_OF.items()}
-"""The opposites of the emotion of each part, whatever it is about."""
+"""The parts of the opposites of the emotion of each part, whatever it is about."""
 OPPOSITES_OF_THE_SAME = {
     part: _opposites_of(name, OPPOSITES_ABOUT_ONE_THING) for part, name in PART_OF.items()
 }

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
-from math import hypot, inf, log
+from math import exp, hypot, inf, log
 from typing import NamedTuple
 
 from hri.emotion.emotions import PART_OF, SLOW_SHARES
@@ -74,6 +74,9 @@ _SLOW = {name: -log(1 - share) for name, share in SLOW_SHARES.items()}
 """What the slow part that comes with a quick one adds to it; it fades no faster, so that the sum of
 both is never less."""
 
+_STANDS_OUT = {part: exp(log(RISE) - _SLOW.get(part, 0.0)) * (1 - 1e-9) for part in PART_OF}
+"""The charge of each part with which its emotion stands out, a little less for rounding."""
+
 
 def mood_name(mood: Sequence[float]) -> str:
     """The name of a mood given as pleasure, arousal, dominance, each -1 to 1."""
@@ -108,10 +111,15 @@ def course(
     `current` had it until now, `charges` are those of now by part, `rates` their decay in 1/s,
     above 0; `held` are those that last. An emotion counts as much as its largest part.
     """
+    # Charges only fall: an emotion of which no part stands out now will not have the label later.
+    standing = {PART_OF[part] for part, charge in charges.items() if charge >= _STANDS_OUT[part]}
+    standing.add(current)
     lines = [
         Line(PART_OF[part], height, rates[part])
         for part, charge in charges.items()
-        if charge and (height := log(charge) + _SLOW.get(part, 0.0)) >= _LOG_FALL
+        if PART_OF[part] in standing
+        and charge
+        and (height := log(charge) + _SLOW.get(part, 0.0)) >= _LOG_FALL
     ]
     if not held:
         return tuple(_steps(current, lines, 0.0, inf)) if lines else _NOTHING_AHEAD
