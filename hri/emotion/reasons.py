@@ -49,11 +49,15 @@ _TIMELESS = re.compile(
 """In words of a stimulus, what lasts or says its own time; "ago" goes with what is over."""
 
 _AGES = (
-    # upper limit in seconds: (seconds of the unit, singular, plural)
-    (60.0, 1.0, "a moment ago", "a moment ago"),
-    (3600.0, 60.0, "a minute ago", "{} minutes ago"),
-    (86400.0, 3600.0, "an hour ago", "{} hours ago"),
-    (float("inf"), 86400.0, "a day ago", "{} days ago"),
+    # (upper limit, to what it is rounded, unit, each in seconds; singular, plural): nobody says
+    # "53 minutes ago"
+    (60.0, 1.0, 1.0, "a moment ago", "a moment ago"),
+    (720.0, 60.0, 60.0, "a minute ago", "{} minutes ago"),
+    (1500.0, 300.0, 60.0, "", "{} minutes ago"),
+    (2400.0, 300.0, 60.0, "", "half an hour ago"),
+    (3600.0, 600.0, 60.0, "", "{} minutes ago"),
+    (86400.0, 3600.0, 3600.0, "an hour ago", "{} hours ago"),
+    (float("inf"), 86400.0, 86400.0, "a day ago", "{} days ago"),
 )
 
 
@@ -114,10 +118,11 @@ def age_words(age_s: float) -> str:
     """How long ago that is: "2 minutes ago"; empty for what happened just now."""
     if age_s < JUST_NOW_S:
         return ""
-    for limit, unit, one, several in _AGES:
+    for limit, step, unit, one, several in _AGES:
         # Rounded first, so that 59.7 minutes are an hour.
-        if round(age_s / unit) * unit < limit:
-            count = max(1, round(age_s / unit))
+        rounded = max(round(age_s / step), 1) * step
+        if rounded < limit:
+            count = round(rounded / unit)
             return one if count == 1 else several.format(count)
     raise ValueError(f"an age of {age_s} s")
 

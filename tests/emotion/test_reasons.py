@@ -95,6 +95,11 @@ def test_what_is_no_stimulus_has_words_too(
         (10.0, "a moment ago"),
         (59.7, "a minute ago"),
         (100.0, "2 minutes ago"),
+        (660.0, "11 minutes ago"),
+        (840.0, "15 minutes ago"),
+        (1700.0, "half an hour ago"),
+        (2200.0, "half an hour ago"),
+        (3180.0, "50 minutes ago"),
         (3590.0, "an hour ago"),
         (7300.0, "2 hours ago"),
         (86390.0, "a day ago"),
@@ -108,7 +113,9 @@ def test_ages_are_told_in_the_unit_that_people_use(age_s: float, words: str) -> 
 @given(st.floats(0, 1e9))
 def test_every_age_has_words_without_large_numbers_of_small_units(age_s: float) -> None:
     words = age_words(age_s)
-    assert "60 minutes" not in words
+    number = next((int(word) for word in words.split() if word.isdigit()), 0)
+    assert "minutes" not in words or 1 < number < 60
+    assert number <= 12 or "minutes" not in words or number % 5 == 0
     assert "24 hours" not in words
 
 
