@@ -14,6 +14,8 @@ from hri.speech.synthesizers.natural_text import Reader
 from hri.speech.synthesizers.network_voice import Engine, NetworkVoice, gain_of
 from hri.speech.synthesizers.voice_names import HEART
 
+NATIVE_WPM = 195.0
+"""Words a minute at its usual pace, over a page of a story."""
 TRIAL = "ðˈɪs ɪz hˌW lˈWd ˌI spˈik."
 """What is said once, to learn how loud a model is."""
 
@@ -33,7 +35,7 @@ class NaturalVoice(NetworkVoice):
 
     def _made(self, lexicon: Lexicon) -> Engine:
         network, gain, g2p = _loaded(self.description.text("model"))
-        return Engine(network, Reader(g2p, lexicon), RATE, gain)
+        return Engine(network, Reader(g2p, lexicon), RATE, gain, NATIVE_WPM)
 
 
 @lru_cache(maxsize=4)

@@ -7,7 +7,7 @@ harmonic and of a noise source, which an inverse Fourier transform makes into so
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -20,31 +20,45 @@ from numpy.typing import NDArray
 from hri.core.errors import HriError, NotAvailable
 from hri.core.native_path import native_path
 from hri.core.signals import Prosody
+from hri.speech.notation.intonation import LAST_S
+from hri.speech.synthesizers.natural_melody import LOUD_DB, VOICED_HZ, Curve, Phrase, bent, lifted
 from hri.speech.synthesizers.natural_symbols import Sounded, longest_parts
+from hri.speech.synthesizers.natural_text import Ending
+from hri.speech.synthesizers.natural_timing import Timing, timing
 
 Sound = NDArray[np.float32]
 Spectrum = NDArray[np.float32]
 """Bins of BIN_HZ by frames of 12.5 ms."""
-Curve = NDArray[np.float32]
-"""Hertz, by frames."""
 
 RATE = 24000
 """Samples a second."""
 BIN_HZ = 20.0
 MOST_SYMBOLS = 400
 """What the network is given at once: its sentences were seldom longer when it learned."""
-SLOWEST, FASTEST = 0.5, 2.0
+SLOWEST, FASTEST = 0.3, 2.5
 """Factors of the rate at which it still speaks well."""
-VOICED_HZ = 40.0
-"""Frames with a lower pitch have no voice."""
 SEMITONES = 12
 """Of an octave."""
 REST_DAMPING = 0.35
 """By how much the part of the sound that has the network's own pitch in its phases is damped for
 each semitone of another pitch: 3 dB, as a natural logarithm.
 """
-_FRAME = 600
-"""Samples of one unit of the durations: 25 ms."""
+_FRAME, _HOP = 600, 300
+"""Samples of one unit of the durations, 25 ms, and of one frame of the spectra."""
+UNMOVED = 0.05
+"""Semitones by which a pitch may be moved without a trace."""
+VOICE_HZ = 4000.0
+"""Above it, what is not harmonic is noise."""
+HARMONICS = 30
+"""Those that make nearly all of the loudness."""
+_LOBE = 1.5
+"""Energy of a harmonic over that of its bin: the window spreads it over three."""
+_NOTHING = -20.0
+"""Logarithm of a magnitude that is not heard."""
+_DECIBELS = 20.0 / np.log(10.0)
+"""Of a factor e."""
+_AFTER = 4
+"""Frames by which a sound may go on beyond its time."""
 _DURATIONS = "/Clip_output_0"
 """The tensor of the durations, which the model computes but does not give out."""
 LEAD = 0.056
@@ -55,8 +69,6 @@ SILENCE_DBFS = -60.0
 """Below this level there is nothing to be heard."""
 BREATH = 0.05
 """Seconds of silence that are left before a sentence."""
-PAUSE = 0.25
-"""Seconds of silence that are left after a sentence."""
 MOST_KEPT = 32
 """Parts of sentences whose sound is kept, for when they are said again: 10 MB."""
 _BLOCK = 120
@@ -85,61 +97,180 @@ class Network:
         self._session = session_of(model, _DURATIONS)
         self._part = lru_cache(maxsize=MOST_KEPT)(self._spoken)
 
-    def speak(self, symbols: str, prosody: Prosody) -> list[Utterance]:
-        """The symbols in sound, in parts that the network can take at once."""
-        parts = longest_parts(symbols, MOST_SYMBOLS)
-        return [self._part(symbols[begin:end], prosody) for begin, end in parts]
+    def speak(
+        self, symbols: str, prosody: Prosody, endings: Sequence[Ending] = ()
+    ) -> list[Utterance]:
+        """The symbols in sound, in parts that the network can take at once.
 
-    def _spoken(self, symbols: str, prosody: Prosody) -> Utterance:
+        `endings` are those of the phrases.
+        """
+        return [
+            self._part(
+                symbols[begin:end],
+                prosody,
+                tuple(
+                    ending._replace(symbol=ending.symbol - begin)
+                    for ending in endings
+                    if begin < ending.symbol <= end
+                ),
+            )
+            for begin, end in longest_parts(symbols, MOST_SYMBOLS)
+        ]
+
+    def _spoken(self, symbols: str, prosody: Prosody, endings: tuple[Ending, ...]) -> Utterance:
         ids = [self._vocabulary.get(symbol) for symbol in symbols]
-        speed = min(max(prosody.rate, SLOWEST), FASTEST)
         given = {
             "ids": np.array([[0, *(one for one in ids if one is not None), 0]], np.int64),
-            "speed": np.array([speed], np.float32),
+            "speed": np.array([1.0], np.float32),
         }
         *framed, durations = self._session.run(None, given)
         *spectra, pitch = (one[0] for one in framed)
-        sound = self._sound(spectra, pitch, prosody)
+        ends = np.cumsum(durations) * (_FRAME / _HOP) - LEAD * RATE / _HOP
+        starts = np.array([ends[place] for place in _places(ids)])
+        factor = 1.0 / min(max(prosody.rate, SLOWEST), FASTEST)
+        loudness = _loudness(spectra, pitch)
+        pauses = [
+            (ending.symbol, round(ending.pause_s * factor * RATE / _HOP)) for ending in endings[:-1]
+        ]
+        timed = timing(symbols, starts, loudness, factor, pauses)
+        spectra, pitch = _drawn(spectra, pitch, timed)
+        heard_at = timed.at(starts)
+        phrases = _phrases(heard_at, endings)
+        loudness = _loudness(spectra, pitch)
+        lift = (lifted(loudness, phrases) / _DECIBELS).astype(np.float32)
+        for magnitudes in (spectra[0], spectra[2], spectra[3]):
+            magnitudes += lift
+        melody = bent(pitch, loudness > loudness.max() - LOUD_DB, phrases)
+        sound = self._sound(spectra, pitch, melody, pitched(melody, prosody))
         sound.flags.writeable = False  # It is kept.
-        ends = np.cumsum(durations) * _FRAME / RATE - LEAD
-        return trimmed(sound, _sounded(symbols, ids, ends), RATE)
+        times = heard_at * _HOP / RATE
+        spoken = [
+            Sounded(symbol, float(begin), float(end - begin))
+            for symbol, begin, end in zip(symbols, times[:-1], times[1:], strict=True)
+        ]
+        pause = endings[-1].pause_s if endings else LAST_S
+        if pause > LAST_S:
+            pause *= factor
+        return trimmed(sound, spoken, RATE, pause, BREATH * factor)
 
-    def _sound(self, spectra: list[Spectrum], pitch: Curve, prosody: Prosody) -> Sound:
-        """The sound of spectra, as loud at another pitch as at their own."""
-        plain = self._of_spectra(spectra, pitch)
-        changed = pitched(pitch, prosody)
-        if changed is pitch:
-            return plain
-        harmonic, phase, noise, rest, rest_phase = spectra
-        moved = np.abs(SEMITONES * np.log2(np.maximum(changed, 1.0) / np.maximum(pitch, 1.0)))
-        shifted = [envelope(harmonic, pitch), phase, noise, rest - REST_DAMPING * moved, rest_phase]
-        sound = self._of_spectra(shifted, changed)
-        return sound * (_level(plain) / max(_level(sound), 1e-9))
+    def _sound(self, spectra: list[Spectrum], pitch: Curve, melody: Curve, changed: Curve) -> Sound:
+        """The sound of spectra, as loud at another pitch as at their own.
+
+        `melody` has the tones of the phrases, `changed` is what is heard.
+        """
+        moved = _semitones(changed, pitch)
+        frames = np.flatnonzero(moved > UNMOVED)
+        if not len(frames):
+            return self._of_spectra(spectra, pitch)
+        loud = _energy(spectra, pitch)
+        harmonic, rest = spectra[0].copy(), spectra[3].copy()
+        rest[:, frames] -= REST_DAMPING * moved[frames]
+        harmonic[:, frames] = envelope(harmonic[:, frames], pitch[frames])
+        ends = np.flatnonzero(_semitones(melody, pitch) > UNMOVED)
+        lost = spectra[3][:, ends], rest[:, ends]
+        harmonic[:, ends] = _with_rest(harmonic[:, ends], *lost, changed[ends])
+        shifted = [harmonic, spectra[1], spectra[2], rest, spectra[4]]
+        level = np.sqrt(loud.sum() / max(float(_energy(shifted, changed).sum()), 1e-12))
+        return self._of_spectra(shifted, changed) * np.float32(level)
 
     def _of_spectra(self, spectra: list[Spectrum], pitch: Curve) -> Sound:
         # Each part draws the same noise: what was said before changes nothing.
         return self._synthesize(*spectra, pitch, np.random.default_rng(0))
 
 
-def _sounded(symbols: str, ids: list[int | None], ends: NDArray[np.float64]) -> list[Sounded]:
-    """The time of each symbol; those that the network does not know take none."""
-    spoken, place = [], 0
-    for symbol, id in zip(symbols, ids, strict=True):
-        start = float(ends[place])
-        place += id is not None
-        spoken.append(Sounded(symbol, start, float(ends[place]) - start))
-    return spoken
+def _semitones(one: Curve, other: Curve) -> NDArray[np.float64]:
+    """How far two curves are apart."""
+    apart: NDArray[np.float64] = np.log2(np.maximum(one, 1.0) / np.maximum(other, 1.0))
+    return np.abs(SEMITONES * apart)
 
 
-def trimmed(sound: Sound, symbols: list[Sounded], rate: int) -> Utterance:
-    """Without the silence that a network puts around a sentence, up to a third of a second."""
+def _with_rest(harmonic: Spectrum, rest: Spectrum, damped: Spectrum, pitch: Curve) -> Spectrum:
+    """The harmonics with what the rest loses: at the end of a sentence most of a vowel is there."""
+    low = round(VOICE_HZ / BIN_HZ)
+    bins = pitch / BIN_HZ / _LOBE  # of the rest, in one harmonic
+    lost = np.exp(2.0 * rest[:low]) - np.exp(2.0 * damped[:low])
+    together = np.exp(2.0 * np.minimum(harmonic[:low], 7.0)) + np.maximum(lost, 0.0) * bins
+    filled = harmonic.copy()
+    has_voice = pitch > VOICED_HZ
+    filled[:low] = np.where(has_voice, 0.5 * np.log(np.maximum(together, 1e-20)), harmonic[:low])
+    return filled
+
+
+def _places(ids: list[int | None]) -> list[int]:
+    """Before each symbol, and after the last, how many ends the network gives; those that it does
+    not know take no time.
+    """
+    places = [0]
+    for id in ids:
+        places.append(places[-1] + (id is not None))
+    return places
+
+
+def _energy(spectra: list[Spectrum], pitch: Curve) -> NDArray[np.float64]:
+    """The energy of each frame; of the harmonics only where they are."""
+    harmonic, _, noise, rest, _ = spectra
+    has_voice = pitch > VOICED_HZ
+    numbers = np.arange(1, HARMONICS + 1)[:, None]
+    bins = np.rint(numbers * np.where(has_voice, pitch, RATE) / BIN_HZ).astype(np.int64)
+    drawn = np.take_along_axis(harmonic, np.minimum(bins, len(harmonic) - 1), axis=0)
+    voice = np.where(bins < len(harmonic), np.exp(2.0 * np.minimum(drawn, 7.0)), 0.0).sum(axis=0)
+    energy: NDArray[np.float64] = _LOBE * np.where(has_voice, voice, 0.0)
+    for part in (noise, rest):
+        energy += np.exp(2.0 * np.minimum(part, 7.0)).sum(axis=0)
+    return energy
+
+
+def _loudness(spectra: list[Spectrum], pitch: Curve) -> NDArray[np.float64]:
+    """Decibels of each frame."""
+    decibels: NDArray[np.float64] = 10.0 * np.log10(np.maximum(_energy(spectra, pitch), 1e-12))
+    return decibels
+
+
+def _drawn(spectra: list[Spectrum], pitch: Curve, timed: Timing) -> tuple[list[Spectrum], Curve]:
+    """Spectra and pitch at the places of a timing, between two frames linearly.
+
+    Phases turn, so those of the rest are taken from the nearest frame.
+    """
+    before = timed.places.astype(np.int64)
+    after = np.minimum(before + 1, len(pitch) - 1)
+    share = (timed.places - before).astype(np.float32)
+    nearest = np.where(share < 0.5, before, after)
+    rest_phase = spectra[4]
+    magnitudes = [(1 - share) * one[:, before] + share * one[:, after] for one in spectra[:4]]
+    for number in (0, 2, 3):
+        magnitudes[number][:, timed.silent] = _NOTHING
+    has_voice = (pitch[before] > VOICED_HZ) & (pitch[after] > VOICED_HZ)
+    curve = (1 - share) * pitch[before] + share * pitch[after]
+    drawn = np.where(has_voice, curve, pitch[nearest])
+    return [*magnitudes, rest_phase[:, nearest]], drawn.astype(np.float32)
+
+
+def _phrases(starts: NDArray[np.float64], endings: Sequence[Ending]) -> list[Phrase]:
+    """The phrases in frames; `starts` are the frames in which the symbols begin."""
+    phrases, begin = [], 0
+    for ending in endings:
+        end = max(round(float(starts[ending.symbol])) + _AFTER, begin)
+        phrases.append(Phrase(begin, end, ending.tone))
+        begin = end
+    return phrases
+
+
+def trimmed(
+    sound: Sound,
+    symbols: list[Sounded],
+    rate: int,
+    pause: float = LAST_S,
+    breath: float = BREATH,
+) -> Utterance:
+    """With these silences around it, in seconds, instead of those of the network."""
     blocks = sound[: len(sound) // _BLOCK * _BLOCK].reshape(-1, _BLOCK)
     loud = np.flatnonzero((blocks**2).mean(axis=1) > 10 ** (SILENCE_DBFS / 10))
     if not len(loud):
         return Utterance(sound[:0], tuple(Sounded(one.symbol, 0.0, 0.0) for one in symbols))
-    begin = max(int(loud[0]) * _BLOCK - round(BREATH * rate), 0)
+    begin = max(int(loud[0]) * _BLOCK - round(breath * rate), 0)
     heard_until = (int(loud[-1]) + 1) * _BLOCK
-    end = min(heard_until + round(PAUSE * rate), len(sound))
+    end = heard_until + round(pause * rate)
+    sound = np.pad(sound, (0, max(end - len(sound), 0)))
     first, last = 0.0, (heard_until - begin) / rate
     times = [(one.start - begin / rate, one.end - begin / rate) for one in symbols]
     limited = [(min(max(a, first), last), min(max(b, first), last)) for a, b in times]
@@ -171,10 +302,6 @@ def _at(spectrum: Spectrum, places: NDArray[np.float64]) -> NDArray[np.float64]:
     share = places - bins
     found: NDArray[np.float64] = (1 - share) * spectrum[bins, frames]
     return found + share * spectrum[bins + 1, frames]
-
-
-def _level(sound: Sound) -> float:
-    return float(np.sqrt((sound**2).mean())) if len(sound) else 0.0
 
 
 def pitched(pitch: Curve, prosody: Prosody) -> Curve:

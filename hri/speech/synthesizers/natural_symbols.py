@@ -15,6 +15,7 @@ from hri.speech.pronunciation.phones import VOWELS, Phones
 PAUSE = "_:"
 """espeak-ng's mnemonic of a pause."""
 SPACE = " "
+VOWEL_SYMBOLS = frozenset("aæɑɐɒʌəᵊɜɚɛeiɪɨᵻyøœɔoɤʊɯuAIOQWY")
 STRESSES = "ˈˌ"
 """These come before what they stress."""
 MODIFIERS = "ː̃ʰʲᵝ"

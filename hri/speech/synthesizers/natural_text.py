@@ -8,8 +8,9 @@ from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate
-from typing import Any
+from typing import Any, NamedTuple
 
+from hri.speech.notation.intonation import Tone, boundaries, pause_between
 from hri.speech.notation.reading import Spoken, spoken
 from hri.speech.notation.sentences import sentences
 from hri.speech.pronunciation import heteronyms
@@ -27,11 +28,22 @@ LONGEST_WORD = 28
 """Letters of a word that is read as one."""
 _LONG = re.compile(rf"\S{{{LONGEST_WORD + 1},}}")
 _SHOUTED = re.compile(r"[^\W\d_]{2,}+")
+_BLANK_LINE = re.compile(r"\n[^\S\n]*\n")
 _MARKUP = str.maketrans("[]", "()")
 """Brackets would be taken as a link that gives symbols."""
 _POSSESSIVE = ("'s", "\N{RIGHT SINGLE QUOTATION MARK}s")
 _FOREIGN = 0.5
 """Share of letters of other scripts from which a sentence is another voice's."""
+
+
+class Ending(NamedTuple):
+    """The end of a phrase."""
+
+    symbol: int
+    """The number of symbols before it."""
+    tone: Tone
+    pause_s: float
+    """Seconds of silence after it, at the usual pace."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +57,8 @@ class Sentence:
     symbols: str
     words: tuple[int, ...]
     """Of each symbol, the number of the word that it belongs to."""
+    endings: tuple[Ending, ...] = ()
+    """Of its phrases."""
 
     def written(self) -> list[tuple[str, int]]:
         """Its words, and how many characters of it are before each."""
@@ -64,12 +78,12 @@ class Reader:
 
         `sounds` are phones of words, before those of the lexicon.
         """
-        text, lexicon = plain(text), self._lexicon.extended(sounds)
+        text, lexicon = _in_paragraphs(text), self._lexicon.extended(sounds)
         for begin, end in sentences(text):
             sentence = text[begin:end]
             latin = in_latin(sentence)
             symbols, words = ("", ()) if is_foreign(latin) else self._tried(latin, lexicon)
-            yield Sentence(sentence, begin, symbols, words)
+            yield Sentence(sentence, begin, symbols, words, _endings(sentence, words, text[end:]))
 
     def _tried(self, sentence: str, lexicon: Lexicon) -> tuple[str, tuple[int, ...]]:
         """Nothing where hibari fails, as it does for digits of rare scripts beside letters."""
@@ -122,6 +136,29 @@ class Reader:
 
         symbols, _ = self._g2p.lexicon(token, Context())
         return symbols is not None
+
+
+def _in_paragraphs(text: str) -> str:
+    """The text in which a line ends only where a paragraph does: others are cut to fit a page."""
+    signs = list(plain(text))
+    for blank_line in _BLANK_LINE.finditer(text):
+        signs[blank_line.start()] = "\n"
+    return "".join(signs)
+
+
+def _endings(sentence: str, words: Sequence[int], rest: str) -> tuple[Ending, ...]:
+    """The ends of the phrases of a sentence, of whose symbols `words` are the words.
+
+    `rest` is the text after it.
+    """
+    begins = [match.start() for match in _WORD.finditer(sentence)]
+    endings = []
+    for boundary in boundaries(sentence):
+        last = bisect_right(begins, boundary.end - 1) - 1
+        endings.append(Ending(bisect_right(words, last), boundary.tone, boundary.pause_s))
+    if endings:
+        endings[-1] = endings[-1]._replace(pause_s=pause_between(sentence, rest))
+    return tuple(endings)
 
 
 def _unshouted(sentence: str, lexicon: Lexicon) -> str:

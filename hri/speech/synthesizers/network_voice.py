@@ -21,12 +21,12 @@ from hri.speech.pronunciation.phones import Phones
 from hri.speech.synthesizers.espeak import FASTEST, LONGEST_TEXT, SLOWEST, EspeakVoice
 from hri.speech.synthesizers.natural_network import Sound, Utterance
 from hri.speech.synthesizers.natural_symbols import MNEMONICS, PAUSE, STRESSES, Sounded, phonemes
-from hri.speech.synthesizers.natural_text import Sentence
+from hri.speech.synthesizers.natural_text import Ending, Sentence
 from hri.speech.synthesizers.pace import Pace, remember_slow, slow_file, slow_voices
 from hri.speech.synthesizers.voice_names import HEART, unknown, voice_named
 
-PLAIN_WPM = 165
-"""Words a minute at a rate of 1."""
+PLAIN_WPM = 170
+"""Words a minute at a rate of 1: as people read aloud."""
 LOUDNESS = 0.1
 """Root of the mean square of a sentence, of full scale: as loud as espeak-ng."""
 _FULL = 32767
@@ -35,7 +35,9 @@ _FULL = 32767
 class Speaks(Protocol):
     """A network that makes sound of symbols."""
 
-    def speak(self, symbols: str, prosody: Prosody) -> list[Utterance]: ...
+    def speak(
+        self, symbols: str, prosody: Prosody, endings: Sequence[Ending] = ()
+    ) -> list[Utterance]: ...
 
 
 class Reads(Protocol):
@@ -55,6 +57,8 @@ class Engine:
     rate: int
     """Samples a second."""
     gain: float
+    wpm: float = PLAIN_WPM
+    """Words a minute, pauses included, that the network speaks at a rate of 1."""
 
 
 class NetworkVoice(Synthesizer):
@@ -154,9 +158,10 @@ class NetworkVoice(Synthesizer):
         if engine is None or not sentence.symbols.strip():
             return self._said_by_other(sentence.text, prosody, rate)
         begun = self.manager.clock.now()
-        faster = replace(prosody, rate=prosody.rate * self._wpm / PLAIN_WPM)
+        faster = replace(prosody, rate=prosody.rate * self._wpm / engine.wpm)
         try:
-            sound, symbols = _joined(engine.network.speak(sentence.symbols, faster), rate)
+            spoken = engine.network.speak(sentence.symbols, faster, sentence.endings)
+            sound, symbols = _joined(spoken, rate)
         except Exception as error:  # onnxruntime's own, one class for each status
             self._fall_back(f"{self._name} failed ({str(error).partition(chr(10))[0]})")
             return self._said_by_other(sentence.text, prosody, rate)

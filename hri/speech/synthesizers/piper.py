@@ -36,7 +36,7 @@ from hri.speech.synthesizers.natural_network import (
     trimmed,
 )
 from hri.speech.synthesizers.natural_symbols import SPACE, Sounded, longest_parts
-from hri.speech.synthesizers.natural_text import Sentence, words_read
+from hri.speech.synthesizers.natural_text import Ending, Sentence, words_read
 from hri.speech.synthesizers.network_voice import Engine, NetworkVoice, gain_of
 
 TRIAL = "ðɪs ɪz hˌaʊ lˈaʊd aɪ spˈiːk."
@@ -126,8 +126,13 @@ class PiperNetwork:
         self._session: Any = session_of(model, DURATIONS)
         self._speaker = min(speaker, max(settings.speakers - 1, 0))
 
-    def speak(self, symbols: str, prosody: Prosody) -> list[Utterance]:
-        """The symbols in sound, in parts that the network can take at once."""
+    def speak(
+        self, symbols: str, prosody: Prosody, endings: Sequence[Ending] = ()
+    ) -> list[Utterance]:
+        """The symbols in sound, in parts that the network can take at once.
+
+        Its melody is its own.
+        """
         parts = longest_parts(symbols, MOST_SYMBOLS)
         return [self._part(symbols[begin:end], prosody) for begin, end in parts]
 

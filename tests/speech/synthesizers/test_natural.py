@@ -26,6 +26,7 @@ from hri.speech.synthesizers.espeak import EspeakVoice
 from hri.speech.synthesizers.natural import NaturalVoice
 from hri.speech.synthesizers.natural_symbols import MNEMONICS, MODIFIERS, STRESSES, longest_parts
 from hri.speech.synthesizers.natural_text import words_read
+from hri.speech.synthesizers.network_voice import PLAIN_WPM
 from hri.speech.synthesizers.pace import slow_file
 from tests.speech.conftest import HOUSE
 from tests.speech.notation.test_reading import table as readings
@@ -33,6 +34,13 @@ from tests.speech.notation.test_reading import table as readings
 hibari = pytest.importorskip("hibari", reason="no natural voice - pip install hibari-tts")
 
 TEXT = "I have found it! It is $5.20 at 7:30 pm, Dr. Smith."
+STORY = (
+    "One night, a star fell into the garden. Mia ran down the corridor, past the kitchen, and"
+    ' opened the door. "Who is there?" she asked. Nobody answered. Under the apple tree lay a small'
+    " stone, and it was still warm. She picked it up and carried it to her room. In the morning, it"
+    " had turned into a little bird. It looked at her, sang three notes, and flew out of the"
+    " window."
+)
 COMMANDS = ("go forward ten meters", "turn right", "show me a happy face", "what is your name")
 
 
@@ -47,12 +55,12 @@ def voice():
     return opened()
 
 
-def pitch_of(speech):
+def pitch_of(speech, least=1500):
     """Hertz of the voiced parts, by autocorrelation: nothing of the voice's own is asked."""
     size, found = 1024, []
     for start in range(0, len(speech.samples) - size, size // 2):
         part = speech.samples[start : start + size].astype(float)
-        if np.sqrt((part**2).mean()) < 1500:
+        if np.sqrt((part**2).mean()) < least:
             continue
         alike = np.correlate(part, part, "full")[size - 1 :]
         lags = slice(speech.rate // 450, speech.rate // 80)
@@ -134,6 +142,45 @@ def test_prosody_is_heard(voice, prosody, measure, factor):
     text = "My mother may know where all the yellow lemons are in the morning."
     plain, changed = (measure(voice.synthesize(text, how)) for how in (PLAIN, prosody))
     assert changed / plain == pytest.approx(factor, rel=0.25)
+
+
+@pytest.mark.parametrize("wpm", [90, 130, 170, 210, 250, 300])
+def test_it_speaks_as_fast_as_it_is_asked_to(voice, wpm):
+    speech = voice.synthesize(STORY, Prosody(rate=wpm / PLAIN_WPM))
+    assert 60 * len(STORY.split()) / speech.duration == pytest.approx(wpm, rel=0.05)
+
+
+def ended_at(speech):
+    """Hertz of the last tenth of a second of the voice."""
+    return np.median(pitch_of(speech, 400)[-5:])
+
+
+@pytest.mark.parametrize(
+    "text", ["You want to play with me", "I found the red ball", "Did you sleep well", "Okay"]
+)
+def test_a_question_rises_and_a_statement_falls(voice, text):
+    asked, said = (ended_at(voice.synthesize(text + sign)) for sign in "?.")
+    assert asked > 1.25 * said
+
+
+def silences(speech):
+    """Seconds of the silences within it, above 60 ms."""
+    loud = np.abs(speech.samples.astype(float)) > 200
+    lengths = np.diff(np.flatnonzero(loud)) / speech.rate
+    return [float(length) for length in lengths if length > 0.06]
+
+
+def test_a_comma_pauses_less_than_a_period_and_that_less_than_a_paragraph(voice):
+    comma, period, question, paragraph = (
+        max(silences(voice.synthesize(f"She fell into the garden{sign} All were asleep.")))
+        for sign in (",", ".", "?", ".\n\n")
+    )
+    assert 0.1 < comma < period - 0.1 < question - 0.2 < paragraph - 0.3
+
+
+def test_a_line_that_ends_within_a_sentence_does_not_end_it(voice):
+    one, other = (voice.synthesize(f"She fell into{space}the garden.") for space in " \n")
+    assert np.array_equal(one.samples, other.samples)
 
 
 def test_feelings_are_heard_as_published(voice):
@@ -230,7 +277,7 @@ def test_a_model_that_fails_while_it_speaks_loses_no_sentence():
     voice, notices = fallen_back()
 
     class Lost:
-        def speak(self, symbols, prosody):
+        def speak(self, symbols, prosody, endings=()):
             raise RuntimeError("lost\nat line 3")
 
     def after_the_first(speech):

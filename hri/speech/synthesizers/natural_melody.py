@@ -1,0 +1,138 @@
+"""The pitch of the natural voice, bent at the ends of phrases: a question rises.
+
+The network ends questions as statements. A tone replaces the last part of its curve by a line to
+where the phrase should end, of which the curve's own small ups and downs are kept.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import inf
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hri.speech.notation.intonation import Tone
+
+Curve = NDArray[np.float32]
+"""Hertz, by frames."""
+
+FRAME_S = 0.0125
+REACH_S = 0.35
+"""Seconds of a phrase's last voice that a tone bends."""
+KEPT = 0.3
+"""Share of the curve's own ups and downs around the line."""
+GRIP = 0.35
+"""Share of the reach after which the curve follows the line alone."""
+SEMITONE = np.log(2.0) / 12.0
+LOUD_DB = 22.0
+"""Below the loudest frame, up to which a frame carries the melody."""
+LIFTED_DB, MOST_LIFT_DB = 8.0, 10.0
+"""Below the loudest frame, where the end of a question is lifted to, and by how much at most."""
+LEAST = 0.5
+"""Of the middle of the pitch: what is lower has hardly any voice."""
+SINKS = 5.0
+"""Semitones a second by which a fall goes on where the curve would rise."""
+SMOOTH = 5
+"""Frames over which that changes."""
+VOICED_HZ = 40.0
+"""Frames with a lower pitch have no voice."""
+
+
+class Phrase(NamedTuple):
+    """A phrase in frames."""
+
+    begin: int
+    end: int
+    tone: Tone
+
+
+class _Bend(NamedTuple):
+    """Where a tone leads, in semitones."""
+
+    start: float
+    """From the middle of the phrase: it sets out from there, or from the curve if that is lower."""
+    by: float
+    """From the start."""
+    low: float = inf
+    """From the middle of the phrase: it ends no higher."""
+
+
+_BENDS = {
+    Tone.RISE: _Bend(1.0, 6.5),
+    Tone.CONTINUE: _Bend(0.5, 2.5),
+    Tone.LEVEL: _Bend(0.0, 0.0),
+    Tone.FALL: _Bend(inf, -3.0, -4.0),
+    Tone.STRONG_FALL: _Bend(inf, -5.0, -5.0),
+}
+WIDER = 1.25
+"""Of the range of a phrase that is exclaimed."""
+
+
+def bent(pitch: Curve, is_loud: NDArray[np.bool_], phrases: Sequence[Phrase]) -> Curve:
+    """The curve with the tones of its phrases; frames without voice stay as they are.
+
+    `is_loud` says which frames are loud enough to carry a tone: it must not end in what dies away.
+    """
+    has_voice = pitch > VOICED_HZ
+    if has_voice.any():  # where the voice begins and ends, the curve comes from 0 and goes there
+        has_voice &= pitch > LEAST * np.median(pitch[has_voice])
+    semitones = np.where(has_voice, np.log(np.maximum(pitch, 1.0)) / SEMITONE, 0.0)
+    for begin, end, tone in phrases:
+        loud = begin + np.flatnonzero((is_loud & has_voice)[begin:end])
+        frames = begin + np.flatnonzero(has_voice[begin : loud[-1] + 1]) if len(loud) else loud
+        if len(frames) > 2:
+            semitones[frames] = _bent(semitones[frames], frames, tone)
+            semitones[frames[-1] + 1 : end] = semitones[frames[-1]]
+    curve = np.where(has_voice, np.exp(semitones * SEMITONE), pitch)
+    return np.where(has_voice, np.maximum(curve, VOICED_HZ + 1), pitch).astype(np.float32)
+
+
+def lifted(loudness: NDArray[np.float64], phrases: Sequence[Phrase]) -> NDArray[np.float64]:
+    """Decibels to add to each frame: the last syllable of a question must not die away."""
+    gain = np.zeros(len(loudness))
+    for begin, end, tone in phrases:
+        if tone is Tone.RISE and end > begin:
+            level = loudness[begin:end]
+            heard = np.flatnonzero(level > level.max() - LOUD_DB)
+            first = max(heard[-1] + 1 - round(REACH_S / FRAME_S), 0)
+            window = slice(begin + first, begin + heard[-1] + 1)
+            missing = np.clip(level.max() - LIFTED_DB - loudness[window], 0.0, MOST_LIFT_DB)
+            around = np.pad(missing, SMOOTH // 2, mode="edge")
+            gain[window] = np.convolve(around, np.ones(SMOOTH) / SMOOTH, "valid")
+    return gain
+
+
+def _bent(curve: NDArray[np.float64], frames: NDArray[np.int64], tone: Tone) -> NDArray[np.float64]:
+    """The voice of a phrase, in semitones."""
+    middle, bend = float(np.median(curve)), _BENDS[tone]
+    if tone is Tone.STRONG_FALL:
+        curve = middle + WIDER * (curve - middle)
+    last = frames > frames[-1] - REACH_S / FRAME_S
+    own, time = curve[last], frames[last] - frames[last][0]
+    if len(own) < 3:
+        return curve
+    share = time / time[-1]
+    start = min(own[0], middle + bend.start)
+    end = min(start + bend.by, middle + bend.low)
+    slope, base = np.polyfit(share, own, 1)
+    line = start + (end - start) * share + KEPT * (own - base - slope * share)
+    is_falling = tone in (Tone.FALL, Tone.STRONG_FALL)
+    if is_falling and own.min() <= end + 1.0:
+        line = own  # It falls by itself.
+    grip = np.minimum(share / GRIP, 1.0)
+    changed = curve.copy()
+    changed[last] = (1.0 - grip) * own + grip * line
+    return _settled(changed, last) if is_falling else changed
+
+
+def _settled(curve: NDArray[np.float64], last: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """A curve of which the last part does not rise again: the network's often does, a little."""
+    settled = curve.copy()
+    part = settled[last]
+    peak = int(part.argmax())
+    lowest = np.minimum.accumulate(part[peak:])
+    part[peak:] = lowest - SINKS * np.arange(len(lowest)) * FRAME_S * (part[peak:] > lowest)
+    settled[last] = np.concatenate([part[:peak], np.minimum.accumulate(part[peak:])])
+    return settled
