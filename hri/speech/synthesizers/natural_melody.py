@@ -30,6 +30,10 @@ LOUD_DB = 22.0
 """Below the loudest frame, up to which a frame carries the melody."""
 LIFTED_DB, MOST_LIFT_DB = 8.0, 10.0
 """Below the loudest frame, where the end of a question is lifted to, and by how much at most."""
+RELEASE = 8
+"""Frames in which a phrase that follows without a pause comes back to its own pitch."""
+EDGE = 2
+"""Frames at each end of a voice."""
 LEAST = 0.5
 """Of the middle of the pitch: what is lower has hardly any voice."""
 SINKS = 5.0
@@ -76,17 +80,36 @@ def bent(pitch: Curve, is_loud: NDArray[np.bool_], phrases: Sequence[Phrase]) ->
     `is_loud` says which frames are loud enough to carry a tone: it must not end in what dies away.
     """
     has_voice = pitch > VOICED_HZ
-    if has_voice.any():  # where the voice begins and ends, the curve comes from 0 and goes there
-        has_voice &= pitch > LEAST * np.median(pitch[has_voice])
-    semitones = np.where(has_voice, np.log(np.maximum(pitch, 1.0)) / SEMITONE, 0.0)
+    is_sure = _inner(has_voice)
+    if is_sure.any():
+        is_sure &= pitch > LEAST * np.median(pitch[is_sure])
+    semitones = np.log(np.maximum(pitch, 1.0).astype(np.float64)) / SEMITONE
+    changed = np.zeros(len(pitch), bool)
     for begin, end, tone in phrases:
-        loud = begin + np.flatnonzero((is_loud & has_voice)[begin:end])
-        frames = begin + np.flatnonzero(has_voice[begin : loud[-1] + 1]) if len(loud) else loud
+        loud = begin + np.flatnonzero((is_loud & is_sure)[begin:end])
+        frames = begin + np.flatnonzero(is_sure[begin : loud[-1] + 1]) if len(loud) else loud
         if len(frames) > 2:
-            semitones[frames] = _bent(semitones[frames], frames, tone)
-            semitones[frames[-1] + 1 : end] = semitones[frames[-1]]
-    curve = np.where(has_voice, np.exp(semitones * SEMITONE), pitch)
-    return np.where(has_voice, np.maximum(curve, VOICED_HZ + 1), pitch).astype(np.float32)
+            tail = np.arange(max(begin, frames[-1] - round(REACH_S / FRAME_S)), end)
+            curve = _bent(semitones[frames], frames, tone)
+            last = semitones[end - 1]
+            semitones[tail] = np.interp(tail, frames, curve)
+            semitones[frames] = curve
+            after = np.arange(end, min(end + RELEASE, len(pitch)))
+            semitones[after] += (semitones[end - 1] - last) * (
+                1 - (after - end + 1) / (RELEASE + 1)
+            )
+            changed[tail] = changed[frames] = changed[after] = True
+    bent = np.maximum(np.exp(semitones * SEMITONE), VOICED_HZ + 1)
+    return np.where(changed & has_voice, bent, pitch).astype(np.float32)
+
+
+def _inner(has_voice: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The voice without its edges, where the curve comes from 0 and goes there."""
+    padded = np.pad(has_voice, EDGE, mode="edge")
+    inner = has_voice.copy()
+    for shift in range(2 * EDGE + 1):
+        inner &= padded[shift : shift + len(has_voice)]
+    return inner
 
 
 def lifted(loudness: NDArray[np.float64], phrases: Sequence[Phrase]) -> NDArray[np.float64]:

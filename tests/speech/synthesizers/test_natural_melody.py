@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from hri.speech.notation.intonation import Tone
-from hri.speech.synthesizers.natural_melody import LIFTED_DB, Phrase, bent, lifted
+from hri.speech.synthesizers.natural_melody import LIFTED_DB, RELEASE, Phrase, bent, lifted
 
 FALLING = np.concatenate([np.full(60, 240.0), np.linspace(240, 150, 40)]).astype(np.float32)
 RISING = np.concatenate([np.full(60, 200.0), np.linspace(200, 240, 40)]).astype(np.float32)
@@ -44,19 +44,28 @@ def test_the_tone_is_in_what_is_heard(tone):
     assert curve[:80] == pytest.approx(whole)
 
 
-def test_what_is_said_between_two_phrases_is_left_alone():
-    curve = bent(FALLING, LOUD, [Phrase(0, 50, Tone.FALL), Phrase(50, 100, Tone.RISE)])
-    assert curve[50:70] == pytest.approx(FALLING[50:70])
+def test_the_next_phrase_comes_back_to_its_own_pitch():
+    phrases = [Phrase(0, 50, Tone.RISE), Phrase(50, 100, Tone.FALL)]
+    curve = bent(FALLING, LOUD, phrases)
+    assert curve[50 + RELEASE : 65] == pytest.approx(FALLING[50 + RELEASE : 65])
+    assert np.abs(12 * np.log2(curve[1:] / curve[:-1])).max() < 2, "without a jump"
 
 
-def test_where_there_is_no_voice_nothing_changes():
+@pytest.mark.parametrize("tone", Tone)
+def test_where_there_is_no_voice_nothing_changes(tone):
     curve = FALLING.copy()
     curve[70:75] = 0.0
-    curve[95] = 60.0  # the curve comes from 0 where a voice begins
-    for tone in Tone:
-        changed = bent(curve, LOUD, [Phrase(0, 100, tone)])
-        assert (changed[70:75] == 0.0).all()
-        assert changed[95] == 60.0
+    assert (bent(curve, LOUD, [Phrase(0, 100, tone)])[70:75] == 0.0).all()
+
+
+@pytest.mark.parametrize("tone", Tone)
+def test_the_edges_of_a_voice_do_not_mislead_it(tone):
+    """The curve comes from 0 where a voice begins, and goes there where it ends."""
+    curve = FALLING.copy()
+    curve[74:80] = 70.0, 50.0, 0.0, 0.0, 55.0, 120.0
+    plain, changed = (bent(one, LOUD, [Phrase(0, 100, tone)]) for one in (FALLING, curve))
+    voice = changed > 40
+    assert 12 * np.log2(changed[voice] / plain[voice]) == pytest.approx(0, abs=2)
 
 
 def test_the_end_of_a_question_does_not_die_away():
