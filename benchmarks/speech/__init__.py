@@ -16,6 +16,7 @@ from benchmarks.speech import (
     barge_in,
     feelings,
     heard_back,
+    melody,
     peers,
     phrases,
 )
@@ -35,6 +36,8 @@ def rows(
     yield from attempted("peers", lambda: peers.rows(people, hear, step, progress))
     progress("feelings in the voice")
     yield from attempted(feelings.WHAT, feelings.rows)
+    progress(melody.WHAT)
+    yield from attempted(melody.WHAT, melody.rows)
     progress(alignment.WHAT)
     yield from attempted(alignment.WHAT, alignment.rows)
     progress(heard_back.WHAT)

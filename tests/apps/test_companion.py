@@ -239,7 +239,7 @@ def test_quiet_means_that_it_does_but_does_not_speak():
 
 @pytest.mark.parametrize("before", ["be quiet", "go to sleep"])
 def test_who_is_in_danger_is_answered_whatever_was_asked_before(before):
-    visit = Visit(12, {1.0: before, 5.0: "i want to die"})
+    visit = Visit(14, {1.0: before, 7.0: "i want to die"})
     assert visit.heard()[-1] == "in_danger"
     assert "988" in visit.said()[-1]
 
@@ -304,7 +304,7 @@ def test_what_is_said_after_an_order_changes_it():
 
 
 def test_it_says_again_what_it_said_and_why():
-    lines = {1: "what is your name", 5: "what did you say", 9.5: "turn left", 15: "why"}
+    lines = {1: "what is your name", 5: "what did you say", 10.5: "turn left", 15.5: "why"}
     visit = Visit(19, lines)
     assert visit.heard() == ["name", "say_again", "turn", "why_that"]
     name, again, _, why = visit.said()

@@ -32,6 +32,8 @@ LIFTED_DB, MOST_LIFT_DB = 8.0, 10.0
 """Below the loudest frame, where the end of a question is lifted to, and by how much at most."""
 RELEASE = 8
 """Frames in which a phrase that follows without a pause comes back to its own pitch."""
+LATEST_PEAK = 0.6
+"""Share of the reach up to which an accent leaves the fall after it enough time to be heard."""
 EDGE = 2
 """Frames at each end of a voice."""
 LEAST = 0.5
@@ -142,7 +144,8 @@ def _bent(curve: NDArray[np.float64], frames: NDArray[np.int64], tone: Tone) -> 
     slope, base = np.polyfit(share, own, 1)
     line = start + (end - start) * share + KEPT * (own - base - slope * share)
     is_falling = tone in (Tone.FALL, Tone.STRONG_FALL)
-    if is_falling and own.min() <= end + 1.0:
+    peak = int(own.argmax())
+    if is_falling and share[peak] < LATEST_PEAK and own[peak:].min() <= end + 1.0:
         line = own  # It falls by itself.
     grip = np.minimum(share / GRIP, 1.0)
     changed = curve.copy()

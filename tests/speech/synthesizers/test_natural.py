@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from benchmarks.speech.feelings import PUBLISHED, SHOWN, published
+from benchmarks.speech.melody import STORY
 from hri.core.clock import FakeClock, RealClock
 from hri.core.signals import EmotionState, Prosody
 from hri.emotion.display import felt_now, load_display
@@ -34,13 +35,6 @@ from tests.speech.notation.test_reading import table as readings
 hibari = pytest.importorskip("hibari", reason="no natural voice - pip install hibari-tts")
 
 TEXT = "I have found it! It is $5.20 at 7:30 pm, Dr. Smith."
-STORY = (
-    "One night, a star fell into the garden. Mia ran down the corridor, past the kitchen, and"
-    ' opened the door. "Who is there?" she asked. Nobody answered. Under the apple tree lay a small'
-    " stone, and it was still warm. She picked it up and carried it to her room. In the morning, it"
-    " had turned into a little bird. It looked at her, sang three notes, and flew out of the"
-    " window."
-)
 COMMANDS = ("go forward ten meters", "turn right", "show me a happy face", "what is your name")
 
 
