@@ -189,7 +189,8 @@ class Leftover:
         return _decibels(sum(block.left for block in blocks) / played) - _decibels(self._least)
 
     def _between(self, start: float, end: float) -> list[_Block]:
-        return [block for block in self._blocks if start <= block.end <= end + AFTER]
+        recent = takewhile(lambda block: block.end >= start, reversed(self._blocks))
+        return [block for block in recent if block.end <= end + AFTER][::-1]
 
 
 def _decibels(power: float) -> float:
