@@ -88,7 +88,10 @@ _SHORT_ANSWERS = frozenset(
 
 
 def boundaries(sentence: str) -> tuple[Boundary, ...]:
-    """The phrases of a sentence, the last of which ends it."""
+    """The phrases of a sentence.
+
+    Words without a sign after them have no tone: they may be part of a sentence, as in SSML.
+    """
     signs = list(_SIGN.finditer(sentence))
     found: list[Boundary] = []
     begin, clauses = 0, list[str]()
@@ -102,8 +105,6 @@ def boundaries(sentence: str) -> tuple[Boundary, ...]:
         begin = sign.end()
         if _ENDING.search(sign[0]):
             clauses.clear()
-    if _WORD.search(sentence[begin:]):
-        found.append(Boundary(len(sentence), Tone.FALL, PAUSES["."]))
     return tuple(found)
 
 

@@ -21,7 +21,8 @@ FALL, STRONG, RISE, ON, LEVEL = (
     ("sentence", "tones"),
     [
         ("It is cold outside.", [FALL]),
-        ("It is cold outside", [FALL]),
+        ("It is cold outside", []),
+        ("Well, it is cold outside", [FALL]),
         ("It is cold outside!", [STRONG]),
         ("It is cold outside?", [RISE]),
         ("Are you happy?", [RISE]),
