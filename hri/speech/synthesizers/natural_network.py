@@ -118,21 +118,14 @@ class Network:
         ]
 
     def _spoken(self, symbols: str, prosody: Prosody, endings: tuple[Ending, ...]) -> Utterance:
-        ids = [self._vocabulary.get(symbol) for symbol in symbols]
-        given = {
-            "ids": np.array([[0, *(one for one in ids if one is not None), 0]], np.int64),
-            "speed": np.array([1.0], np.float32),
-        }
-        *framed, durations = self._session.run(None, given)
-        *spectra, pitch = (one[0] for one in framed)
-        ends = np.cumsum(durations) * (_FRAME / _HOP) - LEAD * RATE / _HOP
-        starts = np.array([ends[place] for place in _places(ids)])
+        spectra, pitch, starts = self._framed(symbols)
         factor = 1.0 / min(max(prosody.rate, SLOWEST), FASTEST)
-        loudness = _loudness(spectra, pitch)
         pauses = [
-            (ending.symbol, round(ending.pause_s * factor * RATE / _HOP)) for ending in endings[:-1]
+            (ending.symbol, round(ending.pause_s * factor * RATE / _HOP))
+            for ending in endings[:-1]
+            if ending.pause_s
         ]
-        timed = timing(symbols, starts, loudness, factor, pauses)
+        timed = timing(symbols, starts, _loudness(spectra, pitch), factor, pauses)
         spectra, pitch = _drawn(spectra, pitch, timed)
         heard_at = timed.at(starts)
         phrases = _phrases(heard_at, endings)
@@ -143,15 +136,22 @@ class Network:
         melody = bent(pitch, loudness > loudness.max() - LOUD_DB, phrases)
         sound = self._sound(spectra, pitch, melody, pitched(melody, prosody))
         sound.flags.writeable = False  # It is kept.
-        times = heard_at * _HOP / RATE
-        spoken = [
-            Sounded(symbol, float(begin), float(end - begin))
-            for symbol, begin, end in zip(symbols, times[:-1], times[1:], strict=True)
-        ]
         pause = endings[-1].pause_s if endings else LAST_S
         if pause > LAST_S:
             pause *= factor
-        return trimmed(sound, spoken, RATE, pause, BREATH * factor)
+        return trimmed(sound, _sounded(symbols, heard_at), RATE, pause, BREATH * factor)
+
+    def _framed(self, symbols: str) -> tuple[list[Spectrum], Curve, NDArray[np.float64]]:
+        """The network's spectra and pitch, and the frames in which the symbols begin and end."""
+        ids = [self._vocabulary.get(symbol) for symbol in symbols]
+        given = {
+            "ids": np.array([[0, *(one for one in ids if one is not None), 0]], np.int64),
+            "speed": np.array([1.0], np.float32),
+        }
+        *framed, durations = self._session.run(None, given)
+        *spectra, pitch = (one[0] for one in framed)
+        ends = np.cumsum(durations) * (_FRAME / _HOP) - LEAD * RATE / _HOP
+        return spectra, pitch, np.array([ends[place] for place in _places(ids)])
 
     def _sound(self, spectra: list[Spectrum], pitch: Curve, melody: Curve, changed: Curve) -> Sound:
         """The sound of spectra, as loud at another pitch as at their own.
@@ -204,6 +204,15 @@ def _places(ids: list[int | None]) -> list[int]:
     for id in ids:
         places.append(places[-1] + (id is not None))
     return places
+
+
+def _sounded(symbols: str, starts: NDArray[np.float64]) -> list[Sounded]:
+    """The time of each symbol; `starts` are the frames in which they begin and end."""
+    times = starts * _HOP / RATE
+    return [
+        Sounded(symbol, float(begin), float(end - begin))
+        for symbol, begin, end in zip(symbols, times[:-1], times[1:], strict=True)
+    ]
 
 
 def _energy(spectra: list[Spectrum], pitch: Curve) -> NDArray[np.float64]:
