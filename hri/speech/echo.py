@@ -180,10 +180,11 @@ class Leftover:
     def above_least_db(self, start: float, end: float) -> float:
         """How far what is left between two times is above the least left of its voice, in dB.
 
-        Both are compared with what was played meanwhile; infinite where it said nothing.
+        Both are compared with what was played meanwhile and shortly before, which the room still
+        gives back in a pause; infinite where it said nothing.
         """
         blocks = self._between(start, end)
-        played = sum(block.played for block in blocks)
+        played = sum(block.played for block in self._between(start - ECHO_TAIL, end))
         if not played or math.isinf(self._least):
             return math.inf
         return _decibels(sum(block.left for block in blocks) / played) - _decibels(self._least)
