@@ -50,9 +50,12 @@ async def pose(context: TaskContext) -> None:
         if motion is None or motion == shown:
             shown = motion
         elif now - moved >= REST_SECONDS and _may_move(companion):
-            shown, moved = motion, now
+            shown, back = motion, min(motion.backs_off, ground.behind())
+            if not motion.turns and back < LEAST_BACK:
+                continue
+            moved = now
             context.events.raise_event("emotion.moved", emotion=companion.emotion.feeling().label)
-            companion.motion.start(_move, motion, min(motion.backs_off, ground.behind()))
+            companion.motion.start(_move, motion, back)
 
 
 def _may_move(companion: Companion) -> bool:
