@@ -132,9 +132,9 @@ def _phrase(
         yield Boundary(sign.end(), Tone.LEVEL, PAUSES["…"])
     elif "!" in mark:
         yield Boundary(sign.end(), Tone.STRONG_FALL, PAUSES["!"])
-    elif mark in ".;:":
-        yield Boundary(sign.end(), Tone.FALL, PAUSES[mark])
-    elif mark == ",":
+    elif mark[0] in ".;:":
+        yield Boundary(sign.end(), Tone.FALL, PAUSES[mark[0]])
+    elif mark[0] == ",":
         words = _WORD.findall(phrase)
         is_opener = len(words) == 1 and words[0].lower() in _SHORT_ANSWERS
         tone = _before_comma(clauses, sentence[sign.end() :])
@@ -172,9 +172,7 @@ def _form(clauses: list[str]) -> str:
             continue
         if words[0] in _ASKING or words[0].startswith("any"):
             return "yes or no"
-        is_aside = (
-            words[0] in ("when", "where", "how", "why") and words[1:2] and words[1] in _SUBJECTS
-        )
-        if _WH.match(words[0]) and not is_aside:
+        tells = words[0] in _TELLING and not _SUBJECTS.isdisjoint(words[1:2])
+        if _WH.match(words[0]) and not tells:
             return "wh"
     return ""
